@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DistanceTransform.h"
+
+#include "detail/LeafRows.h"
+#include "detail/MinPlus.h"
+#include "detail/Parallel.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::util::NullInterrupter;
+
+template <typename T>
+constexpr uint32_t kLimit = sizeof(T) == 2 ? detail::kNarrowMax : detail::kWideMax;
+
+template <typename T>
+struct Scratch {
+    detail::RowBuffer<T> in, out;
+    detail::RowBuffer<uint16_t> steps;
+    std::vector<uint64_t> words;
+    detail::EnvelopeScratch envelope;
+};
+
+/// Squares of the steps along x, straight from the masks: a leaf's word x is row x.
+template <typename T>
+void alongX(const LeafLayout& layout, T* values, NullInterrupter* interrupter)
+{
+    constexpr uint32_t kMaxSteps = sizeof(T) == 2 ? 255 : 46340;
+    const auto body = [&](std::size_t index, Scratch<T>& scratch) {
+        const LeafLayout::Run run = layout.run(Axis::X, uint32_t(index));
+        const int rows = int(run.count) * kLeafDim;
+        scratch.words.clear();
+        for (uint32_t i = 0; i < run.count; ++i) {
+            const LeafMask& mask = layout.mask(run.leaves[i]);
+            scratch.words.insert(scratch.words.end(), mask.begin(), mask.end());
+        }
+        const uint16_t* steps = scratch.steps.rows(rows);
+        detail::stepsToBackground(scratch.words.data(), rows, scratch.steps.rows(rows));
+        for (uint32_t i = 0; i < run.count; ++i, steps += kLeafVoxels) {
+            T* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
+            for (int k = 0; k < kLeafVoxels; ++k) {
+                const uint32_t step = std::min<uint32_t>(steps[k], kMaxSteps);
+                leaf[k] = T(step * step);
+            }
+        }
+    };
+    detail::parallelForWithScratch<Scratch<T>>(layout.runCount(Axis::X), interrupter, body);
+}
+
+/// Replaces every value by the min over its line of value + step^2.
+template <typename T>
+void alongAxis(Axis axis, const LeafLayout& layout, T* values, NullInterrupter* interrupter)
+{
+    const auto body = [&](std::size_t index, Scratch<T>& scratch) {
+        const LeafLayout::Run run = layout.run(axis, uint32_t(index));
+        const int rows = int(run.count) * kLeafDim;
+        T* in = scratch.in.rows(rows, 1); // background beyond both ends
+        T* out = scratch.out.rows(rows);
+        const auto leafValues = [&](uint32_t i) {
+            return values + std::size_t(run.leaves[i]) * kLeafVoxels;
+        };
+        for (uint32_t i = 0; i < run.count; ++i) {
+            detail::leafToRows(axis, leafValues(i), in + i * kLeafVoxels);
+        }
+        detail::minPlus(in, out, rows, scratch.envelope);
+        for (uint32_t i = 0; i < run.count; ++i) {
+            detail::rowsToLeaf(axis, out + i * kLeafVoxels, leafValues(i));
+        }
+    };
+    detail::parallelForWithScratch<Scratch<T>>(layout.runCount(axis), interrupter, body);
+}
+
+template <typename T>
+uint32_t largest(const T* values, std::size_t leaves, NullInterrupter* interrupter)
+{
+    std::atomic<uint32_t> result{0};
+    detail::parallelFor(leaves, interrupter, [&](std::size_t leaf) {
+        const T* first = values + leaf * kLeafVoxels;
+        const uint32_t here = *std::max_element(first, first + kLeafVoxels);
+        uint32_t seen = result.load();
+        while (here > seen && !result.compare_exchange_weak(seen, here)) {}
+    });
+    return result;
+}
+
+/// @return the largest value; the values are exact if it is below kLimit<T>.
+template <typename T>
+uint32_t transform(const LeafLayout& layout, int dim, T* values, NullInterrupter* interrupter)
+{
+    alongX(layout, values, interrupter);
+    alongAxis(Axis::Y, layout, values, interrupter);
+    if (dim == 3) alongAxis(Axis::Z, layout, values, interrupter);
+    return largest(values, layout.leafCount(), interrupter);
+}
+
+} // namespace
+
+DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+{
+    const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
+    DistanceMap map;
+    map.mNarrow.reset(new uint16_t[size]); // left uninitialised: every value is written
+    map.mMaxDistSq = transform(layout, dim, map.mNarrow.get(), interrupter);
+    if (map.mMaxDistSq < kLimit<uint16_t>) return map;
+
+    map.mNarrow.reset();
+    map.mWide.reset(new uint32_t[size]);
+    map.mMaxDistSq = transform(layout, dim, map.mWide.get(), interrupter);
+    if (map.mMaxDistSq < kLimit<uint32_t>) return map;
+    OPENVDB_THROW(openvdb::ValueError, "the object holds a ball of 46340 voxels radius or more, whose "
+        "square does not fit 32 bits: use a larger voxel");
+}
+
+openvdb::Int32Grid::Ptr distanceTransform(
+    const openvdb::BoolGrid& object, int dim, NullInterrupter* interrupter)
+{
+    const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
+    const LeafLayout layout(mask);
+    const DistanceMap map = distanceTransform(layout, dim, interrupter);
+
+    using Leaf = openvdb::Int32Tree::LeafNodeType;
+    std::vector<Leaf*> leaves(layout.leafCount());
+    detail::parallelFor(leaves.size(), nullptr, [&](std::size_t i) {
+        leaves[i] = new Leaf(layout.origin(uint32_t(i)), 0);
+        Leaf::ValueType* values = leaves[i]->buffer().data();
+        for (uint32_t k = 0; k < kLeafVoxels; ++k) values[k] = int32_t(map.at(uint32_t(i), k));
+        const LeafMask& words = layout.mask(uint32_t(i));
+        Leaf::NodeMaskType on;
+        for (uint32_t x = 0; x < 8; ++x) on.getWord<uint64_t>(x) = words[x];
+        leaves[i]->setValueMask(on);
+    });
+    auto grid = openvdb::Int32Grid::create(0);
+    for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
+    grid->setTransform(object.transform().copy());
+    return grid;
+}
+
+} // namespace openvdb_spheretree

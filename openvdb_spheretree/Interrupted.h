@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Interrupted.h
+/// @brief What long work throws when its interrupter asked it to stop.
+
+#pragma once
+
+#include <stdexcept>
+
+namespace openvdb_spheretree {
+
+/// Nothing has been changed or written by the call that throws this.
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted() : std::runtime_error("interrupted") {}
+};
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LevelErrors.h
+/// @brief The exact error of every level of a sphere-tree against its object.
+
+#pragma once
+
+#include "SphereTree.h"
+
+#include <openvdb/openvdb.h>
+
+namespace openvdb_spheretree {
+
+/// A level whose spheres cross more voxel rows than this is not counted (two voxels a million apart
+/// have a root sphere of 10^12 rows): its error stays empty, with the reason.
+constexpr int64_t kMaxErrorRows = int64_t(1) << 27;
+
+/// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree.
+/// @param object  what the tree was built from
+/// @throw Interrupted if the interrupter said so; @a tree is then unchanged
+/// @note Exact. Cost grows with the surface of the level's spheres and of the object.
+void computeLevelErrors(SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

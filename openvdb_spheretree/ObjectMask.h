@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ObjectMask.h
+/// @brief Any OpenVDB grid to the object it stands for: the active voxels of a BoolGrid.
+
+#pragma once
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+namespace openvdb_spheretree {
+
+struct ObjectMaskSettings {
+    double iso = 0;       ///< level sets: the object is where the value is < iso (world units)
+    double threshold = 0; ///< other scalar grids: the object is where the value is > threshold
+    bool values = false;  ///< bool grids: count voxels of value true rather than active ones
+};
+
+/// @brief The object that @a grid stands for, with the grid's name and transform.
+/// Level set -> its interior, voxels far inside included; mask, bool and point grids -> topology
+/// (a voxel holding at least one point); any other scalar grid -> active and inactive values above
+/// the threshold. Tiles stay tiles.
+/// @throw openvdb::TypeError if the grid is of a kind that bounds no object (vector, string grids)
+/// @throw openvdb::ValueError if the object is empty or unbounded, or voxels are not uniform; the
+///        message names the grid
+openvdb::BoolGrid::Ptr objectMask(const openvdb::GridBase& grid,
+    const ObjectMaskSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @return whether objectMask() accepts grids of this type.
+bool canBeObject(const openvdb::GridBase& grid);
+
+} // namespace openvdb_spheretree

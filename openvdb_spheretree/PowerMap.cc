@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PowerMap.h"
+
+#include "detail/LeafRows.h"
+#include "detail/MaxPlus.h"
+#include "detail/Parallel.h"
+
+#include <openvdb/Exceptions.h>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::util::NullInterrupter;
+
+template <typename Power>
+struct Scratch {
+    detail::RowBuffer<typename Power::Key> in, out;
+    detail::RowBuffer<typename Power::Offset> offsets;
+    detail::EnvelopeScratch envelope;
+};
+
+template <typename Power, typename T>
+void distancesToKeys(const T* distances, typename Power::Key* keys)
+{
+    for (int i = 0; i < kLeafVoxels; ++i) keys[i] = detail::powerKey<Power>(distances[i]);
+}
+
+/// One pass: keys become the best of their line, offsets say where it stood.
+/// @param load        writes the 512 keys of a leaf, in row order
+/// @param keys        result in leaf order; null on the last pass, where nobody reads it
+template <typename Power, typename Load>
+void alongAxis(Axis axis, const LeafLayout& layout, const Load& load, typename Power::Key* keys,
+    typename Power::Offset* offsets, NullInterrupter* interrupter)
+{
+    const auto body = [&](std::size_t index, Scratch<Power>& scratch) {
+        const LeafLayout::Run run = layout.run(axis, uint32_t(index));
+        const int rows = int(run.count) * kLeafDim;
+        auto* in = scratch.in.rows(rows, 1);
+        auto* out = keys ? scratch.out.rows(rows) : nullptr;
+        auto* steps = scratch.offsets.rows(rows);
+        for (uint32_t i = 0; i < run.count; ++i) load(run.leaves[i], in + i * kLeafVoxels);
+        detail::maxPlus(in, out, steps, rows, scratch.envelope);
+        for (uint32_t i = 0; i < run.count; ++i) {
+            const std::size_t leaf = std::size_t(run.leaves[i]) * kLeafVoxels;
+            detail::rowsToLeaf(axis, steps + i * kLeafVoxels, offsets + leaf);
+            if (keys) detail::rowsToLeaf(axis, out + i * kLeafVoxels, keys + leaf);
+        }
+    };
+    detail::parallelForWithScratch<Scratch<Power>>(layout.runCount(axis), interrupter, body);
+}
+
+/// Steps along z (unless dim is 2), y and x.
+template <typename Power>
+void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
+    const std::array<typename Power::Offset*, 3>& offsets, NullInterrupter* interrupter)
+{
+    using Key = typename Power::Key;
+    const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
+    const std::unique_ptr<Key[]> keys(new Key[size]);
+
+    const auto fromDistances = [&](Axis axis) {
+        return [&distances, axis](uint32_t leaf, Key* rows) {
+            Key leafKeys[kLeafVoxels];
+            const std::size_t first = std::size_t(leaf) * kLeafVoxels;
+            if (distances.narrow()) distancesToKeys<Power>(distances.narrow() + first, leafKeys);
+            else distancesToKeys<Power>(distances.wide() + first, leafKeys);
+            detail::leafToRows(axis, leafKeys, rows);
+        };
+    };
+    const auto fromKeys = [&](Axis axis) {
+        return [&keys, axis](uint32_t leaf, Key* rows) {
+            detail::leafToRows(axis, keys.get() + std::size_t(leaf) * kLeafVoxels, rows);
+        };
+    };
+    if (offsets[2]) {
+        alongAxis<Power>(
+            Axis::Z, layout, fromDistances(Axis::Z), keys.get(), offsets[2], interrupter);
+        alongAxis<Power>(Axis::Y, layout, fromKeys(Axis::Y), keys.get(), offsets[1], interrupter);
+    } else {
+        alongAxis<Power>(
+            Axis::Y, layout, fromDistances(Axis::Y), keys.get(), offsets[1], interrupter);
+    }
+    alongAxis<Power>(Axis::X, layout, fromKeys(Axis::X), nullptr, offsets[0], interrupter);
+}
+
+} // namespace
+
+PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int dim,
+    NullInterrupter* interrupter)
+{
+    if (distances.maxDistSq() > detail::WidePower::kMaxRadiusSq) {
+        OPENVDB_THROW(openvdb::ValueError, "the object holds a ball of more than 32767 voxels radius, "
+            "beyond what power labels hold: use a larger voxel");
+    }
+    const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
+    const bool narrow = distances.maxDistSq() <= detail::NarrowPower::kMaxRadiusSq;
+    PowerMap map;
+    map.mLayout = &layout;
+    for (int axis = 0; axis < dim; ++axis) { // left uninitialised: every offset is written
+        if (narrow) map.mOffsets[axis].narrow.reset(new int8_t[size]);
+        else map.mOffsets[axis].wide.reset(new int16_t[size]);
+    }
+    const auto& o = map.mOffsets;
+    if (narrow) {
+        computeOffsets<detail::NarrowPower>(layout, distances,
+            {o[0].narrow.get(), o[1].narrow.get(), o[2].narrow.get()}, interrupter);
+    } else {
+        computeOffsets<detail::WidePower>(layout, distances,
+            {o[0].wide.get(), o[1].wide.get(), o[2].wide.get()}, interrupter);
+    }
+    return map;
+}
+
+openvdb::Coord PowerMap::label(const openvdb::Coord& ijk) const
+{
+    const auto leaf = mLayout->findLeaf(ijk);
+    if (!leaf || !isOn(mLayout->mask(*leaf), leafOffset(ijk))) {
+        OPENVDB_THROW(openvdb::LookupError, "voxel " << ijk << " is not in the object: no label");
+    }
+    const Voxel site = label(Voxel{*leaf, leafOffset(ijk)});
+    return mLayout->voxel(site.leaf, site.offset);
+}
+
+} // namespace openvdb_spheretree

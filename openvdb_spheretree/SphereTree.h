@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereTree.h
+/// @brief The result: a hierarchy of spheres over an object, as flat arrays, and the call that builds
+/// one.
+///
+/// Nodes are ordered from the top level to level 0, and by level-grid coordinate (x first) within a
+/// level; the index of a node is its id. A parent therefore always stands before its children, and a
+/// level is a range of ids.
+///
+/// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel centre* the
+/// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
+/// stored in files: in world units, with the padding added, rounded up to a float, so that whatever
+/// was covered stays covered.
+
+#pragma once
+
+#include "SphereTreeSettings.h"
+
+#include <openvdb/Types.h>
+#include <openvdb/math/Transform.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+/// How far the union of a level's spheres is from the object, counted in voxels, exactly.
+struct LevelError {
+    int64_t covered = 0; ///< voxels whose centre lies in a sphere of the level
+    int64_t excess = 0;  ///< covered, but not in the object
+    int64_t missing = 0; ///< in the object, but not covered: 0 for every tree built here
+    double hammingPercent = 0; ///< 100 (excess + missing) / object voxels
+    double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
+};
+
+struct SphereTreeLevel {
+    int level = 0;              ///< 0 is the finest
+    int32_t begin = 0, end = 0; ///< the level's nodes are [begin, end)
+    int64_t pyramidVoxels = 0;  ///< voxels of the volume whose medial balls these are
+    std::optional<LevelError> error; ///< empty until computed, or when out of reach
+    std::string errorUnknown;        ///< why `error` is empty, where it was asked for
+
+    int32_t size() const { return end - begin; }
+};
+
+/// The object a tree was built from.
+struct ObjectInfo {
+    std::string name; ///< of the source grid
+    int64_t voxels = 0, leaves = 0, tiles = 0;
+    openvdb::CoordBBox bbox; ///< of the active voxels, inclusive
+};
+
+/// An edge of the Sphere-DAG, by node id: `parent` is one level above `child`.
+struct DagEdge {
+    int32_t parent = 0, child = 0;
+    bool operator==(const DagEdge& o) const { return parent == o.parent && child == o.child; }
+    bool operator<(const DagEdge& o) const
+    {
+        return parent != o.parent ? parent < o.parent : child < o.child;
+    }
+};
+
+struct SphereTree {
+    /// @name One entry a node
+    /// @{
+    std::vector<openvdb::Vec3d> center;  ///< index space of the source grid; multiples of 1/2
+    std::vector<double> radius;          ///< voxels of level 0, covers voxel centres, no padding
+    /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq.
+    std::vector<int64_t> coverSq;
+    std::vector<float> radiusWorld;      ///< world units, padded, rounded up
+    std::vector<int32_t> parent;         ///< id on the next level up; -1 where there is none
+    std::vector<openvdb::Coord> ijk;     ///< the digital ball's centre in its level's own grid
+    std::vector<int32_t> radiusSq;       ///< the digital ball {q : |q - ijk|^2 < radiusSq}
+    /// @}
+    std::vector<SphereTreeLevel> levels; ///< level 0 first
+    std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
+
+    SphereTreeSettings settings;
+    ObjectInfo object;
+    openvdb::Coord origin;               ///< level-grid (0,0,0) in index space; multiples of 8
+    openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world
+
+    int32_t size() const { return int32_t(center.size()); }
+    const SphereTreeLevel& root() const { return levels.back(); }
+    /// @return the level of node @a id; O(levels).
+    int levelOf(int32_t id) const;
+    openvdb::Vec3d centerWorld(int32_t id) const { return transform->indexToWorld(center[id]); }
+    double voxelSize() const { return transform->voxelSize()[0]; }
+};
+
+/// Seconds spent in the stages of a build, summed over levels.
+struct BuildSeconds {
+    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0;
+};
+
+/// @brief Build the sphere-tree of the active voxels of @a object.
+/// @param object       its topology is the object; its transform must have uniform voxels
+/// @param settings     what to build
+/// @param interrupter  may be null; asked from many threads
+/// @param seconds      may be null; receives the time each stage took
+/// @throw openvdb::ValueError if the object is empty, its voxels are not uniform, a setting is out of
+///        range, or a radius does not fit 32-bit squares (46340 voxels)
+/// @throw Interrupted if the interrupter said so
+/// @note Cost is linear in active voxels per level (each level has about 1/factor^dim of the one
+///       before), whatever the bounding box. The result is the same to the last bit for any number
+///       of threads. Thread-safe for concurrent calls, also on the same object.
+SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr, BuildSeconds* seconds = nullptr);
+
+/// @return a tree of one level, ids renumbered from 0, every node a root.
+/// @throw openvdb::ValueError if @a tree has no such level.
+SphereTree keepLevel(const SphereTree& tree, int level);
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereTreeCsv.h
+/// @brief A SphereTree as comma-separated text, for spreadsheets and scripts.
+
+#pragma once
+
+#include "SphereTree.h"
+
+#include <iosfwd>
+
+namespace openvdb_spheretree {
+
+/// @brief Write one header line `level,id,parent,x,y,z,radius,i,j,k,radius_sq`, then a row a node, by
+/// level from the top, then by id. Centre and radius are in world space and read back to the same
+/// double; the radius is radiusWorld. i,j,k,radius_sq is the digital ball in its level's own grid.
+/// @throw openvdb::IoError if the stream fails
+void writeCsv(const SphereTree& tree, std::ostream& out);
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereTreeSettings.h
+/// @brief What the builder of a sphere-tree can be asked for. Every field is recorded in the tree it
+/// builds, and in the files written from it.
+
+#pragma once
+
+#include <string>
+
+namespace openvdb_spheretree {
+
+enum class TreeType {
+    Reversible, ///< every level rebuilds its own pyramid level (Broutta et al. 2009, 3.2)
+    Extended    ///< every sphere contains the leaf balls below it (Algorithm 2)
+};
+
+enum class ParentRule {
+    Centre, ///< the label of the parent voxel of the ball's centre (the paper's rule)
+    Dag     ///< among the ball's parents in the Sphere-DAG, the one it protrudes from least
+};
+
+enum class Reconstruction {
+    Clip, ///< rebuild a level from its spheres, within the box of the object's own pyramid level
+    Free, ///< the same without the box: levels swell, and may need more steps to end at one sphere
+    None  ///< coarsen a level as it is
+};
+
+enum class RadiusScale {
+    Tight, ///< f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2: no more than coverage needs
+    Paper  ///< f^k sqrt(radiusSq) in place of the first term, on the levels above 0
+};
+
+struct SphereTreeSettings {
+    TreeType tree = TreeType::Extended;
+    /// Voxels of a level merged per axis into one voxel of the next level; 2 or more.
+    int factor = 2;
+    /// 3, or 2 for an object one voxel thick along z: the z axis then takes no part.
+    int dim = 3;
+    ParentRule parent = ParentRule::Centre;
+    /// Extended tree: store the smallest sphere around its own centre that contains the leaf balls
+    /// below it (Section 4.2 of the paper), rather than the one that the reconstruction used.
+    bool finalFit = true;
+    Reconstruction reconstruct = Reconstruction::Clip; ///< extended tree only
+    RadiusScale scale = RadiusScale::Tight;
+    /// Added to every radius that is stored, in voxels of level 0. Negative: sqrt(dim) / 2, which
+    /// covers whole voxel cubes (the default); 0 covers voxel centres.
+    double padding = kPadCubes;
+    /// Also collect the edges of the Sphere-DAG.
+    bool dag = false;
+    /// Name of the tree, and of the grid it is stored in.
+    std::string name = "spheretree";
+
+    static constexpr double kPadCubes = -1.0;
+    /// @return the padding in voxels of level 0.
+    double paddingVoxels() const;
+    /// @throw openvdb::ValueError naming the first setting out of range, and its range.
+    void validate() const;
+};
+
+/// @name The names that the command line and the metadata of files use
+/// @{
+const char* toString(TreeType);
+const char* toString(ParentRule);
+const char* toString(Reconstruction);
+const char* toString(RadiusScale);
+/// @return "cubes", "voxels", or the number as text.
+std::string paddingToString(double padding);
+/// @throw openvdb::ValueError naming the value and the values there are.
+TreeType treeTypeFromString(const std::string&);
+ParentRule parentRuleFromString(const std::string&);
+Reconstruction reconstructionFromString(const std::string&);
+RadiusScale radiusScaleFromString(const std::string&);
+double paddingFromString(const std::string&);
+/// @}
+
+} // namespace openvdb_spheretree

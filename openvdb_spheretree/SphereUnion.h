@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereUnion.h
+/// @brief The union of closed spheres as a sparse set of voxels: which voxel centres lie in any sphere.
+
+#pragma once
+
+#include "SphereTree.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+/// The closed sphere { q : |2 q - center2|^2 <= coverSq }, in voxels of the grid it is drawn on.
+/// Twice the centre, so that centres between voxels stay integers.
+struct ExactSphere {
+    int64_t center2[3];
+    int64_t coverSq; ///< negative: empty
+};
+
+/// @brief Every voxel of @a clip that lies in a sphere. Nodes wholly inside one sphere are tiles.
+/// @param clip  inclusive; voxels outside are left out
+/// @note Cost grows with the surface of the spheres (in leaf nodes), not with their volume. Exact:
+///       integer arithmetic. Parallel; the result does not depend on threads.
+openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
+    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @return the spheres of a level, in index space of the tree's source grid (without padding).
+std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+
+/// @return the smallest box that holds every voxel centre in the spheres.
+openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres);
+
+} // namespace openvdb_spheretree

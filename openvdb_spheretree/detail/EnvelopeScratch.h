@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/EnvelopeScratch.h
+/// @brief Memory that the kernels of EnvelopeSearch-inl.h use again from run to run, one a thread.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+constexpr int kBlockRows = 8; ///< rows whose reach is decided together
+
+/// One entry a block of rows.
+struct EnvelopeScratch {
+    std::vector<int> reach;                 ///< how far away a better row can be
+    std::vector<int64_t> largest, smallest; ///< values in the block
+
+    void resize(std::size_t blocks)
+    {
+        reach.resize(blocks);
+        largest.resize(blocks);
+        smallest.resize(blocks);
+    }
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MinPlus.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/detail/MinPlus.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include "EnvelopeSearch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree {
+namespace detail {
+namespace HWY_NAMESPACE {
+
+void StepsToBackground(const uint64_t* words, int rows, uint16_t* steps)
+{
+    const hn::CappedTag<uint16_t, kLanes> d;
+    const auto one = hn::Set(d, uint16_t(1));
+    for (int lane = 0; lane < kLanes; lane += int(hn::Lanes(d))) {
+        const auto mask = [&](int row) {
+            const uint64_t bits = words[row] >> lane;
+            return hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
+        };
+        uint16_t* column = steps + lane;
+        auto count = hn::Zero(d);
+        for (int row = 0; row < rows; ++row) {
+            count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
+            hn::Store(count, d, column + row * kLanes);
+        }
+        count = hn::Zero(d);
+        for (int row = rows - 1; row >= 0; --row) {
+            count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
+            const auto before = hn::Load(d, column + row * kLanes);
+            hn::Store(hn::Min(before, count), d, column + row * kLanes);
+        }
+    }
+}
+
+template <typename T>
+struct MinPlusOp {
+    using Value = T;
+    using D = hn::CappedTag<T, kLanes>;
+    using V = hn::Vec<D>;
+    static constexpr bool kTracksArg = false;
+
+    const T* in;
+    T* out;
+
+    static T penalty(int distance)
+    {
+        const uint32_t square = uint32_t(distance) * uint32_t(distance);
+        return T(std::min(square, sizeof(T) == 2 ? 65535u : kWideMax));
+    }
+    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + row * kLanes + lane); }
+    static HWY_INLINE hn::Vec<hn::CappedTag<uint16_t, kLanes>> add(
+        hn::Vec<hn::CappedTag<uint16_t, kLanes>> a, hn::Vec<hn::CappedTag<uint16_t, kLanes>> b)
+    {
+        return hn::SaturatedAdd(a, b);
+    }
+    static HWY_INLINE hn::Vec<hn::CappedTag<uint32_t, kLanes>> add(
+        hn::Vec<hn::CappedTag<uint32_t, kLanes>> a, hn::Vec<hn::CappedTag<uint32_t, kLanes>> b)
+    {
+        return hn::Add(a, b);
+    }
+    static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
+    static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
+    static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
+    HWY_INLINE void store(int row, int lane, V value, V) const
+    {
+        hn::Store(value, D(), out + row * kLanes + lane);
+    }
+
+    /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block counts.
+    void blockReach(int lane, EnvelopeScratch& scratch) const
+    {
+        for (int block = 0; block < int(scratch.reach.size()); ++block) {
+            V largest = load(kBlockRows * block, lane);
+            for (int row = 1; row < kBlockRows; ++row) {
+                largest = hn::Max(largest, load(kBlockRows * block + row, lane));
+            }
+            const int64_t m = hn::GetLane(hn::MaxOfLanes(D(), largest));
+            scratch.reach[block] = m <= 1 ? 0 : floorRoot(m - 1);
+        }
+    }
+};
+
+void MinPlus16(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch)
+{
+    EnvelopeSearch<MinPlusOp<uint16_t>>({in, out}, rows, scratch).run();
+}
+
+void MinPlus32(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scratch)
+{
+    EnvelopeSearch<MinPlusOp<uint32_t>>({in, out}, rows, scratch).run();
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace detail
+} // namespace openvdb_spheretree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace openvdb_spheretree {
+namespace detail {
+
+HWY_EXPORT(StepsToBackground);
+HWY_EXPORT(MinPlus16);
+HWY_EXPORT(MinPlus32);
+
+void stepsToBackground(const uint64_t* words, int rows, uint16_t* steps)
+{
+    HWY_DYNAMIC_DISPATCH(StepsToBackground)(words, rows, steps);
+}
+
+void minPlus(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch)
+{
+    HWY_DYNAMIC_DISPATCH(MinPlus16)(in, out, rows, scratch);
+}
+
+void minPlus(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scratch)
+{
+    HWY_DYNAMIC_DISPATCH(MinPlus32)(in, out, rows, scratch);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree
+#endif
