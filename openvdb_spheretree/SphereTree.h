@@ -16,7 +16,7 @@
 
 #include "SphereTreeSettings.h"
 
-#include <openvdb/Types.h>
+#include <openvdb/openvdb.h>
 #include <openvdb/math/Transform.h>
 #include <openvdb/util/NullInterrupter.h>
 

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LevelFrame.h
+/// @brief Where a level's balls are in the frame of level 0, and how large, exactly.
+///
+/// A voxel v of level k is the block f^k v + [0, f^k - 1]^dim. A medial ball (c, radiusSq) of level k
+/// becomes the closed sphere
+///     centre  f^k c + (f^k - 1) / 2 + origin
+///     radius  f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2
+/// which covers every level-0 voxel centre of the level-k voxels that the ball covers (the paper: all
+/// radii of a level grow by the same value). Level 0 needs no frame: there the sphere of radius
+/// sqrt(radiusSq - 1) holds just the ball's voxels.
+///
+/// Twice a radius is always a sum of two square roots of integers; such a sum is compared exactly with
+/// the root of a third one, so which voxels a sphere holds is never a matter of rounding.
+
+#pragma once
+
+#include "MedialAxis.h"
+#include "SphereTreeSettings.h"
+#include "detail/RoundUp.h"
+
+#include <openvdb/Types.h>
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+
+/// Twice a point of index space: integers, also for centres between voxels.
+struct Doubled {
+    int64_t x, y, z;
+
+    openvdb::Vec3d halved() const { return {0.5 * double(x), 0.5 * double(y), 0.5 * double(z)}; }
+};
+
+/// @return the squared distance of two doubled points (four times that of the points).
+inline int64_t distanceSq(const Doubled& a, const Doubled& b)
+{
+    const int64_t x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    return x * x + y * y + z * z;
+}
+
+/// The radius (sqrt(a) + sqrt(b)) / 2.
+struct RootSum {
+    int64_t a, b;
+
+    /// @return the largest D with sqrt(D) <= 2 radius: a voxel centre q is within the radius of a
+    /// centre c just when |2q - 2c|^2 <= D.
+    int64_t coverSq() const
+    {
+        return a + b + detail::integerRoot(4 * (unsigned __int128)(a) * (unsigned __int128)(b));
+    }
+    /// @return the radius, rounded up.
+    double radius() const
+    {
+        using namespace detail;
+        return 0.5 * addUp(sqrtUp(toDoubleUp(a)), sqrtUp(toDoubleUp(b)));
+    }
+};
+
+class LevelFrame {
+public:
+    LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
+
+    /// @return twice the centre of a voxel of the level.
+    Doubled center(const openvdb::Coord& ijk) const;
+    /// @return the radius of a ball of the level, by the formula above.
+    RootSum radius(int32_t radiusSq) const;
+    /// @return sqrt(dim) (f^k - 1) / 2: what a level-k radius in level-0 voxels grows by.
+    RootSum growth() const { return {0, mGrowthSq}; }
+    /// @return f^k.
+    int64_t scale() const { return mScale; }
+
+private:
+    int mLevel;
+    int mDim;
+    bool mTight;
+    int64_t mScale = 1;
+    int64_t mGrowthSq;
+    openvdb::Coord mOrigin;
+};
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file OrPyramid.h
+/// @brief The pyramid of volumes: a voxel of level k+1 is on when any of its factor^dim children on
+/// level k is.
+///
+/// Level 0 lives in index space. Levels above have grids of their own, counted from `origin`, the
+/// object's box minimum rounded down to a leaf corner: an object that straddles (0,0,0) then still
+/// ends as one voxel. With factor 2 eight leaves make one leaf, on mask words alone; a tile stays a
+/// tile, and eight tiles make one.
+///
+/// Other *including* models (a parent of an on voxel is always on) plug in as a function; this is
+/// verified at every level. Exact. Cost: linear in leaves and tiles, whatever the bounding box.
+/// Source: Broutta et al. 2009, section 2.3. Tests: TestOrPyramid.cc.
+
+#pragma once
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <functional>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+/// A side of the object's box may have this many voxels, so that squares of distances fit 64 bits.
+constexpr int64_t kMaxExtent = int64_t(1) << 28;
+
+/// How voxels of one level become voxels of the next.
+struct PyramidStep {
+    openvdb::Coord origin; ///< of the finer level's cells: parent = floor((ijk - origin) / factor)
+    int factor = 2;
+    int dim = 3; ///< 2: z stays as it is
+
+    openvdb::Coord parentVoxel(const openvdb::Coord& ijk) const;
+};
+
+/// Makes level k+1 of level k. Must be including: it has the OR model's voxels, maybe more.
+using PyramidModel =
+    std::function<openvdb::MaskTree::Ptr(const openvdb::MaskTree& level, const PyramidStep& step)>;
+
+/// @brief The OR model. Parallel; the result has no full leaf that could be a tile.
+openvdb::MaskTree::Ptr coarsen(const openvdb::MaskTree& level, const PyramidStep& step,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @return a box's minimum rounded down to a multiple of 8 per axis.
+/// @throw openvdb::ValueError if a side of the box exceeds kMaxExtent
+openvdb::Coord pyramidOrigin(const openvdb::CoordBBox& bbox);
+
+struct OrPyramid {
+    openvdb::Coord origin;
+    std::vector<openvdb::MaskTree::Ptr> levels; ///< level 0 first; the last one is a single voxel
+};
+
+/// @brief All levels, from the active voxels of @a object to a single voxel.
+/// @param model  empty: the OR model
+/// @throw openvdb::ValueError if the object is empty or too wide, or the model is not including
+/// @throw Interrupted if the interrupter (may be null) said so
+OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor = 2, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr, const PyramidModel& model = {});
+
+} // namespace openvdb_spheretree

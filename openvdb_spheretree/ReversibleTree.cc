@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ReversibleTree.cc
+/// @brief The reversible tree (Broutta et al. 2009, 3.2): all medial balls of every level of the OR
+/// pyramid, so that each level rebuilds its own pyramid level, and level 0 the object.
+///
+/// For each level from the finest up: its medial balls become nodes, with the spheres of LevelFrame.h
+/// (`allBalls`); then each node of the level below gets its parent (`linkLevels`, detail/TreeLevels.h:
+/// the label of the parent voxel of its centre, or the best parent in the Sphere-DAG).
+/// It ends: the pyramid ends with one voxel. Exact. Cost: linear in active voxels of all levels.
+/// Tests: TestReversibleTree.cc.
+
+#include "detail/StageTimer.h"
+#include "detail/TreeLevels.h"
+
+#include <memory>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+LevelNodes allBalls(const MedialLevel& medial, const LevelFrame& frame)
+{
+    LevelNodes nodes;
+    nodes.balls = medial.balls;
+    nodes.pyramidVoxels = medial.layout.voxelCount();
+    for (const MedialBall& ball : nodes.balls) {
+        const RootSum radius = frame.radius(ball.radiusSq);
+        nodes.radius.push_back(radius.radius());
+        nodes.coverSq.push_back(radius.coverSq());
+    }
+    return nodes;
+}
+
+} // namespace
+
+std::vector<LevelNodes> reversibleLevels(
+    openvdb::MaskTree::Ptr voxels, const BuildContext& context)
+{
+    const int dim = context.settings.dim;
+    auto fine =
+        std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
+    std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
+    for (int level = 0; levels.back().balls.size() > 1; ++level) {
+        voxels = timed(&context.seconds->pyramid,
+            [&] { return coarsen(*voxels, context.stepFrom(level), context.interrupter); });
+        auto coarse =
+            std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
+        timed(&context.seconds->tree, [&] {
+            LevelNodes& nodes = levels.back();
+            Links links = linkLevels(nodes, level, *fine, *coarse, context);
+            nodes.parent = std::move(links.parent);
+            nodes.dag = std::move(links.dag);
+            levels.push_back(allBalls(*coarse, context.frame(level + 1)));
+        });
+        fine = std::move(coarse);
+    }
+    return levels;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SphereTree.h"
+
+#include "detail/RoundUp.h"
+#include "detail/TreeLevels.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using detail::LevelNodes;
+
+void requireUniformVoxels(const openvdb::math::Transform& transform, const std::string& name)
+{
+    if (transform.isLinear() && transform.hasUniformScale()) return;
+    const openvdb::Vec3d size = transform.voxelSize();
+    OPENVDB_THROW(openvdb::ValueError, "grid '" << name << "' has voxels of " << size[0] << " x "
+        << size[1] << " x " << size[2] << " (or a transform that is not linear); sphere-trees need "
+        "uniform voxels: resample the grid first");
+}
+
+ObjectInfo describe(const openvdb::BoolGrid& object)
+{
+    ObjectInfo info;
+    info.name = object.getName();
+    info.voxels = int64_t(object.activeVoxelCount());
+    info.leaves = int64_t(object.tree().leafCount());
+    info.tiles = int64_t(object.tree().activeTileCount());
+    info.bbox = object.evalActiveVoxelBoundingBox();
+    return info;
+}
+
+void requireValidObject(const ObjectInfo& info, int dim)
+{
+    if (info.voxels == 0) {
+        OPENVDB_THROW(openvdb::ValueError, "the object '" << info.name << "' has no voxels");
+    }
+    const int64_t thickness = int64_t(info.bbox.max().z()) - info.bbox.min().z() + 1;
+    if (dim == 2 && thickness > 1) {
+        OPENVDB_THROW(openvdb::ValueError, "dim=2 needs an object one voxel thick along z, but '"
+            << info.name << "' has " << thickness << " voxels there");
+    }
+}
+
+/// Nodes of all levels, top level first: ids in the order of the header.
+void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
+{
+    tree.levels.resize(levels.size());
+    for (int level = int(levels.size()) - 1; level >= 0; --level) {
+        const LevelNodes& nodes = levels[level];
+        const LevelFrame frame(level, tree.origin, tree.settings);
+        SphereTreeLevel& range = tree.levels[level];
+        const int32_t above = level + 1 < int(levels.size()) ? tree.levels[level + 1].begin : 0;
+        range.level = level;
+        range.begin = tree.size();
+        range.pyramidVoxels = nodes.pyramidVoxels;
+        for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+            tree.center.push_back(frame.center(nodes.balls[i].center).halved());
+            tree.radius.push_back(nodes.radius[i]);
+            tree.coverSq.push_back(nodes.coverSq[i]);
+            tree.parent.push_back(nodes.parent.empty() ? -1 : above + nodes.parent[i]);
+            tree.ijk.push_back(nodes.balls[i].center);
+            tree.radiusSq.push_back(nodes.balls[i].radiusSq);
+        }
+        range.end = tree.size();
+        for (const DagEdge& edge : nodes.dag) {
+            tree.dag.push_back({above + edge.parent, range.begin + edge.child});
+        }
+    }
+    std::sort(tree.dag.begin(), tree.dag.end());
+}
+
+/// Padding added, voxels to world units, rounded up to floats.
+void storeRadii(SphereTree& tree)
+{
+    const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
+    tree.radiusWorld.resize(tree.radius.size());
+    for (std::size_t i = 0; i < tree.radius.size(); ++i) {
+        const double padded = detail::addUp(tree.radius[i], padding);
+        tree.radiusWorld[i] = detail::toFloatUp(detail::multiplyUp(padded, voxel));
+    }
+}
+
+/// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
+/// rounded up by more than its ancestor's, and world-space centres are rounded too.
+void containStoredLeaves(SphereTree& tree)
+{
+    const SphereTreeLevel& finest = tree.levels.front();
+    for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
+        const openvdb::Vec3d center = tree.centerWorld(leaf);
+        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
+            const openvdb::Vec3d other = tree.centerWorld(t);
+            // Coordinates carry relative errors of some 2^-52; the distance inherits them.
+            const double doubt = 1e-15 * (center.length() + other.length());
+            const double needed = (center - other).length() * (1 + 1e-15) + doubt +
+                double(tree.radiusWorld[leaf]);
+            if (double(tree.radiusWorld[t]) < needed) {
+                tree.radiusWorld[t] = detail::toFloatUp(needed);
+            }
+        }
+    }
+}
+
+} // namespace
+
+int SphereTree::levelOf(int32_t id) const
+{
+    for (const SphereTreeLevel& range : levels) {
+        if (id >= range.begin && id < range.end) return range.level;
+    }
+    OPENVDB_THROW(openvdb::LookupError, "the tree has no node " << id);
+}
+
+SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
+    openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
+{
+    settings.validate();
+    requireUniformVoxels(object.transform(), object.getName());
+    SphereTree tree;
+    tree.settings = settings;
+    tree.object = describe(object);
+    requireValidObject(tree.object, settings.dim);
+    tree.origin = pyramidOrigin(tree.object.bbox);
+    tree.transform = object.transform().copy();
+
+    BuildSeconds ownSeconds;
+    const detail::BuildContext context{
+        settings, tree.origin, tree.object.bbox, interrupter, seconds ? seconds : &ownSeconds};
+    auto voxels =
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy());
+    appendNodes(tree, settings.tree == TreeType::Reversible
+            ? detail::reversibleLevels(voxels, context)
+            : detail::extendedLevels(voxels, context));
+    storeRadii(tree);
+    if (settings.tree == TreeType::Extended) containStoredLeaves(tree);
+    return tree;
+}
+
+SphereTree keepLevel(const SphereTree& tree, int level)
+{
+    const auto range = std::find_if(tree.levels.begin(), tree.levels.end(),
+        [&](const SphereTreeLevel& r) { return r.level == level; });
+    if (range == tree.levels.end()) {
+        OPENVDB_THROW(openvdb::ValueError, "the tree has no level " << level << ": it has levels "
+            << tree.levels.front().level << " to " << tree.levels.back().level);
+    }
+    const auto slice = [&](const auto& all) {
+        using Array = std::decay_t<decltype(all)>;
+        return Array(all.begin() + range->begin, all.begin() + range->end);
+    };
+    SphereTree result;
+    result.center = slice(tree.center);
+    result.radius = slice(tree.radius);
+    result.coverSq = slice(tree.coverSq);
+    result.radiusWorld = slice(tree.radiusWorld);
+    result.ijk = slice(tree.ijk);
+    result.radiusSq = slice(tree.radiusSq);
+    result.parent.assign(result.center.size(), -1);
+    result.levels = {*range};
+    result.levels[0].begin = 0;
+    result.levels[0].end = result.size();
+    result.settings = tree.settings;
+    result.object = tree.object;
+    result.origin = tree.origin;
+    result.transform = tree.transform->copy();
+    return result;
+}
+
+} // namespace openvdb_spheretree

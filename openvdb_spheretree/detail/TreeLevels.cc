@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TreeLevels.h"
+
+#include "../SphereDag.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+/// The paper's rule: the label of the parent voxel of the ball's centre.
+std::vector<int32_t> parentsByCentre(const LevelNodes& nodes, const MedialLevel& coarse,
+    const PyramidStep& step, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> parent(nodes.balls.size());
+    parallelFor(parent.size(), interrupter, [&](std::size_t i) {
+        parent[i] = coarse.labelOf(step.parentVoxel(nodes.balls[i].center));
+    });
+    return parent;
+}
+
+/// Edges between balls of both levels to edges between coarser balls and nodes.
+std::vector<DagEdge> edgesToNodes(
+    std::vector<DagEdge> edges, const LevelNodes& nodes, const MedialLevel& fine)
+{
+    std::vector<int32_t> nodeOfBall(fine.balls.size(), -1);
+    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+        nodeOfBall[fine.ballAt(nodes.balls[i].center)] = int32_t(i);
+    }
+    for (DagEdge& edge : edges) edge.child = nodeOfBall[edge.child];
+    edges.erase(std::remove_if(edges.begin(), edges.end(),
+                    [](const DagEdge& edge) { return edge.child < 0; }),
+        edges.end());
+    return edges;
+}
+
+/// Among a node's parents in the DAG, the one of least covering power: the distance by which the node
+/// sticks out of it, both as spheres in the frame of level 0. A node without an edge (it labels no
+/// voxel whose parent is on) keeps the parent it has.
+void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& edges,
+    const LevelNodes& nodes, int level, const MedialLevel& coarse, const BuildContext& context)
+{
+    const LevelFrame fineFrame = context.frame(level), coarseFrame = context.frame(level + 1);
+    std::vector<double> least(nodes.balls.size(), std::numeric_limits<double>::infinity());
+    for (const DagEdge& edge : edges) { // by parent, so that of equals the first parent stays
+        const MedialBall& s = nodes.balls[edge.child];
+        const MedialBall& t = coarse.balls[edge.parent];
+        const double apart = 0.5 *
+            std::sqrt(double(distanceSq(fineFrame.center(s.center), coarseFrame.center(t.center))));
+        const double power = apart + fineFrame.radius(s.radiusSq).radius() -
+            coarseFrame.radius(t.radiusSq).radius();
+        if (power >= least[edge.child]) continue;
+        least[edge.child] = power;
+        parent[edge.child] = edge.parent;
+    }
+}
+
+} // namespace
+
+Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
+    const MedialLevel& coarse, const BuildContext& context)
+{
+    const PyramidStep step = context.stepFrom(level);
+    Links links;
+    links.parent = parentsByCentre(nodes, coarse, step, context.interrupter);
+    const bool byDag = context.settings.parent == ParentRule::Dag;
+    if (!byDag && !context.settings.dag) return links;
+    links.dag = edgesToNodes(sphereDag(fine, coarse, step, context.interrupter), nodes, fine);
+    if (byDag) preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
+    if (!context.settings.dag) links.dag.clear();
+    return links;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/TreeLevels.h
+/// @brief What the tree builders share: a level's nodes while the tree grows from level 0 to its root.
+
+#pragma once
+
+#include "../LevelFrame.h"
+#include "../MedialLevel.h"
+#include "../OrPyramid.h"
+#include "../SphereTree.h"
+
+#include <openvdb/openvdb.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// What a build is given, and where it reports to.
+struct BuildContext {
+    const SphereTreeSettings& settings;
+    openvdb::Coord origin;
+    openvdb::CoordBBox bbox; ///< of the object
+    openvdb::util::NullInterrupter* interrupter;
+    BuildSeconds* seconds;
+
+    /// The step from @a level to the one above it.
+    PyramidStep stepFrom(int level) const
+    {
+        return {level == 0 ? origin : openvdb::Coord(), settings.factor, settings.dim};
+    }
+    LevelFrame frame(int level) const { return LevelFrame(level, origin, settings); }
+};
+
+/// The nodes of one level; their indices are within the level.
+struct LevelNodes {
+    std::vector<MedialBall> balls;    ///< ordered by centre
+    std::vector<double> radius;       ///< voxels of level 0
+    std::vector<int64_t> coverSq;     ///< the same, exactly: see SphereTree
+    std::vector<int32_t> parent;      ///< node of the next level; empty at the root
+    std::vector<DagEdge> dag;         ///< edges to nodes of the next level, if asked for
+    int64_t pyramidVoxels = 0;
+};
+
+/// How the nodes of a level hang on the medial balls of the next one.
+struct Links {
+    std::vector<int32_t> parent; ///< per node: index in the coarser level's balls
+    std::vector<DagEdge> dag;    ///< coarser ball, node; empty unless the settings want a DAG
+};
+
+/// @brief Find the parents of @a nodes, which are balls of @a fine, among the balls of @a coarse.
+Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
+    const MedialLevel& coarse, const BuildContext& context);
+
+/// @brief The two kinds of tree, level 0 first, ending with a level of one node.
+std::vector<LevelNodes> reversibleLevels(
+    openvdb::MaskTree::Ptr object, const BuildContext& context);
+std::vector<LevelNodes> extendedLevels(
+    openvdb::MaskTree::Ptr object, const BuildContext& context);
+
+} // namespace detail
+} // namespace openvdb_spheretree
