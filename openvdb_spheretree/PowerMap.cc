@@ -20,10 +20,13 @@ struct Scratch {
     detail::EnvelopeScratch envelope;
 };
 
+/// The distances of a leaf as rows of keys: every voxel starts as its own site.
 template <typename Power, typename T>
-void distancesToKeys(const T* distances, typename Power::Key* keys)
+void distancesToKeys(Axis axis, const T* distances, typename Power::Key* rows)
 {
-    for (int i = 0; i < kLeafVoxels; ++i) keys[i] = detail::powerKey<Power>(distances[i]);
+    alignas(64) T distanceRows[kLeafVoxels]; // moved while they are small
+    detail::leafToRows(axis, distances, distanceRows);
+    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = detail::powerKey<Power>(distanceRows[i]);
 }
 
 /// One pass: keys become the best of their line, offsets say where it stood.
@@ -61,11 +64,9 @@ void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
 
     const auto fromDistances = [&](Axis axis) {
         return [&distances, axis](uint32_t leaf, Key* rows) {
-            Key leafKeys[kLeafVoxels];
             const std::size_t first = std::size_t(leaf) * kLeafVoxels;
-            if (distances.narrow()) distancesToKeys<Power>(distances.narrow() + first, leafKeys);
-            else distancesToKeys<Power>(distances.wide() + first, leafKeys);
-            detail::leafToRows(axis, leafKeys, rows);
+            if (distances.narrow()) distancesToKeys<Power>(axis, distances.narrow() + first, rows);
+            else distancesToKeys<Power>(axis, distances.wide() + first, rows);
         };
     };
     const auto fromKeys = [&](Axis axis) {

@@ -67,6 +67,18 @@ public:
         return voxel;
     }
 
+    /// The 512 steps of a leaf along @a axis, as they are stored: one of these two is null.
+    const int8_t* narrowSteps(Axis axis, uint32_t leaf) const
+    {
+        const Offsets& offsets = mOffsets[int(axis)];
+        return offsets.narrow ? offsets.narrow.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
+    }
+    const int16_t* wideSteps(Axis axis, uint32_t leaf) const
+    {
+        const Offsets& offsets = mOffsets[int(axis)];
+        return offsets.wide ? offsets.wide.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
+    }
+
     const LeafLayout& layout() const { return *mLayout; }
     bool usesZ() const { return !mOffsets[2].empty(); }
 

@@ -51,22 +51,45 @@ private:
     std::size_t mCapacity = 0;
 };
 
-/// Copies the 512 values of a leaf into its eight rows.
-template <typename From, typename To>
-void leafToRows(Axis axis, const From* leaf, To* rows)
+/// Transposes 8 x 8 values. Interleaving the two halves of 64 values rotates the six bits of their
+/// index by one; three times swaps row and column. Compilers turn each loop into vector unpacks.
+template <typename T>
+void transpose8x8(const T* in, std::size_t inStride, T* out, std::size_t outStride)
 {
-    if (axis == Axis::X) {
-        for (int i = 0; i < kLeafVoxels; ++i) rows[i] = To(leaf[i]);
-    } else if (axis == Axis::Y) {
-        for (int x = 0; x < 8; ++x) {
-            for (int y = 0; y < 8; ++y) {
-                for (int z = 0; z < 8; ++z) rows[64 * y + 8 * x + z] = To(leaf[64 * x + 8 * y + z]);
-            }
+    alignas(64) T a[64], b[64];
+    for (int row = 0; row < 8; ++row) std::memcpy(a + 8 * row, in + row * inStride, 8 * sizeof(T));
+    const auto interleave = [](const T* from, T* to) {
+        for (int i = 0; i < 32; ++i) {
+            to[2 * i] = from[i];
+            to[2 * i + 1] = from[i + 32];
         }
-    } else {
-        for (int xy = 0; xy < 64; ++xy) {
-            for (int z = 0; z < 8; ++z) rows[64 * z + xy] = To(leaf[8 * xy + z]);
+    };
+    interleave(a, b);
+    interleave(b, a);
+    interleave(a, b);
+    for (int row = 0; row < 8; ++row) std::memcpy(out + row * outStride, b + 8 * row, 8 * sizeof(T));
+}
+
+/// Swaps x and y of 512 values, in blocks of eight along z.
+template <typename T>
+void swapXY(const T* in, T* out)
+{
+    for (int x = 0; x < 8; ++x) {
+        for (int y = 0; y < 8; ++y) {
+            std::memcpy(out + 64 * y + 8 * x, in + 64 * x + 8 * y, 8 * sizeof(T));
         }
+    }
+}
+
+/// Copies the 512 values of a leaf into its eight rows.
+template <typename T>
+void leafToRows(Axis axis, const T* leaf, T* rows)
+{
+    switch (axis) {
+        case Axis::X: std::memcpy(rows, leaf, kLeafVoxels * sizeof(T)); break;
+        case Axis::Y: swapXY(leaf, rows); break;
+        case Axis::Z:
+            for (int x = 0; x < 8; ++x) transpose8x8(leaf + 64 * x, 8, rows + 8 * x, 64);
     }
 }
 
@@ -74,14 +97,11 @@ void leafToRows(Axis axis, const From* leaf, To* rows)
 template <typename T>
 void rowsToLeaf(Axis axis, const T* rows, T* leaf)
 {
-    if (axis == Axis::X) {
-        std::memcpy(leaf, rows, kLeafVoxels * sizeof(T));
-    } else if (axis == Axis::Y) {
-        leafToRows(Axis::Y, rows, leaf); // swaps two coordinates: its own inverse
-    } else {
-        for (int xy = 0; xy < 64; ++xy) {
-            for (int z = 0; z < 8; ++z) leaf[8 * xy + z] = rows[64 * z + xy];
-        }
+    switch (axis) {
+        case Axis::X: std::memcpy(leaf, rows, kLeafVoxels * sizeof(T)); break;
+        case Axis::Y: swapXY(rows, leaf); break;
+        case Axis::Z:
+            for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
     }
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/StepBits.h
+/// @brief Which voxels of a leaf have a step that needs no walking, as mask words.
+
+#pragma once
+
+#include "../LeafLayout.h"
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+struct StepBits {
+    LeafMask stays;     ///< the step is 0: the voxel is its own end
+    LeafMask asBefore;  ///< ends where the step of the voxel before it along the axis ends
+};
+
+/// @param steps  512 steps of a leaf along @a axis, in leaf order
+StepBits stepBits(const int8_t* steps, Axis axis);
+StepBits stepBits(const int16_t* steps, Axis axis);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BenchmarkStages.cc
+/// @brief Million active voxels a second of each stage, beside a plain parallel copy of the same
+/// leaves' int32 values in the same run, so that figures compare across machines.
+///
+///     spheretree_benchmark                        all stages, all objects, on 1 and all threads
+///     spheretree_benchmark --benchmark_filter=dragon-512
+///
+/// Columns: `Mvoxel/s` of the stage, `copy` the same of the copy, `of_copy` the one over the other.
+/// Objects are made here, plus volumes of the folder SPHERETREE_DATA where there is one.
+
+#include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/MedialLevel.h>
+#include <openvdb_spheretree/ObjectMask.h>
+#include <openvdb_spheretree/OrPyramid.h>
+#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/VolFile.h>
+
+#include <benchmark/benchmark.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace st = openvdb_spheretree;
+using Clock = std::chrono::steady_clock;
+
+openvdb::BoolGrid::Ptr ballsApart(int distance)
+{
+    auto grid = openvdb::BoolGrid::create(false);
+    auto accessor = grid->getAccessor();
+    for (const int x : {0, distance}) {
+        for (int i = -40; i <= 40; ++i) {
+            for (int j = -40; j <= 40; ++j) {
+                for (int k = -40; k <= 40; ++k) {
+                    if (i * i + j * j + k * k < 1600) accessor.setValueOn({x + i, j, k});
+                }
+            }
+        }
+    }
+    return grid;
+}
+
+openvdb::BoolGrid::Ptr levelSetBall()
+{
+    return st::objectMask(
+        *openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(100, openvdb::Vec3f(0), 1));
+}
+
+/// Objects by name, each made once.
+const openvdb::BoolGrid& object(const std::string& name)
+{
+    static std::map<std::string, openvdb::BoolGrid::Ptr> made;
+    openvdb::BoolGrid::Ptr& grid = made[name];
+    if (!grid && name == "balls-100-apart") grid = ballsApart(100);
+    if (!grid && name == "balls-1000000-apart") grid = ballsApart(1000000);
+    if (!grid && name == "level-set-ball") grid = levelSetBall();
+    if (!grid) {
+        const std::string folder = std::getenv("SPHERETREE_DATA");
+        grid = st::objectMask(*st::readVolFile(folder + "/vol/" + name + ".vol"));
+    }
+    return *grid;
+}
+
+/// Seconds of a parallel copy of as many leaves of int32, the best of five.
+double copySeconds(uint32_t leaves)
+{
+    constexpr std::size_t kLeaf = st::kLeafVoxels;
+    std::vector<int32_t> from(leaves * kLeaf, 1), to(leaves * kLeaf, 2);
+    double best = 1e9;
+    for (int i = 0; i < 5; ++i) {
+        const auto start = Clock::now();
+        tbb::parallel_for(tbb::blocked_range<uint32_t>(0, leaves, 256), [&](const auto& range) {
+            std::copy(from.begin() + range.begin() * kLeaf, from.begin() + range.end() * kLeaf,
+                to.begin() + range.begin() * kLeaf);
+        });
+        best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+        benchmark::DoNotOptimize(to.data());
+    }
+    return best;
+}
+
+/// What the stages of one object work on.
+struct Input {
+    explicit Input(const std::string& name)
+        : grid(object(name)),
+          mask(grid.tree(), false, openvdb::TopologyCopy()),
+          layout(mask),
+          distances(st::distanceTransform(layout)),
+          labels(st::powerMap(layout, distances))
+    {
+    }
+    const openvdb::BoolGrid& grid;
+    openvdb::MaskTree mask;
+    st::LeafLayout layout;
+    st::DistanceMap distances;
+    st::PowerMap labels;
+};
+
+using Stage = std::function<void(const Input&)>;
+
+void buildTree(const Input& in, st::TreeType type)
+{
+    st::SphereTreeSettings settings;
+    settings.tree = type;
+    benchmark::DoNotOptimize(st::buildSphereTree(in.grid, settings));
+}
+
+const std::vector<std::pair<std::string, Stage>>& stages()
+{
+    static const std::vector<std::pair<std::string, Stage>> all{
+        {"layout",
+            [](const Input& in) { benchmark::DoNotOptimize(st::LeafLayout(in.mask)); }},
+        {"distance",
+            [](const Input& in) { benchmark::DoNotOptimize(st::distanceTransform(in.layout)); }},
+        {"power+medial",
+            [](const Input& in) {
+                const auto labels = st::powerMap(in.layout, in.distances);
+                benchmark::DoNotOptimize(st::medialBalls(labels, in.distances));
+            }},
+        {"medial",
+            [](const Input& in) {
+                benchmark::DoNotOptimize(st::medialBalls(in.labels, in.distances));
+            }},
+        {"pyramid",
+            [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
+        {"reversible", [](const Input& in) { buildTree(in, st::TreeType::Reversible); }},
+        {"extended", [](const Input& in) { buildTree(in, st::TreeType::Extended); }},
+        {"errors",
+            [](const Input& in) {
+                static std::map<const openvdb::BoolGrid*, st::SphereTree> trees;
+                auto tree = trees.find(&in.grid);
+                if (tree == trees.end()) {
+                    tree = trees.emplace(&in.grid, st::buildSphereTree(in.grid)).first;
+                }
+                st::computeLevelErrors(tree->second, in.grid);
+            }},
+    };
+    return all;
+}
+
+void run(benchmark::State& state, const std::string& name, const Stage& stage, int threads)
+{
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const Input input(name);
+    const double copy = copySeconds(input.layout.leafCount());
+    double best = 1e9;
+    for (auto _ : state) {
+        const auto start = Clock::now();
+        stage(input);
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        best = std::min(best, seconds);
+        state.SetIterationTime(seconds);
+    }
+    const double voxels = 1e-6 * double(input.layout.voxelCount());
+    state.counters["Mvoxel/s"] = voxels / best;
+    state.counters["copy"] = voxels / copy;
+    state.counters["of_copy"] = copy / best;
+}
+
+void registerAll(const std::string& name)
+{
+    std::vector<int> threads{1};
+    if (tbb::info::default_concurrency() > 1) threads.push_back(tbb::info::default_concurrency());
+    for (const auto& [label, stage] : stages()) {
+        for (const int n : threads) {
+            const std::string title = name + "/" + label + "/threads:" + std::to_string(n);
+            benchmark::RegisterBenchmark(title.c_str(),
+                [name, stage = stage, n](benchmark::State& state) { run(state, name, stage, n); })
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond);
+        }
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    openvdb::initialize();
+    for (const char* name : {"level-set-ball", "balls-100-apart", "balls-1000000-apart"}) {
+        registerAll(name);
+    }
+    const char* folder = std::getenv("SPHERETREE_DATA");
+    for (const char* name : {"Al.100", "dragon-128", "dragon-512", "fandisk-128", "fandisk-512",
+             "hairball-256", "lucy-boundary-512"}) {
+        if (!folder) continue;
+        const std::string file = std::string(folder) + "/vol/" + name + ".vol";
+        if (std::filesystem::exists(file)) registerAll(name);
+    }
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+}
