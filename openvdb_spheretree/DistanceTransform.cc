@@ -103,12 +103,12 @@ DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter
 {
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
     DistanceMap map;
-    map.mNarrow.reset(new uint16_t[size]); // left uninitialised: every value is written
+    map.mNarrow = detail::makeLargeArray<uint16_t>(size);
     map.mMaxDistSq = transform(layout, dim, map.mNarrow.get(), interrupter);
     if (map.mMaxDistSq < kLimit<uint16_t>) return map;
 
     map.mNarrow.reset();
-    map.mWide.reset(new uint32_t[size]);
+    map.mWide = detail::makeLargeArray<uint32_t>(size);
     map.mMaxDistSq = transform(layout, dim, map.mWide.get(), interrupter);
     if (map.mMaxDistSq < kLimit<uint32_t>) return map;
     OPENVDB_THROW(openvdb::ValueError, "the object holds a ball of 46340 voxels radius or more, whose "

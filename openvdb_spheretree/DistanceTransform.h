@@ -15,12 +15,12 @@
 #pragma once
 
 #include "LeafLayout.h"
+#include "detail/LargeArray.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
-#include <memory>
 
 namespace openvdb_spheretree {
 
@@ -44,8 +44,8 @@ private:
     friend DistanceMap distanceTransform(
         const LeafLayout&, int, openvdb::util::NullInterrupter*);
 
-    std::unique_ptr<uint16_t[]> mNarrow;
-    std::unique_ptr<uint32_t[]> mWide;
+    detail::LargeArray<uint16_t> mNarrow;
+    detail::LargeArray<uint32_t> mWide;
     uint32_t mMaxDistSq = 0;
 };
 

@@ -83,10 +83,15 @@ template <typename Visit>
 void visitInOrder(LeafRange slab, const Masks& marks, const LeafLayout& layout, const Visit& visit)
 {
     const std::vector<LeafRange> rows = cutWhereChanges(1, slab, layout);
+    std::vector<uint32_t> marked;
     for (uint32_t x = 0; x < 8; ++x) {
         for (const LeafRange& row : rows) {
+            marked.clear();
+            for (uint32_t leaf = row.first; leaf < row.second; ++leaf) {
+                if (marks[leaf][x]) marked.push_back(leaf);
+            }
             for (uint32_t y = 0; y < 8; ++y) {
-                for (uint32_t leaf = row.first; leaf < row.second; ++leaf) {
+                for (const uint32_t leaf : marked) {
                     for (uint32_t bits = marks[leaf][x] >> 8 * y & 0xff; bits; bits &= bits - 1) {
                         visit(leaf, 64 * x + 8 * y + openvdb::util::FindLowestOn(bits));
                     }

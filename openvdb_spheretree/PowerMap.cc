@@ -60,7 +60,7 @@ void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
 {
     using Key = typename Power::Key;
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
-    const std::unique_ptr<Key[]> keys(new Key[size]);
+    const auto keys = detail::makeLargeArray<Key>(size);
 
     const auto fromDistances = [&](Axis axis) {
         return [&distances, axis](uint32_t leaf, Key* rows) {
@@ -98,9 +98,9 @@ PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int di
     const bool narrow = distances.maxDistSq() <= detail::NarrowPower::kMaxRadiusSq;
     PowerMap map;
     map.mLayout = &layout;
-    for (int axis = 0; axis < dim; ++axis) { // left uninitialised: every offset is written
-        if (narrow) map.mOffsets[axis].narrow.reset(new int8_t[size]);
-        else map.mOffsets[axis].wide.reset(new int16_t[size]);
+    for (int axis = 0; axis < dim; ++axis) {
+        if (narrow) map.mOffsets[axis].narrow = detail::makeLargeArray<int8_t>(size);
+        else map.mOffsets[axis].wide = detail::makeLargeArray<int16_t>(size);
     }
     const auto& o = map.mOffsets;
     if (narrow) {

@@ -18,13 +18,13 @@
 
 #include "DistanceTransform.h"
 #include "LeafLayout.h"
+#include "detail/LargeArray.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
 namespace openvdb_spheretree {
 
@@ -88,8 +88,8 @@ private:
 
     /// Steps along one axis; one of the arrays is null, both if the axis takes no part.
     struct Offsets {
-        std::unique_ptr<int8_t[]> narrow;
-        std::unique_ptr<int16_t[]> wide;
+        detail::LargeArray<int8_t> narrow;
+        detail::LargeArray<int16_t> wide;
         bool empty() const { return !narrow && !wide; }
     };
 
