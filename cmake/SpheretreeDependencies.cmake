@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the library is built on. Whatever is missing is reported at once, with the Debian packages.
+
+spheretree_find_openvdb()
+find_package(ZLIB QUIET)
+find_package(hwy CONFIG QUIET)
+
+set(missing "")
+foreach(dependency IN ITEMS
+        "OpenVDB::openvdb|OpenVDB|libopenvdb-dev libboost-iostreams-dev libblosc-dev"
+        "TBB::tbb|oneTBB|libtbb-dev"
+        "ZLIB::ZLIB|zlib|zlib1g-dev"
+        "hwy::hwy|Highway|libhwy-dev")
+    string(REPLACE "|" ";" dependency "${dependency}")
+    list(GET dependency 0 target)
+    list(GET dependency 1 name)
+    list(GET dependency 2 packages)
+    if(NOT TARGET ${target})
+        string(APPEND missing "  ${name}: apt-get install ${packages}\n")
+    endif()
+endforeach()
+if(missing)
+    message(FATAL_ERROR "Not found:\n${missing}"
+        "On Debian or Ubuntu install the packages named; elsewhere set CMAKE_PREFIX_PATH to where "
+        "they are, and CMAKE_MODULE_PATH to the folder of FindOpenVDB.cmake.")
+endif()
+message(STATUS "OpenVDB ${OpenVDB_VERSION}, Highway ${hwy_VERSION}")
+
+# The library itself, not the target of its package: Debian's names libraries that only assimp's own
+# build needs, and finding them would then be up to everybody who links this library.
+set(SPHERETREE_HAS_ASSIMP OFF)
+if(SPHERETREE_WITH_ASSIMP)
+    find_path(ASSIMP_INCLUDE_DIR assimp/Importer.hpp)
+    find_library(ASSIMP_LIBRARY assimp)
+    mark_as_advanced(ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY)
+    if(ASSIMP_INCLUDE_DIR AND ASSIMP_LIBRARY)
+        set(SPHERETREE_HAS_ASSIMP ON)
+    endif()
+endif()
+if(SPHERETREE_HAS_ASSIMP)
+    message(STATUS "Mesh files: read by assimp (${ASSIMP_LIBRARY})")
+elseif(SPHERETREE_WITH_ASSIMP)
+    message(STATUS "Mesh files: NOT read, assimp was not found (Debian: apt-get install libassimp-dev)")
+else()
+    message(STATUS "Mesh files: NOT read, SPHERETREE_WITH_ASSIMP is off")
+endif()

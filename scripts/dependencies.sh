@@ -1,0 +1,77 @@
+# shellcheck shell=bash disable=SC2034
+# SPDX-License-Identifier: Apache-2.0
+# Sourced by the scripts of this project: the Debian packages it needs, and how it is built.
+# Expects `set -euo pipefail`.
+
+project_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+build_packages=(
+    g++ cmake ninja-build ccache git
+    libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
+    zlib1g-dev libhwy-dev libassimp-dev)
+test_packages=(libgtest-dev libbenchmark-dev)
+
+say() { printf '%s\n' "== $*" >&2; }
+fail() { printf '%s\n' "${0##*/}: $*" >&2; exit 1; }
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        fail "installing packages needs root, or sudo: as root, run: apt-get install ${missing[*]}"
+    fi
+}
+
+# Installs those of the given packages that are missing. Where none is, neither network nor root is
+# needed.
+install_packages() {
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        say "no apt here: using the libraries there are (on Debian they would be: $*)"
+        return
+    fi
+    local missing=() package
+    for package in "$@"; do
+        # A package that was never seen makes dpkg-query fail; that is an answer too.
+        if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" != installed ]
+        then
+            missing+=("$package")
+        fi
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        return
+    fi
+    say "installing ${missing[*]}"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 update \
+        </dev/null >&2
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
+        install --no-install-recommends "${missing[@]}" </dev/null >&2
+}
+
+# Compilers at once: one a core, but no more than there is memory for (1.5 GiB each: OpenVDB's
+# templates).
+build_jobs() {
+    local cores memory
+    cores="$(nproc)"
+    memory="$(awk '/^MemAvailable:/ { print int($2 / 1572864) }' /proc/meminfo)"
+    if [ "$memory" -lt 1 ]; then memory=1; fi
+    if [ "$memory" -lt "$cores" ]; then cores="$memory"; fi
+    printf '%s\n' "$cores"
+}
+
+# build_preset PRESET [TARGET...]: configure and build. SPHERETREE_CMAKE_ARGUMENTS holds further
+# arguments to the configure step, separated by spaces.
+build_preset() {
+    local preset="$1" target targets=()
+    shift
+    for target in "$@"; do targets+=(--target "$target"); done
+    if [ -z "${CMAKE_GENERATOR:-}" ] && command -v ninja >/dev/null; then
+        export CMAKE_GENERATOR=Ninja # only heeded where the folder was not configured before
+    fi
+    say "building preset '$preset' in build/$preset"
+    # shellcheck disable=SC2086
+    (cd "$project_root" && cmake --preset "$preset" ${SPHERETREE_CMAKE_ARGUMENTS:-} &&
+        cmake --build "build/$preset" -j "${CMAKE_BUILD_PARALLEL_LEVEL:-$(build_jobs)}" \
+            "${targets[@]}") </dev/null >&2
+}

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs what is missing, builds the program and its tests, and runs all of them.
+#
+#   tests/run.sh [ctest arguments]     for example: tests/run.sh -R SphereTree
+set -euo pipefail
+# shellcheck source=scripts/dependencies.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../scripts/dependencies.sh"
+
+install_packages "${build_packages[@]}" "${test_packages[@]}"
+build_preset release vdb_spheretree
+build_preset test
+
+# Real inputs, which are not part of the project; tests that need them are skipped without.
+if [ -z "${SPHERETREE_DATA:-}" ] && [ -d "$project_root/../shared/data" ]; then
+    SPHERETREE_DATA="$(cd "$project_root/../shared/data" && pwd)"
+    export SPHERETREE_DATA
+fi
+ctest --test-dir "$project_root/build/test" -j2 --output-on-failure "$@" </dev/null
