@@ -130,12 +130,15 @@ MaskTree::Ptr reconstruct(const LevelNodes& nodes, int level, const BuildContext
 }
 
 /// Section 4.2 switched off: the stored sphere is the reconstruction's, grown like any ball's.
-void useReconstructionRadii(LevelNodes& nodes, const LevelFrame& frame)
+void useReconstructionRadii(LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame)
 {
     const RootSum growth = frame.growth();
-    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
-        nodes.radius[i] = addUp(nodes.radius[i], growth.radius());
-        nodes.coverSq[i] = RootSum{nodes.coverSq[i], growth.b}.coverSq();
+    for (double& radius : nodes.radius) radius = addUp(radius, growth.radius());
+    for (std::size_t s = 0; s < leaves.center.size(); ++s) {
+        const int32_t t = leaves.ancestor[s];
+        const int64_t apart = distanceSq(leaves.center[s], frame.center(nodes.balls[t].center));
+        nodes.coverSq[t] = std::max(
+            nodes.coverSq[t], coverSqOfRoots(apart, leaves.radius[s].a, growth.b));
     }
 }
 
@@ -185,7 +188,9 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
             if (settings.reconstruct != Reconstruction::None && nodes.balls.size() > 1) {
                 voxels = reconstruct(nodes, level, context);
             }
-            if (!settings.finalFit) useReconstructionRadii(nodes, context.frame(level));
+            if (!settings.finalFit) {
+                useReconstructionRadii(nodes, leaves, context.frame(level));
+            }
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));

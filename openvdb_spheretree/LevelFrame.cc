@@ -1,7 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelFrame.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace openvdb_spheretree {
+
+namespace {
+
+using Wide = unsigned __int128;
+
+/// @return x y in 256 bits: the upper half, the lower half.
+std::pair<Wide, Wide> product(Wide x, Wide y)
+{
+    const Wide low = ~uint64_t(0);
+    const Wide xl = x & low, xh = x >> 64, yl = y & low, yh = y >> 64;
+    const Wide middle = xh * yl + (xl * yl >> 64); // at most 2^128 - 2^64
+    const Wide other = xl * yh + (middle & low);
+    return {xh * yh + (middle >> 64) + (other >> 64), other << 64 | (xl * yl & low)};
+}
+
+/// sqrt(D) <= sqrt(a) + sqrt(b) + sqrt(c), for D >= c, by squaring what is left until no root is.
+bool withinRoots(int64_t D, int64_t a, int64_t b, int64_t c)
+{
+    // (sqrt(D) - sqrt(c))^2 <= (sqrt(a) + sqrt(b))^2, so: rest <= 2 sqrt(ab) + 2 sqrt(Dc)
+    const __int128 rest = __int128(D) + c - a - b;
+    if (rest <= 0) return true;
+    const Wide ab = Wide(a) * Wide(b), Dc = Wide(D) * Wide(c);
+    const Wide restSq = Wide(rest) * Wide(rest);
+    if (restSq <= 4 * ab + 4 * Dc) return true;
+    const Wide left = restSq - 4 * ab - 4 * Dc; // left <= 8 sqrt(ab Dc)
+    return product(left, left) <= product(8 * ab, 8 * Dc);
+}
+
+} // namespace
+
+int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
+{
+    const long double sum = std::sqrt((long double)(a)) + std::sqrt((long double)(b)) +
+        std::sqrt((long double)(c));
+    int64_t D = std::max(c, int64_t(sum * sum)); // right but for rounding
+    while (D > c && !withinRoots(D, a, b, c)) --D;
+    while (withinRoots(D + 1, a, b, c)) ++D;
+    return D;
+}
 
 LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
     : mLevel(level),

@@ -57,6 +57,9 @@ struct RootSum {
     }
 };
 
+/// @return the largest D with sqrt(D) <= sqrt(a) + sqrt(b) + sqrt(c), exactly; all of these fit 62 bits.
+int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c);
+
 class LevelFrame {
 public:
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MeshFile.h
-/// @brief Reader of mesh files (by assimp), and mesh to level set (by OpenVDB's tools::meshToVolume).
+/// @brief Reader of mesh files, and mesh to level set (by OpenVDB's tools::meshToVolume).
+///
+/// `.obj .off .ply .stl` are read by strict readers of our own, in every build; the other formats
+/// (`.gltf .glb .fbx .dae .3ds ...`) by assimp, in builds that have it.
 
 #pragma once
 
@@ -19,26 +22,32 @@ struct TriangleMesh {
     std::vector<openvdb::Vec3I> triangles;
 };
 
-/// @return whether this build reads meshes: it was configured with assimp.
+/// @return whether this build reads more than `.obj .off .ply .stl`: it was built with assimp.
 bool hasMeshReader();
 
-/// @return whether the reader knows files with this name's extension.
+/// @return whether the reader knows files with this name's extension. Builds without assimp know
+/// its best-known formats too, so that readMeshFile() can say what is missing.
 bool isMeshFileName(const std::string& path);
 
-/// @brief Read every mesh of a file, placed by its scene's transforms, as one set of triangles.
-/// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no triangle; the message
-///        names the file
+/// @brief Read every mesh of a file, placed by its scene's transforms, as one set of triangles,
+/// named after the file. Polygons are cut into triangles, points and lines ignored, points at the
+/// same place joined, points of no triangle dropped.
+/// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no triangle; the
+///        message names the file. (An OBJ does not say how much it holds: one cut between two lines
+///        is read as the smaller mesh that it is.)
 TriangleMesh readMeshFile(const std::string& path);
 
 /// @brief Narrow-band level set of @a mesh.
 /// @param voxelSize   world units, > 0
-/// @param halfWidth   of the narrow band, in voxels, >= 1
-/// @throw openvdb::ValueError if an argument is out of range or the mesh is empty
+/// @param halfWidth   of the narrow band, in voxels, 1 to 1000
+/// @throw openvdb::ValueError if an argument is out of range, or the mesh empty, damaged, or too
+///        large for the voxel size
 /// @throw Interrupted if the interrupter said so
 openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize,
     double halfWidth = 3, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return the voxel size for which the longest side of the mesh's box is @a dim voxels.
+/// @throw openvdb::ValueError if @a dim < 1, or the mesh is empty, a single place, or not finite
 double voxelSizeForDim(const TriangleMesh& mesh, int dim);
 
 } // namespace openvdb_spheretree

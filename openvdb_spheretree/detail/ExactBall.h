@@ -60,6 +60,7 @@ struct Ball {
     int64_t center2[3];
     int64_t coverSq;
     int32_t lo[3], hi[3]; ///< inclusive
+    bool clipped;         ///< the box is smaller than the sphere's own
 
     /// @return whether the box meets the cube of @a size voxels at @a origin and the sphere comes
     /// as near as one of its voxels, the clip aside.
@@ -80,7 +81,8 @@ struct Ball {
         for (int a = 0; a < 3; ++a) {
             const int64_t last = int64_t(origin[a]) + size - 1;
             if (origin[a] < lo[a] || last > hi[a]) return false;
-            left = takeSquare(left, std::max(center2[a] - 2 * int64_t(origin[a]), 2 * last - center2[a]));
+            const int64_t below = center2[a] - 2 * int64_t(origin[a]);
+            left = takeSquare(left, std::max(below, 2 * last - center2[a]));
         }
         return left >= 0;
     }
@@ -89,6 +91,7 @@ struct Ball {
 /// @return false if the clipped sphere is empty (or certainly holds no voxel).
 inline bool clippedBall(const ExactSphere& s, const openvdb::CoordBBox& clip, Ball& ball)
 {
+    ball.clipped = false;
     for (int a = 0; a < 3; ++a) {
         const Interval range = extent(s, a);
         const int64_t lo = std::max<int64_t>(range.lo, clip.min()[a]);
@@ -97,6 +100,7 @@ inline bool clippedBall(const ExactSphere& s, const openvdb::CoordBBox& clip, Ba
         ball.lo[a] = int32_t(lo);
         ball.hi[a] = int32_t(hi);
         ball.center2[a] = s.center2[a];
+        ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
     ball.coverSq = s.coverSq;
     return true;

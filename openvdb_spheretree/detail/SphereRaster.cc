@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/SphereRaster.cc
-/// @brief Spheres to a sparse mask: sorted into ever smaller cells, then drawn row by row.
+/// @brief Spheres to a sparse mask: sorted into cells, then drawn row by row.
 ///
-/// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
+/// 1. clipSpheres, sortLargerFirst: the spheres' boxes, clipped; empty ones dropped
 /// 2. sortIntoRootCells, sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
-/// 3. drawBlock, in parallel over 128^3 cells: the same from 128 to 32 to 8 (class Lists)
-/// 4. drawLeaf: rows of z from an integer square root, OR-ed into mask words
+/// 3. drawBlock, in parallel over 128^3 cells: see BlockCanvas.h
 ///
-/// A cell wholly inside a single sphere (and the clip) becomes a tile and is not descended. Clipping
-/// needs no step of its own, since every sphere's box is clipped. Exact: integers throughout. OR does
-/// not depend on the order of spheres, hence the result not on threads.
+/// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
+/// descended; a leaf does when it is full. Clipping needs no step of its own, since every sphere's
+/// box is clipped. Exact: integers throughout. OR does not depend on the order of spheres, hence the
+/// result not on threads.
 
 #include "SphereRaster.h"
 
-#include "ExactBall.h"
+#include "BallLists.h"
+#include "BlockCanvas.h"
 #include "Parallel.h"
+
+#include <tbb/parallel_sort.h>
 
 #include <map>
 #include <memory>
@@ -29,86 +32,7 @@ using RootCellNode = MaskTree::RootNodeType::ChildNodeType; // 4096^3
 using BlockNode = RootCellNode::ChildNodeType;              // 128^3
 using LeafNode = MaskTree::LeafNodeType;                    // 8^3
 
-constexpr int kRootCellLog2 = 12, kBlockLog2 = 7, kCellLog2 = 5, kLeafLog2 = 3;
-
-/// The spheres that reach into each child of a cell, as one array with offsets. Reused, as building
-/// these lists is most of the work for small spheres.
-class Lists {
-public:
-    /// @param origin, log2    the cell
-    /// @param childLog2       its children's size; children are numbered x slowest, as in OpenVDB
-    void build(const std::vector<Ball>& balls, const int32_t* begin, const int32_t* end,
-        const Coord& origin, int log2, int childLog2)
-    {
-        mOrigin = origin;
-        mLog2 = log2;
-        mChildLog2 = childLog2;
-        const std::size_t count = std::size_t(1) << (3 * (log2 - childLog2));
-        mFull.assign(count, 0);
-        mOffset.assign(count + 1, 0);
-        mEntries.clear();
-        for (const int32_t* i = begin; i != end; ++i) enter(balls[*i], *i);
-        for (std::size_t c = 0; c < count; ++c) mOffset[c + 1] += mOffset[c];
-        mItems.resize(mEntries.size());
-        for (auto e = mEntries.rbegin(); e != mEntries.rend(); ++e) {
-            mItems[--mOffset[e->child + 1]] = e->ball;
-        }
-        // Each offset was moved to the front of its own child's items: one place to the left of
-        // where it is read.
-        mOffset.push_back(int32_t(mItems.size()));
-    }
-    std::size_t size() const { return mFull.size(); }
-    bool full(std::size_t child) const { return mFull[child]; }
-    const int32_t* begin(std::size_t child) const { return mItems.data() + mOffset[child + 1]; }
-    const int32_t* end(std::size_t child) const { return mItems.data() + mOffset[child + 2]; }
-    Coord childOrigin(std::size_t child) const
-    {
-        const int n = mLog2 - mChildLog2, mask = (1 << n) - 1, c = int(child);
-        const Coord at(c >> (2 * n), (c >> n) & mask, c & mask);
-        return mOrigin.offsetBy(at[0] << mChildLog2, at[1] << mChildLog2, at[2] << mChildLog2);
-    }
-
-private:
-    struct Entry {
-        int32_t child, ball;
-    };
-
-    void enter(const Ball& ball, int32_t index)
-    {
-        int32_t first[3], last[3]; // of the children under the ball's box
-        const int32_t size = int32_t(1) << mLog2;
-        for (int a = 0; a < 3; ++a) {
-            first[a] = (std::max(ball.lo[a], mOrigin[a]) - mOrigin[a]) >> mChildLog2;
-            last[a] = (std::min(ball.hi[a], mOrigin[a] + (size - 1)) - mOrigin[a]) >> mChildLog2;
-        }
-        for (int32_t x = first[0]; x <= last[0]; ++x) {
-            for (int32_t y = first[1]; y <= last[1]; ++y) {
-                for (int32_t z = first[2]; z <= last[2]; ++z) enterChild(ball, index, x, y, z);
-            }
-        }
-    }
-    void enterChild(const Ball& ball, int32_t index, int32_t x, int32_t y, int32_t z)
-    {
-        const int n = mLog2 - mChildLog2;
-        const int32_t child = (((x << n) | y) << n) | z, size = int32_t(1) << mChildLog2;
-        if (mFull[child]) return;
-        const int32_t origin[3] = {mOrigin[0] + (x << mChildLog2), mOrigin[1] + (y << mChildLog2),
-            mOrigin[2] + (z << mChildLog2)};
-        if (!ball.touches(origin, size)) return;
-        if (ball.contains(origin, size)) {
-            mFull[child] = 1;
-            return;
-        }
-        mEntries.push_back({child, index});
-        ++mOffset[child + 1];
-    }
-
-    Coord mOrigin;
-    int mLog2 = 0, mChildLog2 = 0;
-    std::vector<char> mFull;
-    std::vector<int32_t> mOffset, mItems;
-    std::vector<Entry> mEntries;
-};
+constexpr int kRootCellLog2 = 12;
 
 /// A 128^3 cell to be drawn.
 struct Block {
@@ -161,11 +85,14 @@ std::vector<Ball> clipSpheres(
     return balls;
 }
 
-/// Largest first: they fill cells and leaves that the others then need not enter.
-void sortBySize(std::vector<Ball>& balls)
+/// Larger balls to the front, largest first, since what they fill is not drawn again. The small ones
+/// keep their order, which is mostly that of their centres, and so kind to caches.
+void sortLargerFirst(std::vector<Ball>& balls)
 {
-    const auto larger = [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; };
-    std::stable_sort(balls.begin(), balls.end(), larger);
+    const auto small = std::partition(balls.begin(), balls.end(),
+        [](const Ball& ball) { return ball.coverSq >= BlockCanvas::kSmallCoverSq; });
+    tbb::parallel_sort(balls.begin(), small,
+        [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; });
 }
 
 void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_t index)
@@ -205,12 +132,12 @@ std::vector<Block> sortIntoBlocks(const RootCells& cells, const std::vector<Ball
     const Wanted& wanted, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<Block> blocks;
-    Lists lists;
+    BallLists lists;
     for (const auto& [origin, cell] : cells) {
         checkInterrupt(interrupter);
         if (cell.full) continue;
         lists.build(balls, cell.balls.data(), cell.balls.data() + cell.balls.size(), origin,
-            kRootCellLog2, kBlockLog2);
+            kRootCellLog2, BlockCanvas::kLog2);
         for (std::size_t child = 0; child < lists.size(); ++child) {
             if (!lists.full(child) && lists.begin(child) == lists.end(child)) continue;
             Block block;
@@ -224,102 +151,60 @@ std::vector<Block> sortIntoBlocks(const RootCells& cells, const std::vector<Ball
     return blocks;
 }
 
-/// ORs the rows of one sphere into the words of a leaf: word x, bit 8 y + z.
-void drawRows(const Ball& ball, const Coord& origin, uint64_t words[8])
+void excludeUnwanted(BlockCanvas& canvas, const Wanted& wanted)
 {
-    int32_t first[3], last[3];
-    for (int a = 0; a < 3; ++a) {
-        first[a] = std::max(ball.lo[a], origin[a]) - origin[a];
-        last[a] = std::min(ball.hi[a], origin[a] + 7) - origin[a];
-    }
-    for (int32_t x = first[0]; x <= last[0]; ++x) {
-        if (words[x] == ~uint64_t(0)) continue;
-        const int64_t leftX =
-            takeSquare(ball.coverSq, 2 * (int64_t(origin[0]) + x) - ball.center2[0]);
-        if (leftX < 0) continue;
-        for (int32_t y = first[1]; y <= last[1]; ++y) {
-            const int64_t left = takeSquare(leftX, 2 * (int64_t(origin[1]) + y) - ball.center2[1]);
-            if (left < 0) continue;
-            const Interval run(ball.center2[2] - 2 * int64_t(origin[2]), floorSqrt(left));
-            const auto lo = std::max<int64_t>(run.lo, first[2]);
-            const auto hi = std::min<int64_t>(run.hi, last[2]);
-            if (lo > hi) continue;
-            words[x] |= uint64_t((0xff >> (7 - hi)) & (0xff << lo)) << (8 * y);
+    if (wanted.everywhere()) return;
+    for (int cell = 0; cell < 64; ++cell) {
+        for (int leaf = 0; leaf < 64; ++leaf) {
+            if (!wanted.has<LeafNode>(canvas.leafOrigin(cell, leaf))) canvas.exclude(cell, leaf);
         }
     }
 }
 
-/// @return the leaf, or null if no voxel is in a sphere after all.
-std::unique_ptr<LeafNode> drawLeaf(
-    const std::vector<Ball>& balls, const int32_t* begin, const int32_t* end, const Coord& origin)
+bool allOn(const uint64_t words[8])
 {
-    uint64_t words[8] = {};
-    const auto isFull = [&] {
-        uint64_t all = ~uint64_t(0);
-        for (uint64_t word : words) all &= word;
-        return all == ~uint64_t(0);
-    };
-    for (const int32_t* i = begin; i != end && !isFull(); ++i) drawRows(balls[*i], origin, words);
-    uint64_t any = 0;
-    for (uint64_t word : words) any |= word;
-    if (!any) return nullptr;
-    auto leaf = std::make_unique<LeafNode>(origin);
-    for (int x = 0; x < 8; ++x) leaf->getValueMask().getWord<uint64_t>(x) = words[x];
-    return leaf;
+    return std::all_of(words, words + 8, [](uint64_t word) { return word == ~uint64_t(0); });
 }
 
-struct BlockScratch {
-    Lists cells, leaves;
-};
+bool allOff(const uint64_t words[8])
+{
+    return std::all_of(words, words + 8, [](uint64_t word) { return word == 0; });
+}
 
-/// A block under construction: its node is made with the first thing to put in it.
-class BlockPen {
-public:
-    BlockPen(Block& block, const Wanted& wanted) : mBlock(block), mWanted(wanted) {}
-    void tile(const Coord& origin)
-    {
-        if (!mWanted.has<LeafNode>(origin)) return;
-        node().addTile(BlockNode::coordToOffset(origin), true, true);
+/// The canvas as a node; null if it is empty. A full leaf is a tile.
+std::unique_ptr<BlockNode> toNode(
+    const BlockCanvas& canvas, const Coord& blockOrigin, const Wanted& wanted)
+{
+    auto node = std::make_unique<BlockNode>(blockOrigin, false, false);
+    for (int cell = 0; cell < 64; ++cell) {
+        for (int l = 0; l < 64; ++l) {
+            const bool full = canvas.full(cell) >> l & 1, drawn = canvas.drawn(cell) >> l & 1;
+            if (!full && !drawn) continue;
+            const Coord origin = canvas.leafOrigin(cell, l);
+            if (!wanted.has<LeafNode>(origin)) continue;
+            const uint64_t* words = canvas.words(cell, l);
+            if (full || allOn(words)) {
+                node->addTile(BlockNode::coordToOffset(origin), true, true);
+                continue;
+            }
+            if (allOff(words)) continue; // a sphere came near, but holds no voxel of it
+            auto leaf = std::make_unique<LeafNode>(origin);
+            for (int x = 0; x < 8; ++x) leaf->getValueMask().getWord<uint64_t>(x) = words[x];
+            node->addLeaf(leaf.release());
+        }
     }
-    void leaf(const std::vector<Ball>& balls, const int32_t* begin, const int32_t* end,
-        const Coord& origin)
-    {
-        if (begin == end || !mWanted.has<LeafNode>(origin)) return;
-        if (auto leaf = drawLeaf(balls, begin, end, origin)) node().addLeaf(leaf.release());
-    }
-
-private:
-    BlockNode& node()
-    {
-        if (!mBlock.node) mBlock.node = std::make_unique<BlockNode>(mBlock.origin, false, false);
-        return *mBlock.node;
-    }
-    Block& mBlock;
-    const Wanted& mWanted;
-};
+    if (node->isChildMaskOff() && node->isValueMaskOff()) return nullptr;
+    return node;
+}
 
 void drawBlock(
-    Block& block, const std::vector<Ball>& balls, const Wanted& wanted, BlockScratch& scratch)
+    Block& block, const std::vector<Ball>& balls, const Wanted& wanted, BlockCanvas& canvas)
 {
-    if (block.full) return;
-    BlockPen pen(block, wanted);
-    Lists& cells = scratch.cells;
-    Lists& leaves = scratch.leaves;
-    const int32_t* all = block.balls.data();
-    cells.build(balls, all, all + block.balls.size(), block.origin, kBlockLog2, kCellLog2);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (!cells.full(c) && cells.begin(c) == cells.end(c)) continue;
-        const int32_t* begin = cells.full(c) ? cells.end(c) : cells.begin(c);
-        leaves.build(balls, begin, cells.end(c), cells.childOrigin(c), kCellLog2, kLeafLog2);
-        for (std::size_t l = 0; l < leaves.size(); ++l) {
-            const Coord origin = leaves.childOrigin(l);
-            if (cells.full(c) || leaves.full(l)) {
-                pen.tile(origin);
-            } else {
-                pen.leaf(balls, leaves.begin(l), leaves.end(l), origin);
-            }
-        }
-    }
+    canvas.begin(block.origin);
+    excludeUnwanted(canvas, wanted);
+    for (int32_t i : block.balls) canvas.draw(balls[i]);
+    block.node = toNode(canvas, block.origin, wanted);
+    for (int cell = 0; cell < 64; ++cell) canvas.clean(cell);
     block.balls = {}; // no longer needed, and there may be many
 }
 
@@ -354,12 +239,12 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres,
 {
     const Wanted wanted(within);
     std::vector<Ball> balls = clipSpheres(spheres, clip);
-    sortBySize(balls);
+    sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);
-    parallelForWithScratch<BlockScratch>(blocks.size(), interrupter,
-        [&](std::size_t i, BlockScratch& scratch) {
-            drawBlock(blocks[i], balls, wanted, scratch);
+    parallelForWithScratch<BlockCanvas>(blocks.size(), interrupter,
+        [&](std::size_t i, BlockCanvas& canvas) {
+            if (!blocks[i].full) drawBlock(blocks[i], balls, wanted, canvas);
         });
     return assemble(cells, blocks);
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SphereTreeCsv.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <array>
+#include <charconv>
+#include <ostream>
+#include <string>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+constexpr std::size_t kFlushBytes = std::size_t(1) << 16;
+
+/// Numbers as std::to_chars writes them: the shortest text that reads back to the same value, in no
+/// locale whatever the stream's is.
+template <typename Number>
+void append(std::string& row, Number value, char separator)
+{
+    std::array<char, 32> text; // a double takes 24 characters at most, an int32 11
+    row.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+    row += separator;
+}
+
+/// The digital ball's centre as files show it: at level 0 in the index space of the source grid, which
+/// is where the sphere's own centre is, above in the level's own grid.
+openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
+{
+    return level == 0 ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
+}
+
+void appendNode(std::string& text, const SphereTree& tree, int32_t id, int level)
+{
+    append(text, level, ',');
+    append(text, id, ',');
+    append(text, tree.parent[id], ',');
+    const openvdb::Vec3d center = tree.centerWorld(id);
+    for (int axis = 0; axis < 3; ++axis) append(text, center[axis], ',');
+    // Widened first: the shortest text of the float could read back to a double just below it.
+    append(text, double(tree.radiusWorld[id]), ',');
+    const openvdb::Coord ijk = shownVoxel(tree, id, level);
+    for (int axis = 0; axis < 3; ++axis) append(text, ijk[axis], ',');
+    append(text, tree.radiusSq[id], '\n');
+}
+
+void flush(std::string& text, std::ostream& out)
+{
+    out.write(text.data(), std::streamsize(text.size()));
+    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
+    text.clear();
+}
+
+} // namespace
+
+void writeCsv(const SphereTree& tree, std::ostream& out)
+{
+    std::string text = "level,id,parent,x,y,z,radius,i,j,k,radius_sq\n";
+    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
+        for (int32_t id = level->begin; id < level->end; ++id) {
+            appendNode(text, tree, id, level->level);
+            if (text.size() >= kFlushBytes) flush(text, out);
+        }
+    }
+    flush(text, out);
+    out.flush();
+    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
+}
+
+} // namespace openvdb_spheretree

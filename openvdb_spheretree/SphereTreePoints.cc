@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SphereTreePoints.h"
+
+#include "detail/PointLeaves.h"
+#include "detail/TreeMetadata.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::GridBase;
+using openvdb::Vec3d;
+using openvdb::Vec3i;
+using openvdb::points::PointDataGrid;
+
+constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG";
+
+// ---- Writing
+
+[[noreturn]] void inconsistent(const std::string& why)
+{
+    OPENVDB_THROW(openvdb::ValueError, "this sphere-tree cannot be stored: " << why);
+}
+
+/// What the layout takes for granted. Made to catch a caller's slip, not to prove the tree right.
+void checkLayout(const SphereTree& tree)
+{
+    const std::size_t n = tree.center.size();
+    if (n == 0 || tree.levels.empty()) inconsistent("it has no nodes");
+    if (!tree.transform || !tree.transform->isLinear()) inconsistent("its transform is not linear");
+    if (tree.radius.size() != n || tree.coverSq.size() != n || tree.radiusWorld.size() != n ||
+        tree.parent.size() != n || tree.ijk.size() != n || tree.radiusSq.size() != n) {
+        inconsistent("its arrays differ in length");
+    }
+    const int lowest = tree.levels.front().level;
+    if (lowest < 0 || (lowest > 0 && tree.levels.size() > 1)) {
+        inconsistent("its levels do not start at 0");
+    }
+    int32_t end = tree.size(); // level 0 comes last
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        if (level.level != lowest + int(k) || level.end != end || level.size() < 1) {
+            inconsistent("its levels do not divide its nodes");
+        }
+        end = level.begin;
+    }
+    if (end != 0) inconsistent("its levels do not divide its nodes");
+    for (const DagEdge& edge : tree.dag) {
+        if (edge.parent < 0 || edge.parent >= tree.size()) {
+            inconsistent("an edge of its DAG names a node that does not exist");
+        }
+    }
+    tree.settings.validate();
+}
+
+/// Index in `levels` of every node's level.
+std::vector<int> levelIndices(const SphereTree& tree)
+{
+    std::vector<int> indices(tree.levels.front().end);
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        std::fill(indices.begin() + tree.levels[k].begin, indices.begin() + tree.levels[k].end,
+            int(k));
+    }
+    return indices;
+}
+
+std::vector<std::string> groupNames(const SphereTree& tree)
+{
+    std::vector<std::string> names;
+    for (const SphereTreeLevel& level : tree.levels) {
+        names.push_back("level_" + std::to_string(level.level));
+    }
+    return names;
+}
+
+// ---- Reading: first everything into arrays in the order of ids, then checks in that order, so that
+// the first offender named is the same every time
+
+std::string describe(const GridBase& grid)
+{
+    constexpr std::size_t kLongest = 80;
+    const std::string name = grid.getName();
+    return "point grid '" + (name.size() > kLongest ? name.substr(0, kLongest) + "..." : name) + "'";
+}
+
+/// Runs @a read; whatever is wrong with the grid is reported as its damage.
+template <typename Read>
+auto blaming(const GridBase& grid, const char* kind, const Read& read)
+{
+    try {
+        return read();
+    } catch (const openvdb::Exception& error) {
+        const char* text = error.what();
+        if (const char* colon = std::strstr(text, "Error: ")) text = colon + std::strlen("Error: ");
+        constexpr std::size_t kLongest = 400;
+        const std::string why(text, strnlen(text, kLongest));
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(grid) << " is a damaged " << kind << ": " << why.substr(0, why.find('\n')));
+    }
+}
+
+void checkFormat(const GridBase& grid, const char* kind, const char* key)
+{
+    const int format = blaming(grid, kind, [&] {
+        const int value = detail::getMeta<int32_t>(grid, key);
+        if (value < 1) OPENVDB_THROW(openvdb::ValueError, "its format is " << value);
+        return value;
+    });
+    if (format > kPointsFormat) {
+        OPENVDB_THROW(openvdb::ValueError, describe(grid) << " is of format " << format
+            << ", newer than this version reads (" << kPointsFormat << "): update openvdb_spheretree");
+    }
+}
+
+/// @return where node id is among the points.
+std::vector<std::size_t> pointOfId(const std::vector<int32_t>& ids)
+{
+    constexpr std::size_t kNone = ~std::size_t(0);
+    std::vector<std::size_t> points(ids.size(), kNone);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] < 0 || std::size_t(ids[i]) >= ids.size()) {
+            OPENVDB_THROW(openvdb::ValueError, "there is an id " << ids[i] << ", but ids must be 0 to "
+                << ids.size() - 1);
+        }
+        if (points[ids[i]] != kNone) {
+            OPENVDB_THROW(openvdb::ValueError, "two points have the id " << ids[i]);
+        }
+        points[ids[i]] = i;
+    }
+    return points;
+}
+
+template <typename T, typename Out>
+void gather(const std::vector<T>& values, const std::vector<std::size_t>& order,
+    std::vector<Out>& out)
+{
+    out.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) out[i] = Out(values[order[i]]);
+}
+
+/// @return the attribute `level` of every node.
+std::vector<int32_t> readNodes(const detail::PointReader& reader, int scale, SphereTree& tree)
+{
+    const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
+    gather(reader.positions(scale), order, tree.center);
+    gather(reader.attribute<double>("radius"), order, tree.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, tree.coverSq);
+    gather(reader.attribute<float>("pscale"), order, tree.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, tree.parent);
+    gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
+    gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
+    std::vector<int32_t> levels;
+    gather(reader.attribute<int32_t>("level"), order, levels);
+    return levels;
+}
+
+void checkSpheres(const SphereTree& tree)
+{
+    const auto check = [](bool right, int32_t id, const char* attribute, auto value) {
+        if (right) return;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
+    };
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        check(tree.center[id].isFinite(), id, "position", tree.center[id]);
+        check(std::isfinite(tree.radiusWorld[id]) && tree.radiusWorld[id] >= 0, id, "pscale",
+            tree.radiusWorld[id]);
+        check(std::isfinite(tree.radius[id]) && tree.radius[id] >= 0, id, "radius", tree.radius[id]);
+        check(tree.coverSq[id] >= 0, id, "cover_sq", tree.coverSq[id]);
+        // -1 marks a sphere that is no digital ball
+        check(tree.radiusSq[id] > 0 || tree.radiusSq[id] == -1, id, "radius_sq", tree.radiusSq[id]);
+    }
+}
+
+void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
+{
+    std::vector<int32_t> counts(tree.levels.size());
+    const int lowest = tree.levels.front().level, top = tree.levels.back().level;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (levels[id] < lowest || levels[id] > top) {
+            OPENVDB_THROW(openvdb::ValueError, "node " << id << " has the level " << levels[id]
+                << ", but there are levels " << lowest << " to " << top);
+        }
+        ++counts[levels[id] - lowest];
+    }
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (counts[level.level - lowest] == level.size()) continue;
+        OPENVDB_THROW(openvdb::ValueError, "level " << level.level << " has "
+            << counts[level.level - lowest] << " nodes, by its metadata " << level.size());
+    }
+    for (int32_t id = 1; id < tree.size(); ++id) {
+        if (levels[id] <= levels[id - 1]) continue;
+        OPENVDB_THROW(openvdb::ValueError, "node " << id << " is on level " << levels[id]
+            << ", above the level of node " << id - 1 << ": ids must go down from the top level");
+    }
+}
+
+/// A parent on the next level up leaves no room for a cycle.
+void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
+{
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t parent = tree.parent[id];
+        const bool isTop = levels[id] == tree.levels.back().level;
+        if (isTop && parent == -1) continue;
+        if (isTop || parent < 0 || parent >= tree.size()) {
+            OPENVDB_THROW(openvdb::ValueError, "node " << id << " on level " << levels[id]
+                << " has the parent " << parent << ", but "
+                << (isTop ? "the top level has no parents (-1)"
+                          : "its parent must be a node of the next level up"));
+        }
+        if (levels[parent] == levels[id] + 1) continue;
+        OPENVDB_THROW(openvdb::ValueError, "node " << id << " on level " << levels[id]
+            << " has the parent " << parent << " on level " << levels[parent]
+            << ", but a parent must be on the next level up");
+    }
+}
+
+SphereTree readTree(const PointDataGrid& points)
+{
+    SphereTree tree = detail::readTreeMetadata(points);
+    const detail::PointReader reader(points);
+    const std::size_t expected = std::size_t(tree.levels.front().end);
+    if (reader.size() != expected) {
+        OPENVDB_THROW(openvdb::ValueError, "it has " << reader.size() << " points, by its metadata "
+            << expected << ": was it cut short, or are points deleted?");
+    }
+    const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
+    checkSpheres(tree);
+    checkLevels(tree, levels);
+    checkParents(tree, levels);
+    return tree;
+}
+
+std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
+{
+    const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
+    const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_edges");
+    const detail::PointReader reader(grid);
+    if (nodes != tree.size() || reader.size() != std::size_t(count)) {
+        OPENVDB_THROW(openvdb::ValueError, "it has " << reader.size() << " edges of " << nodes
+            << " nodes, " << count << " edges of " << tree.size() << " nodes are expected");
+    }
+    const std::vector<int32_t> parents = reader.attribute<int32_t>("parent");
+    const std::vector<int32_t> children = reader.attribute<int32_t>("child");
+    const std::vector<int> levels = levelIndices(tree);
+    std::vector<DagEdge> edges(parents.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
+    std::sort(edges.begin(), edges.end());
+    const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const DagEdge& e = edges[i];
+        const bool right = exists(e.parent) && exists(e.child) &&
+            levels[e.parent] == levels[e.child] + 1 && (i == 0 || !(edges[i - 1] == e));
+        if (right) continue;
+        OPENVDB_THROW(openvdb::ValueError, "its edge from node " << e.parent << " to node " << e.child
+            << " is there twice, or does not lead to a node of the next level down");
+    }
+    return edges;
+}
+
+} // namespace
+
+PointDataGrid::Ptr toPoints(const SphereTree& tree)
+{
+    checkLayout(tree);
+    const std::vector<int> levels = levelIndices(tree);
+    const auto number = [&](uint32_t id) { return tree.levels[levels[id]].level; };
+
+    detail::PointWriter writer(tree.center);
+    writer.addAttribute<float>("pscale", [&](uint32_t id) { return tree.radiusWorld[id]; });
+    writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
+    writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return tree.parent[id]; });
+    writer.addAttribute<int32_t>("level", number);
+    writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
+    writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
+    writer.addAttribute<double>("radius", [&](uint32_t id) { return tree.radius[id]; });
+    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return tree.coverSq[id]; });
+    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levels[id]; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    detail::writeTreeMetadata(*grid, tree, writer.scale());
+    return grid;
+}
+
+PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
+{
+    if (tree.dag.empty()) return nullptr;
+    checkLayout(tree);
+    std::vector<Vec3d> positions;
+    positions.reserve(tree.dag.size());
+    for (const DagEdge& edge : tree.dag) positions.push_back(tree.center[edge.parent]);
+
+    detail::PointWriter writer(positions);
+    writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
+    writer.addAttribute<int32_t>("child", [&](uint32_t i) { return tree.dag[i].child; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    grid->setName(tree.settings.name + "_dag");
+    detail::setMeta<int32_t>(*grid, detail::kDagFormatKey, kPointsFormat);
+    detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
+    detail::setMeta<int32_t>(*grid, "spheretree_edges", int32_t(tree.dag.size()));
+    return grid;
+}
+
+bool isSphereTree(const GridBase& grid)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
+}
+
+SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
+{
+    if (!isSphereTree(points)) {
+        OPENVDB_THROW(openvdb::ValueError, describe(points) << " is no sphere-tree: it has no "
+            "metadata '" << detail::kFormatKey << "'. Point grids become one by way of a mask");
+    }
+    checkFormat(points, kTreeKind, detail::kFormatKey);
+    SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
+    if (dag) {
+        checkFormat(*dag, kDagKind, detail::kDagFormatKey);
+        tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
+    }
+    return tree;
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SphereTreeSettings.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+constexpr int kMinFactor = 2, kMaxFactor = 64;
+
+template <typename Enum>
+struct Named {
+    Enum value;
+    const char* name;
+};
+
+constexpr std::array<Named<TreeType>, 2> kTreeTypes{
+    {{TreeType::Reversible, "reversible"}, {TreeType::Extended, "extended"}}};
+constexpr std::array<Named<ParentRule>, 2> kParentRules{
+    {{ParentRule::Centre, "centre"}, {ParentRule::Dag, "dag"}}};
+constexpr std::array<Named<Reconstruction>, 3> kReconstructions{
+    {{Reconstruction::Clip, "clip"}, {Reconstruction::Free, "free"},
+        {Reconstruction::None, "none"}}};
+constexpr std::array<Named<RadiusScale>, 2> kRadiusScales{
+    {{RadiusScale::Tight, "tight"}, {RadiusScale::Paper, "paper"}}};
+
+template <typename Enum, std::size_t N>
+const char* nameOf(const std::array<Named<Enum>, N>& names, Enum value)
+{
+    for (const auto& entry : names) {
+        if (entry.value == value) return entry.name;
+    }
+    return "?";
+}
+
+/// "a, b or c"
+template <typename Enum, std::size_t N>
+std::string list(const std::array<Named<Enum>, N>& names)
+{
+    std::string text;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (i > 0) text += i + 1 < N ? ", " : " or ";
+        text += names[i].name;
+    }
+    return text;
+}
+
+/// The start of @a text, for messages: values come from command lines and from damaged files.
+std::string quoted(const std::string& text)
+{
+    constexpr std::size_t kLongest = 60;
+    return '\'' + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + '\'';
+}
+
+template <typename Enum, std::size_t N>
+Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting,
+    const std::string& text)
+{
+    for (const auto& entry : names) {
+        if (text == entry.name) return entry.value;
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        setting << "=" << quoted(text) << " is unknown: choose " << list(names));
+}
+
+} // namespace
+
+double SphereTreeSettings::paddingVoxels() const
+{
+    return padding < 0 ? std::sqrt(double(dim)) / 2 : padding;
+}
+
+void SphereTreeSettings::validate() const
+{
+    if (factor < kMinFactor || factor > kMaxFactor) {
+        OPENVDB_THROW(openvdb::ValueError, "factor=" << factor << " is out of range: it must be "
+            << kMinFactor << " to " << kMaxFactor);
+    }
+    if (dim != 2 && dim != 3) {
+        OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
+    }
+    if (padding != kPadCubes && !(std::isfinite(padding) && padding >= 0)) {
+        OPENVDB_THROW(openvdb::ValueError, "padding=" << padding
+            << " is out of range: it must be cubes, voxels, or a number of voxels of 0 or more");
+    }
+}
+
+const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
+const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
+const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
+const char* toString(RadiusScale value) { return nameOf(kRadiusScales, value); }
+
+std::string paddingToString(double padding)
+{
+    if (padding == SphereTreeSettings::kPadCubes) return "cubes";
+    if (padding == 0) return "voxels";
+    std::array<char, 32> text; // the shortest text of a double is at most 24 characters
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), padding).ptr;
+    return std::string(text.data(), end);
+}
+
+TreeType treeTypeFromString(const std::string& text)
+{
+    if (text == "tight") {
+        OPENVDB_THROW(openvdb::ValueError,
+            "tree='tight' is not available yet: choose " << list(kTreeTypes));
+    }
+    return fromName(kTreeTypes, "tree", text);
+}
+
+ParentRule parentRuleFromString(const std::string& text)
+{
+    return fromName(kParentRules, "parent", text);
+}
+
+Reconstruction reconstructionFromString(const std::string& text)
+{
+    return fromName(kReconstructions, "reconstruct", text);
+}
+
+RadiusScale radiusScaleFromString(const std::string& text)
+{
+    return fromName(kRadiusScales, "scale", text);
+}
+
+double paddingFromString(const std::string& text)
+{
+    if (text == "cubes") return SphereTreeSettings::kPadCubes;
+    if (text == "voxels") return 0;
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    // A negative number is refused even where it happens to be the code for cubes.
+    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value) || value < 0) {
+        OPENVDB_THROW(openvdb::ValueError, "padding=" << quoted(text)
+            << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
+    }
+    return std::abs(value); // -0 is 0
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereUnion.cc
+/// @brief The public face of the rasteriser, and the spheres of a level.
+
+#include "SphereUnion.h"
+
+#include "detail/ExactBall.h"
+#include "detail/SphereRaster.h"
+
+#include <cmath>
+#include <limits>
+
+namespace openvdb_spheretree {
+
+openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
+    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter)
+{
+    return detail::rasterSpheres(spheres, clip, nullptr, interrupter);
+}
+
+std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> spheres;
+    spheres.reserve(level.size());
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const openvdb::Vec3d& c = tree.center[id]; // multiples of 1/2: twice them is exact
+        spheres.push_back({{std::llround(2 * c[0]), std::llround(2 * c[1]), std::llround(2 * c[2])},
+            tree.coverSq[id]});
+    }
+    return spheres;
+}
+
+openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres)
+{
+    constexpr int64_t kFirst = std::numeric_limits<int32_t>::min() + 1;
+    constexpr int64_t kLast = std::numeric_limits<int32_t>::max() - 1;
+    openvdb::CoordBBox box;
+    for (const ExactSphere& sphere : spheres) {
+        openvdb::Coord lo, hi;
+        bool empty = false;
+        for (int a = 0; a < 3; ++a) {
+            const detail::Interval range = detail::extent(sphere, a);
+            empty = empty || range.lo > range.hi;
+            lo[a] = int32_t(std::max(kFirst, std::min(range.lo, kLast)));
+            hi[a] = int32_t(std::max(kFirst, std::min(range.hi, kLast)));
+        }
+        if (!empty) box.expand(openvdb::CoordBBox(lo, hi));
+    }
+    return box;
+}
+
+} // namespace openvdb_spheretree

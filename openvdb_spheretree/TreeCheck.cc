@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeCheck.cc
+/// @brief One function for each thing that holds for a finished tree. Nothing is taken from how trees
+/// are built: everything is computed anew from what is stored.
+///
+/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
+///    fail, nothing else is looked at
+/// 2. checkObject, checkErrors: recorded counts
+/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node
+/// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc)
+///
+/// A tree of a single level has no links to check; only what concerns the level is.
+
+#include "TreeCheck.h"
+
+#include "LevelErrors.h"
+#include "detail/MaskDifference.h"
+#include "detail/TreeCheckReport.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+namespace {
+
+using detail::Offenders;
+using Check = detail::TreeCheck;
+
+bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
+
+void checkArrayLengths(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.radius.size()},
+        {"coverSq", tree.coverSq.size()}, {"radiusWorld", tree.radiusWorld.size()},
+        {"parent", tree.parent.size()}, {"ijk", tree.ijk.size()},
+        {"radiusSq", tree.radiusSq.size()}};
+    for (const auto& [name, size] : arrays) {
+        if (size == tree.center.size()) continue;
+        check.fail("the tree has ", tree.center.size(), " centres, but ", size, " entries in ", name);
+    }
+}
+
+/// Levels are 0, 1, ... without a gap (or any single one), and ranges of ids, the top level first.
+void checkShape(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    checkArrayLengths(check);
+    if (!tree.transform) check.fail("the tree has no transform");
+    if (tree.levels.empty()) check.fail("the tree has no levels");
+    int32_t next = 0;
+    for (std::size_t k = tree.levels.size(); k-- > 0;) {
+        const SphereTreeLevel& level = tree.levels[k];
+        if (level.level < 0 || (hasLinks(tree) && level.level != int(k))) {
+            check.fail("level ", level.level, " stands where level ", k, " belongs");
+        }
+        if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
+            check.fail("level ", level.level, " is nodes ", level.begin, " to ", level.end,
+                " (exclusive), where nodes from ", next, " on are expected");
+        }
+        next = level.end;
+    }
+    if (next != tree.size()) {
+        check.fail("the levels have ", next, " nodes, but the tree has ", tree.size());
+    }
+}
+
+bool isHalfInteger(const openvdb::Vec3d& center)
+{
+    constexpr double kLargest = 4294967296.0; // 2^32: twice any coordinate, and then some
+    for (int a = 0; a < 3; ++a) {
+        const double doubled = 2 * center[a];
+        if (!(std::abs(doubled) <= kLargest) || doubled != std::floor(doubled)) return false;
+    }
+    return true;
+}
+
+void checkNodes(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    Offenders centers, radii, stored, balls;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (!isHalfInteger(tree.center[id])) centers.add(id);
+        const bool valid = std::isfinite(tree.radius[id]) && tree.radius[id] >= 0;
+        if (!valid || tree.coverSq[id] < 0) radii.add(id);
+        if (!std::isfinite(tree.radiusWorld[id]) || tree.radiusWorld[id] < 0) stored.add(id);
+        if (tree.radiusSq[id] < 1) balls.add(id);
+    }
+    if (centers) check.fail("the centre is not a multiple of half a voxel in range for ", centers);
+    if (radii) check.fail("the radius is negative or not a number for ", radii);
+    if (stored) check.fail("the stored radius is negative or not a number for ", stored);
+    if (balls) check.fail("radius_sq is less than 1 for ", balls);
+}
+
+/// What is recorded of the object is so.
+void checkObject(Check& check)
+{
+    const ObjectInfo& info = check.tree.object;
+    const auto compare = [&](const char* what, int64_t recorded, int64_t actual) {
+        if (recorded == actual) return;
+        check.fail("the tree records ", recorded, ' ', what, " of the object, which has ", actual);
+    };
+    const openvdb::BoolTree& object = check.object.tree();
+    compare("voxels", info.voxels, detail::countVoxels(check.mask));
+    compare("leaves", info.leaves, int64_t(object.leafCount()));
+    compare("tiles", info.tiles, int64_t(object.activeTileCount()));
+    openvdb::CoordBBox box;
+    check.mask.evalActiveVoxelBoundingBox(box);
+    if (info.bbox != box) {
+        check.fail("the tree records ", info.bbox, " as the object's box, which is ", box);
+    }
+}
+
+bool nearlyEqual(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b)); }
+
+void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
+{
+    if (!actual.error) {
+        check.fail("level ", recorded.level, " records an error, but ", actual.errorUnknown);
+        return;
+    }
+    const LevelError& r = *recorded.error;
+    const LevelError& a = *actual.error;
+    const auto compare = [&](const char* what, auto was, auto is, bool same) {
+        if (same) return;
+        check.fail("level ", recorded.level, " records ", was, ' ', what, ", but it is ", is);
+    };
+    compare("voxels covered", r.covered, a.covered, r.covered == a.covered);
+    compare("voxels of excess", r.excess, a.excess, r.excess == a.excess);
+    compare("voxels missing", r.missing, a.missing, r.missing == a.missing);
+    compare("% Hamming error", r.hammingPercent, a.hammingPercent,
+        nearlyEqual(r.hammingPercent, a.hammingPercent));
+    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff,
+        nearlyEqual(r.hausdorff, a.hausdorff));
+}
+
+/// Errors that are recorded are right; levels without one are not measured.
+void checkErrors(Check& check)
+{
+    SphereTree copy = check.tree;
+    const auto hasNone = [](const SphereTreeLevel& level) { return !level.error; };
+    const auto end = std::remove_if(copy.levels.begin(), copy.levels.end(), hasNone);
+    copy.levels.erase(end, copy.levels.end());
+    const std::vector<SphereTreeLevel> recorded = copy.levels;
+    if (recorded.empty()) return;
+    computeLevelErrors(copy, check.object, check.interrupter);
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        compareErrors(check, recorded[i], copy.levels[i]);
+    }
+}
+
+/// The three radii of a node agree: coverSq is floor((2 radius)^2), or the floor of two such terms'
+/// sum; the stored one is no less than radius and padding.
+void checkRadii(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
+    constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
+    Offenders apart, small;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const double exact = std::sqrt(double(tree.coverSq[id])) / 2;
+        const double over = tree.radius[id] - exact, rounding = kRounding * tree.radius[id];
+        if (over < -rounding || over > 0.5 + rounding) apart.add(id);
+        const double padded = (tree.radius[id] + padding) * voxel;
+        if (double(tree.radiusWorld[id]) < padded * (1 - kRounding)) small.add(id);
+    }
+    if (apart) check.fail("radius and cover_sq are not the same sphere for ", apart);
+    if (small) check.fail("the stored radius is less than radius and padding for ", small);
+}
+
+/// Every node but the root has a parent, on the next level up.
+void checkParents(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        const bool top = k + 1 == tree.levels.size();
+        Offenders wrong;
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const int32_t parent = tree.parent[id];
+            const bool right = top ? parent == -1
+                : parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
+            if (!right) wrong.add(id);
+        }
+        if (!wrong) continue;
+        check.fail("level ", level.level, ": ",
+            top ? "the parent is not -1, though this is the top level, for "
+                : "the parent is not on the next level up for ", wrong);
+    }
+    if (hasLinks(tree) && tree.root().size() != 1) {
+        check.fail("level ", tree.root().level, ", the top one, has ", tree.root().size(),
+            " nodes instead of one root");
+    }
+}
+
+/// Edges are sorted, unique, and lead from a level to the one below it.
+void checkDag(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const auto level = [&](int32_t id) {
+        return id >= 0 && id < tree.size() ? tree.levelOf(id) : -2;
+    };
+    int64_t wrong = 0, unsorted = 0;
+    DagEdge firstWrong, firstUnsorted;
+    for (std::size_t i = 0; i < tree.dag.size(); ++i) {
+        const DagEdge& edge = tree.dag[i];
+        const int child = level(edge.child);
+        if ((child < 0 || level(edge.parent) != child + 1) && wrong++ == 0) firstWrong = edge;
+        if (i > 0 && !(tree.dag[i - 1] < edge) && unsorted++ == 0) firstUnsorted = edge;
+    }
+    if (wrong > 0) {
+        check.fail(wrong, " edges of the DAG do not lead to the next level down (first: ",
+            firstWrong.parent, " to ", firstWrong.child, ')');
+    }
+    if (unsorted > 0) {
+        check.fail(unsorted, " edges of the DAG are out of order or repeated (first: ",
+            firstUnsorted.parent, " to ", firstUnsorted.child, ')');
+    }
+}
+
+/// Extended tree: every node above level 0 has a child.
+void checkChildren(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    std::vector<char> hasChild(tree.size(), 0);
+    for (const int32_t parent : tree.parent) {
+        if (parent >= 0) hasChild[parent] = 1;
+    }
+    for (std::size_t k = 1; k < tree.levels.size(); ++k) {
+        Offenders childless;
+        for (int32_t id = tree.levels[k].begin; id < tree.levels[k].end; ++id) {
+            if (!hasChild[id]) childless.add(id);
+        }
+        if (childless) check.fail("level ", tree.levels[k].level, ": no child for ", childless);
+    }
+}
+
+/// Extended tree: the stored spheres contain those of the leaves below them, in world space.
+void checkLeavesContained(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    std::vector<openvdb::Vec3d> center(tree.size());
+    for (int32_t id = 0; id < tree.size(); ++id) center[id] = tree.centerWorld(id);
+    std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
+    const SphereTreeLevel& finest = tree.levels.front();
+    for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
+        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
+            const double needed =
+                (center[leaf] - center[t]).length() + double(tree.radiusWorld[leaf]);
+            if (double(tree.radiusWorld[t]) < needed) sticksOut[t] = 1;
+        }
+    }
+    Offenders open;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (sticksOut[id]) open.add(id);
+    }
+    if (open) check.fail("the stored sphere does not contain every leaf ball below it for ", open);
+}
+
+/// The checks of links, those that follow parents only if parents are in order.
+void checkLinks(Check& check)
+{
+    const std::size_t before = check.failures.size();
+    checkParents(check);
+    const bool parentsRight = check.failures.size() == before;
+    checkDag(check);
+    const SphereTree& tree = check.tree;
+    if (!parentsRight || !hasLinks(tree) || tree.settings.tree != TreeType::Extended) return;
+    checkChildren(check);
+    checkLeavesContained(check);
+}
+
+} // namespace
+
+std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const openvdb::MaskTree mask = detail::maskOf(object.tree());
+    Check check{tree, object, mask, interrupter, {}};
+    checkShape(check);
+    if (check.failures.empty()) checkNodes(check);
+    if (!check.failures.empty()) return check.failures;
+
+    checkObject(check);
+    checkRadii(check);
+    checkLinks(check);
+    detail::checkDigitalBalls(check);
+    detail::checkCoverage(check);
+    checkErrors(check);
+    return check.failures;
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/BlockCanvas.h
+/// @brief The 128^3 voxels of a block as mask words, to draw balls into.
+///
+/// A ball larger than a leaf descends: cells of 32, then leaves of 8, of which those wholly inside are
+/// marked full and the others drawn row by row. What is full already, by whichever balls, is not
+/// entered again; so with the largest balls first, overlapping balls cost little more than their
+/// union. A smaller ball is drawn at once, over the rows of its box.
+
+#pragma once
+
+#include "ExactBall.h"
+#include "LeafBall.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+class BlockCanvas {
+public:
+    static constexpr int kLog2 = 7; ///< a block is OpenVDB's lower internal node
+
+    /// Balls too small to hold a leaf, whose farthest corner is at least 3.5 sqrt(3) away.
+    static constexpr int64_t kSmallCoverSq = 147;
+
+    BlockCanvas() : mWords(64 * 64 * 8, 0) {}
+
+    /// Starts on another block; the canvas must be clean.
+    void begin(const openvdb::Coord& origin) { mOrigin = origin; }
+
+    /// Has balls pass over a leaf, as if it were full.
+    void exclude(int cell, int leaf) { mFull[cell] |= bit(leaf); }
+
+    void draw(const Ball& ball)
+    {
+        if (ball.coverSq < kSmallCoverSq) {
+            drawRows(ball, mOrigin, 1 << kLog2);
+            return;
+        }
+        const Range cells(ball, mOrigin, 1 << kLog2, kCellLog2);
+        cells.forEach([&](int x, int y, int z) {
+            const int cell = inFours(x, y, z);
+            const openvdb::Coord origin = at(mOrigin, x, y, z, kCellLog2);
+            if (mFull[cell] == kAllOn || !ball.touches(origin.data(), 1 << kCellLog2)) return;
+            if (ball.contains(origin.data(), 1 << kCellLog2)) {
+                mFull[cell] = kAllOn;
+            } else {
+                drawCell(ball, cell, origin);
+            }
+        });
+    }
+
+    /// @return a bit for each leaf of a cell that is full, of the others for those drawn to.
+    uint64_t full(int cell) const { return mFull[cell]; }
+    uint64_t drawn(int cell) const { return mDrawn[cell] & ~mFull[cell]; }
+    /// @return the eight words of a leaf: word x, bit 8 y + z.
+    const uint64_t* words(int cell, int leaf) const { return &mWords[(64 * cell + leaf) * 8]; }
+    openvdb::Coord leafOrigin(int cell, int leaf) const
+    {
+        return at(at(mOrigin, cell >> 4, cell >> 2 & 3, cell & 3, kCellLog2), leaf >> 4,
+            leaf >> 2 & 3, leaf & 3, kLeafLog2);
+    }
+    /// Wipes a cell, for the next block.
+    void clean(int cell)
+    {
+        for (int leaf = 0; leaf < 64; ++leaf) {
+            if (!(mDrawn[cell] & bit(leaf))) continue;
+            uint64_t* words = &mWords[(64 * cell + leaf) * 8];
+            std::fill(words, words + 8, 0);
+        }
+        mDrawn[cell] = mFull[cell] = 0;
+    }
+
+private:
+    static constexpr int kCellLog2 = 5, kLeafLog2 = 3;
+    static constexpr uint64_t kAllOn = ~uint64_t(0);
+
+    static uint64_t bit(int leaf) { return uint64_t(1) << leaf; }
+    static int inFours(int x, int y, int z) { return 16 * (x & 3) + 4 * (y & 3) + (z & 3); }
+    static openvdb::Coord at(const openvdb::Coord& origin, int x, int y, int z, int log2)
+    {
+        return origin.offsetBy(x << log2, y << log2, z << log2);
+    }
+
+    /// The part of a ball's box in a cube, counted from its corner in units of 2^unitLog2.
+    struct Range {
+        int32_t lo[3], hi[3]; // inclusive
+        Range(const Ball& ball, const openvdb::Coord& origin, int32_t size, int unitLog2)
+        {
+            for (int a = 0; a < 3; ++a) {
+                lo[a] = (std::max(ball.lo[a], origin[a]) - origin[a]) >> unitLog2;
+                hi[a] = (std::min(ball.hi[a], origin[a] + (size - 1)) - origin[a]) >> unitLog2;
+            }
+        }
+        template <typename Body>
+        void forEach(const Body& body) const
+        {
+            for (int x = lo[0]; x <= hi[0]; ++x) {
+                for (int y = lo[1]; y <= hi[1]; ++y) {
+                    for (int z = lo[2]; z <= hi[2]; ++z) body(x, y, z);
+                }
+            }
+        }
+    };
+
+    void drawCell(const Ball& ball, int cell, const openvdb::Coord& cellOrigin)
+    {
+        const Range leaves(ball, cellOrigin, 1 << kCellLog2, kLeafLog2);
+        leaves.forEach([&](int x, int y, int z) {
+            const int leaf = inFours(x, y, z);
+            const openvdb::Coord origin = at(cellOrigin, x, y, z, kLeafLog2);
+            if (mFull[cell] & bit(leaf) || !ball.touches(origin.data(), 1 << kLeafLog2)) return;
+            if (ball.contains(origin.data(), 1 << kLeafLog2)) {
+                mFull[cell] |= bit(leaf);
+                return;
+            }
+            uint64_t* word = &mWords[(64 * cell + leaf) * 8];
+            mDrawn[cell] |= bit(leaf);
+            drawLeaf(ball, origin, word);
+            if (std::all_of(word, word + 8, [](uint64_t w) { return w == kAllOn; })) {
+                mFull[cell] |= bit(leaf);
+            }
+        });
+    }
+
+    void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
+    {
+        int64_t center2[3];
+        bool fits = !ball.clipped && ball.coverSq <= kLeafBallReach2 * kLeafBallReach2;
+        for (int a = 0; a < 3; ++a) {
+            center2[a] = ball.center2[a] - 2 * int64_t(origin[a]);
+            fits = fits && std::abs(center2[a] - 7) + 7 <= kLeafBallReach2;
+        }
+        if (fits) {
+            orBallIntoLeaf(center2, ball.coverSq, words);
+        } else {
+            drawRows(ball, origin, 1 << kLeafLog2);
+        }
+    }
+
+    /// Draws the rows of the ball in a cube of the block.
+    void drawRows(const Ball& ball, const openvdb::Coord& origin, int32_t size)
+    {
+        const Range box(ball, origin, size, 0);
+        const openvdb::Coord corner = origin - mOrigin;
+        const int64_t center2[3] = {ball.center2[0] - 2 * int64_t(origin[0]),
+            ball.center2[1] - 2 * int64_t(origin[1]), ball.center2[2] - 2 * int64_t(origin[2])};
+        for (int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
+            const int64_t leftX = takeSquare(ball.coverSq, 2 * x - center2[0]);
+            if (leftX < 0) continue;
+            for (int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
+                const int64_t left = takeSquare(leftX, 2 * y - center2[1]);
+                if (left < 0) continue;
+                const Interval run(center2[2], floorSqrt(left));
+                const int64_t lo = std::max<int64_t>(run.lo, box.lo[2]);
+                const int64_t hi = std::min<int64_t>(run.hi, box.hi[2]);
+                drawRow(corner[0] + x, corner[1] + y, int32_t(corner[2] + lo),
+                    int32_t(corner[2] + hi));
+            }
+        }
+    }
+
+    /// Draws a row of z, which may be empty or cross leaves; coordinates from the block's corner.
+    void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
+    {
+        for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) {
+            const int cell = inFours(x >> 5, y >> 5, z >> 5);
+            const int leaf = inFours(x >> 3, y >> 3, z >> 3);
+            const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
+            const uint64_t row = (0xffu >> (7 - last)) & (0xffu << first);
+            mDrawn[cell] |= bit(leaf);
+            mWords[(64 * cell + leaf) * 8 + (x & 7)] |= row << (8 * (y & 7));
+        }
+    }
+
+    openvdb::Coord mOrigin;
+    std::vector<uint64_t> mWords;
+    uint64_t mFull[64] = {}, mDrawn[64] = {};
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/CoverageCheck.cc
+/// @brief The checks that draw spheres: rebuilding the object, and covering it.
+
+#include "MaskDifference.h"
+#include "SphereRaster.h"
+#include "TreeCheckReport.h"
+
+#include <cmath>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::CoordBBox;
+using openvdb::MaskTree;
+
+std::string voxelsOf(const MaskDifference& difference)
+{
+    std::ostringstream text;
+    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels") << " (first: "
+         << difference.cells.front().first() << ')';
+    return text.str();
+}
+
+/// The balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid.
+std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> balls;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const openvdb::Coord& c = tree.ijk[id];
+        balls.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
+            4 * (int64_t(tree.radiusSq[id]) - 1)});
+    }
+    return balls;
+}
+
+/// @return whether some ball alone has more voxels than its level, which is reported. A damaged
+/// radius would otherwise have a drawing of any size made.
+bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxels)
+{
+    const int dim = check.tree.settings.dim;
+    Offenders large;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        // A sphere this much smaller lies within the voxel cubes of the ball, wherever it is.
+        const double inner = std::sqrt(double(check.tree.radiusSq[id])) - 0.5 * std::sqrt(dim);
+        if (inner < 1) continue;
+        const double size = dim == 3 ? 4 * M_PI / 3 * inner * inner * inner : M_PI * inner * inner;
+        if (size * (1 - 1e-9) > double(voxels)) large.add(id);
+    }
+    if (large) {
+        check.fail("level ", level.level, ": the digital ball is larger than the level's ", voxels,
+            " voxels for ", large);
+    }
+    return bool(large);
+}
+
+/// Union of a level's digital balls; in 2-D, in their plane.
+MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
+{
+    const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
+    CoordBBox box = boundingBox(balls);
+    if (check.tree.settings.dim == 2 && !box.empty()) {
+        box.min().z() = box.max().z() = check.tree.ijk[level.begin].z();
+    }
+    return sphereUnion(balls, box, check.interrupter);
+}
+
+void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
+{
+    const MaskDifference extra = maskDifference(rebuilt, check.mask, check.interrupter);
+    const MaskDifference lost = maskDifference(check.mask, rebuilt, check.interrupter);
+    if (extra.voxels > 0) {
+        check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
+            " that the object has not");
+    }
+    if (lost.voxels > 0) {
+        check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
+    }
+}
+
+/// Balls of a reversible tree, and of level 0, rebuild all voxels of their level. An extended tree
+/// drops balls without children.
+void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
+{
+    const bool all = level.level == 0 || check.tree.settings.tree == TreeType::Reversible;
+    if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
+    check.fail("level ", level.level, " records ", level.pyramidVoxels,
+        " pyramid voxels, but its digital balls rebuild ", rebuilt);
+}
+
+/// The stored spheres without their padding, in voxels: what is left must cover voxel centres. The
+/// division by the voxel size may round down what was exact; hence the factor, far finer than floats.
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const double radius =
+            double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
+        const double diameter = 2 * radius * (1 + 1e-12);
+        spheres[id - level.begin].coverSq =
+            radius < 0 ? -1 : int64_t(std::min(diameter * diameter, 9e18));
+    }
+    return spheres;
+}
+
+/// @return object voxels that no sphere covers. Draws only where the object is.
+MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
+{
+    CoordBBox box;
+    check.mask.evalActiveVoxelBoundingBox(box);
+    const MaskTree::Ptr covered = rasterSpheres(spheres, box, &check.mask, check.interrupter);
+    return maskDifference(check.mask, *covered, check.interrupter);
+}
+
+bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than)
+{
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        if (spheres[i].coverSq < than[i].coverSq) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void checkDigitalBalls(TreeCheck& check)
+{
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        const bool finest = level.level == 0;
+        const int64_t voxels = finest ? countVoxels(check.mask) : level.pyramidVoxels;
+        if (ballsTooLarge(check, level, voxels)) continue;
+        const MaskTree::Ptr rebuilt = drawDigitalBalls(check, level);
+        if (finest) checkRebuiltObject(check, *rebuilt);
+        checkPyramidVoxels(check, level, countVoxels(*rebuilt));
+    }
+}
+
+void checkCoverage(TreeCheck& check)
+{
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
+        const MaskDifference missed = uncovered(check, exact);
+        if (missed.voxels > 0) {
+            check.fail("level ", level.level, " misses ", voxelsOf(missed),
+                " of the object, in the exact radii");
+        }
+        const std::vector<ExactSphere> stored = storedSpheres(check.tree, level);
+        if (missed.voxels == 0 && noneSmaller(stored, exact)) continue; // covers as much, or more
+        const MaskDifference missedStored = uncovered(check, stored);
+        if (missedStored.voxels > 0) {
+            check.fail("level ", level.level, " misses ", voxelsOf(missedStored),
+                " of the object, in the stored radii less their padding");
+        }
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/FarthestVoxel.h
+/// @brief The one-sided Hausdorff distance: how far the farthest voxel of a set is from an object.
+
+#pragma once
+
+#include "MaskDifference.h"
+#include "NearestVoxel.h"
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @return the largest squared distance, in voxels, of a voxel of @a cells to the object; 0 if there
+///         are no cells. Exact (below 2^29 voxels), and the same for any number of threads.
+/// @note Cost grows with the number of cells, each of which is mostly one early-ending query.
+int64_t farthestDistSq(const std::vector<VoxelCell>& cells, const NearestVoxel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/NearestVoxel.cc
+/// @brief Building and descending the tree of boxes. Recursion is as deep as the tree: at most 11
+/// levels, since groups of eight over 2^31 items are no more.
+
+#include "NearestVoxel.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::Coord;
+
+/// Morton order without building keys: the axis whose coordinates differ in the highest bit decides.
+bool mortonLess(const Coord& a, const Coord& b)
+{
+    int axis = 0;
+    uint32_t highest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t differ = uint32_t(a[i]) ^ uint32_t(b[i]);
+        if (highest < differ && highest < (highest ^ differ)) { // a higher leading bit
+            axis = i;
+            highest = differ;
+        }
+    }
+    return a[axis] < b[axis];
+}
+
+/// The squares of three of these fit 63 bits.
+int64_t clamped(int64_t distance) { return std::min(distance, NearestVoxel::kFar2); }
+
+int lowestBit(uint32_t byte) { return int(openvdb::util::FindLowestOn(openvdb::Byte(byte))); }
+int highestBit(uint32_t byte) { return int(openvdb::util::FindHighestOn(byte)); }
+
+/// @return the smallest |2 z - point2| over the bits z of a row that is not empty.
+int64_t rowDistance(uint32_t row, int64_t point2)
+{
+    const int split = point2 < 0 ? 0 : int(std::min<int64_t>(point2 / 2 + 1, 8));
+    const uint32_t below = row & ((1u << split) - 1), above = row & ~((1u << split) - 1);
+    int64_t distance = std::numeric_limits<int64_t>::max();
+    if (below) distance = point2 - 2 * highestBit(below);
+    if (above) distance = std::min(distance, 2 * lowestBit(above) - point2);
+    return distance;
+}
+
+} // namespace
+
+void NearestVoxel::Box::expand(const Box& other)
+{
+    for (int a = 0; a < 3; ++a) {
+        lo[a] = std::min(lo[a], other.lo[a]);
+        hi[a] = std::max(hi[a], other.hi[a]);
+    }
+}
+
+NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask)
+{
+    for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) addLeaf(*leaf);
+    auto tile = mask.cbeginValueOn();
+    tile.setMaxDepth(openvdb::MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        const openvdb::CoordBBox box = tile.getBoundingBox();
+        addTile(box.min(), box.dim().x());
+    }
+    group();
+}
+
+void NearestVoxel::addTile(const Coord& origin, int32_t size)
+{
+    Item item;
+    item.origin = origin;
+    item.solid = true;
+    for (int a = 0; a < 3; ++a) {
+        item.box.lo[a] = origin[a];
+        item.box.hi[a] = origin[a] + (size - 1);
+    }
+    mItems.push_back(item);
+}
+
+void NearestVoxel::addLeaf(const openvdb::MaskTree::LeafNodeType& leaf)
+{
+    if (leaf.isEmpty()) return;
+    Item item;
+    item.origin = leaf.origin();
+    openvdb::CoordBBox box;
+    leaf.evalActiveBoundingBox(box);
+    for (int a = 0; a < 3; ++a) {
+        item.box.lo[a] = box.min()[a];
+        item.box.hi[a] = box.max()[a];
+    }
+    item.solid = leaf.onVoxelCount() == box.volume();
+    for (int x = 0; x < 8; ++x) item.words[x] = leaf.getValueMask().getWord<uint64_t>(x);
+    mItems.push_back(item);
+}
+
+void NearestVoxel::group()
+{
+    tbb::parallel_sort(mItems.begin(), mItems.end(),
+        [](const Item& a, const Item& b) { return mortonLess(a.origin, b.origin); });
+    mLevels.emplace_back();
+    for (const Item& item : mItems) mLevels[0].push_back(item.box);
+    while (mLevels.back().size() > 1) {
+        const std::vector<Box>& below = mLevels.back();
+        std::vector<Box> boxes;
+        for (std::size_t i = 0; i < below.size(); i += kFanout) {
+            boxes.push_back(below[i]);
+            const std::size_t end = std::min(i + kFanout, below.size());
+            for (std::size_t j = i + 1; j < end; ++j) boxes.back().expand(below[j]);
+        }
+        mLevels.push_back(std::move(boxes));
+    }
+}
+
+/// No voxel of the box is nearer than this.
+int64_t NearestVoxel::nearSq(const Box& box, const int64_t point2[3])
+{
+    int64_t sum = 0;
+    for (int a = 0; a < 3; ++a) {
+        const int64_t below = 2 * int64_t(box.lo[a]) - point2[a];
+        const int64_t above = point2[a] - 2 * int64_t(box.hi[a]);
+        const int64_t gap = clamped(std::max<int64_t>({below, above, 0}));
+        sum += gap * gap;
+    }
+    return sum;
+}
+
+/// Some voxel of the box is at least as near: one on the face nearest along some axis, which may be
+/// anywhere on it.
+int64_t NearestVoxel::faceSq(const Box& box, const int64_t point2[3])
+{
+    int64_t far = 0, saved = 0;
+    for (int a = 0; a < 3; ++a) {
+        const int64_t lo = std::abs(2 * int64_t(box.lo[a]) - point2[a]);
+        const int64_t hi = std::abs(2 * int64_t(box.hi[a]) - point2[a]);
+        const int64_t farther = std::max(lo, hi), nearer = std::min(lo, hi);
+        if (farther > kFar2) return std::numeric_limits<int64_t>::max();
+        far += farther * farther;
+        saved = std::max(saved, farther * farther - nearer * nearer);
+    }
+    return far - saved;
+}
+
+int64_t NearestVoxel::distSq(const int64_t point2[3], int64_t enough) const
+{
+    Query query{point2, enough, std::numeric_limits<int64_t>::max()};
+    if (!mItems.empty()) searchNode(mLevels.size() - 1, 0, query);
+    return query.best;
+}
+
+bool NearestVoxel::anyWithin(const int64_t point2[3], int64_t limit) const
+{
+    if (limit < 0 || mItems.empty()) return false;
+    Query query{point2, limit, limit + 1}; // what is farther need not be looked at
+    if (nearSq(mLevels.back()[0], point2) <= limit) searchNode(mLevels.size() - 1, 0, query);
+    return query.best <= limit;
+}
+
+void NearestVoxel::searchNode(std::size_t level, std::size_t node, Query& query) const
+{
+    if (level == 0) {
+        searchItem(mItems[node], query);
+        return;
+    }
+    struct Near {
+        int64_t sq;
+        std::size_t child;
+    } order[kFanout];
+    int count = 0;
+    const std::vector<Box>& boxes = mLevels[level - 1];
+    const std::size_t end = std::min((node + 1) * kFanout, boxes.size());
+    for (std::size_t child = node * kFanout; child < end; ++child) {
+        const int64_t sq = nearSq(boxes[child], query.point2);
+        if (sq >= query.best) continue;
+        if (faceSq(boxes[child], query.point2) <= query.enough) {
+            query.best = query.enough;
+            return;
+        }
+        int at = count++;
+        for (; at > 0 && order[at - 1].sq > sq; --at) order[at] = order[at - 1];
+        order[at] = {sq, child};
+    }
+    for (int i = 0; i < count && order[i].sq < query.best; ++i) {
+        searchNode(level - 1, order[i].child, query);
+        if (query.best <= query.enough) return;
+    }
+}
+
+void NearestVoxel::searchItem(const Item& item, Query& query)
+{
+    if (item.solid) {
+        query.best = std::min(query.best, nearSq(item.box, query.point2));
+        return;
+    }
+    int64_t local2[3]; // the point, from the leaf's corner
+    for (int a = 0; a < 3; ++a) local2[a] = query.point2[a] - 2 * int64_t(item.origin[a]);
+    for (int x = 0; x < 8; ++x) {
+        const int64_t dx = clamped(std::abs(2 * x - local2[0]));
+        if (!item.words[x] || dx * dx >= query.best) continue;
+        for (int y = 0; y < 8; ++y) {
+            const uint32_t row = (item.words[x] >> (8 * y)) & 0xff;
+            const int64_t dy = clamped(std::abs(2 * y - local2[1]));
+            const int64_t sq = dx * dx + dy * dy;
+            if (!row || sq >= query.best) continue;
+            const int64_t dz = clamped(rowDistance(row, local2[2]));
+            query.best = std::min(query.best, sq + dz * dz);
+        }
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree
