@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Action.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace command {
+
+namespace {
+
+std::optional<bool> parseFlag(const std::string& value)
+{
+    for (const char* yes : {"1", "true", "yes", "on"}) {
+        if (value == yes) return true;
+    }
+    for (const char* no : {"0", "false", "no", "off"}) {
+        if (value == no) return false;
+    }
+    return {};
+}
+
+template<typename T>
+std::optional<T> parseNumber(const std::string& value)
+{
+    T number{};
+    const char* const end = value.data() + value.size();
+    const auto [stop, error] = std::from_chars(value.data(), end, number);
+    if (error != std::errc() || stop != end) return {};
+    return number;
+}
+
+std::string numberText(double number)
+{
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), number).ptr;
+    return std::string(buffer, end);
+}
+
+std::string rangeText(const OptionSpec& option)
+{
+    if (std::isinf(option.highest)) return numberText(option.lowest) + " or more";
+    return numberText(option.lowest) + " to " + numberText(option.highest);
+}
+
+std::string allowedText(const OptionSpec& option)
+{
+    const bool bounded = !std::isinf(option.lowest) || !std::isinf(option.highest);
+    switch (option.kind) {
+    case OptionKind::Flag: return "1 or 0";
+    case OptionKind::Integer: return "a whole number" + (bounded ? ", " + rangeText(option) : "");
+    case OptionKind::Real: return "a number" + (bounded ? ", " + rangeText(option) : "");
+    default: break;
+    }
+    std::string allowed;
+    for (const std::string& c : option.choices) allowed += (allowed.empty() ? "" : ", ") + c;
+    return allowed;
+}
+
+bool isAllowed(const OptionSpec& option, const std::string& value)
+{
+    const auto inRange = [&](double number) {
+        return std::isfinite(number) && number >= option.lowest && number <= option.highest;
+    };
+    switch (option.kind) {
+    case OptionKind::Flag: return parseFlag(value).has_value();
+    case OptionKind::Integer: {
+        const auto number = parseNumber<int64_t>(value);
+        return number && inRange(double(*number));
+    }
+    case OptionKind::Real: {
+        const auto number = parseNumber<double>(value);
+        return number && inRange(*number);
+    }
+    case OptionKind::Choice:
+        return std::find(option.choices.begin(), option.choices.end(), value)
+            != option.choices.end();
+    default: return true;
+    }
+}
+
+} // namespace
+
+OptionSpec text(const std::string& name, const std::string& fallback, const std::string& doc)
+{
+    return {name, OptionKind::Text, fallback, doc};
+}
+
+OptionSpec list(const std::string& name, const std::string& fallback, const std::string& doc)
+{
+    return {name, OptionKind::List, fallback, doc};
+}
+
+OptionSpec flag(const std::string& name, bool fallback, const std::string& doc)
+{
+    return {name, OptionKind::Flag, fallback ? "1" : "0", doc};
+}
+
+OptionSpec integer(const std::string& name, const std::string& fallback, int64_t lowest,
+    int64_t highest, const std::string& doc)
+{
+    return {name, OptionKind::Integer, fallback, doc, double(lowest), double(highest)};
+}
+
+OptionSpec real(const std::string& name, const std::string& fallback, double lowest, double highest,
+    const std::string& doc)
+{
+    return {name, OptionKind::Real, fallback, doc, lowest, highest};
+}
+
+OptionSpec choice(
+    const std::string& name, const std::vector<std::string>& choices, const std::string& doc)
+{
+    OptionSpec option{name, OptionKind::Choice, choices.front(), doc};
+    option.choices = choices;
+    return option;
+}
+
+OptionSpec later(const std::string& name)
+{
+    return {name, OptionKind::Later, "", "not available in this version"};
+}
+
+OptionSpec vdbOption(const std::string& what)
+{
+    return text("vdb", "", what + ", by its age on the stack (0 is the newest) or its name; "
+        "by default the only one that suits");
+}
+
+OptionSpec keepOption()
+{
+    return flag("keep", false, "leave the input on the stack");
+}
+
+OptionSpec nameOption(const std::string& fallback, const std::string& doc)
+{
+    return text("name", fallback, doc);
+}
+
+const OptionSpec* ActionSpec::option(const std::string& optionName) const
+{
+    for (const OptionSpec& option : options) {
+        if (option.name == optionName) return &option;
+    }
+    return nullptr;
+}
+
+std::string ActionCall::typed() const
+{
+    std::string line = label();
+    for (const OptionSpec& option : mSpec->options) {
+        if (!given(option.name)) continue;
+        const bool isMain = option.name == mSpec->mainOption;
+        line += " " + (isMain ? "" : option.name + "=") + text(option.name);
+    }
+    return oneLine(line, 120);
+}
+
+void ActionCall::appendToList(const std::string& option, const std::string& value)
+{
+    std::string& values = mValues[option];
+    values += (values.empty() ? "" : ",") + value;
+}
+
+std::string ActionCall::text(const std::string& option) const
+{
+    const auto found = mValues.find(option);
+    return found != mValues.end() ? found->second : mSpec->option(option)->fallback;
+}
+
+std::vector<std::string> ActionCall::list(const std::string& option) const
+{
+    std::vector<std::string> items;
+    const std::string all = text(option);
+    for (size_t begin = 0; begin < all.size();) {
+        const size_t end = std::min(all.find(',', begin), all.size());
+        items.push_back(all.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return items;
+}
+
+bool ActionCall::flag(const std::string& option) const
+{
+    return *parseFlag(text(option));
+}
+
+int64_t ActionCall::integer(const std::string& option) const
+{
+    return *parseNumber<int64_t>(text(option));
+}
+
+double ActionCall::real(const std::string& option) const
+{
+    return *parseNumber<double>(text(option));
+}
+
+void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value)
+{
+    const std::string where = "-" + action.name + ": ";
+    if (option.kind == OptionKind::Later) {
+        throwUsage(where + "option " + option.name + " is not available in this version");
+    }
+    if (value.empty()) throwUsage(where + "option " + option.name + " has no value");
+    const bool emptyItem = value.front() == ',' || value.back() == ','
+        || value.find(",,") != std::string::npos;
+    if (option.kind == OptionKind::List && emptyItem) {
+        throwUsage(where + "an item of " + option.name + "=" + value + " is empty");
+    }
+    if (!isAllowed(option, value)) {
+        throwUsage(where + option.name + "=" + value + " is out of range or not understood: "
+            + "it takes " + allowedText(option));
+    }
+}
+
+} // namespace command

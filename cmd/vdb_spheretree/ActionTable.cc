@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Actions.h"
+
+namespace command {
+
+const std::vector<ActionSpec>& actionTable()
+{
+    static const std::vector<ActionSpec> table = {
+        readAction(), mesh2lsAction(), maskAction(), spheretreeAction(), statsAction(),
+        checkAction(), levelAction(), spheres2maskAction(), spheres2lsAction(), writeAction(),
+        printAction(), clearAction(), threadsAction(), quietAction(), verboseAction(),
+        debugAction(), helpAction(), versionAction(), examplesAction()};
+    return table;
+}
+
+const ActionSpec* findAction(const std::string& name)
+{
+    for (const ActionSpec& action : actionTable()) {
+        if (action.name == name || (!name.empty() && action.alias == name)) return &action;
+    }
+    return nullptr;
+}
+
+} // namespace command

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Actions.h
+/// @brief Every action of the command; the table in ActionTable.cc lists them. Each is documented by its
+/// own specification, which -help prints.
+
+#pragma once
+
+#include "Action.h"
+
+namespace command {
+
+ActionSpec readAction();
+ActionSpec mesh2lsAction();
+ActionSpec maskAction();
+ActionSpec spheretreeAction();
+ActionSpec statsAction();
+ActionSpec checkAction();
+ActionSpec levelAction();
+ActionSpec spheres2maskAction();
+ActionSpec spheres2lsAction();
+ActionSpec writeAction();
+ActionSpec printAction();
+ActionSpec clearAction();
+ActionSpec threadsAction();
+ActionSpec quietAction();
+ActionSpec verboseAction();
+ActionSpec debugAction();
+ActionSpec helpAction();
+ActionSpec versionAction();
+ActionSpec examplesAction();
+
+} // namespace command

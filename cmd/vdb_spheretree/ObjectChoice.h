@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ObjectChoice.h
+/// @brief Which grid of the stack is the object that an action needs, and a tree's errors against it.
+
+#pragma once
+
+#include "Session.h"
+
+#include <openvdb_spheretree/ObjectMask.h>
+
+namespace command {
+
+/// @throw CommandError (input) if there is none, or more than one; for a mesh, it tells the remedy
+StackItem& selectObjectGrid(Session& session, const std::string& ageOrName);
+
+/// @brief Fill in the errors of a tree whose object is known, and count the time.
+void computeErrors(StackItem& item, Session& session);
+
+} // namespace command

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ReadAction.cc
+/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again.
+
+#include "Actions.h"
+#include "Session.h"
+#include "VdbStream.h"
+
+#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/VolFile.h>
+
+#include <algorithm>
+#include <set>
+
+namespace command {
+
+using openvdb::GridBase;
+using openvdb::points::PointDataGrid;
+
+namespace {
+
+/// The names asked for by grids=, and which of them have turned up.
+class NameFilter {
+public:
+    explicit NameFilter(const std::vector<std::string>& names)
+        : mAll(std::count(names.begin(), names.end(), "*") > 0), mNames(names) {}
+
+    bool accepts(const std::string& name)
+    {
+        mSeen.insert(name);
+        return mAll || std::count(mNames.begin(), mNames.end(), name) > 0;
+    }
+
+    /// @throw CommandError (input), listing what there is
+    void requireAllFound() const
+    {
+        if (mAll) return;
+        std::string seen;
+        for (const std::string& name : mSeen) seen += (seen.empty() ? "'" : ", '") + name + "'";
+        for (const std::string& name : mNames) {
+            if (mSeen.count(name)) continue;
+            throwInput("no grid is named '" + name + "'; there " + (mSeen.size() == 1 ? "is " : "are ")
+                + (seen.empty() ? "none" : oneLine(seen)));
+        }
+    }
+
+private:
+    bool mAll;
+    std::vector<std::string> mNames;
+    std::set<std::string> mSeen;
+};
+
+PointDataGrid::Ptr findPoints(const openvdb::GridPtrVec& grids, const std::string& name)
+{
+    for (const GridBase::Ptr& grid : grids) {
+        if (grid->getName() != name) continue;
+        if (auto points = openvdb::gridPtrCast<PointDataGrid>(grid)) return points;
+    }
+    return nullptr;
+}
+
+StackItem treeItem(const PointDataGrid& points, const PointDataGrid* dag, const std::string& path)
+{
+    StackItem item;
+    try {
+        item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
+            openvdb_spheretree::fromPoints(points, dag));
+    } catch (...) {
+        rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
+    }
+    return item;
+}
+
+void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
+{
+    openvdb::GridPtrVec grids = readVdb(path);
+    std::set<GridBase::Ptr> edges;
+    for (const GridBase::Ptr& grid : grids) {
+        if (!openvdb_spheretree::isSphereTree(*grid)) continue;
+        if (auto dag = findPoints(grids, grid->getName() + "_dag")) edges.insert(dag);
+    }
+    for (const GridBase::Ptr& grid : grids) {
+        if (edges.count(grid) || !filter.accepts(grid->getName())) continue;
+        if (!openvdb_spheretree::isSphereTree(*grid)) {
+            StackItem item;
+            item.grid = grid;
+            session.stack.push(item);
+            continue;
+        }
+        const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
+        if (!points) {
+            throwInput(path + ": '" + oneLine(grid->getName(), 60)
+                + "' is marked as a sphere-tree, but is no point grid");
+        }
+        const auto dag = findPoints(grids, grid->getName() + "_dag");
+        session.stack.push(treeItem(*points, dag.get(), path));
+    }
+}
+
+void readFile(const std::string& path, NameFilter& filter, Session& session)
+{
+    session.stack.setSource(path);
+    const FileKind kind = fileKind(path);
+    if (kind == FileKind::Vdb) return readVdbFile(path, filter, session);
+    StackItem item;
+    if (kind == FileKind::Mesh) {
+        item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
+            openvdb_spheretree::readMeshFile(path));
+    } else {
+        item.grid = openvdb_spheretree::readVolFile(path, &session.progress);
+        if (!filter.accepts(item.grid->getName())) return;
+    }
+    session.stack.push(item);
+}
+
+void check(const ActionCall& call, Plan& plan)
+{
+    if (!call.given("files")) throwUsage("names no file");
+    for (const std::string& path : call.list("files")) plan.addInput(path);
+}
+
+void run(const ActionCall& call, Session& session)
+{
+    const Stopwatch watch;
+    NameFilter filter(call.list("grids"));
+    session.stack.beginBatch("");
+    for (const std::string& path : call.list("files")) readFile(path, filter, session);
+    filter.requireAllFound();
+    session.seconds.read += watch.seconds();
+    for (const auto& item : session.stack.items()) session.remark(item->description());
+}
+
+} // namespace
+
+ActionSpec readAction()
+{
+    ActionSpec action{"read", "i", "files",
+        "read grids and sphere-trees (.vdb, stdin.vdb), volumes (.vol, .longvol) and meshes "
+        "(.obj, .ply, .stl, .off ...)"};
+    action.options = {
+        list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
+        list("grids", "*", "names of the grids and sphere-trees to take")};
+    action.needsInput = false;
+    action.check = check;
+    action.run = run;
+    return action;
+}
+
+} // namespace command

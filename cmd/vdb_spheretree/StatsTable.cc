@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StatsReport.h"
+
+#include "Terminal.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include <sys/resource.h>
+
+namespace command {
+
+using openvdb_spheretree::SphereTree;
+using openvdb_spheretree::SphereTreeLevel;
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+const Row kHeader = {"level", "spheres", "voxels", "radius min", "radius max", "covered", "excess",
+    "missing", "hamming %", "hausdorff"};
+
+std::string fixed(double number, int digits)
+{
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.*f", digits, number);
+    return text;
+}
+
+Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const LevelRadii radii = radiiOf(tree, level);
+    Row row = {std::to_string(level.level), withCommas(level.size()),
+        withCommas(level.pyramidVoxels), fixed(radii.smallest, 2), fixed(radii.largest, 2)};
+    if (!level.error) {
+        row.insert(row.end(), 5, "-");
+        return row;
+    }
+    const auto& error = *level.error;
+    row.insert(row.end(), {withCommas(error.covered), withCommas(error.excess),
+        withCommas(error.missing), fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
+    return row;
+}
+
+void printRows(std::ostream& out, const std::vector<Row>& rows)
+{
+    std::vector<size_t> width(kHeader.size(), 0);
+    for (const Row& row : rows) {
+        for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    }
+    for (const Row& row : rows) {
+        for (size_t i = 0; i < row.size(); ++i) {
+            out << (i ? "  " : "") << std::string(width[i] - row[i].size(), ' ') << row[i];
+        }
+        out << "\n";
+    }
+}
+
+/// The same reason is said once, for all the levels it holds for.
+void printReasons(std::ostream& out, const SphereTree& tree)
+{
+    std::string last;
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (level.error) continue;
+        const std::string reason =
+            level.errorUnknown.empty() ? "errors not computed" : oneLine(level.errorUnknown);
+        if (reason == last) continue;
+        out << "-: level " << level.level << " on: " << reason << "\n";
+        last = reason;
+    }
+}
+
+void printSeconds(std::ostream& out, const Session& session)
+{
+    const StageSeconds& s = session.seconds;
+    const std::vector<std::pair<const char*, double>> stages = {{"read", s.read}, {"mask", s.mask},
+        {"pyramid", s.build.pyramid}, {"distance", s.build.distance}, {"power", s.build.power},
+        {"medial", s.build.medial}, {"tree", s.build.tree}, {"error", s.error}, {"write", s.write}};
+    out << "seconds:";
+    for (const auto& [name, seconds] : stages) {
+        if (seconds > 0) out << " " << name << " " << fixed(seconds, 3) << ",";
+    }
+    out << " total " << fixed(session.total.seconds(), 3) << "; peak memory "
+        << withCommas(peakBytes() >> 20) << " MiB\n";
+}
+
+} // namespace
+
+LevelRadii radiiOf(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const auto [smallest, largest] = std::minmax_element(
+        tree.radius.begin() + level.begin, tree.radius.begin() + level.end);
+    return level.size() ? LevelRadii{*smallest, *largest} : LevelRadii{};
+}
+
+int64_t peakBytes()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return int64_t(usage.ru_maxrss) * 1024;
+}
+
+std::string statsTable(const SphereTree& tree, const Session& session)
+{
+    std::ostringstream out;
+    const auto& object = tree.object;
+    const openvdb::Coord size = object.bbox.dim();
+    out << "object '" << oneLine(object.name, 60) << "': " << withCommas(object.voxels)
+        << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
+        << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
+        << size[2] << "\n";
+    out << "tree '" << oneLine(tree.settings.name, 60) << "': " << toString(tree.settings.tree)
+        << ", factor " << tree.settings.factor << ", " << withCommas(tree.size())
+        << " spheres; radii and distances in voxels of level 0\n";
+    std::vector<Row> rows = {kHeader};
+    for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
+    printRows(out, rows);
+    printReasons(out, tree);
+    printSeconds(out, session);
+    return out.str();
+}
+
+} // namespace command

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Terminal.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace command {
+
+bool isTerminal(const std::ostream& stream)
+{
+    if (&stream == &std::cout) return isatty(STDOUT_FILENO);
+    if (&stream == &std::cerr) return isatty(STDERR_FILENO);
+    return false;
+}
+
+std::string coloured(const std::ostream& stream, Colour colour, const std::string& text)
+{
+    const char* const noColour = std::getenv("NO_COLOR");
+    if (!isTerminal(stream) || (noColour && *noColour)) return text;
+    const char* const code =
+        colour == Colour::Red ? "31" : colour == Colour::Green ? "32" : "1";
+    return "\033[" + std::string(code) + "m" + text + "\033[0m";
+}
+
+std::string prettySeconds(double seconds)
+{
+    char text[32];
+    if (seconds < 1) {
+        std::snprintf(text, sizeof(text), "%.1f ms", 1e3 * seconds);
+    } else {
+        std::snprintf(text, sizeof(text), "%.2f s", seconds);
+    }
+    return text;
+}
+
+std::string withCommas(long long number)
+{
+    std::string digits = std::to_string(number);
+    const int first = number < 0 ? 1 : 0;
+    for (int i = int(digits.size()) - 3; i > first; i -= 3) digits.insert(size_t(i), ",");
+    return digits;
+}
+
+} // namespace command

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeActions.cc
+/// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
+
+#include "Actions.h"
+#include "ObjectChoice.h"
+
+#include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/TreeCheck.h>
+
+#include <iostream>
+
+namespace command {
+
+namespace spheretree = openvdb_spheretree;
+using openvdb::BoolGrid;
+using spheretree::SphereTree;
+using spheretree::SphereTreeSettings;
+
+namespace {
+
+SphereTreeSettings settingsOf(const ActionCall& call)
+{
+    SphereTreeSettings settings;
+    settings.tree = spheretree::treeTypeFromString(call.text("tree"));
+    settings.factor = int(call.integer("factor"));
+    settings.dim = int(call.integer("dim"));
+    settings.parent = spheretree::parentRuleFromString(call.text("parent"));
+    settings.finalFit = call.flag("final_fit");
+    settings.reconstruct = spheretree::reconstructionFromString(call.text("reconstruct"));
+    settings.scale = spheretree::radiusScaleFromString(call.text("scale"));
+    settings.padding = spheretree::paddingFromString(call.text("padding"));
+    settings.dag = call.flag("dag");
+    settings.name = call.text("name");
+    return settings;
+}
+
+void checkSpheretree(const ActionCall& call, Plan&)
+{
+    if (call.text("tree") == "tight") {
+        throwUsage("tree=tight is not available yet in this version; there are extended and reversible");
+    }
+    settingsOf(call).validate();
+}
+
+/// The object of a grid, and how long it took to find it.
+BoolGrid::ConstPtr objectOf(const openvdb::GridBase& grid, Session& session)
+{
+    const Stopwatch watch;
+    BoolGrid::ConstPtr object = spheretree::objectMask(grid, {}, &session.progress);
+    session.seconds.mask += watch.seconds();
+    return object;
+}
+
+void runSpheretree(const ActionCall& call, Session& session)
+{
+    StackItem& input = selectObjectGrid(session, call.text("vdb"));
+    const BoolGrid::ConstPtr object = objectOf(*input.grid, session);
+    if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
+    StackItem result;
+    result.object = object;
+    result.tree = std::make_shared<SphereTree>(spheretree::buildSphereTree(
+        *object, settingsOf(call), &session.progress, &session.seconds.build));
+    session.remark(std::to_string(result.tree->size()) + " spheres on "
+        + std::to_string(result.tree->levels.size()) + " levels");
+    if (call.flag("errors")) computeErrors(result, session);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+void checkLevel(const ActionCall& call, Plan&)
+{
+    const bool byLevel = call.given("level"), bySpheres = call.given("spheres");
+    if (byLevel && bySpheres) throwUsage("level and spheres exclude each other");
+    if (!byLevel && !bySpheres) throwUsage("names no level: level= or spheres= is missing");
+}
+
+/// The finest level that has no more spheres than asked for.
+int levelOfAtMost(const SphereTree& tree, int64_t spheres)
+{
+    for (const auto& level : tree.levels) {
+        if (level.size() <= spheres) return level.level;
+    }
+    throwInput("no level has at most " + std::to_string(spheres) + " spheres: the coarsest has "
+        + std::to_string(tree.root().size()));
+}
+
+void runLevel(const ActionCall& call, Session& session)
+{
+    StackItem& input = session.stack.selectTree(call.text("vdb"));
+    const int level = call.given("level") ? int(call.integer("level"))
+                                          : levelOfAtMost(*input.tree, call.integer("spheres"));
+    StackItem result;
+    result.object = input.object;
+    result.tree = std::make_shared<SphereTree>(spheretree::keepLevel(*input.tree, level));
+    if (call.given("name")) result.tree->settings.name = call.text("name");
+    if (!call.flag("keep")) session.stack.drop(&input);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+void runCheck(const ActionCall& call, Session& session)
+{
+    const StackItem& item = session.stack.selectTree("");
+    BoolGrid::ConstPtr object = item.object;
+    if (call.given("vdb") || !object) {
+        object = objectOf(*selectObjectGrid(session, call.text("vdb")).grid, session);
+    }
+    const auto failures = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
+    throwIfStopped();
+    for (const std::string& failure : failures) session.textOut() << oneLine(failure) << "\n";
+    if (!failures.empty()) {
+        throw CommandError(kCheckFailed, item.description() + " does not hold what it promises: "
+            + std::to_string(failures.size()) + " of the checks failed, the first: "
+            + failures.front());
+    }
+    if (session.verbosity != Verbosity::Quiet) session.textOut() << "all checks hold\n";
+}
+
+std::vector<OptionSpec> spheretreeOptions()
+{
+    std::vector<OptionSpec> options = {
+        choice("tree", {"extended", "reversible", "tight"},
+            "extended: spheres contain the leaf balls below them; reversible: every level rebuilds "
+            "its own pyramid level; tight: not available yet"),
+        integer("factor", "2", 2, 1 << 15, "voxels per axis merged from level to level"),
+        integer("dim", "3", 2, 3, "2 for an object one voxel thick along z"),
+        choice("dist", {"l2"}, "the distance: l2 is the Euclidean one"),
+        choice("parent", {"centre", "dag"},
+            "which ball a ball hangs below: by its centre, or by its edges in the Sphere-DAG"),
+        flag("final_fit", true, "store the smallest radius around the leaf balls (extended)"),
+        choice("reconstruct", {"clip", "free", "none"},
+            "how a level is rebuilt before it is coarsened (extended)"),
+        choice("scale", {"tight", "paper"}, "how a level's radii become those of level 0"),
+        text("padding", "cubes",
+            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number of "
+            "voxels"),
+        flag("dag", false, "collect and store the edges of the Sphere-DAG too"),
+        flag("errors", true, "count the exact error of every level, and store it"),
+        vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree")};
+    for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching", "error",
+             "distance", "cuts", "side", "memory"}) {
+        options.push_back(later(name));
+    }
+    return options;
+}
+
+} // namespace
+
+void computeErrors(StackItem& item, Session& session)
+{
+    const Stopwatch watch;
+    spheretree::computeLevelErrors(*item.tree, *item.object, &session.progress);
+    session.seconds.error += watch.seconds();
+}
+
+ActionSpec spheretreeAction()
+{
+    ActionSpec action{"spheretree", "", "tree", "build the sphere-tree of a grid's object"};
+    action.options = spheretreeOptions();
+    action.check = checkSpheretree;
+    action.run = runSpheretree;
+    return action;
+}
+
+ActionSpec levelAction()
+{
+    ActionSpec action{"level", "", "level", "keep one level of a sphere-tree"};
+    action.options = {integer("level", "", 0, 1000, "the level; 0 is the finest"),
+        integer("spheres", "", 1, int64_t(1) << 31,
+            "in place of a level: the finest that has at most this many spheres"),
+        vdbOption("the tree"), keepOption(), nameOption("", "name of the result")};
+    action.check = checkLevel;
+    action.run = runLevel;
+    return action;
+}
+
+ActionSpec checkAction()
+{
+    ActionSpec action{"check", "", "vdb",
+        "verify everything that a sphere-tree promises against its object; exit code 6 if anything "
+        "fails"};
+    action.options = {text("vdb", "",
+        "the object, by its age on the stack (0 is the newest) or its name; by default what the tree "
+        "was built from, or the only grid that suits")};
+    action.run = runCheck;
+    return action;
+}
+
+} // namespace command

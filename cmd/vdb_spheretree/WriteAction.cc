@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file WriteAction.cc
+/// @brief -write: grids and sphere-trees to files. All files of one -write are complete before the first
+/// takes its place.
+
+#include "Actions.h"
+#include "AtomicFile.h"
+#include "Session.h"
+#include "VdbStream.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+#include <openvdb_spheretree/SphereTreeCsv.h>
+#include <openvdb_spheretree/SphereTreePoints.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+namespace command {
+
+namespace {
+
+bool isLaterFormat(const std::string& path)
+{
+    const size_t dot = path.rfind('.');
+    std::string extension = dot == std::string::npos ? "" : path.substr(dot);
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* known : {".json", ".ply", ".usda", ".sph", ".html", ".png"}) {
+        if (extension == known) return true;
+    }
+    return false;
+}
+
+uint32_t compressionOf(const ActionCall& call)
+{
+    using openvdb::io::Archive;
+    const std::string codec = call.text("codec");
+    if (codec == "none") return openvdb::io::COMPRESS_NONE;
+    if (codec == "active") return openvdb::io::COMPRESS_ACTIVE_MASK;
+    const bool zip = codec == "zip" || (!call.given("codec") && !Archive::hasBloscCompression());
+    const bool available = zip ? Archive::hasZLibCompression() : Archive::hasBloscCompression();
+    if (!available) throwUsage("codec=" + codec + ": this build of OpenVDB does not have it");
+    return openvdb::io::COMPRESS_ACTIVE_MASK
+        | (zip ? openvdb::io::COMPRESS_ZIP : openvdb::io::COMPRESS_BLOSC);
+}
+
+void check(const ActionCall& call, Plan& plan)
+{
+    if (!call.given("files")) throwUsage("names no file");
+    compressionOf(call);
+    for (const std::string& path : call.list("files")) {
+        if (isLaterFormat(path)) {
+            throwUsage(path + ": files of this kind are not available in this version");
+        }
+        const FileKind kind = fileKind(path);
+        if (kind != FileKind::Vdb && kind != FileKind::Csv) {
+            throwUsage(path + ": files of this kind are not written; it writes .vdb (or stdout.vdb) "
+                "and .csv");
+        }
+        plan.addOutput(path);
+    }
+}
+
+openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items)
+{
+    openvdb::GridCPtrVec grids;
+    for (const StackItem* item : items) {
+        if (item->grid) {
+            grids.push_back(item->grid);
+            continue;
+        }
+        grids.push_back(openvdb_spheretree::toPoints(*item->tree));
+        if (const auto dag = openvdb_spheretree::dagToPoints(*item->tree)) grids.push_back(dag);
+    }
+    return grids;
+}
+
+const openvdb_spheretree::SphereTree& onlyTree(
+    const std::vector<StackItem*>& items, const std::string& path)
+{
+    const StackItem* tree = nullptr;
+    for (const StackItem* item : items) {
+        if (!item->tree) continue;
+        if (tree) throwInput(path + " holds one sphere-tree, and there are more: choose with vdb=");
+        tree = item;
+    }
+    if (!tree) throwInput(path + " holds a sphere-tree, and there is none: put -spheretree before");
+    return *tree->tree;
+}
+
+/// Two trees of one name could not be told apart when the file is read, nor could their edges.
+void requireDistinctTrees(const std::vector<StackItem*>& items)
+{
+    std::set<std::string> names;
+    for (const StackItem* item : items) {
+        if (!item->tree || names.insert(item->name()).second) continue;
+        throwInput("two sphere-trees are named '" + oneLine(item->name(), 60)
+            + "': give them different names with name= of -spheretree");
+    }
+}
+
+void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
+{
+    std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
+    writeVdb(buffer, grids, compression, /*seekable=*/false);
+    buffer.seekg(0);
+    std::cout << buffer.rdbuf() << std::flush;
+    if (!std::cout) throwOutput("stdout.vdb: the reading end of the pipe is closed, or full");
+}
+
+class Writer {
+public:
+    Writer(const ActionCall& call, const std::vector<StackItem*>& items)
+        : mItems(items), mCompression(compressionOf(call)) {}
+
+    void write(const std::string& path)
+    {
+        if (path == "stdout.vdb") {
+            mToStdout = true;
+            return;
+        }
+        mFiles.push_back(std::make_unique<AtomicFile>(path));
+        AtomicFile& file = *mFiles.back();
+        try {
+            if (fileKind(path) == FileKind::Csv) {
+                openvdb_spheretree::writeCsv(onlyTree(mItems, path), file.stream());
+            } else {
+                writeVdb(file.stream(), grids(), mCompression, /*seekable=*/true);
+            }
+            file.finish();
+        } catch (const std::ios_base::failure&) {
+            throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
+        }
+    }
+
+    void commit()
+    {
+        if (mToStdout) writeToStdout(grids(), mCompression);
+        for (auto& file : mFiles) file->commit();
+    }
+
+private:
+    const openvdb::GridCPtrVec& grids()
+    {
+        if (!mGrids.empty()) return mGrids;
+        requireDistinctTrees(mItems);
+        return mGrids = gridsOf(mItems);
+    }
+
+    const std::vector<StackItem*>& mItems;
+    const uint32_t mCompression;
+    openvdb::GridCPtrVec mGrids;
+    std::vector<std::unique_ptr<AtomicFile>> mFiles;
+    bool mToStdout = false;
+};
+
+void run(const ActionCall& call, Session& session)
+{
+    const Stopwatch watch;
+    const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
+    Writer writer(call, items);
+    for (const std::string& path : call.list("files")) writer.write(path);
+    writer.commit();
+    for (StackItem* item : items) item->written = !call.flag("keep");
+    session.seconds.write += watch.seconds();
+}
+
+} // namespace
+
+ActionSpec writeAction()
+{
+    ActionSpec action{"write", "o", "files",
+        "write grids and sphere-trees (.vdb, stdout.vdb), or one sphere-tree as a table (.csv)"};
+    action.options = {
+        list("files", "", "files to write, or stdout.vdb; the extension says how"),
+        list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
+        choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
+        flag("keep", false, "leave on the stack what is written")};
+    action.failure = kOutput;
+    action.check = check;
+    action.run = run;
+    return action;
+}
+
+} // namespace command

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file main.cc
+/// @brief vdb_spheretree: parse the whole line, check all that can be checked, run it action by action.
+
+#include "ActionParser.h"
+#include "Help.h"
+#include "Session.h"
+
+#include <openvdb/openvdb.h>
+
+#include <iostream>
+
+int main(int argc, char* argv[])
+{
+    using namespace command;
+    if (argc < 2) {
+        printUsage(std::cerr);
+        return kUsage;
+    }
+    try {
+        catchSignals();
+        openvdb::initialize();
+        const std::vector<ActionCall> line = parseLine({argv + 1, argv + argc});
+        const Plan plan = checkLine(line);
+        Session(plan).run(line);
+        return kOk;
+    } catch (...) {
+        return reportError(std::current_exception());
+    }
+}
