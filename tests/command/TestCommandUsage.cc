@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with a command line itself is found before any work: exit code 2, a message that names
+// the action or option, and an existing target keeps its bytes.
+
+#include "CommandRunner.h"
+
+namespace {
+
+using command_test::CommandTest;
+using command_test::Result;
+
+struct BadLine {
+    const char* name;
+    const char* line;
+    const char* message; ///< a part of it
+};
+
+void PrintTo(const BadLine& bad, std::ostream* out) { *out << bad.line; }
+
+class CommandUsageLine : public CommandTest, public testing::WithParamInterface<BadLine> {};
+
+TEST_P(CommandUsageLine, IsRejectedBeforeAnythingIsWritten)
+{
+    writeBlock("a.vol");
+    command_test::writeText(path("t.vdb"), "precious");
+    const auto before = files();
+    const Result result = run(GetParam().line);
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("completed"), std::string::npos) << "work was done: " << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(files(), before);
+    EXPECT_EQ(command_test::readText(path("t.vdb")), "precious");
+}
+
+const BadLine kBadLines[] = {
+    {"UnknownAction", "-read a.vol -spheretre -write t.vdb", "did you mean -spheretree"},
+    {"AmbiguousAction", "-read a.vol -spheres -write t.vdb", "-spheres2mask, -spheres2ls"},
+    {"NoAction", "-read a.vol -- -write t.vdb", "'--' names no action"},
+    {"TokenBeforeAction", "a.vol -write t.vdb", "'a.vol' stands before any action"},
+    {"RepeatedQuiet", "-quiet -quiet -read a.vol -write t.vdb", "-quiet is given more than once"},
+    {"RepeatedThreads", "-threads 1 -threads 2 -read a.vol -write t.vdb", "-threads is given more"},
+    {"UnknownOption", "-read a.vol -spheretree facto=2 facter=3 -write t.vdb",
+        "did you mean factor"},
+    {"AmbiguousOption", "-read a.vol -spheretree d=3 -write t.vdb", "option d is ambiguous"},
+    {"RepeatedOption", "-read a.vol -spheretree factor=2 factor=3 -write t.vdb",
+        "option factor is given more than once"},
+    {"RepeatedByPrefix", "-read a.vol -spheretree factor=2 fac=3 -write t.vdb",
+        "option factor is given more than once"},
+    {"RepeatedMain", "-read a.vol -spheretree extended tree=extended -write t.vdb",
+        "option tree is given more than once"},
+    {"EmptyOptionName", "-read a.vol -spheretree =2 -write t.vdb", "name is missing before '='"},
+    {"EmptyOptionValue", "-read a.vol -spheretree factor= -write t.vdb", "factor has no value"},
+    {"EmptyListItem", "-read a.vol,,a.vol -write t.vdb", "is empty"},
+    {"ArgumentNobodyTakes", "-read a.vol -clear all -write t.vdb", "-clear does not take 'all'"},
+    {"FactorOne", "-read a.vol -spheretree factor=1 -write t.vdb", "factor=1"},
+    {"FactorNegative", "-read a.vol -spheretree factor=-2 -write t.vdb", "factor=-2"},
+    {"FactorNoNumber", "-read a.vol -spheretree factor=2x -write t.vdb", "factor=2x"},
+    {"FactorHuge", "-read a.vol -spheretree factor=99999999999999999999 -write t.vdb", "factor=9"},
+    {"DimFour", "-read a.vol -spheretree dim=4 -write t.vdb", "dim=4"},
+    {"UnknownTree", "-read a.vol -spheretree tree=oak -write t.vdb", "tree=oak"},
+    {"TreeToCome", "-read a.vol -spheretree tree=tight -write t.vdb", "tight is not available"},
+    {"OptionToCome", "-read a.vol -spheretree cover=balls -write t.vdb", "cover is not available"},
+    {"PaddingNegative", "-read a.vol -spheretree padding=-3 -write t.vdb", "padding"},
+    {"PaddingNoNumber", "-read a.vol -spheretree padding=nan -write t.vdb", "padding"},
+    {"ThreadsZero", "-threads 0 -read a.vol -write t.vdb", "threads=0"},
+    {"ThreadsNegative", "-threads threads=-1 -read a.vol -write t.vdb", "threads=-1"},
+    {"ThreadsMissing", "-threads -read a.vol -write t.vdb", "number of threads is missing"},
+    {"WidthZero", "-read a.vol -spheretree -spheres2ls width=0 -write t.vdb", "width=0"},
+    {"VoxelZero", "-read a.vol -spheretree -spheres2ls voxel=0 -write t.vdb", "voxel=0"},
+    {"VoxelAndDim", "-read a.vol -mesh2ls voxel=1 dim=9 -write t.vdb", "exclude each other"},
+    {"LevelNegative", "-read a.vol -spheretree -level level=-1 -write t.vdb", "level=-1"},
+    {"LevelMissing", "-read a.vol -spheretree -level -write t.vdb", "names no level"},
+    {"LevelTwice", "-read a.vol -spheretree -level 1 spheres=3 -write t.vdb", "exclude each other"},
+    {"UnknownCodec", "-read a.vol -spheretree -write t.vdb codec=lzma", "codec=lzma"},
+    {"UnknownExtension", "-read a.vol -spheretree -write t.vdb t.xyz", "t.xyz"},
+    {"FormatToCome", "-read a.vol -spheretree -write t.vdb t.usda", "t.usda"},
+    {"WrittenTwice", "-read a.vol -spheretree -write t.vdb -write ./t.vdb", "more than once"},
+    {"StdoutTwice", "-read a.vol -spheretree -stats json=- -write stdout.vdb", "stdout"},
+    {"NothingToWorkOn", "-spheretree -write t.vdb", "put -read before it"},
+    {"NoFileToRead", "-read grids=a -write t.vdb", "-read: names no file"},
+    {"NoFileToWrite", "-read a.vol -spheretree -write codec=zip", "-write: names no file"},
+    {"HelpOnNothing", "-help spheretrees", "did you mean spheretree"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, CommandUsageLine, testing::ValuesIn(kBadLines),
+    [](const auto& info) { return info.param.name; });
+
+class CommandUsage : public CommandTest {};
+
+TEST_F(CommandUsage, NothingTypedGivesAShortUsageOnStderr)
+{
+    const Result result = run("");
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find("Usage:"), std::string::npos);
+    EXPECT_EQ(result.out, "");
+}
+
+TEST_F(CommandUsage, AnEmptyArgumentIsAnError)
+{
+    EXPECT_EQ(runWords({"-read", ""}).exitCode, 2);
+    EXPECT_EQ(runWords({""}).exitCode, 2);
+}
+
+TEST_F(CommandUsage, DashesAndPrefixesAreFree)
+{
+    writeBlock("a.vol");
+    const Result result = run("---i a.vol --spheretree tree=rev fact=3 -o t.vdb");
+    EXPECT_EQ(result.exitCode, 2) << "a value is not an option: it may not be shortened";
+    EXPECT_EQ(run("---i fil=a.vol --spheretree reversible fact=3 -o t.vdb").exitCode, 0);
+    EXPECT_TRUE(exists("t.vdb"));
+}
+
+TEST_F(CommandUsage, HelpGoesToStdout)
+{
+    const Result all = run("-help");
+    EXPECT_EQ(all.exitCode, 0);
+    EXPECT_EQ(all.err, "");
+    for (const char* name : {"-read,-i", "-spheretree", "-write,-o", "-threads", "factor="}) {
+        EXPECT_NE(all.out.find(name), std::string::npos) << name;
+    }
+    const Result one = run("-help level stats");
+    EXPECT_NE(one.out.find("json="), std::string::npos);
+    EXPECT_EQ(one.out.find("factor="), std::string::npos);
+    const Result brief = run("-help level brief=1");
+    EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 1) << brief.out;
+}
+
+TEST_F(CommandUsage, VersionNamesBothVersions)
+{
+    const Result result = run("-version");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.out.rfind("vdb_spheretree ", 0), 0u);
+    EXPECT_NE(result.out.find(openvdb::getLibraryVersionString()), std::string::npos);
+}
+
+TEST_F(CommandUsage, EveryExampleIsALineThatParses)
+{
+    const Result examples = run("-examples");
+    EXPECT_EQ(examples.exitCode, 0);
+    EXPECT_NE(examples.out.find("-spheretree"), std::string::npos);
+    // The files are not there, which is found only after the line has been understood.
+    std::istringstream lines(examples.out);
+    std::string line, whole;
+    int count = 0;
+    while (std::getline(lines, line)) {
+        if (line.find_last_of('\\') == line.size() - 1) {
+            whole += line.substr(0, line.size() - 1);
+            continue;
+        }
+        whole += line;
+        if (whole.rfind("  vdb_spheretree ", 0) == 0 && whole.find('|') == std::string::npos) {
+            EXPECT_EQ(run(whole.substr(17)).exitCode, 3) << whole;
+            ++count;
+        }
+        whole.clear();
+    }
+    EXPECT_GE(count, 5);
+}
+
+} // namespace

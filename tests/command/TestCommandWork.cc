@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the actions do, and how they pass things on.
+
+#include "CommandRunner.h"
+
+#include <openvdb/tools/LevelSetUtil.h>
+
+#include <regex>
+
+namespace {
+
+using command_test::CommandTest;
+using command_test::readText;
+using command_test::Result;
+using command_test::writeText;
+
+class CommandWork : public CommandTest {
+protected:
+    void SetUp() override
+    {
+        CommandTest::SetUp();
+        writeBlock("a.vol");
+        writeGrids("ball.vdb", {sphereGrid("ball", 8)});
+    }
+
+    /// The values of a key in a JSON text, in order.
+    static std::vector<std::string> valuesOf(const std::string& json, const std::string& key)
+    {
+        const std::regex pattern("\"" + key + "\": ([^,\n]*)");
+        std::vector<std::string> values;
+        for (std::sregex_iterator i(json.begin(), json.end(), pattern), end; i != end; ++i) {
+            values.push_back((*i)[1]);
+        }
+        return values;
+    }
+};
+
+TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
+{
+    const Result result = run("-read a.vol -spheretree factor=3 -stats json=-");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const std::string& json = result.out;
+    EXPECT_EQ(json.front(), '{');
+    EXPECT_EQ(valuesOf(json, "format"), std::vector<std::string>{"\"vdb_spheretree.stats.1\""});
+    EXPECT_EQ(valuesOf(json, "voxels"), std::vector<std::string>{std::to_string(kBlockVoxels)});
+    EXPECT_EQ(valuesOf(json, "factor"), std::vector<std::string>{"3"});
+    const auto spheres = valuesOf(json, "spheres");
+    ASSERT_GE(spheres.size(), 2u);
+    EXPECT_EQ(spheres.back(), "1") << "it ends at one sphere";
+    EXPECT_EQ(valuesOf(json, "level").front(), "0");
+    EXPECT_EQ(valuesOf(json, "excess").front(), "0") << "level 0 is the object";
+    for (const std::string& missing : valuesOf(json, "missing")) EXPECT_EQ(missing, "0");
+    for (const char* key : {"name", "leaves", "tiles", "bbox_min", "bbox_max", "voxel_size", "origin",
+             "tree", "dim", "dist", "parent", "final_fit", "reconstruct", "scale", "padding", "dag",
+             "pyramid_voxels", "radius_min", "radius_max", "covered", "hamming_percent", "hausdorff",
+             "read", "mask", "pyramid", "distance", "power", "medial", "error", "write", "total",
+             "peak_bytes"}) {
+        EXPECT_NE(json.find("\"" + std::string(key) + "\": "), std::string::npos) << key;
+    }
+}
+
+TEST_F(CommandWork, StatsAsJsonGoesToAFileToo)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree -stats json=s.json").exitCode, 0);
+    EXPECT_EQ(readText(path("s.json")).front(), '{');
+    EXPECT_EQ(run("-read a.vol -spheretree -stats t.json").exitCode, 0);
+    EXPECT_TRUE(exists("t.json"));
+}
+
+TEST_F(CommandWork, StatsAsATableHasALineALevel)
+{
+    const Result result = run("-read a.vol -spheretree -stats");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("object 'a'"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("hausdorff"), std::string::npos);
+    EXPECT_NE(result.out.find("seconds:"), std::string::npos);
+}
+
+TEST_F(CommandWork, ErrorsThatWereNotComputedAreNullWithAReason)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree errors=0 -write t.vdb").exitCode, 0);
+    const Result result = run("-read t.vdb -stats json=-");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(valuesOf(result.out, "excess").front(), "null");
+    EXPECT_EQ(valuesOf(result.out, "error_unknown").front(), "\"not computed\"");
+    const Result table = run("-read t.vdb -stats");
+    EXPECT_NE(table.out.find(" -  "), std::string::npos) << table.out;
+}
+
+TEST_F(CommandWork, StatsComputesMissingErrorsWhileTheObjectIsKnown)
+{
+    const Result result = run("-read a.vol -spheretree errors=0 -stats json=-");
+    EXPECT_EQ(valuesOf(result.out, "excess").front(), "0");
+}
+
+TEST_F(CommandWork, AStoredTreeIsTheTreeThatWasBuilt)
+{
+    ASSERT_EQ(run("-read ball.vdb -spheretree dag=1 name=b -write t.vdb t.csv").exitCode, 0);
+    EXPECT_EQ(readGrids("t.vdb").size(), 2u) << "the tree, and the edges of its DAG";
+    ASSERT_EQ(run("-read t.vdb -write u.vdb u.csv").exitCode, 0);
+    EXPECT_EQ(readText(path("t.csv")), readText(path("u.csv")));
+    EXPECT_EQ(readText(path("t.vdb")), readText(path("u.vdb")));
+    ASSERT_EQ(run("-read t.vdb grids=b -write v.vdb").exitCode, 0);
+    EXPECT_EQ(readText(path("t.vdb")), readText(path("v.vdb"))) << "a tree brings its edges";
+    EXPECT_EQ(readText(path("t.csv")).rfind("level,id,parent,x,y,z,radius,i,j,k,radius_sq\n", 0), 0u);
+}
+
+TEST_F(CommandWork, CheckPassesWhatIsRightAndFailsWhatIsWrong)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree -check -write t.vdb").exitCode, 0);
+    EXPECT_EQ(run("-read a.vol -read t.vdb -check").exitCode, 0);
+    EXPECT_EQ(run("-read a.vol -read t.vdb -check vdb=1").exitCode, 0);
+    EXPECT_EQ(run("-read t.vdb -read a.vol -check a").exitCode, 0);
+    const Result wrong = run("-read ball.vdb -read t.vdb -check -write u.vdb");
+    EXPECT_EQ(wrong.exitCode, 6) << wrong.err;
+    EXPECT_NE(wrong.out, "") << "what failed is a result";
+    EXPECT_NE(wrong.err.find("-check"), std::string::npos);
+    EXPECT_FALSE(exists("u.vdb"));
+    EXPECT_EQ(run("-read t.vdb -check").exitCode, 3) << "there is no object";
+}
+
+TEST_F(CommandWork, LevelZeroAsAMaskIsTheObject)
+{
+    ASSERT_EQ(run("-read ball.vdb -mask name=o -write o.vdb").exitCode, 0);
+    ASSERT_EQ(run("-read ball.vdb -spheretree -spheres2mask level=0 name=o -write m.vdb").exitCode, 0);
+    const auto object = openvdb::gridPtrCast<openvdb::BoolGrid>(readGrids("o.vdb").at(0));
+    const auto mask = openvdb::gridPtrCast<openvdb::BoolGrid>(readGrids("m.vdb").at(0));
+    ASSERT_TRUE(object && mask);
+    EXPECT_EQ(object->activeVoxelCount(), mask->activeVoxelCount());
+    object->tree().topologyDifference(mask->tree());
+    EXPECT_EQ(object->activeVoxelCount(), 0u);
+    EXPECT_EQ(object->transform(), mask->transform());
+}
+
+TEST_F(CommandWork, SpheresAsALevelSetHoldTheObject)
+{
+    ASSERT_EQ(run("-read ball.vdb -spheretree -spheres2ls 0 -write s.vdb").exitCode, 0);
+    const auto surface = openvdb::gridPtrCast<openvdb::FloatGrid>(readGrids("s.vdb").at(0));
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->getGridClass(), openvdb::GRID_LEVEL_SET);
+    const auto inside = openvdb::tools::sdfInteriorMask(*surface);
+    auto object = openvdb::tools::sdfInteriorMask(*sphereGrid("ball", 8));
+    const auto voxels = object->activeVoxelCount();
+    EXPECT_LT(inside->activeVoxelCount(), voxels * 2);
+    object->tree().topologyDifference(inside->tree());
+    EXPECT_EQ(object->activeVoxelCount(), 0u);
+    ASSERT_EQ(run("-read ball.vdb -spheretree -spheres2ls 0 voxel=0.25 -write f.vdb").exitCode, 0);
+    EXPECT_EQ(readGrids("f.vdb").at(0)->voxelSize()[0], 0.25);
+}
+
+TEST_F(CommandWork, OneLevelIsKeptByNumberOrBySpheres)
+{
+    const Result json = run("-read ball.vdb -spheretree reversible -stats json=-");
+    const auto spheres = valuesOf(json.out, "spheres");
+    ASSERT_GE(spheres.size(), 3u);
+    ASSERT_EQ(run("-read ball.vdb -spheretree reversible -level 1 -write a.csv").exitCode, 0);
+    ASSERT_EQ(run("-read ball.vdb -spheretree reversible -level spheres=" + spheres[1]
+                  + " -write b.csv").exitCode, 0);
+    const std::string csv = readText(path("a.csv"));
+    EXPECT_EQ(csv, readText(path("b.csv")));
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + std::stoi(spheres[1]));
+    EXPECT_EQ(run("-read ball.vdb -spheretree -level 1 -write l.vdb").exitCode, 0);
+    EXPECT_EQ(run("-read l.vdb -spheres2mask -write m.vdb").exitCode, 0);
+}
+
+TEST_F(CommandWork, InputsAreConsumedUnlessKept)
+{
+    const Result consumed = run("-read ball.vdb -spheretree -print");
+    EXPECT_EQ(consumed.out.find("'ball'"), std::string::npos) << consumed.out;
+    const Result kept = run("-read ball.vdb -spheretree keep=1 -print");
+    EXPECT_NE(kept.out.find("vdb 1: grid 'ball'"), std::string::npos) << kept.out;
+}
+
+TEST_F(CommandWork, WhatIsWrittenLeavesWhenTheNextThingArrives)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree name=one -write one.vdb -stats -write one.csv"
+                  " -read ball.vdb -spheretree name=two -write two.vdb").exitCode, 0);
+    EXPECT_TRUE(exists("one.csv"));
+    EXPECT_EQ(readGrids("two.vdb").size(), 1u);
+    ASSERT_EQ(run("-read a.vol -spheretree name=one -write one.vdb keep=1"
+                  " -read ball.vdb -spheretree name=two -write two.vdb").exitCode, 0);
+    EXPECT_EQ(readGrids("two.vdb").size(), 2u);
+}
+
+TEST_F(CommandWork, TwoTreesOfOneNameAreNotWrittenToOneFile)
+{
+    const Result result = run("-read a.vol -spheretree -read ball.vdb -spheretree -write t.vdb");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_NE(result.err.find("'spheretree'"), std::string::npos);
+    EXPECT_FALSE(exists("t.vdb"));
+}
+
+TEST_F(CommandWork, ClearEmptiesTheStack)
+{
+    const Result result = run("-read a.vol ball.vdb -clear -print");
+    EXPECT_EQ(result.out, "the stack is empty\n");
+}
+
+TEST_F(CommandWork, MaskSettingsChooseTheObject)
+{
+    std::string values;
+    for (int i = 0; i < 27; ++i) values += char(i);
+    writeVol("grey.vol", {3, 3, 3}, values);
+    for (const auto& [threshold, voxels] : {std::pair(0, 26), std::pair(20, 6)}) {
+        const Result result = run("-read grey.vol -mask threshold=" + std::to_string(threshold)
+            + " -spheretree -stats json=-");
+        EXPECT_EQ(valuesOf(result.out, "voxels"), std::vector<std::string>{std::to_string(voxels)});
+    }
+}
+
+TEST_F(CommandWork, AGridReadFromAFileIsWrittenBack)
+{
+    ASSERT_EQ(run("-read ball.vdb -write b.vdb").exitCode, 0);
+    const auto ball = openvdb::gridPtrCast<openvdb::FloatGrid>(readGrids("b.vdb").at(0));
+    ASSERT_TRUE(ball);
+    EXPECT_EQ(ball->activeVoxelCount(), sphereGrid("ball", 8)->activeVoxelCount());
+    EXPECT_EQ(ball->getName(), "ball");
+}
+
+TEST_F(CommandWork, AFileWrittenOnTheLineCanBeReadOnIt)
+{
+    EXPECT_EQ(run("-read a.vol -spheretree -write t.vdb -clear -read t.vdb -stats").exitCode, 0);
+}
+
+TEST_F(CommandWork, AStrangeGridNameDoesNotBreakJson)
+{
+    writeGrids("odd.vdb", {sphereGrid("a\"b\\c\n\xff", 3)});
+    const Result result = run("-read odd.vdb -spheretree -stats json=-");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("\"a\\\"b\\\\c\\u000a\\ufffd\""), std::string::npos) << result.out;
+}
+
+} // namespace

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file support/BuiltTrees.h
+/// @brief For tests that build sphere-trees: the settings there are, and questions to a finished tree.
+
+#pragma once
+
+#include "CoreStages.h"
+#include "RandomObjects.h"
+
+#include <openvdb_spheretree/SphereTree.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace spheretree_test {
+
+using openvdb_spheretree::ParentRule;
+using openvdb_spheretree::RadiusScale;
+using openvdb_spheretree::Reconstruction;
+using openvdb_spheretree::SphereTree;
+using openvdb_spheretree::SphereTreeLevel;
+using openvdb_spheretree::SphereTreeSettings;
+using openvdb_spheretree::TreeType;
+
+inline std::string describe(const SphereTreeSettings& s)
+{
+    return std::string(toString(s.tree)) + " factor=" + std::to_string(s.factor) +
+        " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent) +
+        " final_fit=" + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct) +
+        " scale=" + toString(s.scale) + " padding=" + std::to_string(s.padding);
+}
+
+/// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree of
+/// final fit and reconstruction; with the DAG.
+inline std::vector<SphereTreeSettings> allSettings(TreeType type, int dim)
+{
+    const bool extended = type == TreeType::Extended;
+    std::vector<SphereTreeSettings> all;
+    for (int i = 0; i < 48; ++i) {
+        SphereTreeSettings settings;
+        settings.tree = type;
+        settings.dim = dim;
+        settings.dag = true;
+        settings.factor = 2 + i % 2;
+        settings.parent = i / 2 % 2 ? ParentRule::Dag : ParentRule::Centre;
+        settings.scale = i / 4 % 2 ? RadiusScale::Paper : RadiusScale::Tight;
+        settings.finalFit = i / 8 % 2 == 0;
+        settings.reconstruct = Reconstruction(i / 16);
+        if (extended || i < 8) all.push_back(settings);
+    }
+    return all;
+}
+
+/// Both types, all settings, three dimensions.
+inline std::vector<SphereTreeSettings> allSettings()
+{
+    std::vector<SphereTreeSettings> all = allSettings(TreeType::Reversible, 3);
+    for (const SphereTreeSettings& s : allSettings(TreeType::Extended, 3)) all.push_back(s);
+    return all;
+}
+
+/// The two types of tree with everything else as it comes.
+inline std::vector<SphereTreeSettings> bothTypes()
+{
+    SphereTreeSettings reversible, extended;
+    reversible.tree = TreeType::Reversible;
+    extended.tree = TreeType::Extended;
+    return {reversible, extended};
+}
+
+/// All voxels brought to the height of the lowest.
+inline Voxels flattened(Voxels voxels)
+{
+    const int z = boxOf(voxels).min()[2];
+    for (Coord& voxel : voxels) voxel[2] = z;
+    sortVoxels(voxels);
+    return voxels;
+}
+
+/// Small objects of every shape of randomObject().
+inline std::vector<RandomObject> someObjects(uint32_t firstSeed, uint32_t count)
+{
+    std::vector<RandomObject> objects;
+    for (uint32_t i = 0; i < count; ++i) objects.push_back(randomObject(firstSeed + i));
+    return objects;
+}
+
+/// |2 (q - center)|^2, exactly.
+inline int64_t doubledDistanceSq(const SphereTree& tree, int32_t id, const Coord& q)
+{
+    int64_t sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t d = 2 * int64_t(q[axis]) - std::llround(2 * tree.center[id][axis]);
+        sum += d * d;
+    }
+    return sum;
+}
+
+inline bool holds(const SphereTree& tree, int32_t id, const Coord& q)
+{
+    return doubledDistanceSq(tree, id, q) <= tree.coverSq[id];
+}
+
+/// One entry a node: levels, links, spheres. Not what the tree knows of its object.
+inline testing::AssertionResult sameNodes(const SphereTree& a, const SphereTree& b)
+{
+    const auto differ = [](const char* what) {
+        return testing::AssertionFailure() << "the trees differ in " << what;
+    };
+    if (a.levels.size() != b.levels.size()) return differ("their number of levels");
+    for (std::size_t k = 0; k < a.levels.size(); ++k) {
+        const SphereTreeLevel &x = a.levels[k], &y = b.levels[k];
+        if (x.level != y.level || x.begin != y.begin || x.end != y.end) return differ("levels");
+        if (x.pyramidVoxels != y.pyramidVoxels) return differ("pyramidVoxels");
+    }
+    if (a.parent != b.parent) return differ("parent");
+    if (a.ijk != b.ijk) return differ("ijk");
+    if (a.radiusSq != b.radiusSq) return differ("radiusSq");
+    if (a.center != b.center) return differ("center");
+    if (a.radius != b.radius) return differ("radius");
+    if (a.coverSq != b.coverSq) return differ("coverSq");
+    if (a.radiusWorld != b.radiusWorld) return differ("radiusWorld");
+    if (!(a.dag == b.dag)) return differ("dag");
+    return testing::AssertionSuccess();
+}
+
+/// One level of one node on top, which everything else hangs on.
+inline testing::AssertionResult endsAtOneRoot(const SphereTree& tree)
+{
+    if (tree.levels.empty() || tree.root().size() != 1 || tree.root().begin != 0) {
+        return testing::AssertionFailure() << "no single root";
+    }
+    for (int32_t id = 1; id < tree.size(); ++id) {
+        int32_t above = id;
+        while (tree.parent[above] >= 0 && tree.parent[above] < above) above = tree.parent[above];
+        if (above != 0) return testing::AssertionFailure() << "node " << id << " hangs loose";
+    }
+    return testing::AssertionSuccess();
+}
+
+/// Every voxel lies in a sphere of every level, by the exact radii.
+inline testing::AssertionResult covers(const SphereTree& tree, const Voxels& voxels)
+{
+    for (const SphereTreeLevel& level : tree.levels) {
+        int32_t last = level.begin;
+        for (const Coord& voxel : voxels) {
+            if (holds(tree, last, voxel)) continue;
+            for (last = level.begin; last < level.end && !holds(tree, last, voxel);) ++last;
+            if (last == level.end) {
+                return testing::AssertionFailure() << "level " << level.level << " misses " << voxel;
+            }
+        }
+    }
+    return testing::AssertionSuccess();
+}
+
+} // namespace spheretree_test

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file support/DenseTree.h
+/// @brief The reversible and the extended tree, written down once more from their definition: sets of
+/// voxels, doubles, and labels by NaiveReference.h. Shares no code with the library.
+///
+/// Frame of level 0: a voxel v of level k is centred at f^k v + (f^k - 1) / 2 + origin. A medial ball
+/// of level k becomes a sphere of radius f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2.
+/// Reversible: the medial balls of every level of the OR pyramid.
+/// Extended, per level: medial balls of the coarsened voxels; every node's parent is the label of the
+/// parent voxel of its centre; balls without children go; the radius is what the leaf balls below
+/// need; the level's voxels become those within that radius of a centre, inside the pyramid's box.
+///
+/// For objects of some thousand voxels. Doubles do for these: where a choice could hang on the last
+/// digits (see `preferDagParent`), it is made with a margin.
+
+#pragma once
+
+#include "NaiveReference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace spheretree_test {
+
+enum class DenseReconstruction { Clip, Free, None };
+
+struct DenseSettings {
+    bool extended = true;
+    int factor = 2;
+    int dim = 3;
+    bool parentByDag = false;
+    bool finalFit = true;
+    DenseReconstruction reconstruct = DenseReconstruction::Clip;
+    bool paperScale = false;
+};
+
+struct DenseNode {
+    std::array<double, 3> center; ///< index space
+    double radius = 0;            ///< voxels of level 0
+    int parent = -1;              ///< index in the next level
+    Coord ijk;                    ///< in its level's own grid
+    int64_t radiusSq = 0;
+};
+
+struct DenseLevel {
+    std::vector<DenseNode> nodes; ///< in the order of ijk
+    std::size_t voxels = 0;       ///< of the set whose medial balls these are
+    std::set<std::pair<int, int>> dag; ///< node of the next level, node of this level
+};
+
+/// Builds trees of one object; remembers the labels of voxel sets, which settings share.
+class DenseTreeBuilder {
+public:
+    explicit DenseTreeBuilder(const Voxels& object) : mObject(object)
+    {
+        sortVoxels(mObject);
+        const Coord lowest = boxOf(mObject).min();
+        for (int axis = 0; axis < 3; ++axis) mOrigin[axis] = 8 * floorOf(lowest[axis] / 8.0);
+    }
+
+    const Coord& origin() const { return mOrigin; }
+
+    std::vector<DenseLevel> build(const DenseSettings& settings)
+    {
+        mSettings = settings;
+        mLeaves.clear();
+        std::set<Coord> voxels(mObject.begin(), mObject.end());
+        const NaiveReference* fine = &medial(voxels);
+        std::vector<DenseLevel> levels{firstLevel(*fine)};
+        while (levels.back().nodes.size() > 1) {
+            const int level = int(levels.size());
+            voxels = coarsened(voxels, level);
+            const NaiveReference* coarse = &medial(voxels);
+            levels.push_back(nextLevel(levels.back(), level, *fine, *coarse));
+            if (settings.extended) fitAndRebuild(levels[level], levels[level - 1], level, voxels);
+            fine = coarse;
+        }
+        return levels;
+    }
+
+private:
+    struct Leaf {
+        std::array<double, 3> center;
+        double radius;
+        int ancestor;
+    };
+
+    static int floorOf(double x) { return int(std::floor(x)); }
+
+    double scaleOf(int level) const { return std::pow(mSettings.factor, level); }
+
+    /// The voxel of @a level that holds voxel @a v of the level below.
+    Coord parentVoxel(const Coord& v, int level) const
+    {
+        Coord parent = level == 1 ? v - mOrigin : v;
+        for (int axis = 0; axis < mSettings.dim; ++axis) {
+            parent[axis] = floorOf(double(parent[axis]) / mSettings.factor);
+        }
+        return parent;
+    }
+
+    std::array<double, 3> centerOf(const Coord& v, int level) const
+    {
+        std::array<double, 3> center{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double scale = axis < mSettings.dim ? scaleOf(level) : 1;
+            center[axis] = level == 0 ? v[axis] : scale * v[axis] + (scale - 1) / 2 + mOrigin[axis];
+        }
+        return center;
+    }
+
+    double growthOf(int level) const { return std::sqrt(mSettings.dim) * (scaleOf(level) - 1) / 2; }
+
+    double radiusOf(int64_t radiusSq, int level) const
+    {
+        const bool paper = mSettings.paperScale && level > 0;
+        return scaleOf(level) * std::sqrt(double(paper ? radiusSq : radiusSq - 1)) + growthOf(level);
+    }
+
+    static double distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+    {
+        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+
+    const NaiveReference& medial(const std::set<Coord>& voxels)
+    {
+        std::unique_ptr<NaiveReference>& known = mMedial[{mSettings.dim, voxels}];
+        if (!known) {
+            known = std::make_unique<NaiveReference>(
+                Voxels(voxels.begin(), voxels.end()), mSettings.dim);
+        }
+        return *known;
+    }
+
+    static Coord labelOf(const NaiveReference& medial, const Coord& voxel)
+    {
+        const Voxels& voxels = medial.voxels();
+        const auto it = std::lower_bound(voxels.begin(), voxels.end(), voxel);
+        return medial.label(std::size_t(it - voxels.begin()));
+    }
+
+    static bool isOn(const NaiveReference& medial, const Coord& voxel)
+    {
+        return std::binary_search(medial.voxels().begin(), medial.voxels().end(), voxel);
+    }
+
+    DenseLevel allBalls(const NaiveReference& medial, int level) const
+    {
+        DenseLevel result;
+        result.voxels = medial.voxels().size();
+        for (const NaiveReference::Ball& ball : medial.balls()) {
+            result.nodes.push_back({centerOf(ball.center, level), radiusOf(ball.radiusSq, level), -1,
+                ball.center, ball.radiusSq});
+        }
+        return result;
+    }
+
+    DenseLevel firstLevel(const NaiveReference& medial)
+    {
+        DenseLevel level = allBalls(medial, 0);
+        for (const DenseNode& node : level.nodes) {
+            mLeaves.push_back({node.center, node.radius, int(mLeaves.size())});
+        }
+        return level;
+    }
+
+    /// The voxels of @a level: a parent is on when a child is. Without the clip levels may keep
+    /// swelling; there the tree ends at the level at which the object's own pyramid is one voxel.
+    std::set<Coord> coarsened(const std::set<Coord>& voxels, int level) const
+    {
+        const CoordBBox box = pyramidBox(level);
+        if (mSettings.extended && mSettings.reconstruct == DenseReconstruction::Free &&
+            box.min() == box.max()) {
+            return {box.min()};
+        }
+        std::set<Coord> result;
+        for (const Coord& voxel : voxels) result.insert(parentVoxel(voxel, level));
+        return result;
+    }
+
+    CoordBBox pyramidBox(int level) const
+    {
+        CoordBBox box = boxOf(mObject);
+        for (int k = 1; k <= level; ++k) {
+            box = CoordBBox(parentVoxel(box.min(), k), parentVoxel(box.max(), k));
+        }
+        return box;
+    }
+
+    /// The nodes of @a level; hangs the nodes below on them.
+    DenseLevel nextLevel(
+        DenseLevel& below, int level, const NaiveReference& fine, const NaiveReference& coarse) const
+    {
+        DenseLevel balls = allBalls(coarse, level);
+        const std::map<Coord, int> ballAt = indexByCentre(balls);
+        below.dag = dagEdges(below, level, fine, coarse, ballAt);
+        for (std::size_t i = 0; i < below.nodes.size(); ++i) {
+            DenseNode& node = below.nodes[i];
+            node.parent = 0;
+            if (balls.nodes.size() == 1) continue;
+            node.parent = ballAt.at(labelOf(coarse, parentVoxel(node.ijk, level)));
+            if (mSettings.parentByDag) preferDagParent(below, int(i), balls, level);
+        }
+        return mSettings.extended ? withChildren(below, balls) : balls;
+    }
+
+    static std::map<Coord, int> indexByCentre(const DenseLevel& level)
+    {
+        std::map<Coord, int> result;
+        for (const DenseNode& node : level.nodes) result.emplace(node.ijk, int(result.size()));
+        return result;
+    }
+
+    /// Ball of @a level, node below it: some voxel has the node for its label, its parent the ball.
+    std::set<std::pair<int, int>> dagEdges(const DenseLevel& below, int level,
+        const NaiveReference& fine, const NaiveReference& coarse,
+        const std::map<Coord, int>& ballAt) const
+    {
+        const std::map<Coord, int> nodeAt = indexByCentre(below);
+        std::set<std::pair<int, int>> edges;
+        for (const Coord& voxel : fine.voxels()) {
+            const auto child = nodeAt.find(labelOf(fine, voxel));
+            const Coord parent = parentVoxel(voxel, level);
+            if (child == nodeAt.end() || !isOn(coarse, parent)) continue;
+            edges.emplace(ballAt.at(labelOf(coarse, parent)), child->second);
+        }
+        return edges;
+    }
+
+    /// Among the DAG parents of a node, the one it sticks out of least; of equals the first.
+    void preferDagParent(DenseLevel& below, int child, const DenseLevel& balls, int level) const
+    {
+        DenseNode& node = below.nodes[child];
+        const double own = radiusOf(node.radiusSq, level - 1);
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& [parent, of] : below.dag) {
+            if (of != child) continue;
+            const DenseNode& ball = balls.nodes[parent];
+            const double power = distance(node.center, ball.center) + own - ball.radius;
+            if (power > least - 1e-9) continue; // equal but for rounding
+            node.parent = parent;
+            least = power;
+        }
+    }
+
+    /// Drops the balls that nobody below has for its parent.
+    static DenseLevel withChildren(DenseLevel& below, const DenseLevel& balls)
+    {
+        std::map<int, int> kept;
+        for (const DenseNode& node : below.nodes) kept[node.parent] = 0;
+        DenseLevel result;
+        result.voxels = balls.voxels;
+        for (auto& [ball, node] : kept) {
+            node = int(result.nodes.size());
+            result.nodes.push_back(balls.nodes[ball]);
+        }
+        for (DenseNode& node : below.nodes) node.parent = kept.at(node.parent);
+        std::set<std::pair<int, int>> edges;
+        for (const auto& [ball, child] : below.dag) {
+            if (kept.count(ball)) edges.emplace(kept.at(ball), child);
+        }
+        below.dag = edges;
+        return result;
+    }
+
+    /// The radii of a new level of an extended tree, and the voxels that they rebuild.
+    void fitAndRebuild(DenseLevel& nodes, const DenseLevel& below, int level, std::set<Coord>& voxels)
+    {
+        for (DenseNode& node : nodes.nodes) node.radius = 0;
+        for (Leaf& leaf : mLeaves) {
+            leaf.ancestor = below.nodes[leaf.ancestor].parent;
+            DenseNode& node = nodes.nodes[leaf.ancestor];
+            node.radius = std::max(node.radius, distance(leaf.center, node.center) + leaf.radius);
+        }
+        const bool done = nodes.nodes.size() == 1;
+        if (mSettings.reconstruct != DenseReconstruction::None && !done) {
+            voxels = reconstructed(nodes, level);
+        }
+        if (mSettings.finalFit) return;
+        for (DenseNode& node : nodes.nodes) node.radius += growthOf(level);
+    }
+
+    std::set<Coord> reconstructed(const DenseLevel& nodes, int level) const
+    {
+        const CoordBBox clip = pyramidBox(level);
+        std::set<Coord> voxels;
+        for (const DenseNode& node : nodes.nodes) {
+            const double limit = node.radius / scaleOf(level) * (1 + 1e-9);
+            const int reach = floorOf(limit), reachZ = mSettings.dim == 2 ? 0 : reach;
+            const Coord corner(reach, reach, reachZ);
+            for (const Coord& v : voxelsOfBox(CoordBBox(node.ijk - corner, node.ijk + corner))) {
+                if (std::sqrt(double(squaredDistance(v, node.ijk))) > limit) continue;
+                const bool free = mSettings.reconstruct == DenseReconstruction::Free;
+                if (free || clip.isInside(v)) voxels.insert(v);
+            }
+        }
+        return voxels;
+    }
+
+    Coord mOrigin;
+    Voxels mObject;
+    DenseSettings mSettings;
+    std::vector<Leaf> mLeaves;
+    std::map<std::pair<int, std::set<Coord>>, std::unique_ptr<NaiveReference>> mMedial;
+};
+
+} // namespace spheretree_test

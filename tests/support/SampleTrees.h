@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file support/SampleTrees.h
+/// @brief Sphere-trees written by hand, for tests of what stores and prints them. Every field has a
+/// value of its own, so that a field forgotten or mixed up shows. They cover no object.
+
+#pragma once
+
+#include <openvdb_spheretree/SphereTree.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace spheretree_test {
+
+using openvdb_spheretree::SphereTree;
+using openvdb_spheretree::SphereTreeLevel;
+
+/// A node whose other numbers follow from its radius, each a little different.
+inline void addNode(SphereTree& tree, const openvdb::Vec3d& center, const openvdb::Coord& ijk,
+    int32_t radiusSq, int32_t parent)
+{
+    const double radius = std::sqrt(double(radiusSq) - 1) + 0.1 * double(tree.center.size());
+    tree.center.push_back(center);
+    tree.radius.push_back(radius);
+    tree.coverSq.push_back(int64_t(4 * radius * radius));
+    tree.radiusWorld.push_back(std::nextafter(
+        float(radius * tree.voxelSize()), std::numeric_limits<float>::infinity()));
+    tree.parent.push_back(parent);
+    tree.ijk.push_back(ijk);
+    tree.radiusSq.push_back(radiusSq);
+}
+
+/// Starts a level below the ones before; nodes added after the call belong to it.
+inline void addLevel(SphereTree& tree, int32_t nodes, int64_t pyramidVoxels)
+{
+    SphereTreeLevel level;
+    level.begin = tree.levels.empty() ? 0 : tree.levels.front().end;
+    level.end = level.begin + nodes;
+    level.pyramidVoxels = pyramidVoxels;
+    for (SphereTreeLevel& above : tree.levels) ++above.level;
+    tree.levels.insert(tree.levels.begin(), level);
+}
+
+/// One voxel at (-3, 4, 5): a single ball of radius 0.
+inline SphereTree oneVoxelTree()
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
+    tree.origin = {-8, 0, 0};
+    tree.settings.padding = 0;
+    tree.object.name = "dot";
+    tree.object.voxels = tree.object.leaves = 1;
+    tree.object.bbox.reset(openvdb::Coord(-3, 4, 5), openvdb::Coord(-3, 4, 5));
+    addLevel(tree, 1, 1);
+    addNode(tree, {-3, 4, 5}, {5, 4, 5}, 1, -1);
+    tree.radiusWorld[0] = 0;
+    return tree;
+}
+
+inline void fillDescription(SphereTree& tree)
+{
+    using namespace openvdb_spheretree;
+    tree.origin = {-16, 8, -1024};
+    tree.settings.tree = TreeType::Reversible;
+    tree.settings.factor = 3;
+    tree.settings.parent = ParentRule::Dag;
+    tree.settings.finalFit = false;
+    tree.settings.reconstruct = Reconstruction::Free;
+    tree.settings.scale = RadiusScale::Paper;
+    tree.settings.padding = 0.1;
+    tree.settings.dag = true;
+    tree.settings.name = "sample tree";
+    tree.object.name = "bunny, left ear";
+    tree.object.voxels = int64_t(1) << 40;
+    tree.object.leaves = 123;
+    tree.object.tiles = 7;
+    tree.object.bbox.reset(openvdb::Coord(-15, 9, -1000), openvdb::Coord(20, 30, 40));
+}
+
+/// Three levels of 1, 2 and 5 nodes: negative and half-voxel centres, one centre on all levels, an
+/// error known, one unknown, one never asked for, a DAG, and no setting at its default.
+inline SphereTree sampleTree()
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.1);
+    tree.transform->postRotate(0.3, openvdb::math::X_AXIS);
+    tree.transform->postTranslate({1.0 / 3, -2e5, 7});
+    fillDescription(tree);
+    addLevel(tree, 1, 3);
+    addLevel(tree, 2, 17);
+    addLevel(tree, 5, 99);
+    addNode(tree, {-1.5, 10.5, -1000.5}, {0, 0, 1}, 30, -1);
+    addNode(tree, {-1.5, 10.5, -1000.5}, {1, 0, 2}, 9, 0);
+    addNode(tree, {12.5, 21.5, 30.5}, {3, 1, 500}, 14, 0);
+    addNode(tree, {-15, 9, -1000}, {1, 1, 24}, 5, 1);
+    addNode(tree, {-1.5, 10.5, -1000.5}, {14, 3, 23}, 6, 1);
+    addNode(tree, {0, 10, -999}, {16, 2, 25}, 4, 1);
+    addNode(tree, {0.0625, 10.9375, -999.5}, {16, 3, 24}, -1, 2);
+    addNode(tree, {20, 30, 40}, {36, 22, 1064}, 1, 2);
+    tree.radius[6] = tree.radius[7] = 0;
+    tree.coverSq[6] = int64_t(1) << 50;
+    tree.radiusWorld[6] = 0;
+    tree.levels[0].error = openvdb_spheretree::LevelError{int64_t(1) << 41, 5, 1, 0.1, 1.0 / 3};
+    tree.levels[1].errorUnknown = "too many rows";
+    tree.dag = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {1, 5}, {2, 5}, {2, 6}, {2, 7}};
+    return tree;
+}
+
+/// Levels of n, n / 10, ... 1 nodes at random half-voxel centres in a box of some 200 voxels.
+inline SphereTree randomTree(int32_t n, unsigned seed)
+{
+    std::mt19937 random(seed);
+    const auto number = [&](int lo, int hi) {
+        return lo + int(random() % uint32_t(hi - lo + 1));
+    };
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.07);
+    tree.object.name = "random";
+    std::vector<int32_t> counts{n};
+    while (counts.back() > 1) counts.push_back(counts.back() / 10 > 0 ? counts.back() / 10 : 1);
+    int32_t aboveBegin = -1, aboveEnd = -1;
+    for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
+        addLevel(tree, *count, 10 * *count);
+        const int32_t begin = tree.size();
+        for (int32_t i = 0; i < *count; ++i) {
+            const openvdb::Coord twice(number(-201, 203), number(-202, 207), number(-211, 199));
+            addNode(tree, twice.asVec3d() / 2, {twice[0] >> 1, twice[1] >> 1, twice[2] >> 1},
+                number(1, 5000), aboveBegin < 0 ? -1 : number(aboveBegin, aboveEnd - 1));
+        }
+        aboveBegin = begin;
+        aboveEnd = tree.size();
+    }
+    return tree;
+}
+
+/// The nodes of one level, as a tree whose nodes are all roots.
+inline SphereTree oneLevelOf(const SphereTree& tree, int number)
+{
+    const SphereTreeLevel level = tree.levels.at(number);
+    const auto cut = [&](auto& values) {
+        values = {values.begin() + level.begin, values.begin() + level.end};
+    };
+    SphereTree kept = tree;
+    cut(kept.center), cut(kept.radius), cut(kept.coverSq), cut(kept.radiusWorld);
+    cut(kept.parent), cut(kept.ijk), cut(kept.radiusSq);
+    kept.parent.assign(kept.center.size(), -1);
+    kept.levels = {level};
+    kept.levels[0].begin = 0;
+    kept.levels[0].end = level.size();
+    kept.dag.clear();
+    return kept;
+}
+
+inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
+{
+    EXPECT_EQ(a.settings.tree, b.settings.tree);
+    EXPECT_EQ(a.settings.factor, b.settings.factor);
+    EXPECT_EQ(a.settings.dim, b.settings.dim);
+    EXPECT_EQ(a.settings.parent, b.settings.parent);
+    EXPECT_EQ(a.settings.finalFit, b.settings.finalFit);
+    EXPECT_EQ(a.settings.reconstruct, b.settings.reconstruct);
+    EXPECT_EQ(a.settings.scale, b.settings.scale);
+    EXPECT_EQ(a.settings.padding, b.settings.padding);
+    EXPECT_EQ(a.settings.dag, b.settings.dag);
+    EXPECT_EQ(a.settings.name, b.settings.name);
+    EXPECT_EQ(a.object.name, b.object.name);
+    EXPECT_EQ(a.object.voxels, b.object.voxels);
+    EXPECT_EQ(a.object.leaves, b.object.leaves);
+    EXPECT_EQ(a.object.tiles, b.object.tiles);
+    EXPECT_EQ(a.object.bbox, b.object.bbox);
+    EXPECT_EQ(a.origin, b.origin);
+}
+
+/// Every bit of the map, where Transform::operator== has a tolerance.
+inline void expectSameTransform(
+    const openvdb::math::Transform& a, const openvdb::math::Transform& b)
+{
+    EXPECT_EQ(a.mapType(), b.mapType());
+    EXPECT_TRUE(a == b);
+    EXPECT_EQ(a.baseMap()->getAffineMap()->getMat4(), b.baseMap()->getAffineMap()->getMat4());
+}
+
+inline void expectSameLevel(const SphereTreeLevel& a, const SphereTreeLevel& b)
+{
+    EXPECT_EQ(a.level, b.level);
+    EXPECT_EQ(a.begin, b.begin);
+    EXPECT_EQ(a.end, b.end);
+    EXPECT_EQ(a.pyramidVoxels, b.pyramidVoxels);
+    EXPECT_EQ(a.errorUnknown, b.errorUnknown);
+    ASSERT_EQ(a.error.has_value(), b.error.has_value());
+    if (!a.error) return;
+    EXPECT_EQ(a.error->covered, b.error->covered);
+    EXPECT_EQ(a.error->excess, b.error->excess);
+    EXPECT_EQ(a.error->missing, b.error->missing);
+    EXPECT_EQ(a.error->hammingPercent, b.error->hammingPercent);
+    EXPECT_EQ(a.error->hausdorff, b.error->hausdorff);
+}
+
+/// Identical in every field.
+inline void expectSameTree(const SphereTree& a, const SphereTree& b)
+{
+    EXPECT_EQ(a.center, b.center);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.coverSq, b.coverSq);
+    EXPECT_EQ(a.radiusWorld, b.radiusWorld);
+    EXPECT_EQ(a.parent, b.parent);
+    EXPECT_EQ(a.ijk, b.ijk);
+    EXPECT_EQ(a.radiusSq, b.radiusSq);
+    EXPECT_EQ(a.dag, b.dag);
+    ASSERT_EQ(a.levels.size(), b.levels.size());
+    for (std::size_t k = 0; k < a.levels.size(); ++k) expectSameLevel(a.levels[k], b.levels[k]);
+    expectSameDescription(a, b);
+    expectSameTransform(*a.transform, *b.transform);
+}
+
+} // namespace spheretree_test

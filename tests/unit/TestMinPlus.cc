@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestMinPlus.cc
+/// @brief The kernels of the distance transform against plain loops.
+
+#include "../support/RandomObjects.h"
+
+#include <openvdb_spheretree/detail/LeafRows.h>
+#include <openvdb_spheretree/detail/MinPlus.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace {
+
+using namespace openvdb_spheretree::detail;
+using spheretree_test::Random;
+
+/// Values of 64 lines, row by row, within what a width holds.
+using Rows = std::vector<uint32_t>;
+
+Rows makeRows(int rows, Random& random, uint32_t (*value)(Random&, int row, int lane))
+{
+    Rows result;
+    for (int row = 0; row < rows; ++row) {
+        for (int lane = 0; lane < kLanes; ++lane) result.push_back(value(random, row, lane));
+    }
+    return result;
+}
+
+/// The least of in(j) + (i - j)^2 over all rows and the background before and behind them.
+Rows naiveMinPlus(const Rows& in)
+{
+    const int rows = int(in.size()) / kLanes;
+    Rows out(in.size());
+    for (int lane = 0; lane < kLanes; ++lane) {
+        for (int64_t i = 0; i < rows; ++i) {
+            int64_t least = std::min((i + 1) * (i + 1), (rows - i) * (rows - i));
+            for (int64_t j = 0; j < rows; ++j) {
+                least = std::min(least, int64_t(in[j * kLanes + lane]) + (i - j) * (i - j));
+            }
+            out[i * kLanes + lane] = uint32_t(least);
+        }
+    }
+    return out;
+}
+
+template <typename T>
+Rows runMinPlus(const Rows& in)
+{
+    const int rows = int(in.size()) / kLanes;
+    if (rows <= 0) return {};
+    RowBuffer<T> inBuffer, outBuffer;
+    T* inRows = inBuffer.rows(rows, 1);
+    T* outRows = outBuffer.rows(rows);
+    for (std::size_t i = 0; i < in.size(); ++i) inRows[i] = T(in[i]);
+    EnvelopeScratch scratch;
+    minPlus(inRows, outRows, rows, scratch);
+    return Rows(outRows, outRows + in.size());
+}
+
+struct Distribution {
+    const char* name;
+    uint32_t largest;
+    uint32_t (*value)(Random&, int row, int lane);
+};
+
+const Distribution kDistributions[] = {
+    {"all zero", 0, [](Random&, int, int) { return 0u; }},
+    {"zero or one", 1, [](Random& r, int, int) { return uint32_t(r.between(0, 1)); }},
+    {"small", 30, [](Random& r, int, int) { return uint32_t(r.between(0, 30)); }},
+    {"equal", 400, [](Random&, int, int) { return 400u; }},
+    {"squares", 254 * 254, [](Random& r, int, int) {
+        const int root = r.between(0, 254);
+        return uint32_t(root * root);
+    }},
+    {"some lanes zero", 65000, [](Random& r, int, int lane) {
+        return lane % 3 == 0 ? 0u : uint32_t(r.between(0, 65000));
+    }},
+    {"few zeros among the largest", kNarrowMax, [](Random& r, int, int) {
+        return r.chance(0.02) ? 0u : kNarrowMax;
+    }},
+    {"only the largest", kNarrowMax, [](Random&, int, int) { return kNarrowMax; }},
+    {"blocks of small and large", kNarrowMax, [](Random& r, int row, int lane) {
+        return row / 24 % 2 ? uint32_t(r.between(0, 9)) : uint32_t(60000 + lane * 7 + row % 8);
+    }},
+    {"staircase", 65000, [](Random&, int row, int lane) {
+        return uint32_t((row * 37 + lane * 11) % 255 * 255);
+    }},
+};
+
+constexpr int kRowCounts[] = {8, 16, 24, 40, 64, 72, 128, 200, 256, 512};
+
+TEST(MinPlus, MatchesPlainLoopsIn16Bits)
+{
+    Random random(1);
+    for (const Distribution& distribution : kDistributions) {
+        for (int rows : kRowCounts) {
+            const Rows in = makeRows(rows, random, distribution.value);
+            ASSERT_TRUE(runMinPlus<uint16_t>(in) == naiveMinPlus(in))
+                << distribution.name << ", rows " << rows;
+        }
+    }
+}
+
+TEST(MinPlus, MatchesPlainLoopsIn32Bits)
+{
+    Random random(2);
+    for (const Distribution& distribution : kDistributions) {
+        for (int rows : kRowCounts) {
+            const Rows in = makeRows(rows, random, distribution.value);
+            ASSERT_TRUE(runMinPlus<uint32_t>(in) == naiveMinPlus(in))
+                << distribution.name << ", rows " << rows;
+        }
+    }
+}
+
+TEST(MinPlus, MatchesPlainLoopsOnValuesBeyond16Bits)
+{
+    Random random(3);
+    const auto anything = [](Random& r, int, int) { return uint32_t(r.between(0, int(kWideMax))); };
+    const auto lumps = [](Random& r, int row, int) {
+        return row / 40 % 2 ? kWideMax : uint32_t(r.between(0, 200000));
+    };
+    for (int rows : kRowCounts) {
+        const Rows far = makeRows(rows, random, anything), near = makeRows(rows, random, lumps);
+        ASSERT_TRUE(runMinPlus<uint32_t>(far) == naiveMinPlus(far)) << rows;
+        ASSERT_TRUE(runMinPlus<uint32_t>(near) == naiveMinPlus(near)) << rows;
+    }
+}
+
+/// The values of a slab whose lines are all alike: the distance to the nearest end, at most @a root.
+template <typename T>
+void expectSlab(int rows, int64_t root)
+{
+    const Rows in(std::size_t(rows) * kLanes, uint32_t(root * root));
+    const Rows out = runMinPlus<T>(in);
+    for (int64_t row = 0; row < rows; ++row) {
+        const int64_t steps = std::min({row + 1, rows - row, root});
+        for (int lane = 0; lane < kLanes; ++lane) {
+            ASSERT_EQ(int64_t(out[row * kLanes + lane]), steps * steps) << rows << ", row " << row;
+        }
+    }
+}
+
+TEST(MinPlus, LinesMayBeLongerThanTheLargestRadius)
+{
+    expectSlab<uint16_t>(1000, 255);
+    expectSlab<uint16_t>(1000, 6);
+    expectSlab<uint32_t>(1000, 46340);
+    expectSlab<uint32_t>(8 * 12000, 46340);
+}
+
+TEST(MinPlus, RowNumbersMayExceed16Bits)
+{
+    for (int64_t root : {2, 6, 255}) {
+        expectSlab<uint16_t>(8 * 4097, root);
+        expectSlab<uint16_t>(8 * 8300, root);
+    }
+    expectSlab<uint32_t>(8 * 8300, 6);
+}
+
+TEST(MinPlus, OneScratchServesRunsOfAnyLength)
+{
+    Random random(4);
+    EnvelopeScratch scratch;
+    RowBuffer<uint16_t> inBuffer, outBuffer;
+    for (int rows : {256, 8, 64, 512, 16}) {
+        const Rows in = makeRows(rows, random, kDistributions[4].value);
+        uint16_t* inRows = inBuffer.rows(rows, 1);
+        uint16_t* outRows = outBuffer.rows(rows);
+        std::copy(in.begin(), in.end(), inRows);
+        minPlus(inRows, outRows, rows, scratch);
+        ASSERT_TRUE(Rows(outRows, outRows + in.size()) == naiveMinPlus(in)) << rows;
+    }
+}
+
+TEST(StepsToBackground, CountsAlongBothDirections)
+{
+    Random random(5);
+    for (double rate : {0.0, 0.3, 0.9, 0.99, 1.0}) {
+        for (int rows : {8, 16, 64, 512}) {
+            std::vector<uint64_t> words(rows, 0);
+            for (int bit = 0; bit < rows * kLanes; ++bit) {
+                if (random.chance(rate)) words[bit / kLanes] |= uint64_t(1) << bit % kLanes;
+            }
+            RowBuffer<uint16_t> buffer;
+            uint16_t* steps = buffer.rows(rows);
+            stepsToBackground(words.data(), rows, steps);
+            for (int lane = 0; lane < kLanes; ++lane) {
+                const auto on = [&](int row) {
+                    return row >= 0 && row < rows && (words[row] >> lane & 1);
+                };
+                for (int row = 0; row < rows; ++row) {
+                    int count = 0;
+                    while (on(row - count) && on(row + count)) ++count;
+                    ASSERT_EQ(int(steps[row * kLanes + lane]), count) << rate << ", row " << row;
+                }
+            }
+        }
+    }
+}
+
+TEST(StepsToBackground, StopsAt65535)
+{
+    constexpr int kRows = 8 * 16500; // the middle is 66000 steps from both ends
+    const std::vector<uint64_t> words(kRows, ~uint64_t(0));
+    RowBuffer<uint16_t> buffer;
+    uint16_t* steps = buffer.rows(kRows);
+    stepsToBackground(words.data(), kRows, steps);
+    EXPECT_EQ(steps[0], 1);
+    EXPECT_EQ(steps[65533 * kLanes], 65534);
+    EXPECT_EQ(steps[(kRows / 2) * kLanes + 63], 65535);
+    EXPECT_EQ(steps[std::size_t(kRows - 1) * kLanes], 1);
+}
+
+} // namespace

@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/SphereTreePoints.h>
+
+#include "../support/Messages.h"
+#include "../support/SampleTrees.h"
+
+#include <openvdb/io/Stream.h>
+#include <openvdb/points/PointAttribute.h>
+#include <openvdb/points/PointConversion.h>
+#include <openvdb/points/PointCount.h>
+#include <openvdb/points/PointGroup.h>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+namespace math = openvdb::math;
+namespace points = openvdb::points;
+using openvdb::points::PointDataGrid;
+
+namespace {
+
+std::string testFile()
+{
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    return (std::filesystem::temp_directory_path() / ("spheretree_" + name + ".vdb")).string();
+}
+
+/// Writes the grids to a file as people do, and reads them back.
+std::vector<PointDataGrid::Ptr> throughFile(const openvdb::GridCPtrVec& grids)
+{
+    openvdb::initialize();
+    const std::string path = testFile();
+    openvdb::io::File out(path);
+    out.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+    out.write(grids);
+    out.close();
+
+    std::vector<PointDataGrid::Ptr> read;
+    openvdb::io::File in(path);
+    in.open(/*delayLoad=*/false);
+    const openvdb::GridPtrVec stored = *in.getGrids();
+    for (const openvdb::GridBase::Ptr& grid : stored) {
+        read.push_back(openvdb::gridPtrCast<PointDataGrid>(grid));
+    }
+    in.close();
+    std::filesystem::remove(path);
+    return read;
+}
+
+/// The grid as bytes, without the random number that every file starts with.
+std::string bytesOf(const PointDataGrid::Ptr& grid)
+{
+    std::ostringstream out(std::ios::binary);
+    openvdb::io::Stream stream(out);
+    stream.write(openvdb::GridCPtrVec{grid});
+    constexpr std::size_t kUuidBegin = 21, kUuidSize = 36;
+    return out.str().erase(kUuidBegin, kUuidSize);
+}
+
+/// Sets an attribute of the node with that id.
+template <typename T>
+void damage(PointDataGrid& grid, const char* attribute, int32_t id, const T& value)
+{
+    for (auto leaf = grid.tree().beginLeaf(); leaf; ++leaf) {
+        const points::AttributeHandle<int32_t> ids(leaf->constAttributeArray("id"));
+        std::vector<openvdb::Index> found;
+        for (openvdb::Index n = 0; n < ids.size(); ++n) {
+            if (ids.get(n) == id) found.push_back(n);
+        }
+        points::AttributeWriteHandle<T> handle(leaf->attributeArray(attribute));
+        for (openvdb::Index n : found) handle.set(n, value);
+    }
+}
+
+std::string whyDamaged(const PointDataGrid& grid, const PointDataGrid* dag = nullptr)
+{
+    const std::string why = messageOf<openvdb::ValueError>([&] { fromPoints(grid, dag); });
+    EXPECT_TRUE(mentions(why, "'" + grid.getName())) << "the message must name the grid";
+    return why;
+}
+
+/// What fromPoints() says of the sample tree after one value of one node was changed.
+template <typename T>
+std::string whyDamaged(const char* attribute, int32_t id, const T& value)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    damage<T>(*grid, attribute, id, value);
+    return whyDamaged(*grid);
+}
+
+template <typename T>
+std::string whyDamagedMeta(const char* key, const T& value)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    grid->removeMeta(key);
+    grid->insertMeta(key, openvdb::TypedMetadata<T>(value));
+    return whyDamaged(*grid);
+}
+
+std::vector<math::Transform::Ptr> transformsOfEveryKind()
+{
+    using namespace openvdb::math;
+    std::vector<Transform::Ptr> transforms;
+    const auto add = [&](MapBase* map) {
+        transforms.push_back(std::make_shared<Transform>(MapBase::Ptr(map)));
+    };
+    add(new ScaleMap({0.1, 0.1, 0.1}));
+    add(new ScaleMap({0.1, 0.1 + 1e-9, -0.1}));
+    add(new UniformScaleMap(1.0 / 3));
+    add(new TranslationMap({0.1, 2e10, -7}));
+    add(new ScaleTranslateMap({0.1, -0.1, 0.1}, {1.0 / 7, 0, 5}));
+    add(new UniformScaleTranslateMap(1e-4, {1.0 / 7, 1e9, 5}));
+    transforms.push_back(Transform().copy()); // OpenVDB simplifies every map that it copies
+    transforms.push_back(Transform::createLinearTransform(0.07));
+    transforms.back()->postRotate(0.3, X_AXIS);
+    transforms.back()->postRotate(1.3, Z_AXIS);
+    transforms.push_back(transforms.back()->copy());
+    transforms.back()->postTranslate({0.1, 0.2, 0.3});
+    transforms.push_back(Transform::createLinearTransform(1.0));
+    transforms.back()->preRotate(0.3, Y_AXIS);
+    return transforms;
+}
+
+} // namespace
+
+// ---- Round trips
+
+TEST(SphereTreePoints, EveryFieldComesBackFromMemory)
+{
+    for (const SphereTree& tree : {sampleTree(), oneVoxelTree(), randomTree(1, 1),
+             randomTree(5000, 2)}) {
+        expectSameTree(fromPoints(*toPoints(tree), dagToPoints(tree).get()), tree);
+    }
+}
+
+TEST(SphereTreePoints, EveryFieldComesBackFromAFile)
+{
+    for (const SphereTree& tree : {sampleTree(), randomTree(20000, 3)}) {
+        openvdb::GridCPtrVec grids{toPoints(tree)};
+        if (!tree.dag.empty()) grids.push_back(dagToPoints(tree));
+        const auto read = throughFile(grids);
+        ASSERT_EQ(read.size(), grids.size());
+        expectSameTree(fromPoints(*read[0], read.size() > 1 ? read[1].get() : nullptr), tree);
+    }
+}
+
+TEST(SphereTreePoints, ALevelThatStandsAloneComesBack)
+{
+    for (int level : {0, 1, 2}) {
+        const SphereTree tree = oneLevelOf(sampleTree(), level);
+        ASSERT_EQ(tree.levels[0].level, level);
+        expectSameTree(fromPoints(*throughFile({toPoints(tree)})[0]), tree);
+    }
+}
+
+TEST(SphereTreePoints, EveryKindOfTransformComesBackToTheLastBit)
+{
+    SphereTree tree = randomTree(500, 4); // enough nodes for points voxels larger than the source's
+    for (const math::Transform::Ptr& transform : transformsOfEveryKind()) {
+        SCOPED_TRACE(transform->mapType());
+        tree.transform = transform;
+        expectSameTree(fromPoints(*toPoints(tree)), tree);
+        expectSameTransform(*fromPoints(*throughFile({toPoints(tree)})[0]).transform, *transform);
+    }
+}
+
+TEST(SphereTreePoints, WhoMovesThePointsMovesTheTree)
+{
+    for (const math::Transform::Ptr& transform : transformsOfEveryKind()) {
+        SCOPED_TRACE(transform->mapType());
+        SphereTree tree = randomTree(500, 5);
+        tree.transform = transform;
+        const PointDataGrid::Ptr grid = toPoints(tree);
+        grid->transform().postTranslate({10, 20, 30});
+        const SphereTree moved = fromPoints(*grid);
+        for (int32_t id : {0, 1, 100}) {
+            const openvdb::Vec3d expected = tree.centerWorld(id) + openvdb::Vec3d(10, 20, 30);
+            EXPECT_LE((moved.centerWorld(id) - expected).length(), 1e-12 * expected.length());
+        }
+    }
+}
+
+TEST(SphereTreePoints, SettingsOfEveryKindComeBack)
+{
+    SphereTree tree = oneVoxelTree();
+    for (TreeType type : {TreeType::Reversible, TreeType::Extended}) {
+        for (double padding : {SphereTreeSettings::kPadCubes, 0.0, 1.0 / 3}) {
+            tree.settings.tree = type;
+            tree.settings.padding = padding;
+            tree.settings.dim = 5 - tree.settings.dim; // 2 and 3 in turn
+            tree.settings.name = "";
+            expectSameTree(fromPoints(*toPoints(tree)), tree);
+        }
+    }
+}
+
+TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
+{
+    SphereTree tree = oneVoxelTree();
+    for (double far : {0.0, 1e6, -1e9, 2e9}) {
+        for (double part : {0.5, -0.5, 0.25, 1.0 / 16, -15.0 / 16}) {
+            tree.center[0] = openvdb::Vec3d(far + part, -far - part, part);
+            EXPECT_EQ(fromPoints(*toPoints(tree)).center[0], tree.center[0]);
+        }
+    }
+    tree = randomTree(2000, 6);
+    for (openvdb::Vec3d& center : tree.center) center += openvdb::Vec3d(1e9, 0.0625, -0.4375);
+    EXPECT_EQ(fromPoints(*toPoints(tree)).center, tree.center);
+}
+
+TEST(SphereTreePoints, ACentreThatAFloatCannotHoldIsAnErrorAndNotRounded)
+{
+    SphereTree tree = oneVoxelTree();
+    const double inf = std::numeric_limits<double>::infinity();
+    for (double x : {0.1, 1e10, std::nan(""), inf, -inf}) {
+        tree.center[0] = {0, x, 0};
+        EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { toPoints(tree); }), "point 0"));
+    }
+}
+
+TEST(SphereTreePoints, TheGridDoesNotDependOnThreads)
+{
+    const SphereTree tree = randomTree(30000, 9);
+    const std::string bytes = bytesOf(toPoints(tree));
+    for (std::size_t threads : {1, 2, 7}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        EXPECT_TRUE(bytesOf(toPoints(tree)) == bytes) << threads << " threads";
+    }
+}
+
+// ---- The grid as other programs see it
+
+TEST(SphereTreePoints, WorldPositionsOfThePointsAreTheCentres)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    int32_t seen = 0;
+    for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) {
+        const points::AttributeHandle<openvdb::Vec3f> position(leaf->constAttributeArray("P"));
+        const points::AttributeHandle<int32_t> ids(leaf->constAttributeArray("id"));
+        for (auto it = leaf->beginIndexOn(); it; ++it, ++seen) {
+            const openvdb::Vec3d world = grid->transform().indexToWorld(
+                it.getCoord().asVec3d() + openvdb::Vec3d(position.get(*it)));
+            EXPECT_LT((world - tree.centerWorld(ids.get(*it))).length(), 1e-9);
+        }
+    }
+    EXPECT_EQ(seen, tree.size());
+}
+
+TEST(SphereTreePoints, SeveralPointsShareAVoxel)
+{
+    const SphereTree tree = randomTree(20000, 10);
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    EXPECT_GE(uint64_t(tree.size()), 4 * grid->activeVoxelCount());
+    const double ratio = grid->transform().voxelSize()[0] / tree.voxelSize();
+    EXPECT_EQ(std::exp2(std::round(std::log2(ratio))), ratio);
+}
+
+TEST(SphereTreePoints, LevelsAreGroups)
+{
+    const SphereTree tree = randomTree(3000, 12);
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    for (const SphereTreeLevel& level : tree.levels) {
+        const std::string name = "level_" + std::to_string(level.level);
+        const points::GroupFilter filter(name, grid->tree().cbeginLeaf()->attributeSet());
+        EXPECT_EQ(points::pointCount(grid->tree(), filter), uint64_t(level.size())) << name;
+    }
+}
+
+TEST(SphereTreePoints, ATreeOfMoreLevelsThanAGroupByteHoldsComesBack)
+{
+    SphereTree tree;
+    tree.transform = math::Transform::createLinearTransform(1.0);
+    for (int i = 0; i < 20; ++i) addLevel(tree, 1, 1);
+    for (int i = 0; i < 20; ++i) addNode(tree, {0.5, 0.5, 0.5}, {0, 0, 0}, 20 - i, i - 1);
+    expectSameTree(fromPoints(*throughFile({toPoints(tree)})[0]), tree);
+}
+
+TEST(SphereTreePoints, AttributesAndMetadataHaveTheNamesAndTypesOfTheFormat)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    const auto& descriptor = grid->tree().cbeginLeaf()->attributeSet().descriptor();
+    for (const auto& [name, type] : std::vector<std::pair<std::string, std::string>>{
+             {"P", "vec3s"}, {"pscale", "float"}, {"id", "int32"}, {"parent", "int32"},
+             {"level", "int32"}, {"radius_sq", "int32"}, {"ijk", "vec3i"}, {"radius", "double"},
+             {"cover_sq", "int64"}}) {
+        ASSERT_NE(descriptor.find(name), points::AttributeSet::INVALID_POS) << name;
+        EXPECT_EQ(descriptor.type(descriptor.find(name)), openvdb::NamePair(type, "null")) << name;
+    }
+    const auto text = [&](const char* key) { return (*grid)[key] ? (*grid)[key]->str() : "none"; };
+    EXPECT_EQ(grid->getName(), "sample tree");
+    EXPECT_EQ(grid->getGridClass(), openvdb::GRID_UNKNOWN);
+    EXPECT_EQ(text("class"), "none") << "tools that take points look for grids without a class";
+    EXPECT_EQ(text("spheretree_format"), "1");
+    EXPECT_EQ(text("spheretree_tree"), "reversible");
+    EXPECT_EQ(text("spheretree_factor"), "3");
+    EXPECT_EQ(text("spheretree_padding"), "0.1");
+    EXPECT_EQ(text("spheretree_source"), "bunny, left ear");
+    EXPECT_EQ(text("spheretree_origin"), "[-16, 8, -1024]");
+    EXPECT_EQ(text("spheretree_object_voxels"), std::to_string(int64_t(1) << 40));
+    EXPECT_EQ(text("spheretree_level_0_spheres"), "5");
+    EXPECT_EQ(text("spheretree_level_0_excess"), "5");
+    EXPECT_EQ(text("spheretree_level_1_covered"), "none");
+    EXPECT_EQ(text("spheretree_level_1_error_unknown"), "too many rows");
+    EXPECT_EQ(text("spheretree_level_2_pyramid_voxels"), "3");
+    EXPECT_EQ(text("spheretree_level_2_error_unknown"), "none");
+}
+
+TEST(SphereTreePoints, TheNameOfTheGridIsTheNameOfTheTree)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    grid->setName("renamed");
+    EXPECT_EQ(fromPoints(*grid).settings.name, "renamed");
+}
+
+TEST(SphereTreePoints, OnlySphereTreesClaimToBeOne)
+{
+    EXPECT_TRUE(isSphereTree(*toPoints(oneVoxelTree())));
+    EXPECT_FALSE(isSphereTree(*dagToPoints(sampleTree())));
+    EXPECT_FALSE(isSphereTree(*PointDataGrid::create()));
+    const auto mask = openvdb::BoolGrid::create();
+    mask->insertMeta("spheretree_format", openvdb::Int32Metadata(1));
+    EXPECT_FALSE(isSphereTree(*mask));
+}
+
+// ---- The DAG
+
+TEST(SphereTreePoints, ATreeWithoutEdgesHasNoDagGrid)
+{
+    EXPECT_FALSE(dagToPoints(oneVoxelTree()));
+}
+
+TEST(SphereTreePoints, TheDagGridIsNamedAfterTheTreeAndHoldsAPointAnEdge)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr dag = dagToPoints(tree);
+    EXPECT_EQ(dag->getName(), "sample tree_dag");
+    EXPECT_EQ(points::pointCount(dag->tree()), tree.dag.size());
+}
+
+TEST(SphereTreePoints, WithoutItsDagGridATreeHasNoEdges)
+{
+    const SphereTree tree = fromPoints(*toPoints(sampleTree()));
+    EXPECT_TRUE(tree.dag.empty());
+    EXPECT_EQ(tree.size(), sampleTree().size());
+}
+
+TEST(SphereTreePoints, ADagOfAnotherTreeIsAnError)
+{
+    const PointDataGrid::Ptr dag = dagToPoints(sampleTree());
+    const std::string why = messageOf<openvdb::ValueError>(
+        [&] { fromPoints(*toPoints(oneVoxelTree()), dag.get()); });
+    EXPECT_TRUE(mentions(why, "sample tree_dag"));
+    EXPECT_TRUE(mentions(why, "8 nodes"));
+}
+
+TEST(SphereTreePoints, ADagEdgeThatSkipsALevelOrRepeatsIsAnError)
+{
+    for (const DagEdge& edge : {DagEdge{0, 3}, DagEdge{1, 2}, DagEdge{3, 1}, DagEdge{0, 8},
+             DagEdge{0, -1}, DagEdge{0, 1}}) {
+        SphereTree tree = sampleTree();
+        tree.dag.push_back(edge);
+        const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+        const std::string why =
+            messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
+        EXPECT_TRUE(mentions(why, "damaged Sphere-DAG"));
+        EXPECT_TRUE(mentions(why, "from node " + std::to_string(edge.parent) + " to node "));
+    }
+    const PointDataGrid::Ptr points = toPoints(sampleTree());
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*points, points.get()); }),
+        "spheretree_dag_format"));
+}
+
+// ---- Damage
+
+TEST(SphereTreePoints, OrdinaryPointsAreNoSphereTree)
+{
+    openvdb::initialize();
+    const auto grid = points::createPointDataGrid<points::NullCodec, PointDataGrid>(
+        std::vector<openvdb::Vec3d>{{1, 2, 3}}, *math::Transform::createLinearTransform(1.0));
+    grid->setName("dust");
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "is no sphere-tree"));
+}
+
+TEST(SphereTreePoints, ANewerFormatIsAnErrorThatSaysToUpdate)
+{
+    const std::string why = whyDamagedMeta<int32_t>("spheretree_format", 2);
+    EXPECT_TRUE(mentions(why, "format 2"));
+    EXPECT_TRUE(mentions(why, "update"));
+    EXPECT_FALSE(mentions(why, "damaged"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_format", 0), "damaged"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_format", "1"), "type string"));
+}
+
+TEST(SphereTreePoints, AMissingAttributeIsNamed)
+{
+    for (const char* name : {"pscale", "id", "parent", "level", "radius_sq", "ijk", "radius",
+             "cover_sq"}) {
+        const PointDataGrid::Ptr grid = toPoints(sampleTree());
+        points::dropAttribute(grid->tree(), name);
+        EXPECT_TRUE(mentions(whyDamaged(*grid), "no attribute '" + std::string(name) + "'"));
+    }
+}
+
+TEST(SphereTreePoints, AnAttributeOfAnotherTypeIsNamed)
+{
+    for (const char* name : {"pscale", "id", "parent", "level", "radius_sq", "ijk", "radius",
+             "cover_sq"}) {
+        const PointDataGrid::Ptr grid = toPoints(sampleTree());
+        points::dropAttribute(grid->tree(), name);
+        points::appendAttribute<int16_t>(grid->tree(), name);
+        EXPECT_TRUE(mentions(whyDamaged(*grid), "attribute '" + std::string(name) + "' is of type"));
+    }
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    points::dropAttribute(grid->tree(), "pscale");
+    points::appendAttribute<float, points::TruncateCodec>(grid->tree(), "pscale");
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "float/trnc"));
+    points::dropAttribute(grid->tree(), "pscale");
+    points::appendAttribute<float>(grid->tree(), "pscale", 1.0f, /*stride=*/3);
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "3 values a point"));
+}
+
+TEST(SphereTreePoints, CompressedPositionsAreAnError)
+{
+    SphereTree tree = oneVoxelTree();
+    tree.center[0] = {0, 0, 0};
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    const auto lossy = points::createPointDataGrid<points::FixedPointCodec<false>, PointDataGrid>(
+        std::vector<openvdb::Vec3d>{{0, 0, 0}}, grid->transform());
+    lossy->insertMeta(*grid);
+    points::appendAttribute<int32_t>(lossy->tree(), "id", 0);
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*lossy); }), "'P'"));
+}
+
+TEST(SphereTreePoints, IdsThatAreNotEachOfThePossibleOnesOnceAreAnError)
+{
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 4), "two points have the id 4"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 8), "id 8"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, -1), "id -1"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, std::numeric_limits<int32_t>::min()), "id -"));
+}
+
+TEST(SphereTreePoints, AParentThatDoesNotExistIsAnErrorThatNamesNodeAndParent)
+{
+    for (int32_t parent : {8, -2, -1, 1 << 30}) {
+        const std::string why = whyDamaged<int32_t>("parent", 5, parent);
+        EXPECT_TRUE(mentions(why, "node 5"));
+        EXPECT_TRUE(mentions(why, "parent " + std::to_string(parent)));
+    }
+}
+
+TEST(SphereTreePoints, AParentThatIsNotOnTheNextLevelUpIsAnError)
+{
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 0), "on level 2"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 4), "on level 0"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 5), "node 5")) << "its own parent";
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 1, 3), "node 1")) << "a cycle of 1 and 3";
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 0, 1), "top level")) << "a root with parent";
+}
+
+TEST(SphereTreePoints, ALevelThatIsMissingOrOutOfOrderIsAnError)
+{
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, 3), "level 3"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, -1), "level -1"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, 1), "level 1 has 3 nodes"));
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    damage<int32_t>(*grid, "level", 1, 0);
+    damage<int32_t>(*grid, "level", 3, 1);
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "node 2 is on level 1"));
+}
+
+TEST(SphereTreePoints, RadiiThatNoSphereHasAreErrorsThatNameTheNode)
+{
+    const double inf = std::numeric_limits<double>::infinity();
+    for (double bad : {std::nan(""), inf, -inf, -1.0}) {
+        EXPECT_TRUE(mentions(whyDamaged<float>("pscale", 4, float(bad)), "node 4 has the pscale"));
+        EXPECT_TRUE(mentions(whyDamaged<double>("radius", 4, bad), "node 4 has the radius"));
+    }
+    EXPECT_TRUE(mentions(whyDamaged<int64_t>("cover_sq", 4, -1), "node 4 has the cover_sq -1"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("radius_sq", 4, 0), "node 4 has the radius_sq 0"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("radius_sq", 4, -2), "node 4 has the radius_sq -2"));
+    EXPECT_TRUE(mentions(whyDamaged<openvdb::Vec3f>(
+        "P", 4, openvdb::Vec3f(0, float(std::nan("")), 0)), "node 4 has the position"));
+}
+
+TEST(SphereTreePoints, AnEmptyGridIsNotMistakenForATree)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    grid->clear();
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "0 points, by its metadata 8"));
+}
+
+TEST(SphereTreePoints, MissingMetadataIsNamed)
+{
+    const PointDataGrid::Ptr complete = toPoints(sampleTree());
+    int keys = 0;
+    for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
+        const std::string key = it->first;
+        const bool optional = key == "spheretree_level_1_error_unknown" ||
+            key == "spheretree_level_0_covered" || key.rfind("spheretree_", 0) != 0;
+        if (optional || key == "spheretree_format") continue;
+        const PointDataGrid::Ptr grid = toPoints(sampleTree());
+        grid->removeMeta(key);
+        EXPECT_TRUE(mentions(whyDamaged(*grid), "'" + key + "'"));
+        ++keys;
+    }
+    EXPECT_GE(keys, 25);
+}
+
+TEST(SphereTreePoints, MetadataOutOfRangeIsAnError)
+{
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_factor", 1), "factor=1"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_dim", 4), "dim=4"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_tree", "oak"), "tree='oak'"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_padding", "x"), "padding='x'"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_factor", true), "of type bool"));
+    for (int32_t scale : {0, -1, 3, 8192}) {
+        EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_point_scale", scale), "power of"));
+    }
+    for (int32_t count : {0, -1, 4, 1 << 30}) {
+        whyDamagedMeta<int32_t>("spheretree_levels", count);
+    }
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_levels", 2), "by its metadata 7"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_lowest_level", 1), "from level 1 on"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_level_0_spheres", 0), "level 0"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>(
+        "spheretree_level_0_spheres", std::numeric_limits<int32_t>::max()), "more than 2^31"));
+}
+
+TEST(SphereTreePoints, AMessageStaysOnOneShortLine)
+{
+    const std::string junk = std::string(100000, 'x') + "\n\n";
+    const std::string why = whyDamagedMeta<std::string>("spheretree_tree", junk);
+    EXPECT_LT(why.size(), 600u);
+    EXPECT_EQ(why.find('\n'), std::string::npos);
+}
+
+TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
+{
+    const auto why = [](const SphereTree& tree) {
+        return messageOf<openvdb::ValueError>([&] { toPoints(tree); });
+    };
+    EXPECT_TRUE(mentions(why(SphereTree()), "no nodes"));
+    SphereTree tree = sampleTree();
+    tree.radius.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.transform.reset();
+    EXPECT_TRUE(mentions(why(tree), "transform"));
+    tree = sampleTree();
+    tree.levels[1].level = 2;
+    EXPECT_TRUE(mentions(why(tree), "levels"));
+    tree = sampleTree();
+    tree.levels.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "levels"));
+    tree = sampleTree();
+    tree.settings.factor = 1;
+    EXPECT_TRUE(mentions(why(tree), "factor=1"));
+    tree = sampleTree();
+    tree.dag.push_back({99, 1});
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/SphereTreeSettings.h>
+
+#include "../support/Messages.h"
+
+#include <gtest/gtest.h>
+#include <openvdb/Exceptions.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace openvdb_spheretree;
+using spheretree_test::mentions;
+using spheretree_test::messageOf;
+
+namespace {
+
+std::string whyInvalid(const SphereTreeSettings& settings)
+{
+    return messageOf<openvdb::ValueError>([&] { settings.validate(); });
+}
+
+} // namespace
+
+TEST(SphereTreeSettings, DefaultsAreValid)
+{
+    EXPECT_NO_THROW(SphereTreeSettings().validate());
+}
+
+TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
+{
+    EXPECT_EQ(treeTypeFromString("reversible"), TreeType::Reversible);
+    EXPECT_EQ(treeTypeFromString("extended"), TreeType::Extended);
+    EXPECT_EQ(parentRuleFromString("centre"), ParentRule::Centre);
+    EXPECT_EQ(parentRuleFromString("dag"), ParentRule::Dag);
+    EXPECT_EQ(reconstructionFromString("clip"), Reconstruction::Clip);
+    EXPECT_EQ(reconstructionFromString("free"), Reconstruction::Free);
+    EXPECT_EQ(reconstructionFromString("none"), Reconstruction::None);
+    EXPECT_EQ(radiusScaleFromString("tight"), RadiusScale::Tight);
+    EXPECT_EQ(radiusScaleFromString("paper"), RadiusScale::Paper);
+    for (TreeType v : {TreeType::Reversible, TreeType::Extended}) {
+        EXPECT_EQ(treeTypeFromString(toString(v)), v);
+    }
+    for (ParentRule v : {ParentRule::Centre, ParentRule::Dag}) {
+        EXPECT_EQ(parentRuleFromString(toString(v)), v);
+    }
+    for (Reconstruction v : {Reconstruction::Clip, Reconstruction::Free, Reconstruction::None}) {
+        EXPECT_EQ(reconstructionFromString(toString(v)), v);
+    }
+    for (RadiusScale v : {RadiusScale::Tight, RadiusScale::Paper}) {
+        EXPECT_EQ(radiusScaleFromString(toString(v)), v);
+    }
+}
+
+TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
+{
+    const std::string tree = messageOf<openvdb::ValueError>([] { treeTypeFromString("octree"); });
+    EXPECT_TRUE(mentions(tree, "tree='octree'"));
+    EXPECT_TRUE(mentions(tree, "reversible or extended"));
+    const std::string reconstruct =
+        messageOf<openvdb::ValueError>([] { reconstructionFromString("Clip"); });
+    EXPECT_TRUE(mentions(reconstruct, "reconstruct='Clip'"));
+    EXPECT_TRUE(mentions(reconstruct, "clip, free or none"));
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([] { parentRuleFromString("center"); }),
+        "centre or dag"));
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([] { radiusScaleFromString(""); }),
+        "tight or paper"));
+}
+
+TEST(SphereTreeSettings, TightTreesAreSaidToBeUnavailableYet)
+{
+    const std::string why = messageOf<openvdb::ValueError>([] { treeTypeFromString("tight"); });
+    EXPECT_TRUE(mentions(why, "not available yet"));
+    EXPECT_TRUE(mentions(why, "reversible or extended"));
+}
+
+TEST(SphereTreeSettings, ALongValueIsClippedInTheMessage)
+{
+    const std::string value(100000, 'x');
+    EXPECT_LT(messageOf<openvdb::ValueError>([&] { treeTypeFromString(value); }).size(), 200u);
+    EXPECT_LT(messageOf<openvdb::ValueError>([&] { paddingFromString(value); }).size(), 200u);
+}
+
+TEST(SphereTreeSettings, ThePaddingReadsBackToTheSameDouble)
+{
+    EXPECT_EQ(paddingToString(SphereTreeSettings::kPadCubes), "cubes");
+    EXPECT_EQ(paddingToString(0), "voxels");
+    EXPECT_EQ(paddingToString(0.5), "0.5");
+    EXPECT_EQ(paddingFromString("cubes"), SphereTreeSettings::kPadCubes);
+    EXPECT_EQ(paddingFromString("voxels"), 0);
+    EXPECT_EQ(paddingFromString("2"), 2);
+    for (double value : {0.1, 1.0 / 3, 1e-300, 1e300, std::nextafter(1.0, 2.0),
+             std::numeric_limits<double>::denorm_min()}) {
+        EXPECT_EQ(paddingFromString(paddingToString(value)), value);
+    }
+    EXPECT_FALSE(std::signbit(paddingFromString("-0")));
+}
+
+TEST(SphereTreeSettings, APaddingThatIsNotWhollyANumberIsAnError)
+{
+    for (const char* text : {"", " ", "1 ", " 1", "1x", "x", "0,5", "1e", "-", "--1", "cube", "nan",
+             "inf", "-inf", "1e999", "-1", "-0.5"}) {
+        const std::string why = messageOf<openvdb::ValueError>([&] { paddingFromString(text); });
+        EXPECT_TRUE(mentions(why, "cubes, voxels")) << "for '" << text << "'";
+    }
+}
+
+TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
+{
+    SphereTreeSettings settings;
+    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(3.0) / 2);
+    settings.dim = 2;
+    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(2.0) / 2);
+    settings.padding = 0;
+    EXPECT_EQ(settings.paddingVoxels(), 0);
+    settings.padding = 0.25;
+    EXPECT_EQ(settings.paddingVoxels(), 0.25);
+}
+
+TEST(SphereTreeSettings, AFactorOutOfRangeIsAnErrorThatNamesTheRange)
+{
+    SphereTreeSettings settings;
+    for (int factor : {2, 3, 64}) {
+        settings.factor = factor;
+        EXPECT_NO_THROW(settings.validate());
+    }
+    for (int factor : {1, 0, -2, 65, std::numeric_limits<int>::min()}) {
+        settings.factor = factor;
+        EXPECT_TRUE(mentions(whyInvalid(settings), "factor=" + std::to_string(factor)));
+        EXPECT_TRUE(mentions(whyInvalid(settings), "2 to 64"));
+    }
+}
+
+TEST(SphereTreeSettings, ADimensionOtherThan2Or3IsAnError)
+{
+    SphereTreeSettings settings;
+    for (int dim : {1, 4, 0, -3}) {
+        settings.dim = dim;
+        EXPECT_TRUE(mentions(whyInvalid(settings), "dim=" + std::to_string(dim)));
+    }
+    settings.dim = 2;
+    EXPECT_NO_THROW(settings.validate());
+}
+
+TEST(SphereTreeSettings, APaddingThatIsNegativeOrNoNumberIsAnError)
+{
+    SphereTreeSettings settings;
+    for (double padding : {-0.5, -2.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        settings.padding = padding;
+        EXPECT_TRUE(mentions(whyInvalid(settings), "padding="));
+    }
+    for (double padding : {0.0, 1e6, SphereTreeSettings::kPadCubes}) {
+        settings.padding = padding;
+        EXPECT_NO_THROW(settings.validate());
+    }
+}

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestSphereUnion.cc
+/// @brief The rasteriser of sphere unions against brute force over every voxel of a box.
+
+#include <openvdb_spheretree/SphereUnion.h>
+
+#include <openvdb_spheretree/Interrupted.h>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <random>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::MaskTree;
+using Spheres = std::vector<ExactSphere>;
+
+const CoordBBox kWide(Coord(-100000), Coord(100000));
+
+class SphereUnion : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() { openvdb::initialize(); }
+};
+
+ExactSphere ball(int64_t x2, int64_t y2, int64_t z2, int64_t coverSq)
+{
+    return {{x2, y2, z2}, coverSq};
+}
+
+bool inAny(const Spheres& spheres, const Coord& q)
+{
+    for (const ExactSphere& s : spheres) {
+        int64_t sum = 0;
+        for (int a = 0; a < 3; ++a) sum += (2 * q[a] - s.center2[a]) * (2 * q[a] - s.center2[a]);
+        if (sum <= s.coverSq) return true;
+    }
+    return false;
+}
+
+void expectLikeBruteForce(const Spheres& spheres, const CoordBBox& clip, const CoordBBox& all)
+{
+    const MaskTree::Ptr tree = sphereUnion(spheres, clip);
+    openvdb::tree::ValueAccessor<const MaskTree> voxels(*tree);
+    int64_t expected = 0;
+    for (auto q = all.begin(); q; ++q) {
+        const bool in = clip.isInside(*q) && inAny(spheres, *q);
+        expected += in;
+        ASSERT_EQ(voxels.isValueOn(*q), in) << *q;
+    }
+    EXPECT_EQ(int64_t(tree->activeVoxelCount()), expected); // nothing beyond `all`
+    for (auto leaf = tree->cbeginLeaf(); leaf; ++leaf) EXPECT_FALSE(leaf->isEmpty());
+}
+
+/// Spheres of all sizes up to @a largest around @a middle, centres between voxels included.
+Spheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int spread, int largest)
+{
+    const auto pick = [&](int lo, int hi) {
+        return std::uniform_int_distribution<int>(lo, hi)(random);
+    };
+    Spheres spheres;
+    for (int i = 0; i < count; ++i) {
+        const int r2 = pick(0, 2 * largest);
+        spheres.push_back(ball(2 * middle[0] + pick(-spread, spread),
+            2 * middle[1] + pick(-spread, spread), 2 * middle[2] + pick(-spread, spread),
+            pick(-3, r2 * r2)));
+    }
+    return spheres;
+}
+
+TEST_F(SphereUnion, MatchesBruteForceOnRandomSpheresAcrossNodeBorders)
+{
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const Coord corners[] = {Coord(0), Coord(8, -128, 128), Coord(-4096, 4096, 0),
+            Coord(3), Coord(128, 128, 4096)};
+        const Coord middle = corners[seed % 5];
+        const int largest = seed % 3 == 0 ? 3 : 14;
+        const Spheres spheres = randomSpheres(random, 1 + seed % 7, middle, 20, largest);
+        CoordBBox all(middle, middle);
+        all.expand(26);
+        expectLikeBruteForce(spheres, kWide, all);
+        const CoordBBox clip(middle.offsetBy(-7, -4, -9), middle.offsetBy(9, 12, 6));
+        expectLikeBruteForce(spheres, clip, all);
+    }
+}
+
+TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
+{
+    const Spheres spheres{ball(1, -3, 5, 4 * 41 * 41), ball(90, 10, -7, 4 * 25 * 25 + 3)};
+    expectLikeBruteForce(spheres, kWide, CoordBBox(Coord(-48), Coord(80)));
+    EXPECT_GT(sphereUnion(spheres, kWide)->activeTileCount(), 0u);
+}
+
+TEST_F(SphereUnion, ASphereOfOneVoxelIsThatVoxel)
+{
+    const MaskTree::Ptr tree = sphereUnion({ball(-14, 16, 254, 0)}, kWide);
+    EXPECT_EQ(tree->activeVoxelCount(), 1u);
+    EXPECT_TRUE(tree->isValueOn(Coord(-7, 8, 127)));
+}
+
+TEST_F(SphereUnion, NegativeSquaresAndSpheresBetweenVoxelsAreEmpty)
+{
+    const Spheres spheres{ball(0, 0, 0, -1), ball(1, 0, 0, 0), ball(1, 1, 0, 1), ball(1, 1, 1, 2)};
+    const MaskTree::Ptr tree = sphereUnion(spheres, kWide);
+    EXPECT_TRUE(tree->empty());
+    EXPECT_TRUE(boundingBox(spheres).empty());
+    EXPECT_EQ(sphereUnion({ball(1, 1, 1, 3)}, kWide)->activeVoxelCount(), 8u);
+    EXPECT_TRUE(sphereUnion({}, kWide)->empty());
+}
+
+TEST_F(SphereUnion, TheSurfaceIsClosed)
+{
+    const Spheres at{ball(0, 0, 0, 4 * 25)}, below{ball(0, 0, 0, 4 * 25 - 1)};
+    for (const Coord& q : {Coord(5, 0, 0), Coord(-3, 4, 0), Coord(0, -3, -4)}) {
+        EXPECT_TRUE(sphereUnion(at, kWide)->isValueOn(q)) << q;
+        EXPECT_FALSE(sphereUnion(below, kWide)->isValueOn(q)) << q;
+    }
+}
+
+TEST_F(SphereUnion, LargeSpheresBecomeTilesOfEveryNodeLevel)
+{
+    // Holds [0, 4095]^3: the farthest corner is 2048 sqrt(3) = 3547.3 away.
+    const Spheres spheres{ball(4095, 4095, 4095, int64_t(4) * 3560 * 3560)};
+    const CoordBBox clip(Coord(-300, -10, -10), Coord(4095));
+    const MaskTree::Ptr tree = sphereUnion(spheres, clip);
+    EXPECT_TRUE(tree->isValueOn(Coord(2000)));
+    EXPECT_EQ(tree->getValueDepth(Coord(2000)), 0);           // a tile of the root
+    EXPECT_EQ(tree->getValueDepth(Coord(-64, 2048, 2048)), 1); // 128^3
+    EXPECT_EQ(tree->getValueDepth(Coord(-270, 2048, 2048)), 2); // 8^3, cut by x = -300
+    EXPECT_EQ(tree->getValueDepth(Coord(-299, 2048, 2048)), 3);
+    EXPECT_TRUE(tree->isValueOn(Coord(-300, 2048, 2048)));
+    EXPECT_FALSE(tree->isValueOn(Coord(-301, 2048, 2048)));
+}
+
+TEST_F(SphereUnion, AClippedTileIsDescended)
+{
+    const CoordBBox clip(Coord(1, 0, 0), Coord(130, 127, 127));
+    const MaskTree::Ptr tree = sphereUnion({ball(0, 0, 0, 4 * 1000000)}, clip);
+    EXPECT_EQ(tree->activeVoxelCount(), clip.volume());
+    CoordBBox active;
+    ASSERT_TRUE(tree->evalActiveVoxelBoundingBox(active));
+    EXPECT_EQ(active, clip);
+}
+
+TEST_F(SphereUnion, NodesGrowWithTheSurfaceOnly)
+{
+    const MaskTree::Ptr small = sphereUnion({ball(0, 0, 0, 4 * 250000)}, kWide);
+    const MaskTree::Ptr large = sphereUnion({ball(0, 0, 0, 4 * 1000000)}, kWide);
+    EXPECT_LT(small->leafCount(), 70000u); // 4 pi 500^2 / 64 = 49,087 leaf faces
+    EXPECT_LT(large->leafCount(), 4.2 * small->leafCount());
+    EXPECT_LT(large->activeTileCount(), 5 * small->activeTileCount());
+    EXPECT_GT(large->activeVoxelCount(), 7.9 * small->activeVoxelCount());
+}
+
+TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
+{
+    // Radius and distance 1.5 10^9, as many as the squares hold; the surface passes through x = 0.
+    const int64_t r2 = 3000000000;
+    const CoordBBox clip(Coord(-20, -3, -3), Coord(20, 3, 3));
+    const MaskTree::Ptr tree = sphereUnion({ball(-r2, 0, 0, r2 * r2)}, clip);
+    EXPECT_TRUE(tree->isValueOn(Coord(0, 0, 0)));
+    EXPECT_FALSE(tree->isValueOn(Coord(0, 1, 0)));
+    EXPECT_FALSE(tree->isValueOn(Coord(1, 0, 0)));
+    EXPECT_TRUE(tree->isValueOn(Coord(-1, 3, 3)));
+    EXPECT_EQ(tree->activeVoxelCount(), 20u * 49 + 1);
+    EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2)}).max().x(), 0);
+}
+
+TEST_F(SphereUnion, WorksAtTheLastCoordinates)
+{
+    const int32_t last = std::numeric_limits<int32_t>::max();
+    const Coord corner(last - 5, -last + 5, last - 5);
+    const CoordBBox clip(Coord(last - 9, -last, last - 9), Coord(last, -last + 9, last));
+    const auto center = [](int32_t c) { return 2 * int64_t(c); };
+    const MaskTree::Ptr tree = sphereUnion(
+        {ball(center(corner[0]), center(corner[1]), center(corner[2]), 4 * 9)}, clip);
+    EXPECT_EQ(tree->activeVoxelCount(), 123u); // lattice points within 3
+    EXPECT_TRUE(tree->isValueOn(corner.offsetBy(3, 0, 0)));
+}
+
+TEST_F(SphereUnion, DoesNotDependOnThreadsNorOnTheOrderOfSpheres)
+{
+    std::mt19937 random(7);
+    Spheres spheres = randomSpheres(random, 3000, Coord(0), 600, 25);
+    const auto draw = [&](int threads) {
+        tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return sphereUnion(spheres, kWide);
+    };
+    const MaskTree::Ptr one = draw(1), two = draw(2);
+    std::shuffle(spheres.begin(), spheres.end(), random);
+    const MaskTree::Ptr shuffled = draw(2);
+    for (const MaskTree::Ptr& other : {two, shuffled}) {
+        EXPECT_TRUE(one->hasSameTopology(*other));
+        EXPECT_EQ(one->activeTileCount(), other->activeTileCount());
+        EXPECT_EQ(one->activeVoxelCount(), other->activeVoxelCount());
+    }
+}
+
+TEST_F(SphereUnion, StopsWhenInterrupted)
+{
+    struct Stop : openvdb::util::NullInterrupter {
+        bool wasInterrupted(int) override { return true; }
+    } stop;
+    EXPECT_THROW(sphereUnion({ball(0, 0, 0, 100)}, kWide, &stop), Interrupted);
+}
+
+TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
+{
+    std::mt19937 random(3);
+    for (int i = 0; i < 300; ++i) {
+        const Spheres spheres = randomSpheres(random, 1 + i % 3, Coord(-5, 3, 9), 12, 1 + i % 5);
+        CoordBBox expected;
+        sphereUnion(spheres, kWide)->evalActiveVoxelBoundingBox(expected);
+        EXPECT_EQ(boundingBox(spheres), expected) << "trial " << i;
+    }
+}
+
+TEST_F(SphereUnion, SpheresOfALevelAreItsRangeWithDoubledCentres)
+{
+    SphereTree tree;
+    tree.center = {{0, 0, 0}, {-1.5, 2, 1048576.5}, {3, -4, 5}};
+    tree.coverSq = {100, 7, 9};
+    SphereTreeLevel level;
+    level.begin = 1;
+    level.end = 3;
+    const Spheres spheres = levelSpheres(tree, level);
+    ASSERT_EQ(spheres.size(), 2u);
+    EXPECT_EQ(spheres[0].center2[0], -3);
+    EXPECT_EQ(spheres[0].center2[1], 4);
+    EXPECT_EQ(spheres[0].center2[2], 2097153);
+    EXPECT_EQ(spheres[0].coverSq, 7);
+    EXPECT_EQ(spheres[1].center2[1], -8);
+    EXPECT_EQ(spheres[1].coverSq, 9);
+}
+
+} // namespace
