@@ -111,7 +111,8 @@ DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter
     map.mWide = detail::makeLargeArray<uint32_t>(size);
     map.mMaxDistSq = transform(layout, dim, map.mWide.get(), interrupter);
     if (map.mMaxDistSq < kLimit<uint32_t>) return map;
-    OPENVDB_THROW(openvdb::ValueError, "the object holds a ball of 46340 voxels radius or more, whose "
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object holds a ball of 46340 voxels radius or more, whose "
         "square does not fit 32 bits: use a larger voxel");
 }
 

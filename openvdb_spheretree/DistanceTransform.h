@@ -2,15 +2,15 @@
 /// @file DistanceTransform.h
 /// @brief Exact squared Euclidean distance of every object voxel to the nearest background voxel.
 ///
-/// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of object
-/// voxels: no value crosses background, so no background voxel is stored or visited.
+/// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of
+/// object voxels: no value crosses background, so no background voxel is stored or visited.
 ///
 /// 1. x: steps to the background on the voxel's own line, squared (`alongX`);
 /// 2. y, then z: min over the line of value + step^2 (`alongAxis`, kernel detail/MinPlus.h).
 ///
 /// Values are computed in 16 bits, and again in 32 bits if one did not fit: by check, not by hope.
-/// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding box.
-/// Tests: TestDistanceTransform.cc, against all background voxels one by one.
+/// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding
+/// box. Tests: TestDistanceTransform.cc, against all background voxels one by one.
 
 #pragma once
 
@@ -41,8 +41,7 @@ public:
     const uint32_t* wide() const { return mWide.get(); }
 
 private:
-    friend DistanceMap distanceTransform(
-        const LeafLayout&, int, openvdb::util::NullInterrupter*);
+    friend DistanceMap distanceTransform(const LeafLayout&, int, openvdb::util::NullInterrupter*);
 
     detail::LargeArray<uint16_t> mNarrow;
     detail::LargeArray<uint32_t> mWide;
@@ -52,8 +51,8 @@ private:
 /// @param dim  3, or 2 to leave the z axis out
 /// @throw openvdb::ValueError if a radius is 46340 voxels or more: 32 bits do not hold its square
 /// @throw Interrupted if the interrupter (may be null) said so
-DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr);
+DistanceMap distanceTransform(
+    const LeafLayout& layout, int dim = 3, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief The same for people who come for just this: squared distances, in voxels, of the active
 /// voxels of @a object, as a grid of its own with the object's transform and background 0.

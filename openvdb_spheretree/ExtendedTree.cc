@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ExtendedTree.cc
-/// @brief The extended tree (Broutta et al. 2009, Algorithm 2 and Section 4.2): every sphere contains
-/// the leaf balls below it.
+/// @brief The extended tree (Broutta et al. 2009, Algorithm 2 and Section 4.2): every sphere
+/// contains the leaf balls below it.
 ///
 /// Level 0 is the medial balls of the object. Then, from each level to the one above:
 /// 1. `coarsen` the level's voxels; take their medial balls and labels; every node's parent is the
 ///    label of the parent voxel of its centre (`linkLevels`);
 /// 2. `keepParents`: a ball without children is dropped;
-/// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s below
-///    it; it may be smaller than the medial ball it came from;
+/// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s
+///    below it; it may be smaller than the medial ball it came from;
 /// 4. `reconstruct`: the level's voxels become those within R of a kept centre. They are clipped to
-///    the box of the object's own pyramid level: the paper's images have borders, and without the clip
-///    levels swell from step to step (Al.100 with 7 spheres went from 420 to 748 % error).
+///    the box of the object's own pyramid level: the paper's images have borders, and without the
+///    clip levels swell from step to step (Al.100 with 7 spheres went from 420 to 748 % error).
 ///
 /// It ends: the clip box of the pyramid's last level is one voxel. Without the clip (`free`), all
-/// nodes left at that level get one parent there. Radii are integers under square roots (LevelFrame.h).
-/// Cost: linear in the voxels of all levels, and leaves x levels for the radii.
+/// nodes left at that level get one parent there. Radii are integers under square roots
+/// (LevelFrame.h). Cost: linear in the voxels of all levels, and leaves x levels for the radii.
 /// Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
@@ -137,8 +137,8 @@ void useReconstructionRadii(LevelNodes& nodes, const Leaves& leaves, const Level
     for (std::size_t s = 0; s < leaves.center.size(); ++s) {
         const int32_t t = leaves.ancestor[s];
         const int64_t apart = distanceSq(leaves.center[s], frame.center(nodes.balls[t].center));
-        nodes.coverSq[t] = std::max(
-            nodes.coverSq[t], coverSqOfRoots(apart, leaves.radius[s].a, growth.b));
+        nodes.coverSq[t] =
+            std::max(nodes.coverSq[t], coverSqOfRoots(apart, leaves.radius[s].a, growth.b));
     }
 }
 
@@ -155,33 +155,23 @@ MaskTree::Ptr nextVoxels(const MaskTree& voxels, int level, const BuildContext& 
     return coarsen(voxels, context.stepFrom(level), context.interrupter);
 }
 
-Links linkToNext(const LevelNodes& nodes, int level, const MedialLevel& fine,
-    const MedialLevel& coarse, const BuildContext& context)
-{
-    if (coarse.balls.size() > 1) return linkLevels(nodes, level, fine, coarse, context);
-    Links links; // one ball is everybody's parent
-    links.parent.assign(nodes.balls.size(), 0);
-    if (context.settings.dag) links.dag = linkLevels(nodes, level, fine, coarse, context).dag;
-    return links;
-}
-
 } // namespace
 
 std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext& context)
 {
     const SphereTreeSettings& settings = context.settings;
-    auto fine = std::make_unique<MedialLevel>(
-        *voxels, settings.dim, context.interrupter, context.seconds);
+    auto fine =
+        std::make_unique<MedialLevel>(*voxels, settings.dim, context.interrupter, context.seconds);
     Leaves leaves;
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
-        voxels = timed(&context.seconds->pyramid,
-            [&] { return nextVoxels(*voxels, level - 1, context); });
+        voxels = timed(
+            &context.seconds->pyramid, [&] { return nextVoxels(*voxels, level - 1, context); });
         auto coarse = std::make_unique<MedialLevel>(
             *voxels, settings.dim, context.interrupter, context.seconds);
         timed(&context.seconds->tree, [&] {
-            Links links = linkToNext(levels.back(), level - 1, *fine, *coarse, context);
+            Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse);
             for (int32_t& node : leaves.ancestor) node = links.parent[node];
             fitRadii(nodes, leaves, context.frame(level));

@@ -58,8 +58,10 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
         appendTile(box, leaves);
     }
     if (leaves.size() > std::numeric_limits<uint32_t>::max() / 2) {
-        OPENVDB_THROW(openvdb::ValueError, "the object has " << leaves.size()
-            << " leaf nodes, more than 2^31: use a larger voxel, or split the object");
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object has "
+                << leaves.size()
+                << " leaf nodes, more than 2^31: use a larger voxel, or split the object");
     }
     tbb::parallel_sort(leaves.begin(), leaves.end(),
         [](const Leaf& a, const Leaf& b) { return a.origin < b.origin; });
@@ -98,8 +100,8 @@ void LeafLayout::buildLines(Axis axis)
     for (uint32_t i = 0; i < count; ++i) {
         lines.position[lines.leaves[i]] = i;
         const openvdb::Coord& here = mOrigins[lines.leaves[i]];
-        const bool touches = i > 0 && sameLine(mOrigins[lines.leaves[i - 1]], here) &&
-            mOrigins[lines.leaves[i - 1]][along] + kLeafDim == here[along];
+        const bool touches = i > 0 && sameLine(mOrigins[lines.leaves[i - 1]], here)
+            && mOrigins[lines.leaves[i - 1]][along] + kLeafDim == here[along];
         if (!touches) lines.runBegin.push_back(i);
     }
     lines.runBegin.push_back(count);

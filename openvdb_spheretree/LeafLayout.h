@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafLayout.h
-/// @brief One level's voxels as flat arrays: its 8x8x8 leaves in order, their masks, and the runs of
-/// adjacent leaves along each axis.
+/// @brief One level's voxels as flat arrays: its 8x8x8 leaves in order, their masks, and the runs
+/// of adjacent leaves along each axis.
 ///
-/// The separable transforms work on lines of voxels. A line is cut wherever the leaves along it have
-/// a gap, because a gap is background and no value crosses background (docs/algorithm.md, "Locality").
-/// So the unit of work is a *run*: leaves that touch, one behind the other along an axis; it holds 64
-/// lines side by side. Nothing of a level is stored outside its leaves, and no tree is searched while
-/// a transform runs.
+/// The separable transforms work on lines of voxels. A line is cut wherever the leaves along it
+/// have a gap, because a gap is background and no value crosses background (docs/algorithm.md,
+/// "Why sparse storage loses nothing"). So the unit of work is a *run*: leaves that touch, one
+/// behind the other along an axis; it holds 64 lines side by side. Nothing of a level is stored
+/// outside its leaves, and no tree is searched while a transform runs.
 ///
 /// Cost: O(leaves log leaves) to build, 88 bytes a leaf. A tile of the tree becomes the leaves it
 /// stands for.

@@ -27,8 +27,7 @@ struct ObjectIndex {
 
     explicit ObjectIndex(const openvdb::BoolTree& tree)
         : mask(detail::maskOf(tree)), nearest(mask), voxels(detail::countVoxels(mask))
-    {
-    }
+    {}
 };
 
 /// Where the voxels of a level count: anywhere its spheres reach, but in the object's plane in 2-D.
@@ -99,8 +98,8 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
 
 } // namespace
 
-void computeLevelErrors(SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter)
+void computeLevelErrors(
+    SphereTree& tree, const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
     const ObjectIndex index(object.tree());
     std::vector<SphereTreeLevel> levels = tree.levels; // the tree changes at the end, or not at all

@@ -38,8 +38,8 @@ bool withinRoots(int64_t D, int64_t a, int64_t b, int64_t c)
 
 int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
 {
-    const long double sum = std::sqrt((long double)(a)) + std::sqrt((long double)(b)) +
-        std::sqrt((long double)(c));
+    const long double sum =
+        std::sqrt((long double)(a)) + std::sqrt((long double)(b)) + std::sqrt((long double)(c));
     int64_t D = std::max(c, int64_t(sum * sum)); // right but for rounding
     while (D > c && !withinRoots(D, a, b, c)) --D;
     while (withinRoots(D + 1, a, b, c)) ++D;
@@ -47,9 +47,7 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
 }
 
 LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
-    : mLevel(level),
-      mDim(settings.dim),
-      mTight(level == 0 || settings.scale == RadiusScale::Tight),
+    : mLevel(level), mDim(settings.dim), mTight(level == 0 || settings.scale == RadiusScale::Tight),
       mOrigin(level == 0 ? openvdb::Coord() : origin)
 {
     for (int k = 0; k < level; ++k) mScale *= settings.factor;
@@ -60,8 +58,8 @@ Doubled LevelFrame::center(const openvdb::Coord& ijk) const
 {
     const auto along = [&](int axis) {
         const bool scaled = axis < mDim;
-        return 2 * int64_t(mOrigin[axis]) +
-            (scaled ? 2 * mScale * ijk[axis] + mScale - 1 : 2 * int64_t(ijk[axis]));
+        return 2 * int64_t(mOrigin[axis])
+            + (scaled ? 2 * mScale * ijk[axis] + mScale - 1 : 2 * int64_t(ijk[axis]));
     };
     return {along(0), along(1), along(2)};
 }

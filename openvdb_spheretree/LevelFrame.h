@@ -2,16 +2,16 @@
 /// @file LevelFrame.h
 /// @brief Where a level's balls are in the frame of level 0, and how large, exactly.
 ///
-/// A voxel v of level k is the block f^k v + [0, f^k - 1]^dim. A medial ball (c, radiusSq) of level k
-/// becomes the closed sphere
+/// A voxel v of level k is the block f^k v + [0, f^k - 1]^dim. A medial ball (c, radiusSq) of level
+/// k becomes the closed sphere
 ///     centre  f^k c + (f^k - 1) / 2 + origin
 ///     radius  f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2
-/// which covers every level-0 voxel centre of the level-k voxels that the ball covers (the paper: all
-/// radii of a level grow by the same value). Level 0 needs no frame: there the sphere of radius
+/// which covers every level-0 voxel centre of the level-k voxels that the ball covers (the paper:
+/// all radii of a level grow by the same value). Level 0 needs no frame: there the sphere of radius
 /// sqrt(radiusSq - 1) holds just the ball's voxels.
 ///
-/// Twice a radius is always a sum of two square roots of integers; such a sum is compared exactly with
-/// the root of a third one, so which voxels a sphere holds is never a matter of rounding.
+/// Twice a radius is always a sum of two square roots of integers; such a sum is compared exactly
+/// with the root of a third one, so which voxels a sphere holds is never a matter of rounding.
 
 #pragma once
 
@@ -57,7 +57,8 @@ struct RootSum {
     }
 };
 
-/// @return the largest D with sqrt(D) <= sqrt(a) + sqrt(b) + sqrt(c), exactly; all of these fit 62 bits.
+/// @return the largest D with sqrt(D) <= sqrt(a) + sqrt(b) + sqrt(c), exactly; all of these fit 62
+/// bits.
 int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c);
 
 class LevelFrame {

@@ -17,14 +17,15 @@ using Masks = std::vector<LeafMask>;
 uint64_t movedOn(Axis axis, const LeafMask& mask, uint32_t x)
 {
     switch (axis) {
-        case Axis::X: return x > 0 ? mask[x - 1] : 0;
-        case Axis::Y: return mask[x] << 8;
-        default: return mask[x] << 1;
+    case Axis::X: return x > 0 ? mask[x - 1] : 0;
+    case Axis::Y: return mask[x] << 8;
+    default: return mask[x] << 1;
     }
 }
 
-/// Marks where the steps lead along @a axis from the voxels that @a mask has on in leaf i of @a run.
-/// Most need no walk: they are 0, or lead where the voxel before led, which has marked that already.
+/// Marks where the steps lead along @a axis from the voxels that @a mask has on in leaf i of @a
+/// run. Most need no walk: they are 0, or lead where the voxel before led, which has marked that
+/// already.
 template <typename Step>
 void markEnds(Axis axis, LeafLayout::Run run, uint32_t i, const Step* steps, const LeafMask& mask,
     Masks& marks)
@@ -45,8 +46,7 @@ void markEnds(Axis axis, LeafLayout::Run run, uint32_t i, const Step* steps, con
 
 /// @param from  gives the mask of a leaf's voxels whose steps to follow
 template <typename From>
-Masks marksAlong(
-    Axis axis, const PowerMap& labels, const From& from, NullInterrupter* interrupter)
+Masks marksAlong(Axis axis, const PowerMap& labels, const From& from, NullInterrupter* interrupter)
 {
     const LeafLayout& layout = labels.layout();
     Masks marks(layout.leafCount(), LeafMask{});
@@ -69,16 +69,16 @@ std::vector<LeafRange> cutWhereChanges(int axis, LeafRange range, const LeafLayo
 {
     std::vector<LeafRange> parts;
     for (uint32_t leaf = range.first; leaf < range.second; ++leaf) {
-        const bool starts = leaf == range.first ||
-            layout.origin(leaf)[axis] != layout.origin(leaf - 1)[axis];
+        const bool starts =
+            leaf == range.first || layout.origin(leaf)[axis] != layout.origin(leaf - 1)[axis];
         if (starts) parts.emplace_back(leaf, leaf);
         parts.back().second = leaf + 1;
     }
     return parts;
 }
 
-/// Calls visit(leaf, offset) for the marked voxels of leaves of equal x, ordered by coordinate: x, then
-/// the rows of leaves of equal y and y in them, then the leaves of a row and z in them.
+/// Calls visit(leaf, offset) for the marked voxels of leaves of equal x, ordered by coordinate: x,
+/// then the rows of leaves of equal y and y in them, then the leaves of a row and z in them.
 template <typename Visit>
 void visitInOrder(LeafRange slab, const Masks& marks, const LeafLayout& layout, const Visit& visit)
 {

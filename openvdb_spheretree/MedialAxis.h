@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MedialAxis.h
-/// @brief The reduced discrete medial axis: the balls whose union is the object, none of them without
-/// a voxel that it covers best.
+/// @brief The reduced discrete medial axis: the balls whose union is the object, none of them
+/// without a voxel that it covers best.
 ///
 /// The medial balls are the sites that label at least one voxel (CM07, section 4). Marks travel the
-/// way labels are stored: along x from every object voxel, along y from what that marked, along z from
-/// what that marked. Each pass writes only within its run, so runs are independent.
+/// way labels are stored: along x from every object voxel, along y from what that marked, along z
+/// from what that marked. Each pass writes only within its run, so runs are independent.
 ///
 /// Exact. Cost: linear in active voxels. Tests: TestMedialAxis.cc.
 

@@ -10,16 +10,15 @@ namespace openvdb_spheretree {
 
 MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim,
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
-    : layout(detail::timed(seconds ? &seconds->distance : nullptr,
-          [&] { return LeafLayout(voxels); })),
+    : layout(
+        detail::timed(seconds ? &seconds->distance : nullptr, [&] { return LeafLayout(voxels); })),
       distances(detail::timed(seconds ? &seconds->distance : nullptr,
           [&] { return distanceTransform(layout, dim, interrupter); })),
       labels(detail::timed(seconds ? &seconds->power : nullptr,
           [&] { return powerMap(layout, distances, dim, interrupter); })),
       balls(detail::timed(seconds ? &seconds->medial : nullptr,
           [&] { return medialBalls(labels, distances, interrupter); }))
-{
-}
+{}
 
 int32_t MedialLevel::ballAt(const openvdb::Coord& center) const
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MedialLevel.h
-/// @brief One level of voxels with everything the trees ask of it: layout, distances, power labels and
-/// medial balls.
+/// @brief One level of voxels with everything the trees ask of it: layout, distances, power labels
+/// and medial balls.
 
 #pragma once
 

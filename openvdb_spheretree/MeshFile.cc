@@ -134,7 +134,8 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup
 PolygonSoup placedSoup(const aiScene& scene)
 {
     PolygonSoup soup;
-    std::vector<std::pair<const aiNode*, aiMatrix4x4>> nodes; // a scene may nest deeper than a stack
+    std::vector<std::pair<const aiNode*, aiMatrix4x4>>
+        nodes; // a scene may nest deeper than a stack
     if (scene.mRootNode) nodes.emplace_back(scene.mRootNode, scene.mRootNode->mTransformation);
     while (!nodes.empty()) {
         const auto [node, transform] = nodes.back();
@@ -177,7 +178,8 @@ bool assimpKnows(const std::string& extension)
 
 PolygonSoup readByAssimp(const std::string&)
 {
-    throw IoError("this build reads .obj, .off, .ply and .stl meshes only; for other formats "
+    throw IoError(
+        "this build reads .obj, .off, .ply and .stl meshes only; for other formats "
         "install assimp (Debian: libassimp-dev) and configure with -DSPHERETREE_WITH_ASSIMP=ON");
 }
 
@@ -245,9 +247,10 @@ std::vector<Vec3d> indexSpacePoints(const TriangleMesh& mesh, double voxelSize)
         points.push_back(Vec3d(world) / voxelSize);
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(points.back()[axis]) <= kMaxIndex) continue; // false for NaN as well
-            OPENVDB_THROW(openvdb::ValueError, "mesh '" << mesh.name << "' reaches coordinate "
-                << world[axis] << ", too far for voxel size " << voxelSize
-                << " (indices must stay within 2^30); use larger voxels");
+            OPENVDB_THROW(openvdb::ValueError,
+                "mesh '" << mesh.name << "' reaches coordinate " << world[axis]
+                         << ", too far for voxel size " << voxelSize
+                         << " (indices must stay within 2^30); use larger voxels");
         }
     }
     return points;
@@ -261,8 +264,9 @@ void checkMesh(const TriangleMesh& mesh)
     for (const Vec3I& triangle : mesh.triangles) {
         for (int i = 0; i < 3; ++i) {
             if (triangle[i] < mesh.points.size()) continue;
-            OPENVDB_THROW(openvdb::ValueError, "mesh '" << mesh.name << "' has a triangle of point "
-                << triangle[i] << ", but only " << mesh.points.size() << " points");
+            OPENVDB_THROW(openvdb::ValueError,
+                "mesh '" << mesh.name << "' has a triangle of point " << triangle[i]
+                         << ", but only " << mesh.points.size() << " points");
         }
     }
 }
@@ -275,8 +279,10 @@ openvdb::math::Transform::Ptr transformOf(double voxelSize)
         } catch (const openvdb::ArithmeticError&) { // nearly singular, in OpenVDB's eyes
         }
     }
-    OPENVDB_THROW(openvdb::ValueError, "voxel size " << voxelSize << " is out of range; it must be "
-        "a finite number above 0.0001 or so");
+    OPENVDB_THROW(openvdb::ValueError,
+        "voxel size " << voxelSize
+                      << " is out of range; it must be "
+                         "a finite number above 0.0001 or so");
 }
 
 } // namespace
@@ -303,7 +309,8 @@ TriangleMesh readMeshFile(const std::string& path)
     TriangleMesh mesh;
     try {
         mesh = toTriangles(detail::isStrictFormat(extension)
-                ? detail::parseMesh(extension, contentsOf(path)) : readByAssimp(path));
+                ? detail::parseMesh(extension, contentsOf(path))
+                : readByAssimp(path));
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory for the mesh");
     } catch (const openvdb::Exception& error) {
@@ -313,13 +320,14 @@ TriangleMesh readMeshFile(const std::string& path)
     return mesh;
 }
 
-openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize,
-    double halfWidth, openvdb::util::NullInterrupter* interrupter)
+openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize, double halfWidth,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::math::Transform::Ptr transform = transformOf(voxelSize);
     if (!(halfWidth >= 1 && halfWidth <= kMaxHalfWidth)) {
-        OPENVDB_THROW(openvdb::ValueError, "half width " << halfWidth
-            << " is out of range; it must be from 1 to " << kMaxHalfWidth << " voxels");
+        OPENVDB_THROW(openvdb::ValueError,
+            "half width " << halfWidth << " is out of range; it must be from 1 to " << kMaxHalfWidth
+                          << " voxels");
     }
     checkMesh(mesh);
     const std::vector<Vec3d> points = indexSpacePoints(mesh, voxelSize);
@@ -327,8 +335,8 @@ openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSiz
     openvdb::util::NullInterrupter silent;
     openvdb::util::NullInterrupter& boss = interrupter ? *interrupter : silent;
     const auto band = static_cast<float>(halfWidth);
-    auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-        boss, adapter, *transform, band, band);
+    auto grid =
+        openvdb::tools::meshToVolume<openvdb::FloatGrid>(boss, adapter, *transform, band, band);
     if (openvdb::util::wasInterrupted(&boss)) throw Interrupted();
     grid->setName(mesh.name);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -348,8 +356,9 @@ double voxelSizeForDim(const TriangleMesh& mesh, int dim)
     }
     const double side = isFinite ? box.extents()[box.maxExtent()] : 0;
     if (!(side > 0)) {
-        OPENVDB_THROW(openvdb::ValueError, "mesh '" << mesh.name
-            << "' is empty, has no extent, or is not finite: no voxel size fits it");
+        OPENVDB_THROW(openvdb::ValueError,
+            "mesh '" << mesh.name
+                     << "' is empty, has no extent, or is not finite: no voxel size fits it");
     }
     return side / dim;
 }

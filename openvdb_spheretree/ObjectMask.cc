@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One kernel serves every grid type: copy the topology into a mask, then decide every leaf and tile
-/// by the grid's criterion, both in parallel. tools::sdfInteriorMask is not used for level sets: it
-/// looks for the interior only near leaf nodes, and leaves out an interior root tile (4096^3 voxels)
-/// and interior tiles of internal nodes that have no leaf.
+/// One kernel serves every grid type: copy the topology into a mask, then decide every leaf and
+/// tile by the grid's criterion, both in parallel. tools::sdfInteriorMask is not used for level
+/// sets: it looks for the interior only near leaf nodes, and leaves out an interior root tile
+/// (4096^3 voxels) and interior tiles of internal nodes that have no leaf.
 #include "ObjectMask.h"
+
+#include "UniformVoxels.h"
+#include "detail/DescribeGrid.h"
 
 #include "detail/Parallel.h"
 
@@ -31,14 +34,6 @@ using openvdb::tools::PointIndexGrid;
 using LeafBits = MaskTree::LeafNodeType::NodeMaskType;
 using ObjectGridTypes = openvdb::NumericGridTypes::Append<openvdb::BoolGrid, openvdb::MaskGrid,
     PointIndexGrid, PointDataGrid>;
-
-std::string describe(const openvdb::GridBase& grid)
-{
-    constexpr std::size_t kLongest = 80;
-    const std::string name = grid.getName();
-    if (name.empty()) return "the grid without a name";
-    return "grid '" + (name.size() > kLongest ? name.substr(0, kLongest) + "..." : name) + "'";
-}
 
 // ---- Criteria: what makes a voxel or a tile part of the object
 
@@ -106,9 +101,15 @@ struct ValueCriterion {
 
 struct ActiveCriterion {
     template <typename ValueT>
-    bool tile(const ValueT&, bool active) const { return active; }
+    bool tile(const ValueT&, bool active) const
+    {
+        return active;
+    }
     template <typename LeafT>
-    void leaf(const LeafT& source, LeafBits& bits) const { bits = source.getValueMask(); }
+    void leaf(const LeafT& source, LeafBits& bits) const
+    {
+        bits = source.getValueMask();
+    }
 };
 
 struct ActiveAndTrueCriterion {
@@ -125,7 +126,10 @@ struct ActiveAndTrueCriterion {
 /// A point leaf stores where each voxel's points end in its arrays; tiles hold no points.
 struct HoldsPointCriterion {
     template <typename ValueT>
-    bool tile(const ValueT&, bool) const { return false; }
+    bool tile(const ValueT&, bool) const
+    {
+        return false;
+    }
     template <typename LeafT>
     void leaf(const LeafT& source, LeafBits& bits) const
     {
@@ -175,8 +179,8 @@ MaskTree::Ptr decide(const SourceTreeT& source, const Criterion& criterion,
     using MaskUpper = MaskNodes::Get<2>;
 
     const auto mask = std::make_shared<MaskTree>(source, false, true, openvdb::TopologyCopy());
-    forEachNodePair<typename SourceTreeT::LeafNodeType, MaskTree::LeafNodeType>(source, *mask,
-        interrupter, [&](const auto& from, auto& to) {
+    forEachNodePair<typename SourceTreeT::LeafNodeType, MaskTree::LeafNodeType>(
+        source, *mask, interrupter, [&](const auto& from, auto& to) {
             LeafBits bits;
             criterion.leaf(from, bits);
             to.setValueMask(bits);
@@ -190,43 +194,6 @@ MaskTree::Ptr decide(const SourceTreeT& source, const Criterion& criterion,
 
 // ---- What is asked of a grid before its voxels are looked at
 
-bool isFinite(const openvdb::Vec3d& v)
-{
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
-/// OpenVDB's hasUniformScale() compares with an absolute tolerance, so it takes small voxels of any
-/// shape for cubes, and small rotated cubes for none. This one is relative.
-void checkUniformVoxels(const openvdb::GridBase& grid)
-{
-    const openvdb::math::Transform& transform = grid.transform();
-    if (!transform.isLinear()) {
-        OPENVDB_THROW(openvdb::ValueError, describe(grid) << " has a frustum transform, so its "
-            "voxels are not of one size: resample it to cubic voxels");
-    }
-    const openvdb::math::MapBase::ConstPtr map = transform.baseMap();
-    const openvdb::Vec3d axis[3] = {map->applyJacobian({1, 0, 0}), map->applyJacobian({0, 1, 0}),
-        map->applyJacobian({0, 0, 1})};
-    const double length[3] = {axis[0].length(), axis[1].length(), axis[2].length()};
-    if (!isFinite(map->applyMap({0, 0, 0})) || !isFinite({length[0], length[1], length[2]}) ||
-        !(length[0] > 0)) {
-        OPENVDB_THROW(openvdb::ValueError, describe(grid) << " has a transform with a zero, an "
-            "infinity or a NaN in it: set its transform, or resample it to cubic voxels");
-    }
-    // A relative 1e-6 moves the surface of the largest ball allowed by 1/20 of a voxel.
-    const double tolerance = 1e-6;
-    bool uniform = true, orthogonal = true;
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3;
-        uniform &= std::abs(length[i] - length[j]) <= tolerance * length[0];
-        orthogonal &= std::abs(axis[i].dot(axis[j])) <= tolerance * length[i] * length[j];
-    }
-    if (uniform && orthogonal) return;
-    OPENVDB_THROW(openvdb::ValueError, describe(grid) << " has voxels of " << length[0] << " x "
-        << length[1] << " x " << length[2] << (orthogonal ? "" : ", and its axes are sheared")
-        << "; spheres need cubic voxels: resample it to a uniform voxel size");
-}
-
 void checkFinite(double value, const char* name)
 {
     if (std::isfinite(value)) return;
@@ -237,10 +204,14 @@ void checkFinite(double value, const char* name)
 void checkIso(const openvdb::GridBase& grid, double iso, double background)
 {
     if (iso < background && iso > -background) return;
-    OPENVDB_THROW(openvdb::ValueError, describe(grid) << " is a level set whose narrow band holds "
-        "values between " << -background << " and " << background << ", so iso=" << iso
-        << " is out of range: choose an iso within the band" << (background > 0 ? "" :
-        ", or change the grid's class if it is no level set"));
+    OPENVDB_THROW(openvdb::ValueError,
+        detail::describe(grid) << " is a level set whose narrow band holds "
+                                  "values between "
+                               << -background << " and " << background << ", so iso=" << iso
+                               << " is out of range: choose an iso within the band"
+                               << (background > 0
+                                          ? ""
+                                          : ", or change the grid's class if it is no level set"));
 }
 
 template <typename GridT>
@@ -257,10 +228,12 @@ MaskTree::Ptr valueMask(const GridT& grid, const ObjectMaskSettings& settings,
     checkFinite(settings.threshold, "threshold");
     const Test inside = Test::above(settings.threshold);
     if (inside(grid.background())) {
-        OPENVDB_THROW(openvdb::ValueError, describe(grid) << " has the background value "
-            << grid.background() << ", above threshold=" << settings.threshold << ", so its object "
-            "has no bounds: choose a threshold above it"
-            ", or give the grid the class 'level set' if it is one");
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid) << " has the background value " << grid.background()
+                                   << ", above threshold=" << settings.threshold
+                                   << ", so its object "
+                                      "has no bounds: choose a threshold above it"
+                                      ", or give the grid the class 'level set' if it is one");
     }
     return decide(grid.tree(), Criterion{inside}, interrupter);
 }
@@ -318,17 +291,19 @@ openvdb::BoolGrid::Ptr objectMask(const openvdb::GridBase& grid, const ObjectMas
     openvdb::util::NullInterrupter* interrupter)
 {
     if (!canBeObject(grid)) {
-        OPENVDB_THROW(openvdb::TypeError, describe(grid) << " is of type '" << grid.type()
-            << "', which bounds no object: give a bool, mask, float, double, int or point grid");
+        OPENVDB_THROW(openvdb::TypeError,
+            detail::describe(grid) << " is of type '" << grid.type()
+                                   << "', which bounds no object: give a bool, mask, float, "
+                                      "double, int or point grid");
     }
-    checkUniformVoxels(grid);
+    requireUniformVoxels(grid);
 
     MaskOfGrid op{settings, interrupter, {}, {}};
     grid.apply<ObjectGridTypes>(op);
     openvdb::tools::pruneInactive(*op.mask);
     if (op.mask->empty()) {
         OPENVDB_THROW(openvdb::ValueError,
-            describe(grid) << " holds no object: it has " << op.criterion);
+            detail::describe(grid) << " holds no object: it has " << op.criterion);
     }
 
     openvdb::BoolGrid::Ptr object = openvdb::BoolGrid::create(

@@ -25,8 +25,8 @@ int floorDiv(int a, int b) { return a >= 0 ? a / b : -((-int64_t(a) + b - 1) / b
 
 /// A cube of the finer level: a leaf with its mask, or a tile (mask null).
 struct Cell {
-    Coord parent;  ///< origin of the cube of the same size, one level up, that takes it in
-    Coord octant;  ///< 0 or 1 per axis: which eighth of that cube it becomes
+    Coord parent; ///< origin of the cube of the same size, one level up, that takes it in
+    Coord octant; ///< 0 or 1 per axis: which eighth of that cube it becomes
     const MaskLeaf* leaf;
 };
 
@@ -68,11 +68,11 @@ std::array<uint64_t, 4> halved(const MaskLeaf& leaf)
 {
     std::array<uint64_t, 4> result{};
     for (uint32_t x = 0; x < 4; ++x) {
-        uint64_t word = leaf.getValueMask().getWord<uint64_t>(2 * x) |
-            leaf.getValueMask().getWord<uint64_t>(2 * x + 1);
-        word |= word >> 8;                     // OR of y pairs, in even rows
-        word |= word >> 1;                     // OR of z pairs, in even bits
-        word &= 0x0055005500550055ull;         // rows 0, 2, 4, 6; bits 0, 2, 4, 6
+        uint64_t word = leaf.getValueMask().getWord<uint64_t>(2 * x)
+            | leaf.getValueMask().getWord<uint64_t>(2 * x + 1);
+        word |= word >> 8;             // OR of y pairs, in even rows
+        word |= word >> 1;             // OR of z pairs, in even bits
+        word &= 0x0055005500550055ull; // rows 0, 2, 4, 6; bits 0, 2, 4, 6
         word = (word | word >> 1) & 0x0033003300330033ull;
         word = (word | word >> 2) & 0x000f000f000f000full; // four bits a row
         word = (word | word >> 8) & 0x00000f0f00000f0full; // rows to bytes 0 and 1, 4 and 5
@@ -130,8 +130,8 @@ void addTiles(Cells& cells, MaskTree& result)
             continue;
         }
         for (const Cell* cell = begin; cell != end; ++cell) {
-            const Coord at = cell->parent + Coord(half * cell->octant[0], half * cell->octant[1],
-                                                half * cell->octant[2]);
+            const Coord at = cell->parent
+                + Coord(half * cell->octant[0], half * cell->octant[1], half * cell->octant[2]);
             result.fill(CoordBBox::createCube(at, half), true, true);
         }
     }
@@ -217,8 +217,9 @@ void requireIncluding(
     if (lost->activeVoxelCount() == 0) return;
     CoordBBox box;
     lost->evalActiveVoxelBoundingBox(box);
-    OPENVDB_THROW(openvdb::ValueError, "the pyramid model is not including: it leaves out "
-        << lost->activeVoxelCount() << " voxels with a child that is on, in the box " << box);
+    OPENVDB_THROW(openvdb::ValueError,
+        "the pyramid model is not including: it leaves out "
+            << lost->activeVoxelCount() << " voxels with a child that is on, in the box " << box);
 }
 
 } // namespace
@@ -229,8 +230,7 @@ Coord PyramidStep::parentVoxel(const Coord& ijk) const
         dim == 2 ? ijk[2] - origin[2] : floorDiv(ijk[2] - origin[2], factor));
 }
 
-MaskTree::Ptr coarsen(
-    const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
+MaskTree::Ptr coarsen(const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
 {
     const bool wholeLeaves = step.factor == 2 && step.dim == 3 && (step.origin & 7) == Coord();
     auto result = wholeLeaves ? coarsenByLeaves(level, step, interrupter)
@@ -243,8 +243,10 @@ Coord pyramidOrigin(const CoordBBox& bbox)
     for (int axis = 0; axis < 3; ++axis) {
         const int64_t extent = int64_t(bbox.max()[axis]) - bbox.min()[axis] + 1;
         if (extent > kMaxExtent) {
-            OPENVDB_THROW(openvdb::ValueError, "the object is " << extent << " voxels wide along "
-                << "xyz"[axis] << ", more than 2^28: use a larger voxel, or split the object");
+            OPENVDB_THROW(openvdb::ValueError,
+                "the object is " << extent << " voxels wide along "
+                                 << "xyz"[axis]
+                                 << ", more than 2^28: use a larger voxel, or split the object");
         }
     }
     return bbox.min() & ~7;

@@ -87,11 +87,12 @@ void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
 
 } // namespace
 
-PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int dim,
-    NullInterrupter* interrupter)
+PowerMap powerMap(
+    const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
 {
     if (distances.maxDistSq() > detail::WidePower::kMaxRadiusSq) {
-        OPENVDB_THROW(openvdb::ValueError, "the object holds a ball of more than 32767 voxels radius, "
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object holds a ball of more than 32767 voxels radius, "
             "beyond what power labels hold: use a larger voxel");
     }
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
@@ -107,8 +108,8 @@ PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int di
         computeOffsets<detail::NarrowPower>(layout, distances,
             {o[0].narrow.get(), o[1].narrow.get(), o[2].narrow.get()}, interrupter);
     } else {
-        computeOffsets<detail::WidePower>(layout, distances,
-            {o[0].wide.get(), o[1].wide.get(), o[2].wide.get()}, interrupter);
+        computeOffsets<detail::WidePower>(
+            layout, distances, {o[0].wide.get(), o[1].wide.get(), o[2].wide.get()}, interrupter);
     }
     return map;
 }

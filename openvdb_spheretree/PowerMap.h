@@ -3,16 +3,16 @@
 /// @brief Power labels: for every object voxel, the medial ball that covers it best.
 ///
 /// The label of voxel q is the object voxel p that maximises distSq(p) - |p - q|^2, then distSq(p),
-/// then comes first in the order of Coord::operator< (the power diagram of CM07, section 3, restricted
-/// to the object). The passes run z, y, x, each a max over the line of value - step^2 (kernel
-/// detail/MaxPlus.h); x coming last gives the smallest-site rule.
+/// then comes first in the order of Coord::operator< (the power diagram of CM07, section 3,
+/// restricted to the object). The passes run z, y, x, each a max over the line of value - step^2
+/// (kernel detail/MaxPlus.h); x coming last gives the smallest-site rule.
 ///
-/// What is kept is one small offset a voxel and axis: the label of q is found by going dx(q) along x,
-/// from there dy along y, and from there dz along z. Keys are 32-bit with 8-bit offsets for radii up
-/// to 127 voxels, else 64-bit with 16-bit offsets.
+/// What is kept is one small offset a voxel and axis: the label of q is found by going dx(q) along
+/// x, from there dy along y, and from there dz along z. Keys are 32-bit with 8-bit offsets for
+/// radii up to 127 voxels, else 64-bit with 16-bit offsets.
 ///
-/// Exact, integer, ties included. Cost: as the distance transform's; 3 or 6 bytes a voxel kept, 4 or 8
-/// more while it runs. Tests: TestPowerMap.cc, against all sites one by one.
+/// Exact, integer, ties included. Cost: as the distance transform's; 3 or 6 bytes a voxel kept, 4
+/// or 8 more while it runs. Tests: TestPowerMap.cc, against all sites one by one.
 
 #pragma once
 
@@ -54,10 +54,7 @@ public:
         return offsets.narrow ? offsets.narrow[i] : offsets.wide[i];
     }
     /// @return the voxel at the end of that step, in the same run.
-    Voxel step(Axis axis, Voxel voxel) const
-    {
-        return moved(axis, voxel, offset(axis, voxel));
-    }
+    Voxel step(Axis axis, Voxel voxel) const { return moved(axis, voxel, offset(axis, voxel)); }
     Voxel moved(Axis axis, Voxel voxel, int steps) const
     {
         const int shift = 6 - 3 * int(axis);

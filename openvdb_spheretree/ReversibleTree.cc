@@ -3,11 +3,11 @@
 /// @brief The reversible tree (Broutta et al. 2009, 3.2): all medial balls of every level of the OR
 /// pyramid, so that each level rebuilds its own pyramid level, and level 0 the object.
 ///
-/// For each level from the finest up: its medial balls become nodes, with the spheres of LevelFrame.h
-/// (`allBalls`); then each node of the level below gets its parent (`linkLevels`, detail/TreeLevels.h:
-/// the label of the parent voxel of its centre, or the best parent in the Sphere-DAG).
-/// It ends: the pyramid ends with one voxel. Exact. Cost: linear in active voxels of all levels.
-/// Tests: TestReversibleTree.cc.
+/// For each level from the finest up: its medial balls become nodes, with the spheres of
+/// LevelFrame.h (`allBalls`); then each node of the level below gets its parent (`linkLevels`,
+/// detail/TreeLevels.h: the label of the parent voxel of its centre, or the best parent in the
+/// Sphere-DAG). It ends: the pyramid ends with one voxel. Exact. Cost: linear in active voxels of
+/// all levels. Tests: TestReversibleTree.cc.
 
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
@@ -34,12 +34,10 @@ LevelNodes allBalls(const MedialLevel& medial, const LevelFrame& frame)
 
 } // namespace
 
-std::vector<LevelNodes> reversibleLevels(
-    openvdb::MaskTree::Ptr voxels, const BuildContext& context)
+std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const BuildContext& context)
 {
     const int dim = context.settings.dim;
-    auto fine =
-        std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
+    auto fine = std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
     std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed(&context.seconds->pyramid,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTree.h"
 
+#include "UniformVoxels.h"
 #include "detail/RoundUp.h"
 #include "detail/TreeLevels.h"
 
@@ -14,15 +15,6 @@ namespace openvdb_spheretree {
 namespace {
 
 using detail::LevelNodes;
-
-void requireUniformVoxels(const openvdb::math::Transform& transform, const std::string& name)
-{
-    if (transform.isLinear() && transform.hasUniformScale()) return;
-    const openvdb::Vec3d size = transform.voxelSize();
-    OPENVDB_THROW(openvdb::ValueError, "grid '" << name << "' has voxels of " << size[0] << " x "
-        << size[1] << " x " << size[2] << " (or a transform that is not linear); sphere-trees need "
-        "uniform voxels: resample the grid first");
-}
 
 ObjectInfo describe(const openvdb::BoolGrid& object)
 {
@@ -42,8 +34,9 @@ void requireValidObject(const ObjectInfo& info, int dim)
     }
     const int64_t thickness = int64_t(info.bbox.max().z()) - info.bbox.min().z() + 1;
     if (dim == 2 && thickness > 1) {
-        OPENVDB_THROW(openvdb::ValueError, "dim=2 needs an object one voxel thick along z, but '"
-            << info.name << "' has " << thickness << " voxels there");
+        OPENVDB_THROW(openvdb::ValueError,
+            "dim=2 needs an object one voxel thick along z, but '" << info.name << "' has "
+                                                                   << thickness << " voxels there");
     }
 }
 
@@ -78,7 +71,8 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
 /// Padding added, voxels to world units, rounded up to floats.
 void storeRadii(SphereTree& tree)
 {
-    const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
+    const double padding = tree.settings.paddingVoxels();
+    const double voxel = largestStretch(*tree.transform);
     tree.radiusWorld.resize(tree.radius.size());
     for (std::size_t i = 0; i < tree.radius.size(); ++i) {
         const double padded = detail::addUp(tree.radius[i], padding);
@@ -97,8 +91,8 @@ void containStoredLeaves(SphereTree& tree)
             const openvdb::Vec3d other = tree.centerWorld(t);
             // Coordinates carry relative errors of some 2^-52; the distance inherits them.
             const double doubt = 1e-15 * (center.length() + other.length());
-            const double needed = (center - other).length() * (1 + 1e-15) + doubt +
-                double(tree.radiusWorld[leaf]);
+            const double needed =
+                (center - other).length() * (1 + 1e-15) + doubt + double(tree.radiusWorld[leaf]);
             if (double(tree.radiusWorld[t]) < needed) {
                 tree.radiusWorld[t] = detail::toFloatUp(needed);
             }
@@ -120,7 +114,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
     settings.validate();
-    requireUniformVoxels(object.transform(), object.getName());
+    requireUniformVoxels(object);
     SphereTree tree;
     tree.settings = settings;
     tree.object = describe(object);
@@ -133,9 +127,9 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         settings, tree.origin, tree.object.bbox, interrupter, seconds ? seconds : &ownSeconds};
     auto voxels =
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy());
-    appendNodes(tree, settings.tree == TreeType::Reversible
-            ? detail::reversibleLevels(voxels, context)
-            : detail::extendedLevels(voxels, context));
+    appendNodes(tree,
+        settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
+                                              : detail::extendedLevels(voxels, context));
     storeRadii(tree);
     if (settings.tree == TreeType::Extended) containStoredLeaves(tree);
     return tree;
@@ -146,8 +140,9 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     const auto range = std::find_if(tree.levels.begin(), tree.levels.end(),
         [&](const SphereTreeLevel& r) { return r.level == level; });
     if (range == tree.levels.end()) {
-        OPENVDB_THROW(openvdb::ValueError, "the tree has no level " << level << ": it has levels "
-            << tree.levels.front().level << " to " << tree.levels.back().level);
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree has no level " << level << ": it has levels " << tree.levels.front().level
+                                     << " to " << tree.levels.back().level);
     }
     const auto slice = [&](const auto& all) {
         using Array = std::decay_t<decltype(all)>;

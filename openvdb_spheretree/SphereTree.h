@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTree.h
-/// @brief The result: a hierarchy of spheres over an object, as flat arrays, and the call that builds
-/// one.
+/// @brief The result: a hierarchy of spheres over an object, as flat arrays, and the call that
+/// builds one.
 ///
 /// Nodes are ordered from the top level to level 0, and by level-grid coordinate (x first) within a
-/// level; the index of a node is its id. A parent therefore always stands before its children, and a
-/// level is a range of ids.
+/// level; the index of a node is its id. A parent therefore always stands before its children, and
+/// a level is a range of ids.
 ///
 /// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel centre* the
 /// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
@@ -29,17 +29,17 @@ namespace openvdb_spheretree {
 
 /// How far the union of a level's spheres is from the object, counted in voxels, exactly.
 struct LevelError {
-    int64_t covered = 0; ///< voxels whose centre lies in a sphere of the level
-    int64_t excess = 0;  ///< covered, but not in the object
-    int64_t missing = 0; ///< in the object, but not covered: 0 for every tree built here
+    int64_t covered = 0;       ///< voxels whose centre lies in a sphere of the level
+    int64_t excess = 0;        ///< covered, but not in the object
+    int64_t missing = 0;       ///< in the object, but not covered: 0 for every tree built here
     double hammingPercent = 0; ///< 100 (excess + missing) / object voxels
     double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
 };
 
 struct SphereTreeLevel {
-    int level = 0;              ///< 0 is the finest
-    int32_t begin = 0, end = 0; ///< the level's nodes are [begin, end)
-    int64_t pyramidVoxels = 0;  ///< voxels of the volume whose medial balls these are
+    int level = 0;                   ///< 0 is the finest
+    int32_t begin = 0, end = 0;      ///< the level's nodes are [begin, end)
+    int64_t pyramidVoxels = 0;       ///< voxels of the volume whose medial balls these are
     std::optional<LevelError> error; ///< empty until computed, or when out of reach
     std::string errorUnknown;        ///< why `error` is empty, where it was asked for
 
@@ -66,21 +66,21 @@ struct DagEdge {
 struct SphereTree {
     /// @name One entry a node
     /// @{
-    std::vector<openvdb::Vec3d> center;  ///< index space of the source grid; multiples of 1/2
-    std::vector<double> radius;          ///< voxels of level 0, covers voxel centres, no padding
+    std::vector<openvdb::Vec3d> center; ///< index space of the source grid; multiples of 1/2
+    std::vector<double> radius;         ///< voxels of level 0, covers voxel centres, no padding
     /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq.
     std::vector<int64_t> coverSq;
-    std::vector<float> radiusWorld;      ///< world units, padded, rounded up
-    std::vector<int32_t> parent;         ///< id on the next level up; -1 where there is none
-    std::vector<openvdb::Coord> ijk;     ///< the digital ball's centre in its level's own grid
-    std::vector<int32_t> radiusSq;       ///< the digital ball {q : |q - ijk|^2 < radiusSq}
+    std::vector<float> radiusWorld;  ///< world units, padded, rounded up
+    std::vector<int32_t> parent;     ///< id on the next level up; -1 where there is none
+    std::vector<openvdb::Coord> ijk; ///< the digital ball's centre in its level's own grid
+    std::vector<int32_t> radiusSq;   ///< the digital ball {q : |q - ijk|^2 < radiusSq}
     /// @}
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
 
     SphereTreeSettings settings;
     ObjectInfo object;
-    openvdb::Coord origin;               ///< level-grid (0,0,0) in index space; multiples of 8
+    openvdb::Coord origin;                   ///< level-grid (0,0,0) in index space; multiples of 8
     openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world
 
     int32_t size() const { return int32_t(center.size()); }
@@ -101,7 +101,8 @@ struct BuildSeconds {
 /// @param settings     what to build
 /// @param interrupter  may be null; asked from many threads
 /// @param seconds      may be null; receives the time each stage took
-/// @throw openvdb::ValueError if the object is empty, its voxels are not uniform, a setting is out of
+/// @throw openvdb::ValueError if the object is empty, its voxels are not uniform, a setting is out
+/// of
 ///        range, or a radius does not fit 32-bit squares (46340 voxels)
 /// @throw Interrupted if the interrupter said so
 /// @note Cost is linear in active voxels per level (each level has about 1/factor^dim of the one

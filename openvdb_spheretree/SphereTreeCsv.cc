@@ -24,8 +24,8 @@ void append(std::string& row, Number value, char separator)
     row += separator;
 }
 
-/// The digital ball's centre as files show it: at level 0 in the index space of the source grid, which
-/// is where the sphere's own centre is, above in the level's own grid.
+/// The digital ball's centre as files show it: at level 0 in the index space of the source grid,
+/// which is where the sphere's own centre is, above in the level's own grid.
 openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
 {
     return level == 0 ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];

@@ -10,9 +10,10 @@
 
 namespace openvdb_spheretree {
 
-/// @brief Write one header line `level,id,parent,x,y,z,radius,i,j,k,radius_sq`, then a row a node, by
-/// level from the top, then by id. Centre and radius are in world space and read back to the same
-/// double; the radius is radiusWorld. i,j,k,radius_sq is the digital ball in its level's own grid.
+/// @brief Write one header line `level,id,parent,x,y,z,radius,i,j,k,radius_sq`, then a row a node,
+/// by level from the top, then by id. Centre and radius are in world space and read back to the
+/// same double; the radius is radiusWorld. i,j,k,radius_sq is the digital ball: in the source's
+/// index space at level 0, in its level's own grid above.
 /// @throw openvdb::IoError if the stream fails
 void writeCsv(const SphereTree& tree, std::ostream& out);
 

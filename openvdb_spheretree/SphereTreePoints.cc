@@ -34,8 +34,8 @@ void checkLayout(const SphereTree& tree)
     const std::size_t n = tree.center.size();
     if (n == 0 || tree.levels.empty()) inconsistent("it has no nodes");
     if (!tree.transform || !tree.transform->isLinear()) inconsistent("its transform is not linear");
-    if (tree.radius.size() != n || tree.coverSq.size() != n || tree.radiusWorld.size() != n ||
-        tree.parent.size() != n || tree.ijk.size() != n || tree.radiusSq.size() != n) {
+    if (tree.radius.size() != n || tree.coverSq.size() != n || tree.radiusWorld.size() != n
+        || tree.parent.size() != n || tree.ijk.size() != n || tree.radiusSq.size() != n) {
         inconsistent("its arrays differ in length");
     }
     const int lowest = tree.levels.front().level;
@@ -64,8 +64,8 @@ std::vector<int> levelIndices(const SphereTree& tree)
 {
     std::vector<int> indices(tree.levels.front().end);
     for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        std::fill(indices.begin() + tree.levels[k].begin, indices.begin() + tree.levels[k].end,
-            int(k));
+        std::fill(
+            indices.begin() + tree.levels[k].begin, indices.begin() + tree.levels[k].end, int(k));
     }
     return indices;
 }
@@ -79,14 +79,15 @@ std::vector<std::string> groupNames(const SphereTree& tree)
     return names;
 }
 
-// ---- Reading: first everything into arrays in the order of ids, then checks in that order, so that
-// the first offender named is the same every time
+// ---- Reading: first everything into arrays in the order of ids, then checks in that order, so
+// that the first offender named is the same every time
 
 std::string describe(const GridBase& grid)
 {
     constexpr std::size_t kLongest = 80;
-    const std::string name = grid.getName();
-    return "point grid '" + (name.size() > kLongest ? name.substr(0, kLongest) + "..." : name) + "'";
+    std::string name = grid.getName();
+    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+    return "point grid '" + name + "'";
 }
 
 /// Runs @a read; whatever is wrong with the grid is reported as its damage.
@@ -113,8 +114,9 @@ void checkFormat(const GridBase& grid, const char* kind, const char* key)
         return value;
     });
     if (format > kPointsFormat) {
-        OPENVDB_THROW(openvdb::ValueError, describe(grid) << " is of format " << format
-            << ", newer than this version reads (" << kPointsFormat << "): update openvdb_spheretree");
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(grid) << " is of format " << format << ", newer than this version reads ("
+                           << kPointsFormat << "): update openvdb_spheretree");
     }
 }
 
@@ -125,8 +127,8 @@ std::vector<std::size_t> pointOfId(const std::vector<int32_t>& ids)
     std::vector<std::size_t> points(ids.size(), kNone);
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] < 0 || std::size_t(ids[i]) >= ids.size()) {
-            OPENVDB_THROW(openvdb::ValueError, "there is an id " << ids[i] << ", but ids must be 0 to "
-                << ids.size() - 1);
+            OPENVDB_THROW(openvdb::ValueError,
+                "there is an id " << ids[i] << ", but ids must be 0 to " << ids.size() - 1);
         }
         if (points[ids[i]] != kNone) {
             OPENVDB_THROW(openvdb::ValueError, "two points have the id " << ids[i]);
@@ -137,8 +139,8 @@ std::vector<std::size_t> pointOfId(const std::vector<int32_t>& ids)
 }
 
 template <typename T, typename Out>
-void gather(const std::vector<T>& values, const std::vector<std::size_t>& order,
-    std::vector<Out>& out)
+void gather(
+    const std::vector<T>& values, const std::vector<std::size_t>& order, std::vector<Out>& out)
 {
     out.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) out[i] = Out(values[order[i]]);
@@ -171,7 +173,8 @@ void checkSpheres(const SphereTree& tree)
         check(tree.center[id].isFinite(), id, "position", tree.center[id]);
         check(std::isfinite(tree.radiusWorld[id]) && tree.radiusWorld[id] >= 0, id, "pscale",
             tree.radiusWorld[id]);
-        check(std::isfinite(tree.radius[id]) && tree.radius[id] >= 0, id, "radius", tree.radius[id]);
+        check(
+            std::isfinite(tree.radius[id]) && tree.radius[id] >= 0, id, "radius", tree.radius[id]);
         check(tree.coverSq[id] >= 0, id, "cover_sq", tree.coverSq[id]);
         // -1 marks a sphere that is no digital ball
         check(tree.radiusSq[id] > 0 || tree.radiusSq[id] == -1, id, "radius_sq", tree.radiusSq[id]);
@@ -184,20 +187,23 @@ void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
     const int lowest = tree.levels.front().level, top = tree.levels.back().level;
     for (int32_t id = 0; id < tree.size(); ++id) {
         if (levels[id] < lowest || levels[id] > top) {
-            OPENVDB_THROW(openvdb::ValueError, "node " << id << " has the level " << levels[id]
-                << ", but there are levels " << lowest << " to " << top);
+            OPENVDB_THROW(openvdb::ValueError,
+                "node " << id << " has the level " << levels[id] << ", but there are levels "
+                        << lowest << " to " << top);
         }
         ++counts[levels[id] - lowest];
     }
     for (const SphereTreeLevel& level : tree.levels) {
         if (counts[level.level - lowest] == level.size()) continue;
-        OPENVDB_THROW(openvdb::ValueError, "level " << level.level << " has "
-            << counts[level.level - lowest] << " nodes, by its metadata " << level.size());
+        OPENVDB_THROW(openvdb::ValueError,
+            "level " << level.level << " has " << counts[level.level - lowest]
+                     << " nodes, by its metadata " << level.size());
     }
     for (int32_t id = 1; id < tree.size(); ++id) {
         if (levels[id] <= levels[id - 1]) continue;
-        OPENVDB_THROW(openvdb::ValueError, "node " << id << " is on level " << levels[id]
-            << ", above the level of node " << id - 1 << ": ids must go down from the top level");
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " is on level " << levels[id] << ", above the level of node " << id - 1
+                    << ": ids must go down from the top level");
     }
 }
 
@@ -209,15 +215,17 @@ void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
         const bool isTop = levels[id] == tree.levels.back().level;
         if (isTop && parent == -1) continue;
         if (isTop || parent < 0 || parent >= tree.size()) {
-            OPENVDB_THROW(openvdb::ValueError, "node " << id << " on level " << levels[id]
-                << " has the parent " << parent << ", but "
-                << (isTop ? "the top level has no parents (-1)"
-                          : "its parent must be a node of the next level up"));
+            OPENVDB_THROW(openvdb::ValueError,
+                "node " << id << " on level " << levels[id] << " has the parent " << parent
+                        << ", but "
+                        << (isTop ? "the top level has no parents (-1)"
+                                  : "its parent must be a node of the next level up"));
         }
         if (levels[parent] == levels[id] + 1) continue;
-        OPENVDB_THROW(openvdb::ValueError, "node " << id << " on level " << levels[id]
-            << " has the parent " << parent << " on level " << levels[parent]
-            << ", but a parent must be on the next level up");
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " on level " << levels[id] << " has the parent " << parent
+                    << " on level " << levels[parent]
+                    << ", but a parent must be on the next level up");
     }
 }
 
@@ -227,8 +235,9 @@ SphereTree readTree(const PointDataGrid& points)
     const detail::PointReader reader(points);
     const std::size_t expected = std::size_t(tree.levels.front().end);
     if (reader.size() != expected) {
-        OPENVDB_THROW(openvdb::ValueError, "it has " << reader.size() << " points, by its metadata "
-            << expected << ": was it cut short, or are points deleted?");
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " points, by its metadata " << expected
+                      << ": was it cut short, or are points deleted?");
     }
     const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
     checkSpheres(tree);
@@ -243,8 +252,9 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_edges");
     const detail::PointReader reader(grid);
     if (nodes != tree.size() || reader.size() != std::size_t(count)) {
-        OPENVDB_THROW(openvdb::ValueError, "it has " << reader.size() << " edges of " << nodes
-            << " nodes, " << count << " edges of " << tree.size() << " nodes are expected");
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " edges of " << nodes << " nodes, " << count
+                      << " edges of " << tree.size() << " nodes are expected");
     }
     const std::vector<int32_t> parents = reader.attribute<int32_t>("parent");
     const std::vector<int32_t> children = reader.attribute<int32_t>("child");
@@ -255,11 +265,13 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const DagEdge& e = edges[i];
-        const bool right = exists(e.parent) && exists(e.child) &&
-            levels[e.parent] == levels[e.child] + 1 && (i == 0 || !(edges[i - 1] == e));
+        const bool right = exists(e.parent) && exists(e.child)
+            && levels[e.parent] == levels[e.child] + 1 && (i == 0 || !(edges[i - 1] == e));
         if (right) continue;
-        OPENVDB_THROW(openvdb::ValueError, "its edge from node " << e.parent << " to node " << e.child
-            << " is there twice, or does not lead to a node of the next level down");
+        OPENVDB_THROW(openvdb::ValueError,
+            "its edge from node "
+                << e.parent << " to node " << e.child
+                << " is there twice, or does not lead to a node of the next level down");
     }
     return edges;
 }
@@ -316,8 +328,10 @@ bool isSphereTree(const GridBase& grid)
 SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
 {
     if (!isSphereTree(points)) {
-        OPENVDB_THROW(openvdb::ValueError, describe(points) << " is no sphere-tree: it has no "
-            "metadata '" << detail::kFormatKey << "'. Point grids become one by way of a mask");
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(points) << " is no sphere-tree: it has no "
+                                "metadata '"
+                             << detail::kFormatKey << "'. Point grids become one by way of a mask");
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });

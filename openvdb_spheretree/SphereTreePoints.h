@@ -4,11 +4,11 @@
 ///
 /// One point a node. Positions are uncompressed floats (NullCodec) and exact: the point grid's
 /// transform is the source's, scaled by a power of two. Attributes: `pscale` (float, radiusWorld),
-/// `id`, `parent`, `level`, `radius_sq` (int32), `ijk` (vec3i), `radius` (double), `cover_sq` (int64),
-/// and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys that start
-/// with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where there are any,
-/// travel as a second point grid named `<name>_dag`: one point an edge, at its parent's centre, with
-/// int32 attributes `parent`, `child`.
+/// `id`, `parent`, `level`, `radius_sq` (int32), `ijk` (vec3i), `radius` (double), `cover_sq`
+/// (int64), and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys
+/// that start with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where
+/// there are any, travel as a second point grid named `<name>_dag`: one point an edge, at its
+/// parent's centre, with int32 attributes `parent`, `child`.
 
 #pragma once
 
@@ -37,7 +37,7 @@ bool isSphereTree(const openvdb::GridBase& grid);
 /// @param dag     the grid of dagToPoints(), or null
 /// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
 ///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
-///        level missing, a radius that is no number or negative ...); the message names what is wrong
+///        level missing, a radius that is no number or negative ...); the message names the damage
 SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
     const openvdb::points::PointDataGrid* dag = nullptr);
 

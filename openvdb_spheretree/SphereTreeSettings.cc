@@ -25,9 +25,8 @@ constexpr std::array<Named<TreeType>, 2> kTreeTypes{
     {{TreeType::Reversible, "reversible"}, {TreeType::Extended, "extended"}}};
 constexpr std::array<Named<ParentRule>, 2> kParentRules{
     {{ParentRule::Centre, "centre"}, {ParentRule::Dag, "dag"}}};
-constexpr std::array<Named<Reconstruction>, 3> kReconstructions{
-    {{Reconstruction::Clip, "clip"}, {Reconstruction::Free, "free"},
-        {Reconstruction::None, "none"}}};
+constexpr std::array<Named<Reconstruction>, 3> kReconstructions{{{Reconstruction::Clip, "clip"},
+    {Reconstruction::Free, "free"}, {Reconstruction::None, "none"}}};
 constexpr std::array<Named<RadiusScale>, 2> kRadiusScales{
     {{RadiusScale::Tight, "tight"}, {RadiusScale::Paper, "paper"}}};
 
@@ -60,8 +59,7 @@ std::string quoted(const std::string& text)
 }
 
 template <typename Enum, std::size_t N>
-Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting,
-    const std::string& text)
+Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, const std::string& text)
 {
     for (const auto& entry : names) {
         if (text == entry.name) return entry.value;
@@ -80,15 +78,18 @@ double SphereTreeSettings::paddingVoxels() const
 void SphereTreeSettings::validate() const
 {
     if (factor < kMinFactor || factor > kMaxFactor) {
-        OPENVDB_THROW(openvdb::ValueError, "factor=" << factor << " is out of range: it must be "
-            << kMinFactor << " to " << kMaxFactor);
+        OPENVDB_THROW(openvdb::ValueError,
+            "factor=" << factor << " is out of range: it must be " << kMinFactor << " to "
+                      << kMaxFactor);
     }
     if (dim != 2 && dim != 3) {
         OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
     }
     if (padding != kPadCubes && !(std::isfinite(padding) && padding >= 0)) {
-        OPENVDB_THROW(openvdb::ValueError, "padding=" << padding
-            << " is out of range: it must be cubes, voxels, or a number of voxels of 0 or more");
+        OPENVDB_THROW(openvdb::ValueError,
+            "padding=" << padding
+                       << " is out of range: it must be cubes, voxels, or a number of voxels of 0 "
+                          "or more");
     }
 }
 
@@ -109,8 +110,8 @@ std::string paddingToString(double padding)
 TreeType treeTypeFromString(const std::string& text)
 {
     if (text == "tight") {
-        OPENVDB_THROW(openvdb::ValueError,
-            "tree='tight' is not available yet: choose " << list(kTreeTypes));
+        OPENVDB_THROW(
+            openvdb::ValueError, "tree='tight' is not available yet: choose " << list(kTreeTypes));
     }
     return fromName(kTreeTypes, "tree", text);
 }
@@ -139,8 +140,9 @@ double paddingFromString(const std::string& text)
     const auto parsed = std::from_chars(text.data(), end, value);
     // A negative number is refused even where it happens to be the code for cubes.
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value) || value < 0) {
-        OPENVDB_THROW(openvdb::ValueError, "padding=" << quoted(text)
-            << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
+        OPENVDB_THROW(openvdb::ValueError,
+            "padding=" << quoted(text)
+                       << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
     }
     return std::abs(value); // -0 is 0
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTreeSettings.h
-/// @brief What the builder of a sphere-tree can be asked for. Every field is recorded in the tree it
-/// builds, and in the files written from it.
+/// @brief What the builder of a sphere-tree can be asked for. Every field is recorded in the tree
+/// it builds, and in the files written from it.
 
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereUnion.h
-/// @brief The union of closed spheres as a sparse set of voxels: which voxel centres lie in any sphere.
+/// @brief The union of closed spheres as a sparse set of voxels: which voxel centres lie in any
+/// sphere.
 
 #pragma once
 

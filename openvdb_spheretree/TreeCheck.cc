@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TreeCheck.cc
-/// @brief One function for each thing that holds for a finished tree. Nothing is taken from how trees
-/// are built: everything is computed anew from what is stored.
+/// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
+/// trees are built: everything is computed anew from what is stored.
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
 ///    fail, nothing else is looked at
@@ -37,7 +37,8 @@ void checkArrayLengths(Check& check)
         {"radiusSq", tree.radiusSq.size()}};
     for (const auto& [name, size] : arrays) {
         if (size == tree.center.size()) continue;
-        check.fail("the tree has ", tree.center.size(), " centres, but ", size, " entries in ", name);
+        check.fail(
+            "the tree has ", tree.center.size(), " centres, but ", size, " entries in ", name);
     }
 }
 
@@ -111,7 +112,10 @@ void checkObject(Check& check)
     }
 }
 
-bool nearlyEqual(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b)); }
+bool nearlyEqual(double a, double b)
+{
+    return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b));
+}
 
 void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
 {
@@ -178,14 +182,16 @@ void checkParents(Check& check)
         Offenders wrong;
         for (int32_t id = level.begin; id < level.end; ++id) {
             const int32_t parent = tree.parent[id];
-            const bool right = top ? parent == -1
+            const bool right = top
+                ? parent == -1
                 : parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
             if (!right) wrong.add(id);
         }
         if (!wrong) continue;
         check.fail("level ", level.level, ": ",
             top ? "the parent is not -1, though this is the top level, for "
-                : "the parent is not on the next level up for ", wrong);
+                : "the parent is not on the next level up for ",
+            wrong);
     }
     if (hasLinks(tree) && tree.root().size() != 1) {
         check.fail("level ", tree.root().level, ", the top one, has ", tree.root().size(),
@@ -209,12 +215,14 @@ void checkDag(Check& check)
         if (i > 0 && !(tree.dag[i - 1] < edge) && unsorted++ == 0) firstUnsorted = edge;
     }
     if (wrong > 0) {
-        check.fail(wrong, " edges of the DAG do not lead to the next level down (first: ",
-            firstWrong.parent, " to ", firstWrong.child, ')');
+        check.fail(wrong,
+            " edges of the DAG do not lead to the next level down (first: ", firstWrong.parent,
+            " to ", firstWrong.child, ')');
     }
     if (unsorted > 0) {
-        check.fail(unsorted, " edges of the DAG are out of order or repeated (first: ",
-            firstUnsorted.parent, " to ", firstUnsorted.child, ')');
+        check.fail(unsorted,
+            " edges of the DAG are out of order or repeated (first: ", firstUnsorted.parent, " to ",
+            firstUnsorted.child, ')');
     }
 }
 

@@ -43,7 +43,7 @@ using openvdb::Coord;
 using openvdb::IoError;
 
 constexpr std::size_t kMaxHeaderBytes = 1 << 16;
-constexpr std::uint64_t kMaxSide = 1 << 20; // so X*Y*Z values of eight bytes stay below 2^64
+constexpr std::uint64_t kMaxSide = 1 << 20;      // so X*Y*Z values of eight bytes stay below 2^64
 constexpr std::uint64_t kMaxDeflateRatio = 1032; // 258 bytes in two bits, as zlib documents it
 constexpr std::uint64_t kDeflateSlack = 64; // bytes of the stream, for rounding and block headers
 constexpr std::size_t kInputBytes = 1 << 16;
@@ -114,10 +114,11 @@ HeaderFields splitHeader(const std::string& path, const std::string& text, std::
     for (;;) {
         const std::size_t end = text.find('\n', begin);
         if (end == std::string::npos) {
-            fail(path, "header has no line '.' to end it"
-                + std::string(text.size() < kMaxHeaderBytes
-                        ? "; the file is truncated or no .vol file"
-                        : " within " + std::to_string(kMaxHeaderBytes) + " bytes"));
+            fail(path,
+                "header has no line '.' to end it"
+                    + std::string(text.size() < kMaxHeaderBytes
+                            ? "; the file is truncated or no .vol file"
+                            : " within " + std::to_string(kMaxHeaderBytes) + " bytes"));
         }
         std::string line = text.substr(begin, end - begin);
         begin = end + 1;
@@ -137,8 +138,9 @@ std::uint64_t sideOf(const std::string& path, const HeaderFields& fields, const 
     std::uint64_t side = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
     if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > kMaxSide) {
-        fail(path, "header key '" + key + "' is " + shown(text) + ", not a whole number from 1 to "
-            + std::to_string(kMaxSide));
+        fail(path,
+            "header key '" + key + "' is " + shown(text) + ", not a whole number from 1 to "
+                + std::to_string(kMaxSide));
     }
     return side;
 }
@@ -148,8 +150,9 @@ int versionOf(const std::string& path, const HeaderFields& fields)
     const auto it = fields.find("Version");
     if (it == fields.end() || it->second == "2") return 2;
     if (it->second == "3") return 3;
-    fail(path, "header key 'Version' is " + shown(it->second)
-        + "; versions 2 (raw) and 3 (zlib) can be read");
+    fail(path,
+        "header key 'Version' is " + shown(it->second)
+            + "; versions 2 (raw) and 3 (zlib) can be read");
 }
 
 double voxelSizeOf(const std::string& path, const HeaderFields& fields)
@@ -179,8 +182,10 @@ void checkSize(const std::string& path, const VolHeader& header)
     }
     if (header.version == 3
         && header.volumeBytes() / kMaxDeflateRatio > header.dataBytes + kDeflateSlack) {
-        fail(path, claim + " compressed bytes, which cannot expand to that many; it is truncated, "
-            "or its header wrong");
+        fail(path,
+            claim
+                + " compressed bytes, which cannot expand to that many; it is truncated, "
+                  "or its header wrong");
     }
 }
 
@@ -265,8 +270,9 @@ private:
             done += room - mZlib.avail_out;
             if (code == Z_MEM_ERROR) throw std::bad_alloc();
             if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR) {
-                fail(mPath, "the zlib stream is damaged"
-                    + (mZlib.msg ? " (" + std::string(mZlib.msg) + ")" : std::string()));
+                fail(mPath,
+                    "the zlib stream is damaged"
+                        + (mZlib.msg ? " (" + std::string(mZlib.msg) + ")" : std::string()));
             }
             mEnded = code == Z_STREAM_END;
         }
@@ -275,8 +281,8 @@ private:
 
     void refill()
     {
-        mFile.read(reinterpret_cast<char*>(mInput.data()),
-            static_cast<std::streamsize>(mInput.size()));
+        mFile.read(
+            reinterpret_cast<char*>(mInput.data()), static_cast<std::streamsize>(mInput.size()));
         if (mFile.gcount() == 0) fail(mPath, "the zlib stream is truncated");
         mZlib.next_in = mInput.data();
         mZlib.avail_in = static_cast<uInt>(mFile.gcount());
@@ -325,8 +331,7 @@ public:
 
     SlabToLeaves(const VolHeader& header, const std::uint8_t* slab, std::uint64_t z0)
         : mHeader(header), mSlab(slab), mZ0(z0), mNz(std::min(kLeafDim, header.dim[2] - z0))
-    {
-    }
+    {}
 
     /// Leaves are built in parallel, a row of leaves a task, and added in a fixed order.
     void addTo(TreeT& tree) const

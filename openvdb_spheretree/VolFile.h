@@ -3,9 +3,9 @@
 /// @brief Reader of the `.vol` (versions 2 and 3) and `.longvol` files of the discrete geometry
 /// community (DGtal, VolGallery).
 ///
-/// A text header of `Key: value` lines ends with a line `.`; X*Y*Z values follow, x fastest: unsigned
-/// bytes in a `.vol`, unsigned 64-bit little-endian in a `.longvol`; version 2 raw, version 3 as one
-/// zlib stream.
+/// A text header of `Key: value` lines ends with a line `.`; X*Y*Z values follow, x fastest:
+/// unsigned bytes in a `.vol`, unsigned 64-bit little-endian in a `.longvol`; version 2 raw,
+/// version 3 as one zlib stream.
 
 #pragma once
 
@@ -24,7 +24,8 @@ bool isVolFileName(const std::string& path);
 /// transform is the identity, scaled by the header's `Voxel-Size` if there is one; `Center-*` is
 /// ignored. Values of a `.longvol` beyond 2^63 - 1 are stored as 2^63 - 1.
 /// @throw openvdb::IoError if the file cannot be read, is truncated, has a damaged stream, or its
-///        header is wrong or asks for more (or less) than the file holds; the message names the file
+///        header is wrong or asks for more (or less) than the file holds; the message names the
+///        file
 ///        and key
 /// @throw Interrupted if the interrupter said so
 /// @note Memory is that of the result and of sixteen slices of the volume.

@@ -2,10 +2,10 @@
 /// @file detail/BlockCanvas.h
 /// @brief The 128^3 voxels of a block as mask words, to draw balls into.
 ///
-/// A ball larger than a leaf descends: cells of 32, then leaves of 8, of which those wholly inside are
-/// marked full and the others drawn row by row. What is full already, by whichever balls, is not
-/// entered again; so with the largest balls first, overlapping balls cost little more than their
-/// union. A smaller ball is drawn at once, over the rows of its box.
+/// A ball larger than a leaf descends: cells of 32, then leaves of 8, of which those wholly inside
+/// are marked full and the others drawn row by row. What is full already, by whichever balls, is
+/// not entered again; so with the largest balls first, overlapping balls cost little more than
+/// their union. A smaller ball is drawn at once, over the rows of its box.
 
 #pragma once
 
@@ -156,8 +156,8 @@ private:
                 const Interval run(center2[2], floorSqrt(left));
                 const int64_t lo = std::max<int64_t>(run.lo, box.lo[2]);
                 const int64_t hi = std::min<int64_t>(run.hi, box.hi[2]);
-                drawRow(corner[0] + x, corner[1] + y, int32_t(corner[2] + lo),
-                    int32_t(corner[2] + hi));
+                drawRow(
+                    corner[0] + x, corner[1] + y, int32_t(corner[2] + lo), int32_t(corner[2] + hi));
             }
         }
     }

@@ -18,8 +18,8 @@ using openvdb::MaskTree;
 std::string voxelsOf(const MaskDifference& difference)
 {
     std::ostringstream text;
-    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels") << " (first: "
-         << difference.cells.front().first() << ')';
+    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels")
+         << " (first: " << difference.cells.front().first() << ')';
     return text.str();
 }
 
@@ -90,7 +90,8 @@ void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t 
 }
 
 /// The stored spheres without their padding, in voxels: what is left must cover voxel centres. The
-/// division by the voxel size may round down what was exact; hence the factor, far finer than floats.
+/// division by the voxel size may round down what was exact; hence the factor, far finer than
+/// floats.
 std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);

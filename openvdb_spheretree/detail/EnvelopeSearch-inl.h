@@ -3,23 +3,24 @@
 /// @brief One axis of a separable transform: for every row i, the best over all rows j of
 /// value(j) "penalised by" (i - j)^2, for 64 lines side by side. Exact.
 ///
-/// Both transforms are this search: the distance transform takes the smallest value + (i - j)^2, the
-/// power map the largest value - (i - j)^2 (CM07, sections 2 and 3). Instead of building the envelope
-/// of parabolas line by line, which is scalar work, it uses that the best j never moves backwards as
-/// i grows (the penalty is convex), for all lanes of a vector at once:
+/// Both transforms are this search: the distance transform takes the smallest value + (i - j)^2,
+/// the power map the largest value - (i - j)^2 (CM07, sections 2 and 3). Instead of building the
+/// envelope of parabolas line by line, which is scalar work, it uses that the best j never moves
+/// backwards as i grows (the penalty is convex), for all lanes of a vector at once:
 ///
 /// 1. `reach`   of every block of 8 rows: how far away a better row can be at all;
 /// 2. `window`  blocks of short reach look at every row in reach;
-/// 3. `divide`  longer stretches: search the middle row, remembering where each lane found its best;
+/// 3. `divide` longer stretches: search the middle row, remembering where each lane found its best;
 ///              the rows before need not look beyond the last of these places, the rows behind not
 ///              before the first. Depth is log2(rows), so at most 31 (rows are counted in an int).
 ///
 /// Of equally good rows the first one wins. That choice is monotone too, so it survives step 3.
-/// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst. Plain
-/// windows for all blocks took 2.5 times as long on solids (dragon-512).
+/// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
+/// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype).
 ///
-/// An Op supplies: Value, kTracksArg, penalty(d), candidate(), better(), best(), load(), store() and
-/// blockReach(); see MinPlus.cc and MaxPlus.cc. This header is compiled once per instruction set.
+/// An Op supplies: Value, kTracksArg, penalty(d), candidate(), better(), best(), load(), store()
+/// and blockReach(); see MinPlus.cc and MaxPlus.cc. This header is compiled once per instruction
+/// set.
 
 #if defined(SPHERETREE_ENVELOPE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_ENVELOPE_SEARCH_INL_H
@@ -123,8 +124,7 @@ private:
     void searchRows(int row, int low, int high)
     {
         const D d;
-        const int reach =
-            std::max(mReach[row / kBlockRows], mReach[(row + N - 1) / kBlockRows]);
+        const int reach = std::max(mReach[row / kBlockRows], mReach[(row + N - 1) / kBlockRows]);
         low = std::max(low, row - reach);
         high = std::min(high, row + N - 1 + reach);
         const V first = mOp.load(low, mLane);
@@ -138,7 +138,8 @@ private:
             const V here = hn::Set(d, Value(j));
             for (int k = 0; k < N; ++k) {
                 const V next = mOp.candidate(value, hn::Set(d, mOp.penalty(row + k - j)));
-                if (Op::kTracksArg) arg[k] = hn::IfThenElse(mOp.better(next, best[k]), here, arg[k]);
+                if (Op::kTracksArg)
+                    arg[k] = hn::IfThenElse(mOp.better(next, best[k]), here, arg[k]);
                 best[k] = mOp.best(next, best[k]);
             }
         }

@@ -40,8 +40,7 @@ struct Interval {
     int64_t lo, hi;
     Interval(int64_t center2, int64_t reach2)
         : lo((center2 - reach2 + 1) >> 1), hi((center2 + reach2) >> 1)
-    {
-    }
+    {}
 };
 
 /// @return the voxels along @a axis between the first and the last that the sphere holds, exactly:

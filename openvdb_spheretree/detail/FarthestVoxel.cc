@@ -3,10 +3,10 @@
 /// @brief Branch and bound over cells of voxels, with one best distance B for all threads.
 ///
 /// 1. Seed B: exact distances of one voxel each of a sample of cells, then the best cell in full.
-/// 2. Every cell, in parallel. A box of voxels with centre c and half diagonal r is dismissed when an
-///    object voxel lies within B - r of c, for then no voxel of the box is farther than B. Otherwise
-///    it is split in eight, each part shrunk to the box of its voxels, down to single ones, whose
-///    exact distance may raise B.
+/// 2. Every cell, in parallel. A box of voxels with centre c and half diagonal r is dismissed when
+///    an object voxel lies within B - r of c, for then no voxel of the box is farther than B.
+///    Otherwise it is split in eight, each part shrunk to the box of its voxels, down to single
+///    ones, whose exact distance may raise B.
 ///
 /// The order decides how much is dismissed, not the result: a maximum. Distances are doubled and
 /// squared integers; the one place with rounding, B - r, is rounded down, which dismisses less.
@@ -90,7 +90,8 @@ private:
         }
     }
 
-    /// @return false if none of the cell's voxels is in the box; otherwise the box is shrunk to them.
+    /// @return false if none of the cell's voxels is in the box; otherwise the box is shrunk to
+    /// them.
     static bool shrink(const VoxelCell& cell, CellBox& box)
     {
         const int32_t first = box.lo[0], last = box.hi[0];

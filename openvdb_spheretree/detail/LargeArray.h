@@ -2,8 +2,8 @@
 /// @file detail/LargeArray.h
 /// @brief Arrays of numbers that start uninitialised, on huge pages where the system has them.
 ///
-/// The transforms write each of their values once and leave. For arrays of tens of megabytes, getting
-/// 4 KiB pages one by one from the kernel took a quarter of their time.
+/// The transforms write each of their values once and leave. For arrays of tens of megabytes,
+/// getting 4 KiB pages one by one from the kernel took a quarter of their time.
 
 #pragma once
 

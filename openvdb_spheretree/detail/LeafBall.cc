@@ -1,18 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/LeafBall.cc
-/// @brief A voxel is inside when dy^2 + dz^2 <= coverSq - dx^2. The 64 sums on the left are computed
-/// once; the right side is one value for each of the 8 words. They are compared four at a time, as
-/// 16-bit lanes of a 64-bit integer. (A square root a row, 64 a leaf, took four times as long.)
+/// @brief A voxel is inside when dy^2 + dz^2 <= coverSq - dx^2. The 64 sums on the left are
+/// computed once, the right side is one value for each of the 8 words: 64 comparisons of 16-bit
+/// lanes a word. (A square root a row, 64 a leaf, took ten times as long.)
 ///
-/// Both sides are shifted so that the right one starts at 0, and stays below 2^15 - 1 by the bound on
-/// distances; clamping the left one to 15 bits then changes no comparison. Exact.
+/// Both sides are shifted so that the right one starts at 0, and stays below 2^15 - 1 by the bound
+/// on distances; saturating the left one to 16 bits then changes no comparison. Exact.
 
 #include "LeafBall.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/detail/LeafBall.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
 #include <algorithm>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree {
+namespace detail {
+namespace HWY_NAMESPACE {
+
+void orBall(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+{
+#if HWY_TARGET == HWY_SCALAR
+    orBallIntoLeafPortable(center2, coverSq, words);
+#else
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<int32_t, 8> d32;
+    const hn::Rebind<int16_t, decltype(d32)> dHalf;
+    const hn::CappedTag<int16_t, 32> d16;
+    HWY_ALIGN int32_t squares[3][8];
+    for (int a = 0; a < 3; ++a) {
+        for (int i = 0; i < 8; ++i) {
+            const int32_t d = 2 * i - int32_t(center2[a]);
+            squares[a][i] = d * d;
+        }
+    }
+    const int32_t cover = int32_t(coverSq), least = cover - std::max(squares[0][0], squares[0][7]);
+    HWY_ALIGN int16_t sums[64];
+    for (int y = 0; y < 8; ++y) {
+        const auto rest = hn::Set(d32, squares[1][y] - least);
+        for (std::size_t z = 0; z < 8; z += hn::Lanes(d32)) {
+            const auto sum = hn::Add(hn::Load(d32, squares[2] + z), rest);
+            hn::Store(hn::DemoteTo(dHalf, sum), dHalf, sums + 8 * y + z); // saturates
+        }
+    }
+    for (int x = 0; x < 8; ++x) {
+        const auto beyond = hn::Set(d16, int16_t(cover - squares[0][x] - least + 1));
+        uint8_t bytes[16]; // of bits, byte y; room for what a narrow store may write beyond
+        for (std::size_t i = 0; i < 64; i += hn::Lanes(d16)) {
+            hn::StoreMaskBits(d16, hn::Lt(hn::Load(d16, sums + i), beyond), bytes + i / 8);
+        }
+        uint64_t word = 0;
+        for (int y = 0; y < 8; ++y) word |= uint64_t(bytes[y]) << (8 * y);
+        words[x] |= word;
+    }
+#endif
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace detail
+} // namespace openvdb_spheretree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 namespace openvdb_spheretree {
 namespace detail {
+
+HWY_EXPORT(orBall);
+
 namespace {
 
 constexpr uint64_t kEveryLane = 0x0001000100010001;
@@ -25,11 +85,9 @@ struct Row {
 
 Row rowOf(const int32_t squares[8], int32_t added)
 {
+    const auto clamp = [](int32_t value) { return uint64_t(std::max(0, std::min(value, 32767))); };
     Row row{0, 0};
     for (int z = 0; z < 4; ++z) {
-        const auto clamp = [](int32_t value) {
-            return uint64_t(std::max(0, std::min(value, 32767)));
-        };
         row.low |= clamp(squares[z] + added) << (16 * z);
         row.high |= clamp(squares[z + 4] + added) << (16 * z);
     }
@@ -48,7 +106,7 @@ uint64_t atMost(const Row& row, uint64_t limits)
 
 } // namespace
 
-void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+void orBallIntoLeafPortable(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
 {
     int32_t squares[3][8];
     for (int a = 0; a < 3; ++a) {
@@ -57,16 +115,21 @@ void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8]
             squares[a][i] = d * d;
         }
     }
-    const int32_t least = int32_t(coverSq) - *std::max_element(squares[0], squares[0] + 8);
+    const int32_t cover = int32_t(coverSq), least = cover - std::max(squares[0][0], squares[0][7]);
     Row rows[8];
     for (int y = 0; y < 8; ++y) rows[y] = rowOf(squares[2], squares[1][y] - least);
     for (int x = 0; x < 8; ++x) {
-        const uint64_t limits = uint64_t(int32_t(coverSq) - squares[0][x] - least) * kEveryLane;
-        uint64_t word = 0;
-        for (int y = 0; y < 8; ++y) word |= atMost(rows[y], limits) << (8 * y);
-        words[x] |= word;
+        const uint64_t limits = uint64_t(cover - squares[0][x] - least) * kEveryLane;
+        for (int y = 0; y < 8; ++y) words[x] |= atMost(rows[y], limits) << (8 * y);
     }
+}
+
+void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+{
+    HWY_DYNAMIC_DISPATCH(orBall)(center2, coverSq, words);
 }
 
 } // namespace detail
 } // namespace openvdb_spheretree
+
+#endif // HWY_ONCE

@@ -9,14 +9,18 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Centres nearer than this to the leaf's voxels along every axis, in doubled coordinates, are within
-/// the kernel's 16 bits (it compares squares within a leaf, which differ by up to 28 d + 196).
+/// Centres nearer than this to the leaf's voxels along every axis, in doubled coordinates, are
+/// within the kernel's 16 bits (it compares squares within a leaf, which differ by up to 28 d +
+/// 196).
 constexpr int64_t kLeafBallReach2 = 1100;
 
 /// @brief ORs the voxels of the ball into the words of a leaf: word x, bit 8 y + z.
-/// @param center2  doubled, from the leaf's corner; |2 q - center2| <= kLeafBallReach2 along each axis
-/// @param coverSq  at most 3 kLeafBallReach2^2
+/// @param center2  doubled, from the leaf's corner; |2 q - center2| <= kLeafBallReach2 on each axis
+/// @param coverSq  at most kLeafBallReach2^2
 void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8]);
+
+/// @brief The same without vector instructions, for processors whose are not known.
+void orBallIntoLeafPortable(const int64_t center2[3], int64_t coverSq, uint64_t words[8]);
 
 } // namespace detail
 } // namespace openvdb_spheretree

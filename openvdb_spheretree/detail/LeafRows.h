@@ -2,8 +2,9 @@
 /// @file detail/LeafRows.h
 /// @brief The 512 values of a leaf as rows across an axis, and back.
 ///
-/// The kernels of both transforms sweep along one axis and treat the 64 lines of a run side by side,
-/// one lane a line. A *row* is the 64 values at one position along the axis; a leaf has eight:
+/// The kernels of both transforms sweep along one axis and treat the 64 lines of a run side by
+/// side, one lane a line. A *row* is the 64 values at one position along the axis; a leaf has
+/// eight:
 ///
 ///     axis X: row x, lane 8 y + z (the leaf's own order)
 ///     axis Y: row y, lane 8 x + z
@@ -23,8 +24,8 @@ namespace detail {
 
 constexpr int kLanes = 64; ///< values in a row
 
-/// Rows of a run, with `margin` zero rows before the first and after the last. Grows, never shrinks;
-/// aligned for any vector width.
+/// Rows of a run, with `margin` zero rows before the first and after the last. Grows, never
+/// shrinks; aligned for any vector width.
 template <typename T>
 class RowBuffer {
 public:
@@ -67,7 +68,8 @@ void transpose8x8(const T* in, std::size_t inStride, T* out, std::size_t outStri
     interleave(a, b);
     interleave(b, a);
     interleave(a, b);
-    for (int row = 0; row < 8; ++row) std::memcpy(out + row * outStride, b + 8 * row, 8 * sizeof(T));
+    for (int row = 0; row < 8; ++row)
+        std::memcpy(out + row * outStride, b + 8 * row, 8 * sizeof(T));
 }
 
 /// Swaps x and y of 512 values, in blocks of eight along z.
@@ -86,10 +88,10 @@ template <typename T>
 void leafToRows(Axis axis, const T* leaf, T* rows)
 {
     switch (axis) {
-        case Axis::X: std::memcpy(rows, leaf, kLeafVoxels * sizeof(T)); break;
-        case Axis::Y: swapXY(leaf, rows); break;
-        case Axis::Z:
-            for (int x = 0; x < 8; ++x) transpose8x8(leaf + 64 * x, 8, rows + 8 * x, 64);
+    case Axis::X: std::memcpy(rows, leaf, kLeafVoxels * sizeof(T)); break;
+    case Axis::Y: swapXY(leaf, rows); break;
+    case Axis::Z:
+        for (int x = 0; x < 8; ++x) transpose8x8(leaf + 64 * x, 8, rows + 8 * x, 64);
     }
 }
 
@@ -98,10 +100,10 @@ template <typename T>
 void rowsToLeaf(Axis axis, const T* rows, T* leaf)
 {
     switch (axis) {
-        case Axis::X: std::memcpy(leaf, rows, kLeafVoxels * sizeof(T)); break;
-        case Axis::Y: swapXY(rows, leaf); break;
-        case Axis::Z:
-            for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
+    case Axis::X: std::memcpy(leaf, rows, kLeafVoxels * sizeof(T)); break;
+    case Axis::Y: swapXY(rows, leaf); break;
+    case Axis::Z:
+        for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
     }
 }
 

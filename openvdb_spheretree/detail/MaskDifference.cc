@@ -2,8 +2,8 @@
 /// @file detail/MaskDifference.cc
 /// @brief Difference of two masks: leaf words against leaf words, tiles against whatever is there.
 ///
-/// Parallel over the 128^3 nodes of the first mask, each into its own slot; its larger tiles are few
-/// and come last.
+/// Parallel over the 128^3 nodes of the first mask, each into its own slot; its larger tiles are
+/// few and come last.
 
 #include "MaskDifference.h"
 
@@ -142,8 +142,8 @@ MaskDifference maskDifference(
         for (auto tile = cell->cbeginValueOn(); tile; ++tile) blockTiles.push_back(tile.getCoord());
     }
     std::vector<MaskDifference> parts(blocks.size() + 1);
-    parallelFor(blocks.size(), interrupter,
-        [&](std::size_t i) { subtractBlock(*blocks[i], b, parts[i]); });
+    parallelFor(
+        blocks.size(), interrupter, [&](std::size_t i) { subtractBlock(*blocks[i], b, parts[i]); });
     for (const Coord& origin : blockTiles) subtractBlockTile(origin, b, parts.back());
     for (auto tile = a.root().cbeginValueOn(); tile; ++tile) {
         subtractRootTile(tile.getCoord(), b, parts.back());

@@ -49,8 +49,8 @@ struct MaxPlusOp {
         for (std::size_t i = 0; i < hn::Lanes(d); ++i) offset[at + i] = Offset(steps[i]);
     }
 
-    /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block, its
-    /// own smallest n and the largest m of each block near enough count.
+    /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block,
+    /// its own smallest n and the largest m of each block near enough count.
     void blockReach(int lane, EnvelopeScratch& scratch) const
     {
         const int blocks = int(scratch.reach.size());
@@ -89,18 +89,19 @@ private:
             smallest = hn::Min(smallest, hn::IfThenElse(background, none, key));
         }
         scratch.largest[block] = int64_t(hn::GetLane(hn::MaxOfLanes(d, largest))) >> Power::kShift;
-        scratch.smallest[block] = int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Power::kShift;
+        scratch.smallest[block] =
+            int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Power::kShift;
     }
 };
 
-void MaxPlusNarrow(const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows,
-    EnvelopeScratch& scratch)
+void MaxPlusNarrow(
+    const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
 {
     EnvelopeSearch<MaxPlusOp<NarrowPower>>({inKey, outKey, offset}, rows, scratch).run();
 }
 
-void MaxPlusWide(const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows,
-    EnvelopeScratch& scratch)
+void MaxPlusWide(
+    const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch)
 {
     EnvelopeSearch<MaxPlusOp<WidePower>>({inKey, outKey, offset}, rows, scratch).run();
 }
@@ -117,14 +118,14 @@ namespace detail {
 HWY_EXPORT(MaxPlusNarrow);
 HWY_EXPORT(MaxPlusWide);
 
-void maxPlus(const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows,
-    EnvelopeScratch& scratch)
+void maxPlus(
+    const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
 {
     HWY_DYNAMIC_DISPATCH(MaxPlusNarrow)(inKey, outKey, offset, rows, scratch);
 }
 
-void maxPlus(const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows,
-    EnvelopeScratch& scratch)
+void maxPlus(
+    const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch)
 {
     HWY_DYNAMIC_DISPATCH(MaxPlusWide)(inKey, outKey, offset, rows, scratch);
 }

@@ -47,8 +47,8 @@ struct ObjIndices {
 ///              backwards from -1
 std::int64_t objCorner(const MeshText& text, std::string_view word, std::size_t pointCount)
 {
-    const std::int64_t given
-        = text.toInteger(word.substr(0, word.find('/')), "the number of a face's point");
+    const std::int64_t given =
+        text.toInteger(word.substr(0, word.find('/')), "the number of a face's point");
     for (std::size_t slash = word.find('/'); slash != word.npos;) {
         const std::size_t next = word.find('/', slash + 1);
         const std::string_view part = word.substr(slash + 1, next - slash - 1);
@@ -234,7 +234,8 @@ PolygonSoup parseObj(std::string bytes)
         else if (word == "f" || word == "fo") objFace(text, soup, indices);
         else if (std::any_of(word.begin(), word.end(), [](unsigned char c) {
                      return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
-                 })) text.fail(shown(word) + " begins no line of an OBJ file");
+                 }))
+            text.fail(shown(word) + " begins no line of an OBJ file");
     }
     if (indices.largest >= std::int64_t(soup.points.size())) {
         throw IoError("line " + std::to_string(indices.line) + ": a face names point "
@@ -284,8 +285,7 @@ PolygonSoup parseStl(const std::string& bytes)
 
 bool isStrictFormat(const std::string& extension)
 {
-    return extension == ".obj" || extension == ".off" || extension == ".ply"
-        || extension == ".stl";
+    return extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
 }
 
 PolygonSoup parseMesh(const std::string& extension, std::string bytes)

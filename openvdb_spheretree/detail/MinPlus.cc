@@ -72,7 +72,8 @@ struct MinPlusOp {
         hn::Store(value, D(), out + row * kLanes + lane);
     }
 
-    /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block counts.
+    /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block
+    /// counts.
     void blockReach(int lane, EnvelopeScratch& scratch) const
     {
         for (int block = 0; block < int(scratch.reach.size()); ++block) {

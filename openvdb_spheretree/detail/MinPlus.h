@@ -12,7 +12,7 @@ namespace openvdb_spheretree {
 namespace detail {
 
 /// Largest values the min-plus kernels handle; larger ones come out as this value or more.
-constexpr uint32_t kNarrowMax = 255 * 255;    ///< of 16-bit values
+constexpr uint32_t kNarrowMax = 255 * 255;     ///< of 16-bit values
 constexpr uint32_t kWideMax = 46340u * 46340u; ///< of 32-bit values: two of them still add up
 
 /// @brief First axis: for every voxel, the steps to the nearest background voxel on its line, 0 for

@@ -16,7 +16,8 @@ namespace {
 
 using openvdb::Coord;
 
-/// Morton order without building keys: the axis whose coordinates differ in the highest bit decides.
+/// Morton order without building keys: the axis whose coordinates differ in the highest bit
+/// decides.
 bool mortonLess(const Coord& a, const Coord& b)
 {
     int axis = 0;

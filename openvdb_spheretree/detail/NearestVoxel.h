@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/NearestVoxel.h
-/// @brief Exact nearest-voxel queries on a sparse mask: a tree of bounding boxes over its leaves and
-/// tiles.
+/// @brief Exact nearest-voxel queries on a sparse mask: a tree of bounding boxes over its leaves
+/// and tiles.
 ///
-/// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers. Each
-/// box is the tight one of its voxels, so each of its faces has a voxel: that bounds the distance
-/// from above as well, and most "is anything within ..." questions end near the root. Within a leaf,
-/// rows are searched by bits.
+/// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
+/// Each box is the tight one of its voxels, so each of its faces has a voxel: that bounds the
+/// distance from above as well, and most "is anything within ..." questions end near the root.
+/// Within a leaf, rows are searched by bits.
 ///
 /// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
 /// likewise: |2 q - point2|^2.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/Parallel.h
-/// @brief The one facade over oneTBB: parallel loops that can be interrupted, with scratch memory per
-/// thread. The number of threads is the caller's business, never set here.
+/// @brief The one facade over oneTBB: parallel loops that can be interrupted, with scratch memory
+/// per thread. The number of threads is the caller's business, never set here.
 
 #pragma once
 
@@ -24,11 +24,10 @@ inline void checkInterrupt(openvdb::util::NullInterrupter* interrupter)
     if (interrupter && interrupter->wasInterrupted()) throw Interrupted();
 }
 
-/// Calls body(i) for i in [0, count). An exception in a body, Interrupted included, cancels the loop
-/// and is passed on.
+/// Calls body(i) for i in [0, count). An exception in a body, Interrupted included, cancels the
+/// loop and is passed on.
 template <typename Body>
-void parallelFor(
-    std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
+void parallelFor(std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
 {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
         checkInterrupt(interrupter);

@@ -266,14 +266,14 @@ void readFaces(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
     for (std::uint64_t n = 0; n < element.count; ++n) {
         for (int i = 0; i < int(element.properties.size()); ++i) {
             const std::size_t begin = soup.corners.size();
-            const std::uint32_t count
-                = readProperty(values, element.properties[i], [&](double value) {
-                      if (i != list) return;
-                      if (value < 0 || value > std::numeric_limits<std::uint32_t>::max()) {
-                          values.fail("face " + std::to_string(n) + " names a negative vertex");
-                      }
-                      soup.corners.push_back(std::uint32_t(value));
-                  });
+            const std::uint32_t count =
+                readProperty(values, element.properties[i], [&](double value) {
+                    if (i != list) return;
+                    if (value < 0 || value > std::numeric_limits<std::uint32_t>::max()) {
+                        values.fail("face " + std::to_string(n) + " names a negative vertex");
+                    }
+                    soup.corners.push_back(std::uint32_t(value));
+                });
             if (i != list) continue;
             if (count >= 3) soup.counts.push_back(count);
             else soup.corners.resize(begin); // a point or a line: holds nothing

@@ -36,15 +36,16 @@ std::size_t countVoxels(const std::vector<Vec3d>& positions, int scale, std::vec
 void checkRange(const std::vector<Vec3d>& positions)
 {
     if (positions.size() > std::size_t(std::numeric_limits<int32_t>::max())) {
-        OPENVDB_THROW(openvdb::ValueError, positions.size() << " points are more than a file can "
-            "hold (2^31 - 1): use a larger voxel, or split the object");
+        OPENVDB_THROW(openvdb::ValueError,
+            positions.size() << " points are more than a file can "
+                                "hold (2^31 - 1): use a larger voxel, or split the object");
     }
     const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Vec3d& p = positions[i];
         if (std::abs(p[0]) < limit && std::abs(p[1]) < limit && std::abs(p[2]) < limit) continue;
-        OPENVDB_THROW(openvdb::ValueError, "point " << i << " at " << p
-            << " is out of the range of voxel coordinates (2^31)");
+        OPENVDB_THROW(openvdb::ValueError,
+            "point " << i << " at " << p << " is out of the range of voxel coordinates (2^31)");
     }
 }
 
@@ -55,8 +56,8 @@ int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
     constexpr std::size_t kPointsPerVoxel = 4;
     std::vector<Coord> voxels;
     int scale = 1;
-    while (scale < kMaxPointScale &&
-        countVoxels(positions, scale, voxels) * kPointsPerVoxel > positions.size()) {
+    while (scale < kMaxPointScale
+        && countVoxels(positions, scale, voxels) * kPointsPerVoxel > positions.size()) {
         scale *= 2;
     }
     return scale;
@@ -90,8 +91,9 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
         const Coord voxel = Coord::round(position);
         const Vec3f offset(position - voxel.asVec3d());
         if ((voxel.asVec3d() + Vec3d(offset)) * double(mScale) != positions[i]) {
-            OPENVDB_THROW(openvdb::ValueError, "point " << i << " at " << positions[i]
-                << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
+            OPENVDB_THROW(openvdb::ValueError,
+                "point " << i << " at " << positions[i]
+                         << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
         }
         places[i] = {voxel, uint32_t(i)};
     }
@@ -135,8 +137,8 @@ void PointWriter::writeLeaf(
     mLeaves[leaf]->setOffsets(ends);
 }
 
-void PointWriter::setGroups(PointLeaf& leaf, const std::vector<std::string>& names,
-    const std::vector<int>& groups) const
+void PointWriter::setGroups(
+    PointLeaf& leaf, const std::vector<std::string>& names, const std::vector<int>& groups) const
 {
     for (int group = 0; group < int(names.size()); ++group) {
         if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;

@@ -3,8 +3,9 @@
 /// @brief Points into the leaves of a PointDataGrid, and out of them, without rounding a position.
 ///
 /// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here a
-/// position is given in index space, a multiple of 1/16 of the source's voxel; the point grid's voxel
-/// is a power of two of those, so position / scale = voxel + offset, and a float holds the offset.
+/// position is given in index space, a multiple of 1/16 of the source's voxel; the point grid's
+/// voxel is a power of two of those, so position / scale = voxel + offset, and a float holds the
+/// offset.
 ///
 /// Points are ordered by leaf, voxel and input index, so the grid does not depend on threads.
 
@@ -24,7 +25,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Offsets are multiples of 1 / (16 scale) below 1/2 in size: 15 bits at most, where a float has 24.
+/// Offsets are multiples of 1 / (16 scale), at most 1/2 in size: 16 bits, where a float has 24.
 constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
@@ -145,9 +146,10 @@ void PointReader::checkAttribute(const PointLeaf& leaf, const std::string& name)
     const openvdb::NamePair& type = array->type();
     const openvdb::NamePair& expected = Array::attributeType();
     if (type != expected || array->stride() != 1) {
-        OPENVDB_THROW(openvdb::ValueError, "attribute '" << name << "' is of type " << type.first
-            << "/" << type.second << " with " << array->stride() << " values a point, not "
-            << expected.first << "/" << expected.second << " with 1");
+        OPENVDB_THROW(openvdb::ValueError,
+            "attribute '" << name << "' is of type " << type.first << "/" << type.second << " with "
+                          << array->stride() << " values a point, not " << expected.first << "/"
+                          << expected.second << " with 1");
     }
 }
 

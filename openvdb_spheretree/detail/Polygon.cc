@@ -57,8 +57,8 @@ bool isConvex(const std::vector<Vec2d>& flat)
 }
 
 /// Whether no other remaining corner lies in the triangle before, at and after remaining[at].
-bool isEar(const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& remaining,
-    std::size_t at)
+bool isEar(
+    const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& remaining, std::size_t at)
 {
     const std::size_t n = remaining.size();
     const Vec2d &a = flat[remaining[(at + n - 1) % n]], &b = flat[remaining[at]],
@@ -104,8 +104,9 @@ void triangulate(const std::vector<Vec3s>& points, const std::vector<std::uint32
         const std::vector<Vec2d> flat = flattened(points, corners);
         if (!isConvex(flat)) {
             if (corners.size() > kMaxConcaveCorners) {
-                OPENVDB_THROW(openvdb::ValueError, "a concave polygon has "
-                    << corners.size() << " corners; triangulate the mesh first");
+                OPENVDB_THROW(openvdb::ValueError,
+                    "a concave polygon has " << corners.size()
+                                             << " corners; triangulate the mesh first");
             }
             return cutEars(flat, corners, triangles);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/RoundUp.h
-/// @brief Arithmetic on radii that never comes out below the true value, and is exact where the true
-/// value is a double: what was covered stays covered.
+/// @brief Arithmetic on radii that never comes out below the true value, and is exact where the
+/// true value is a double: what was covered stays covered.
 
 #pragma once
 
@@ -12,7 +12,10 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-inline double nextUp(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
+inline double nextUp(double x)
+{
+    return std::nextafter(x, std::numeric_limits<double>::infinity());
+}
 
 inline double addUp(double a, double b)
 {
@@ -45,9 +48,8 @@ inline double toDoubleUp(int64_t x)
 inline float toFloatUp(double x)
 {
     const float rounded = float(x);
-    return double(rounded) < x
-        ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
-        : rounded;
+    return double(rounded) < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
+                               : rounded;
 }
 
 /// @return the largest integer whose square is at most @a x.

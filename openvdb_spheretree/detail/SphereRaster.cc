@@ -8,8 +8,8 @@
 ///
 /// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
 /// descended; a leaf does when it is full. Clipping needs no step of its own, since every sphere's
-/// box is clipped. Exact: integers throughout. OR does not depend on the order of spheres, hence the
-/// result not on threads.
+/// box is clipped. Exact: integers throughout. OR does not depend on the order of spheres, hence
+/// the result not on threads.
 
 #include "SphereRaster.h"
 
@@ -85,14 +85,14 @@ std::vector<Ball> clipSpheres(
     return balls;
 }
 
-/// Larger balls to the front, largest first, since what they fill is not drawn again. The small ones
-/// keep their order, which is mostly that of their centres, and so kind to caches.
+/// Larger balls to the front, largest first, since what they fill is not drawn again. The small
+/// ones keep their order, which is mostly that of their centres, and so kind to caches.
 void sortLargerFirst(std::vector<Ball>& balls)
 {
     const auto small = std::partition(balls.begin(), balls.end(),
         [](const Ball& ball) { return ball.coverSq >= BlockCanvas::kSmallCoverSq; });
-    tbb::parallel_sort(balls.begin(), small,
-        [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; });
+    tbb::parallel_sort(
+        balls.begin(), small, [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; });
 }
 
 void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_t index)
@@ -233,17 +233,16 @@ MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
 
 } // namespace
 
-MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres,
-    const openvdb::CoordBBox& clip, const MaskTree* within,
-    openvdb::util::NullInterrupter* interrupter)
+MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& clip,
+    const MaskTree* within, openvdb::util::NullInterrupter* interrupter)
 {
     const Wanted wanted(within);
     std::vector<Ball> balls = clipSpheres(spheres, clip);
     sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);
-    parallelForWithScratch<BlockCanvas>(blocks.size(), interrupter,
-        [&](std::size_t i, BlockCanvas& canvas) {
+    parallelForWithScratch<BlockCanvas>(
+        blocks.size(), interrupter, [&](std::size_t i, BlockCanvas& canvas) {
             if (!blocks[i].full) drawBlock(blocks[i], balls, wanted, canvas);
         });
     return assemble(cells, blocks);

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// @param before  of the first lane in use: the 64 values that stand before the row's along the axis
+/// @param before of the first lane in use: the 64 values that stand before the row's along the axis
 template <typename T>
 void RowBits(const T* row, const T* before, uint64_t& stays, uint64_t& asBefore)
 {
@@ -44,7 +44,8 @@ StepBits Bits(const T* steps, Axis axis)
     std::memset(padded, 0, kMargin * sizeof(T));
     std::memcpy(padded + kMargin, steps, kLeafVoxels * sizeof(T));
     const std::size_t stride = std::size_t(64) >> (3 * int(axis));
-    constexpr uint64_t kNotFirst[3] = {~uint64_t(0), ~uint64_t(0xff), ~uint64_t(0x0101010101010101)};
+    constexpr uint64_t kNotFirst[3] = {
+        ~uint64_t(0), ~uint64_t(0xff), ~uint64_t(0x0101010101010101)};
     StepBits bits;
     for (std::size_t x = 0; x < 8; ++x) {
         const T* row = padded + kMargin + 64 * x;
@@ -70,7 +71,10 @@ namespace detail {
 HWY_EXPORT(Bits8);
 HWY_EXPORT(Bits16);
 
-StepBits stepBits(const int8_t* steps, Axis axis) { return HWY_DYNAMIC_DISPATCH(Bits8)(steps, axis); }
+StepBits stepBits(const int8_t* steps, Axis axis)
+{
+    return HWY_DYNAMIC_DISPATCH(Bits8)(steps, axis);
+}
 StepBits stepBits(const int16_t* steps, Axis axis)
 {
     return HWY_DYNAMIC_DISPATCH(Bits16)(steps, axis);

@@ -12,8 +12,8 @@ namespace openvdb_spheretree {
 namespace detail {
 
 struct StepBits {
-    LeafMask stays;     ///< the step is 0: the voxel is its own end
-    LeafMask asBefore;  ///< ends where the step of the voxel before it along the axis ends
+    LeafMask stays;    ///< the step is 0: the voxel is its own end
+    LeafMask asBefore; ///< ends where the step of the voxel before it along the axis ends
 };
 
 /// @param steps  512 steps of a leaf along @a axis, in leaf order

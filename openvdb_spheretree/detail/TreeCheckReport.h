@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/TreeCheckReport.h
-/// @brief What the checks of a sphere-tree share: what is checked, and the sentences for what failed.
+/// @brief What the checks of a sphere-tree share: what is checked, and the sentences for what
+/// failed.
 
 #pragma once
 

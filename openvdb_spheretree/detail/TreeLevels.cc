@@ -13,11 +13,14 @@ namespace detail {
 
 namespace {
 
-/// The paper's rule: the label of the parent voxel of the ball's centre.
+/// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
+/// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
+/// the clip).
 std::vector<int32_t> parentsByCentre(const LevelNodes& nodes, const MedialLevel& coarse,
     const PyramidStep& step, openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<int32_t> parent(nodes.balls.size());
+    std::vector<int32_t> parent(nodes.balls.size(), 0);
+    if (coarse.balls.size() == 1) return parent;
     parallelFor(parent.size(), interrupter, [&](std::size_t i) {
         parent[i] = coarse.labelOf(step.parentVoxel(nodes.balls[i].center));
     });
@@ -33,15 +36,15 @@ std::vector<DagEdge> edgesToNodes(
         nodeOfBall[fine.ballAt(nodes.balls[i].center)] = int32_t(i);
     }
     for (DagEdge& edge : edges) edge.child = nodeOfBall[edge.child];
-    edges.erase(std::remove_if(edges.begin(), edges.end(),
-                    [](const DagEdge& edge) { return edge.child < 0; }),
+    edges.erase(std::remove_if(
+                    edges.begin(), edges.end(), [](const DagEdge& edge) { return edge.child < 0; }),
         edges.end());
     return edges;
 }
 
-/// Among a node's parents in the DAG, the one of least covering power: the distance by which the node
-/// sticks out of it, both as spheres in the frame of level 0. A node without an edge (it labels no
-/// voxel whose parent is on) keeps the parent it has.
+/// Among a node's parents in the DAG, the one of least covering power: the distance by which the
+/// node sticks out of it, both as spheres in the frame of level 0. A node without an edge (it
+/// labels no voxel whose parent is on) keeps the parent it has.
 void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& edges,
     const LevelNodes& nodes, int level, const MedialLevel& coarse, const BuildContext& context)
 {
@@ -50,10 +53,11 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
     for (const DagEdge& edge : edges) { // by parent, so that of equals the first parent stays
         const MedialBall& s = nodes.balls[edge.child];
         const MedialBall& t = coarse.balls[edge.parent];
-        const double apart = 0.5 *
-            std::sqrt(double(distanceSq(fineFrame.center(s.center), coarseFrame.center(t.center))));
-        const double power = apart + fineFrame.radius(s.radiusSq).radius() -
-            coarseFrame.radius(t.radiusSq).radius();
+        const double apart = 0.5
+            * std::sqrt(
+                double(distanceSq(fineFrame.center(s.center), coarseFrame.center(t.center))));
+        const double power =
+            apart + fineFrame.radius(s.radiusSq).radius() - coarseFrame.radius(t.radiusSq).radius();
         if (power >= least[edge.child]) continue;
         least[edge.child] = power;
         parent[edge.child] = edge.parent;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/TreeLevels.h
-/// @brief What the tree builders share: a level's nodes while the tree grows from level 0 to its root.
+/// @brief What the tree builders share: a level's nodes while the tree grows from level 0 to its
+/// root.
 
 #pragma once
 
@@ -34,11 +35,11 @@ struct BuildContext {
 
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {
-    std::vector<MedialBall> balls;    ///< ordered by centre
-    std::vector<double> radius;       ///< voxels of level 0
-    std::vector<int64_t> coverSq;     ///< the same, exactly: see SphereTree
-    std::vector<int32_t> parent;      ///< node of the next level; empty at the root
-    std::vector<DagEdge> dag;         ///< edges to nodes of the next level, if asked for
+    std::vector<MedialBall> balls; ///< ordered by centre
+    std::vector<double> radius;    ///< voxels of level 0
+    std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
+    std::vector<int32_t> parent;   ///< node of the next level; empty at the root
+    std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for
     int64_t pyramidVoxels = 0;
 };
 
@@ -55,8 +56,7 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
 /// @brief The two kinds of tree, level 0 first, ending with a level of one node.
 std::vector<LevelNodes> reversibleLevels(
     openvdb::MaskTree::Ptr object, const BuildContext& context);
-std::vector<LevelNodes> extendedLevels(
-    openvdb::MaskTree::Ptr object, const BuildContext& context);
+std::vector<LevelNodes> extendedLevels(openvdb::MaskTree::Ptr object, const BuildContext& context);
 
 } // namespace detail
 } // namespace openvdb_spheretree

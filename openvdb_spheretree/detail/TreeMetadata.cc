@@ -32,7 +32,10 @@ openvdb::Coord toCoord(const Vec3i& v) { return {v[0], v[1], v[2]}; }
 
 // ---- The transform
 
-Mat4d matrixOf(const Transform& transform) { return transform.baseMap()->getAffineMap()->getMat4(); }
+Mat4d matrixOf(const Transform& transform)
+{
+    return transform.baseMap()->getAffineMap()->getMat4();
+}
 
 /// Transform::operator== has a tolerance; here every bit counts.
 bool identical(const Transform& a, const Transform& b)
@@ -89,8 +92,8 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
         OPENVDB_THROW(openvdb::ValueError, "its transform is a frustum");
     }
     if (grid[kTransformKey]) {
-        const Transform::Ptr source = makeTransform(getMeta<std::string>(grid, kTransformTypeKey),
-            getMeta<Mat4d>(grid, kTransformKey));
+        const Transform::Ptr source = makeTransform(
+            getMeta<std::string>(grid, kTransformTypeKey), getMeta<Mat4d>(grid, kTransformKey));
         if (identical(*scaled(*source, scale), grid.transform())) return source;
     }
     return scaled(grid.transform(), 1.0 / scale);
@@ -173,8 +176,9 @@ SphereTreeLevel readLevel(const GridBase& grid, int number)
     level.level = number;
     level.end = getMeta<int32_t>(grid, key("spheres"));
     if (level.end < 1) {
-        OPENVDB_THROW(openvdb::ValueError, "level " << number << " has " << level.end
-            << " spheres by its metadata, every level must have one or more");
+        OPENVDB_THROW(openvdb::ValueError,
+            "level " << number << " has " << level.end
+                     << " spheres by its metadata, every level must have one or more");
     }
     level.pyramidVoxels = getMeta<int64_t>(grid, key("pyramid_voxels"));
     if (grid[key("covered")]) {
@@ -196,10 +200,11 @@ std::vector<SphereTreeLevel> readLevels(const GridBase& grid)
 {
     const int count = getMeta<int32_t>(grid, "spheretree_levels");
     const int lowest = getMeta<int32_t>(grid, "spheretree_lowest_level");
-    if (count < 1 || count > kMaxLevels || lowest < 0 || lowest > kMaxLevels ||
-        (count > 1 && lowest > 0)) {
-        OPENVDB_THROW(openvdb::ValueError, "by its metadata it has " << count
-            << " levels from level " << lowest << " on: a tree has levels from 0 on, or one level");
+    if (count < 1 || count > kMaxLevels || lowest < 0 || lowest > kMaxLevels
+        || (count > 1 && lowest > 0)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "by its metadata it has " << count << " levels from level " << lowest
+                                      << " on: a tree has levels from 0 on, or one level");
     }
     std::vector<SphereTreeLevel> levels;
     for (int k = 0; k < count; ++k) levels.push_back(readLevel(grid, lowest + k));
@@ -247,8 +252,9 @@ int readPointScale(const GridBase& grid)
 {
     const int scale = getMeta<int32_t>(grid, kScaleKey);
     if (scale < 1 || scale > kMaxPointScale || (scale & (scale - 1)) != 0) {
-        OPENVDB_THROW(openvdb::ValueError, "metadata '" << kScaleKey << "' is " << scale
-            << ", not a power of two from 1 to " << kMaxPointScale);
+        OPENVDB_THROW(openvdb::ValueError,
+            "metadata '" << kScaleKey << "' is " << scale << ", not a power of two from 1 to "
+                         << kMaxPointScale);
     }
     return scale;
 }

@@ -32,8 +32,9 @@ T getMeta(const openvdb::GridBase& grid, const std::string& key)
     const openvdb::Metadata::ConstPtr meta = grid[key];
     if (!meta) OPENVDB_THROW(openvdb::ValueError, "there is no metadata '" << key << "'");
     if (meta->typeName() != openvdb::TypedMetadata<T>::staticTypeName()) {
-        OPENVDB_THROW(openvdb::ValueError, "metadata '" << key << "' is of type "
-            << meta->typeName() << ", not " << openvdb::TypedMetadata<T>::staticTypeName());
+        OPENVDB_THROW(openvdb::ValueError,
+            "metadata '" << key << "' is of type " << meta->typeName() << ", not "
+                         << openvdb::TypedMetadata<T>::staticTypeName());
     }
     return static_cast<const openvdb::TypedMetadata<T>&>(*meta).value();
 }

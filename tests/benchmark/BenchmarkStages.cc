@@ -98,13 +98,9 @@ double copySeconds(uint32_t leaves)
 /// What the stages of one object work on.
 struct Input {
     explicit Input(const std::string& name)
-        : grid(object(name)),
-          mask(grid.tree(), false, openvdb::TopologyCopy()),
-          layout(mask),
-          distances(st::distanceTransform(layout)),
-          labels(st::powerMap(layout, distances))
-    {
-    }
+        : grid(object(name)), mask(grid.tree(), false, openvdb::TopologyCopy()), layout(mask),
+          distances(st::distanceTransform(layout)), labels(st::powerMap(layout, distances))
+    {}
     const openvdb::BoolGrid& grid;
     openvdb::MaskTree mask;
     st::LeafLayout layout;
@@ -124,8 +120,7 @@ void buildTree(const Input& in, st::TreeType type)
 const std::vector<std::pair<std::string, Stage>>& stages()
 {
     static const std::vector<std::pair<std::string, Stage>> all{
-        {"layout",
-            [](const Input& in) { benchmark::DoNotOptimize(st::LeafLayout(in.mask)); }},
+        {"layout", [](const Input& in) { benchmark::DoNotOptimize(st::LeafLayout(in.mask)); }},
         {"distance",
             [](const Input& in) { benchmark::DoNotOptimize(st::distanceTransform(in.layout)); }},
         {"power+medial",
@@ -137,8 +132,7 @@ const std::vector<std::pair<std::string, Stage>>& stages()
             [](const Input& in) {
                 benchmark::DoNotOptimize(st::medialBalls(in.labels, in.distances));
             }},
-        {"pyramid",
-            [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
+        {"pyramid", [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
         {"reversible", [](const Input& in) { buildTree(in, st::TreeType::Reversible); }},
         {"extended", [](const Input& in) { buildTree(in, st::TreeType::Extended); }},
         {"errors",
