@@ -11,7 +11,8 @@
 ///    below it; it may be smaller than the medial ball it came from;
 /// 4. `reconstruct`: the level's voxels become those within R of a kept centre. They are clipped to
 ///    the box of the object's own pyramid level: the paper's images have borders, and without the
-///    clip levels swell from step to step (Al.100 with 7 spheres went from 420 to 748 % error).
+///    clip levels swell from step to step (Al.100: 630 % error with 9 spheres, against 419 % with
+///    12).
 ///
 /// It ends: the clip box of the pyramid's last level is one voxel. Without the clip (`free`), all
 /// nodes left at that level get one parent there. Radii are integers under square roots

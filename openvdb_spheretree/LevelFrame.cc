@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelFrame.h"
 
+#include <openvdb/Exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -50,7 +52,14 @@ LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTree
     : mLevel(level), mDim(settings.dim), mTight(level == 0 || settings.scale == RadiusScale::Tight),
       mOrigin(level == 0 ? openvdb::Coord() : origin)
 {
-    for (int k = 0; k < level; ++k) mScale *= settings.factor;
+    for (int k = 0; k < level; ++k) {
+        mScale *= settings.factor;
+        if (mScale <= kMaxScale) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object is too wide for factor="
+                << settings.factor << ": level " << k + 1 << " would have voxels of " << mScale
+                << ", and " << kMaxScale << " is the most: use another factor, or larger voxels");
+    }
     mGrowthSq = mDim * (mScale - 1) * (mScale - 1);
 }
 

@@ -63,6 +63,11 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c);
 
 class LevelFrame {
 public:
+    /// A level's voxels may be this wide, in voxels of level 0: squares of twice its radii fit 63
+    /// bits.
+    static constexpr int64_t kMaxScale = int64_t(1) << 29;
+
+    /// @throw openvdb::ValueError if the level's voxels are wider than that
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
 
     /// @return twice the centre of a voxel of the level.

@@ -5,6 +5,7 @@
 #include "detail/Parallel.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/tools/Prune.h>
 
 #include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
@@ -233,8 +234,9 @@ Coord PyramidStep::parentVoxel(const Coord& ijk) const
 MaskTree::Ptr coarsen(const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
 {
     const bool wholeLeaves = step.factor == 2 && step.dim == 3 && (step.origin & 7) == Coord();
-    auto result = wholeLeaves ? coarsenByLeaves(level, step, interrupter)
-                              : coarsenByVoxels(level, step, interrupter);
+    const MaskTree::Ptr result = wholeLeaves ? coarsenByLeaves(level, step, interrupter)
+                                             : coarsenByVoxels(level, step, interrupter);
+    openvdb::tools::prune(*result); // boxes may have filled leaves, leaves internal nodes
     return result;
 }
 

@@ -38,7 +38,7 @@ struct PyramidStep {
 using PyramidModel =
     std::function<openvdb::MaskTree::Ptr(const openvdb::MaskTree& level, const PyramidStep& step)>;
 
-/// @brief The OR model. Parallel; the result has no full leaf that could be a tile.
+/// @brief The OR model. Parallel; the result has no full node that could be a tile.
 openvdb::MaskTree::Ptr coarsen(const openvdb::MaskTree& level, const PyramidStep& step,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -70,12 +70,12 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
                    "an infinity or a NaN in it: set its transform, or resample it to cubic voxels");
     }
     const bool uniform = voxel.lengthMismatch() <= kTolerance * length[0];
-    const bool orthogonal = uniform && voxel.skew() <= kTolerance;
+    const bool orthogonal = voxel.skew() <= kTolerance;
     if (uniform && orthogonal) return;
     OPENVDB_THROW(openvdb::ValueError,
         detail::describe(grid)
             << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
-            << (uniform ? ", and its axes are sheared" : "")
+            << (orthogonal ? "" : ", and its axes are sheared")
             << "; spheres need cubic voxels: resample it to a uniform voxel size");
 }
 

@@ -21,7 +21,7 @@ std::optional<bool> parseFlag(const std::string& value)
     return {};
 }
 
-template<typename T>
+template <typename T>
 std::optional<T> parseNumber(const std::string& value)
 {
     T number{};
@@ -124,14 +124,13 @@ OptionSpec later(const std::string& name)
 
 OptionSpec vdbOption(const std::string& what)
 {
-    return text("vdb", "", what + ", by its age on the stack (0 is the newest) or its name; "
-        "by default the only one that suits");
+    return text("vdb", "",
+        what
+            + ", by its age on the stack (0 is the newest) or its name; "
+              "by default the only one that suits");
 }
 
-OptionSpec keepOption()
-{
-    return flag("keep", false, "leave the input on the stack");
-}
+OptionSpec keepOption() { return flag("keep", false, "leave the input on the stack"); }
 
 OptionSpec nameOption(const std::string& fallback, const std::string& doc)
 {
@@ -181,10 +180,7 @@ std::vector<std::string> ActionCall::list(const std::string& option) const
     return items;
 }
 
-bool ActionCall::flag(const std::string& option) const
-{
-    return *parseFlag(text(option));
-}
+bool ActionCall::flag(const std::string& option) const { return *parseFlag(text(option)); }
 
 int64_t ActionCall::integer(const std::string& option) const
 {
@@ -203,14 +199,14 @@ void checkValue(const ActionSpec& action, const OptionSpec& option, const std::s
         throwUsage(where + "option " + option.name + " is not available in this version");
     }
     if (value.empty()) throwUsage(where + "option " + option.name + " has no value");
-    const bool emptyItem = value.front() == ',' || value.back() == ','
-        || value.find(",,") != std::string::npos;
+    const bool emptyItem =
+        value.front() == ',' || value.back() == ',' || value.find(",,") != std::string::npos;
     if (option.kind == OptionKind::List && emptyItem) {
         throwUsage(where + "an item of " + option.name + "=" + value + " is empty");
     }
     if (!isAllowed(option, value)) {
-        throwUsage(where + option.name + "=" + value + " is out of range or not understood: "
-            + "it takes " + allowedText(option));
+        throwUsage(where + option.name + "=" + value
+            + " is out of range or not understood: " + "it takes " + allowedText(option));
     }
 }
 

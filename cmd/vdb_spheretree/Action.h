@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Action.h
-/// @brief What an action is (its name, options and documentation, how it is checked and run), and one
-/// call of it on a command line. The parser and -help read nothing else.
+/// @brief What an action is (its name, options and documentation, how it is checked and run), and
+/// one call of it on a command line. The parser and -help read nothing else.
 
 #pragma once
 
@@ -60,14 +60,14 @@ OptionSpec nameOption(const std::string& fallback, const std::string& doc);
 
 struct ActionSpec {
     std::string name;
-    std::string alias; ///< may be empty
+    std::string alias;      ///< may be empty
     std::string mainOption; ///< takes tokens without `=`; may be empty
     std::string doc;
     std::vector<OptionSpec> options = {};
 
-    bool once = false;  ///< a second one on the line is a mistake
-    bool quiet = false; ///< too small for a timing line
-    bool needsInput = true; ///< works on the stack, so a -read has to come before
+    bool once = false;         ///< a second one on the line is a mistake
+    bool quiet = false;        ///< too small for a timing line
+    bool needsInput = true;    ///< works on the stack, so a -read has to come before
     ExitCode failure = kInput; ///< the code of an exception that carries none
 
     /// Everything that can be found out before any work; may be empty.

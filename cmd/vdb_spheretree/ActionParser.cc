@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ActionParser.h"
 
+#include "ConfigFile.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -68,8 +70,8 @@ const OptionSpec& optionOfPrefix(const ActionSpec& action, const std::string& pr
         throwUsage(where + "option " + prefix + " is ambiguous: it could be " + joined(matches));
     }
     if (match) return *match;
-    throwUsage(where + "unknown option " + prefix + didYouMean(prefix, names)
-        + "; try -help " + action.name);
+    throwUsage(where + "unknown option " + prefix + didYouMean(prefix, names) + "; try -help "
+        + action.name);
 }
 
 void addOption(ActionCall& call, const std::string& token, size_t equals)
@@ -98,8 +100,8 @@ void addMain(ActionCall& call, const std::string& token)
         return;
     }
     if (call.given(option.name)) {
-        throwUsage(call.label() + ": '" + token + "' gives option " + option.name
-            + " more than once");
+        throwUsage(
+            call.label() + ": '" + token + "' gives option " + option.name + " more than once");
     }
     call.set(option.name, token);
 }
@@ -122,20 +124,7 @@ void checkOrder(const std::vector<ActionCall>& calls)
     }
 }
 
-} // namespace
-
-std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates)
-{
-    std::vector<std::string> near;
-    const size_t enough = std::max<size_t>(1, word.size() / 3);
-    for (const std::string& candidate : candidates) {
-        const bool continues = word.size() > 2 && startsWith(candidate, word);
-        if (continues || editDistance(word, candidate) <= enough) near.push_back(candidate);
-    }
-    return near.empty() ? "" : " (did you mean " + joined(near) + "?)";
-}
-
-std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
+std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
 {
     std::vector<ActionCall> calls;
     for (const std::string& token : tokens) {
@@ -153,6 +142,49 @@ std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
             addOption(calls.back(), token, equals);
         }
     }
+    return calls;
+}
+
+/// Puts the actions of its files in the place of each -config. @a depth: a file may name itself.
+std::vector<ActionCall> withConfigFiles(const std::vector<ActionCall>& calls, int depth)
+{
+    constexpr int kDeepest = 8;
+    std::vector<ActionCall> expanded;
+    for (const ActionCall& call : calls) {
+        if (call.spec().name != "config") {
+            expanded.push_back(call);
+            continue;
+        }
+        if (!call.given("files")) throwUsage("-config: names no file");
+        if (depth == kDeepest) throwUsage("-config: files name each other more than 8 deep");
+        for (const std::string& path : call.list("files")) {
+            try {
+                const auto inner = withConfigFiles(callsOf(readConfigFile(path)), depth + 1);
+                expanded.insert(expanded.end(), inner.begin(), inner.end());
+            } catch (...) {
+                rethrowNamed("-config " + path, kInput);
+            }
+        }
+    }
+    return expanded;
+}
+
+} // namespace
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates)
+{
+    std::vector<std::string> near;
+    const size_t enough = std::max<size_t>(1, word.size() / 3);
+    for (const std::string& candidate : candidates) {
+        const bool continues = word.size() > 2 && startsWith(candidate, word);
+        if (continues || editDistance(word, candidate) <= enough) near.push_back(candidate);
+    }
+    return near.empty() ? "" : " (did you mean " + joined(near) + "?)";
+}
+
+std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
+{
+    const std::vector<ActionCall> calls = withConfigFiles(callsOf(tokens), 0);
     checkOrder(calls);
     return calls;
 }

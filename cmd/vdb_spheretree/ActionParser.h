@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ActionParser.h
-/// @brief The grammar of the command line, which is vdb_tool's: a chain of actions, each with options,
-/// `-action option=value option=value`.
+/// @brief The grammar of the command line, which is vdb_tool's: a chain of actions, each with
+/// options, `-action option=value option=value`.
 ///
 /// - An action starts with any number of dashes.
 /// - An option may be shortened to a prefix that no other option of its action starts with.
 /// - A token without `=` goes to the action's main option.
 ///
-/// Stricter than vdb_tool: what is unknown, ambiguous, empty or given twice is an error, and every value
-/// is checked against its range. The whole line is parsed before any of it runs.
+/// Stricter than vdb_tool: what is unknown, ambiguous, empty or given twice is an error, and every
+/// value is checked against its range. The whole line is parsed before any of it runs.
 
 #pragma once
 

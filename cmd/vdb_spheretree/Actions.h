@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Actions.h
-/// @brief Every action of the command; the table in ActionTable.cc lists them. Each is documented by its
-/// own specification, which -help prints.
+/// @brief Every action of the command; the table in ActionTable.cc lists them. Each is documented
+/// by its own specification, which -help prints.
 
 #pragma once
 
@@ -20,6 +20,7 @@ ActionSpec spheres2maskAction();
 ActionSpec spheres2lsAction();
 ActionSpec writeAction();
 ActionSpec printAction();
+ActionSpec configAction();
 ActionSpec clearAction();
 ActionSpec threadsAction();
 ActionSpec quietAction();

@@ -64,8 +64,8 @@ void checkFolder(const std::string& path, const std::string& folder)
     }
     const std::string trial = makeTemporary(folder);
     if (trial.empty()) {
-        throwOutput("cannot write " + path + ": no file can be made in its folder "
-            + systemError(folder));
+        throwOutput(
+            "cannot write " + path + ": no file can be made in its folder " + systemError(folder));
     }
     unlink(trial.c_str());
 }

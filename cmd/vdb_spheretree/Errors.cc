@@ -52,10 +52,7 @@ std::string oneLine(const std::string& text, size_t limit)
     return text.size() > limit ? line + "..." : line;
 }
 
-std::string systemError(const std::string& path)
-{
-    return path + ": " + std::strerror(errno);
-}
+std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
 
 void rethrowNamed(const std::string& where, ExitCode fallback)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Errors.h
 /// @brief How the command fails: its exit codes, the exception that carries one, and the one place
-/// where the exceptions of the library, of OpenVDB and of the system become a line of text and a code.
+/// where the exceptions of the library, of OpenVDB and of the system become a line of text and a
+/// code.
 
 #pragma once
 
@@ -25,7 +26,8 @@ enum ExitCode {
 class CommandError : public std::runtime_error {
 public:
     CommandError(ExitCode code, const std::string& message)
-        : std::runtime_error(message), mCode(code) {}
+        : std::runtime_error(message), mCode(code)
+    {}
     ExitCode code() const { return mCode; }
 
 private:
@@ -43,8 +45,8 @@ std::string oneLine(const std::string& text, size_t limit = 400);
 /// @return `path: reason` of the system's last error.
 std::string systemError(const std::string& path);
 
-/// @brief Rethrow the exception being handled as a CommandError, whatever it is; an interruption stays
-/// one.
+/// @brief Rethrow the exception being handled as a CommandError, whatever it is; an interruption
+/// stays one.
 /// @param where     the action or file that the message is to name
 /// @param fallback  the code of an exception that carries none
 [[noreturn]] void rethrowNamed(const std::string& where, ExitCode fallback);

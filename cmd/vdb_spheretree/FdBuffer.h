@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FdBuffer.h
-/// @brief A file or pipe as a C++ input stream that ends every short read with an exception, and that
-/// Ctrl-C wakes from waiting.
+/// @brief A file or pipe as a C++ input stream that ends every short read with an exception, and
+/// that Ctrl-C wakes from waiting.
 ///
-/// OpenVDB does not ask its stream whether a read succeeded, and works on with what happened to be in
-/// memory. Its reader is therefore given a stream that throws: a truncated file then fails where it
-/// ends, whatever it ends in.
+/// OpenVDB does not ask its stream whether a read succeeded, and works on with what happened to be
+/// in memory. Its reader is therefore given a stream that throws: a truncated file then fails where
+/// it ends, whatever it ends in.
 
 #pragma once
 

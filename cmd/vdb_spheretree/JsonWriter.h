@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file JsonWriter.h
-/// @brief Writes JSON, indented. Numbers read back to the same value; what JSON has no number for (an
-/// infinity, say) becomes null; text that is not UTF-8 is repaired.
+/// @brief Writes JSON, indented. Numbers read back to the same value; what JSON has no number for
+/// (an infinity, say) becomes null; text that is not UTF-8 is repaired.
 
 #pragma once
 

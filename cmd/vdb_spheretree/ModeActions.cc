@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ModeActions.cc
-/// @brief The small actions: -threads, -quiet, -verbose, -debug, -clear. Each holds for the actions after
-/// it.
+/// @brief The small actions: -threads, -quiet, -verbose, -debug, -clear. Each holds for the actions
+/// after it.
 
 #include "Actions.h"
 #include "Session.h"

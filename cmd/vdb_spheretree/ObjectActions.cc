@@ -31,8 +31,7 @@ void runMesh2ls(const ActionCall& call, Session& session)
         ? call.real("voxel")
         : spheretree::voxelSizeForDim(*mesh, int(call.integer("dim")));
     StackItem result;
-    result.grid =
-        spheretree::meshToLevelSet(*mesh, voxel, call.real("width"), &session.progress);
+    result.grid = spheretree::meshToLevelSet(*mesh, voxel, call.real("width"), &session.progress);
     result.grid->setName(call.given("name") ? call.text("name") : mesh->name);
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -66,8 +65,8 @@ bool isObjectGrid(const StackItem& item)
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
 {
     const auto& items = session.stack.items();
-    const bool anyGrid =
-        std::any_of(items.begin(), items.end(), [](const auto& item) { return isObjectGrid(*item); });
+    const bool anyGrid = std::any_of(
+        items.begin(), items.end(), [](const auto& item) { return isObjectGrid(*item); });
     if (!anyGrid && session.stack.holdsMesh()) {
         throwInput("a mesh has no inside yet: put -mesh2ls before this action");
     }

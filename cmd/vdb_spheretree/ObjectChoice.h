@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ObjectChoice.h
-/// @brief Which grid of the stack is the object that an action needs, and a tree's errors against it.
+/// @brief Which grid of the stack is the object that an action needs, and a tree's errors against
+/// it.
 
 #pragma once
 

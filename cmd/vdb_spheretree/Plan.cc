@@ -71,8 +71,9 @@ void Plan::addInput(const std::string& path)
         if (openvdb_spheretree::hasMeshReader()) return;
         throwInput("cannot read " + path + ": this program was built without the reader of meshes");
     default:
-        throwInput("cannot read " + path + ": files of this kind are not read; it reads .vdb, .vol, "
-            ".longvol and meshes (.obj, .ply, .stl, .off ...), by their extension");
+        throwInput("cannot read " + path
+            + ": files of this kind are not read; it reads .vdb, .vol, "
+              ".longvol and meshes (.obj, .ply, .stl, .off ...), by their extension");
     }
 }
 

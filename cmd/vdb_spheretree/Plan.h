@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Plan.h
-/// @brief The files of a command line, looked at before any work: inputs are there and of a known kind,
-/// outputs can be written, and nothing is written to one place twice.
+/// @brief The files of a command line, looked at before any work: inputs are there and of a known
+/// kind, outputs can be written, and nothing is written to one place twice.
 
 #pragma once
 

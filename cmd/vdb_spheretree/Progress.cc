@@ -13,8 +13,8 @@ namespace command {
 
 namespace {
 
-// Read by all threads, so an atomic rather than a sig_atomic_t; one without a lock may be stored to in
-// a signal handler just as well.
+// Read by all threads, so an atomic rather than a sig_atomic_t; one without a lock may be stored to
+// in a signal handler just as well.
 std::atomic<bool> sStop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

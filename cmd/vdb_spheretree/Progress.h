@@ -14,8 +14,8 @@
 
 namespace command {
 
-/// @brief Let Ctrl-C, SIGTERM and a closed terminal ask for a clean stop, and let a closed pipe or a
-/// full file be an error that is reported rather than a signal that kills.
+/// @brief Let Ctrl-C, SIGTERM and a closed terminal ask for a clean stop, and let a closed pipe or
+/// a full file be an error that is reported rather than a signal that kills.
 void catchSignals();
 
 /// @return whether the user has asked for a stop.
@@ -24,8 +24,8 @@ bool stopRequested();
 /// @throw openvdb_spheretree::Interrupted if the user has asked for a stop
 void throwIfStopped();
 
-/// Work asks from many threads, many times a second: asking is one relaxed load unless there is a bar
-/// to draw, and the bar is drawn at most ten times a second.
+/// Work asks from many threads, many times a second: asking is one relaxed load unless there is a
+/// bar to draw, and the bar is drawn at most ten times a second.
 class Progress : public openvdb::util::NullInterrupter {
 public:
     Progress();

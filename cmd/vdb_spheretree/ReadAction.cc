@@ -23,7 +23,8 @@ namespace {
 class NameFilter {
 public:
     explicit NameFilter(const std::vector<std::string>& names)
-        : mAll(std::count(names.begin(), names.end(), "*") > 0), mNames(names) {}
+        : mAll(std::count(names.begin(), names.end(), "*") > 0), mNames(names)
+    {}
 
     bool accepts(const std::string& name)
     {
@@ -39,8 +40,8 @@ public:
         for (const std::string& name : mSeen) seen += (seen.empty() ? "'" : ", '") + name + "'";
         for (const std::string& name : mNames) {
             if (mSeen.count(name)) continue;
-            throwInput("no grid is named '" + name + "'; there " + (mSeen.size() == 1 ? "is " : "are ")
-                + (seen.empty() ? "none" : oneLine(seen)));
+            throwInput("no grid is named '" + name + "'; there "
+                + (mSeen.size() == 1 ? "is " : "are ") + (seen.empty() ? "none" : oneLine(seen)));
         }
     }
 

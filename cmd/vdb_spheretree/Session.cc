@@ -34,7 +34,9 @@ void Session::runOne(const ActionCall& call)
 {
     const Stopwatch watch;
     const bool silent = call.spec().quiet || verbosity == Verbosity::Quiet;
-    const auto finish = [&] { if (!silent) progress.endAction(); };
+    const auto finish = [&] {
+        if (!silent) progress.endAction();
+    };
     if (!silent) progress.beginAction(call.typed());
     try {
         call.spec().run(call, *this);
@@ -46,10 +48,7 @@ void Session::runOne(const ActionCall& call)
     if (!silent) reportTime(call.typed(), watch.seconds());
 }
 
-std::ostream& Session::textOut() const
-{
-    return plan.stdoutIsTaken() ? std::cerr : std::cout;
-}
+std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
 
 void Session::remark(const std::string& line)
 {

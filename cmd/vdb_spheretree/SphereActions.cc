@@ -48,7 +48,8 @@ const SphereTreeLevel& levelOf(const ActionCall& call, const SphereTree& tree)
         + std::to_string(tree.levels.front().level) + " to " + std::to_string(tree.root().level));
 }
 
-openvdb::GridBase::Ptr maskOf(const SphereTree& tree, const SphereTreeLevel& level, Session& session)
+openvdb::GridBase::Ptr maskOf(
+    const SphereTree& tree, const SphereTreeLevel& level, Session& session)
 {
     const auto spheres = spheretree::levelSpheres(tree, level);
     const auto covered =
@@ -59,8 +60,8 @@ openvdb::GridBase::Ptr maskOf(const SphereTree& tree, const SphereTreeLevel& lev
     return mask;
 }
 
-openvdb::GridBase::Ptr levelSetOf(const SphereTree& tree, const SphereTreeLevel& level,
-    const ActionCall& call, Session& session)
+openvdb::GridBase::Ptr levelSetOf(
+    const SphereTree& tree, const SphereTreeLevel& level, const ActionCall& call, Session& session)
 {
     const double voxel = call.given("voxel") ? call.real("voxel") : tree.voxelSize();
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, call.real("width"));
@@ -75,7 +76,7 @@ openvdb::GridBase::Ptr levelSetOf(const SphereTree& tree, const SphereTreeLevel&
     return grid;
 }
 
-template<typename MakeGrid>
+template <typename MakeGrid>
 void replaceTree(const ActionCall& call, Session& session, const MakeGrid& makeGrid)
 {
     StackItem& input = session.stack.selectTree(call.text("vdb"));
@@ -101,17 +102,15 @@ void runLevelSet(const ActionCall& call, Session& session)
     });
 }
 
-OptionSpec levelOption()
-{
-    return integer("level", "0", 0, 1000, "the level; 0 is the finest");
-}
+OptionSpec levelOption() { return integer("level", "0", 0, 1000, "the level; 0 is the finest"); }
 
 } // namespace
 
 ActionSpec spheres2maskAction()
 {
     ActionSpec action{"spheres2mask", "", "level",
-        "the voxels whose centres lie in a level's spheres (without padding), on the source's grid"};
+        "the voxels whose centres lie in a level's spheres (without padding), on the source's "
+        "grid"};
     action.options = {levelOption(), vdbOption("the tree"), keepOption(),
         nameOption("", "name of the result (by default that of the tree)")};
     action.run = runMask;

@@ -46,7 +46,8 @@ std::string StackItem::description() const
         }
         details += ", ";
     }
-    return kind + " '" + oneLine(name(), 60) + "' (" + details + "from " + oneLine(source, 120) + ")";
+    return kind + " '" + oneLine(name(), 60) + "' (" + details + "from " + oneLine(source, 120)
+        + ")";
 }
 
 void Stack::beginBatch(const std::string& source)
@@ -106,8 +107,8 @@ std::string Stack::listing() const
     return shown < mItems.size() ? all + ", ..." : all;
 }
 
-StackItem& Stack::selectAmong(const std::string& what, const Suits& suits,
-    const std::string& ageOrName, bool meshes)
+StackItem& Stack::selectAmong(
+    const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes)
 {
     if (!ageOrName.empty()) {
         StackItem* const item = find(ageOrName, meshes);
@@ -131,8 +132,7 @@ StackItem& Stack::selectAmong(const std::string& what, const Suits& suits,
         + "; choose one: here with vdb=, or with grids= of -read");
 }
 
-StackItem& Stack::select(
-    const std::string& what, const Suits& suits, const std::string& ageOrName)
+StackItem& Stack::select(const std::string& what, const Suits& suits, const std::string& ageOrName)
 {
     return selectAmong(what, suits, ageOrName, false);
 }
@@ -144,7 +144,8 @@ StackItem& Stack::selectTree(const std::string& ageOrName)
 
 StackItem& Stack::selectMesh(const std::string& ageOrName)
 {
-    return selectAmong("a mesh", [](const StackItem&) { return true; }, ageOrName, true);
+    return selectAmong(
+        "a mesh", [](const StackItem&) { return true; }, ageOrName, true);
 }
 
 std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNames)

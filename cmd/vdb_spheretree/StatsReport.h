@@ -14,8 +14,8 @@ namespace command {
 struct LevelRadii {
     double smallest = 0, largest = 0;
 };
-LevelRadii radiiOf(const openvdb_spheretree::SphereTree& tree,
-    const openvdb_spheretree::SphereTreeLevel& level);
+LevelRadii radiiOf(
+    const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
 
 /// @return the most memory that the process has held so far, in bytes.
 int64_t peakBytes();

@@ -38,8 +38,9 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
         return row;
     }
     const auto& error = *level.error;
-    row.insert(row.end(), {withCommas(error.covered), withCommas(error.excess),
-        withCommas(error.missing), fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
+    row.insert(row.end(),
+        {withCommas(error.covered), withCommas(error.excess), withCommas(error.missing),
+            fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
     return row;
 }
 
@@ -89,8 +90,8 @@ void printSeconds(std::ostream& out, const Session& session)
 
 LevelRadii radiiOf(const SphereTree& tree, const SphereTreeLevel& level)
 {
-    const auto [smallest, largest] = std::minmax_element(
-        tree.radius.begin() + level.begin, tree.radius.begin() + level.end);
+    const auto [smallest, largest] =
+        std::minmax_element(tree.radius.begin() + level.begin, tree.radius.begin() + level.end);
     return level.size() ? LevelRadii{*smallest, *largest} : LevelRadii{};
 }
 

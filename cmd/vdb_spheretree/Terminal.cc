@@ -20,8 +20,7 @@ std::string coloured(const std::ostream& stream, Colour colour, const std::strin
 {
     const char* const noColour = std::getenv("NO_COLOR");
     if (!isTerminal(stream) || (noColour && *noColour)) return text;
-    const char* const code =
-        colour == Colour::Red ? "31" : colour == Colour::Green ? "32" : "1";
+    const char* const code = colour == Colour::Red ? "31" : colour == Colour::Green ? "32" : "1";
     return "\033[" + std::string(code) + "m" + text + "\033[0m";
 }
 

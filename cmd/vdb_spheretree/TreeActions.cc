@@ -38,7 +38,8 @@ SphereTreeSettings settingsOf(const ActionCall& call)
 void checkSpheretree(const ActionCall& call, Plan&)
 {
     if (call.text("tree") == "tight") {
-        throwUsage("tree=tight is not available yet in this version; there are extended and reversible");
+        throwUsage(
+            "tree=tight is not available yet in this version; there are extended and reversible");
     }
     settingsOf(call).validate();
 }
@@ -110,9 +111,10 @@ void runCheck(const ActionCall& call, Session& session)
     throwIfStopped();
     for (const std::string& failure : failures) session.textOut() << oneLine(failure) << "\n";
     if (!failures.empty()) {
-        throw CommandError(kCheckFailed, item.description() + " does not hold what it promises: "
-            + std::to_string(failures.size()) + " of the checks failed, the first: "
-            + failures.front());
+        throw CommandError(kCheckFailed,
+            item.description()
+                + " does not hold what it promises: " + std::to_string(failures.size())
+                + " of the checks failed, the first: " + failures.front());
     }
     if (session.verbosity != Verbosity::Quiet) session.textOut() << "all checks hold\n";
 }
@@ -133,13 +135,14 @@ std::vector<OptionSpec> spheretreeOptions()
             "how a level is rebuilt before it is coarsened (extended)"),
         choice("scale", {"tight", "paper"}, "how a level's radii become those of level 0"),
         text("padding", "cubes",
-            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number of "
+            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
+            "of "
             "voxels"),
         flag("dag", false, "collect and store the edges of the Sphere-DAG too"),
         flag("errors", true, "count the exact error of every level, and store it"),
         vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree")};
-    for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching", "error",
-             "distance", "cuts", "side", "memory"}) {
+    for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching",
+             "error", "distance", "cuts", "side", "memory"}) {
         options.push_back(later(name));
     }
     return options;
@@ -181,7 +184,8 @@ ActionSpec checkAction()
         "verify everything that a sphere-tree promises against its object; exit code 6 if anything "
         "fails"};
     action.options = {text("vdb", "",
-        "the object, by its age on the stack (0 is the newest) or its name; by default what the tree "
+        "the object, by its age on the stack (0 is the newest) or its name; by default what the "
+        "tree "
         "was built from, or the only grid that suits")};
     action.run = runCheck;
     return action;

@@ -58,9 +58,9 @@ void checkVoxelCount(const openvdb::GridBase& grid, const std::string& path)
     if (!stored) return;
     const auto count = int64_t(grid.activeVoxelCount());
     if (stored->value() == count) return;
-    throwInput(path + ": grid '" + oneLine(grid.getName(), 80) + "' has "
-        + std::to_string(count) + " active voxels where the file says "
-        + std::to_string(stored->value()) + ": it is truncated or damaged");
+    throwInput(path + ": grid '" + oneLine(grid.getName(), 80) + "' has " + std::to_string(count)
+        + " active voxels where the file says " + std::to_string(stored->value())
+        + ": it is truncated or damaged");
 }
 
 /// OpenVDB's own writer, given our stream: io::File would not notice a full disk.
@@ -72,7 +72,8 @@ public:
     }
 };
 
-/// A header is: magic (8 bytes), file version (4), library version (8), has offsets (1), identifier.
+/// A header is: magic (8 bytes), file version (4), library version (8), has offsets (1),
+/// identifier.
 constexpr size_t kTagOffset = 21;
 constexpr size_t kTagSize = 36;
 
@@ -145,8 +146,8 @@ openvdb::GridPtrVec readVdb(const std::string& path)
     return grids;
 }
 
-void writeVdb(std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression,
-    bool seekable)
+void writeVdb(
+    std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable)
 {
     ArchiveWriter archive;
     archive.setCompression(compression);

@@ -13,7 +13,8 @@ namespace command {
 
 /// @brief Every grid of a `.vdb`, whole and in memory, in the file's order.
 /// @param path  a file, or `stdin.vdb`
-/// @throw CommandError (input) naming the file: missing, not a .vdb, truncated, damaged, empty, or with
+/// @throw CommandError (input) naming the file: missing, not a .vdb, truncated, damaged, empty, or
+/// with
 ///        another number of voxels than it says
 /// @throw Interrupted if the user has asked for a stop
 openvdb::GridPtrVec readVdb(const std::string& path);
@@ -23,7 +24,7 @@ openvdb::GridPtrVec readVdb(const std::string& path);
 /// @param out          at its start, open for reading too
 /// @param compression  flags of openvdb::io
 /// @param seekable     a file, which gets the offsets of its grids; or a pipe
-void writeVdb(std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression,
-    bool seekable);
+void writeVdb(
+    std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable);
 
 } // namespace command

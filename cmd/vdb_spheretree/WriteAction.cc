@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WriteAction.cc
-/// @brief -write: grids and sphere-trees to files. All files of one -write are complete before the first
-/// takes its place.
+/// @brief -write: grids and sphere-trees to files. All files of one -write are complete before the
+/// first takes its place.
 
 #include "Actions.h"
 #include "AtomicFile.h"
@@ -57,8 +57,9 @@ void check(const ActionCall& call, Plan& plan)
         }
         const FileKind kind = fileKind(path);
         if (kind != FileKind::Vdb && kind != FileKind::Csv) {
-            throwUsage(path + ": files of this kind are not written; it writes .vdb (or stdout.vdb) "
-                "and .csv");
+            throwUsage(path
+                + ": files of this kind are not written; it writes .vdb (or stdout.vdb) "
+                  "and .csv");
         }
         plan.addOutput(path);
     }
@@ -114,7 +115,8 @@ void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
 class Writer {
 public:
     Writer(const ActionCall& call, const std::vector<StackItem*>& items)
-        : mItems(items), mCompression(compressionOf(call)) {}
+        : mItems(items), mCompression(compressionOf(call))
+    {}
 
     void write(const std::string& path)
     {
@@ -174,8 +176,7 @@ ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb, stdout.vdb), or one sphere-tree as a table (.csv)"};
-    action.options = {
-        list("files", "", "files to write, or stdout.vdb; the extension says how"),
+    action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file main.cc
-/// @brief vdb_spheretree: parse the whole line, check all that can be checked, run it action by action.
+/// @brief vdb_spheretree: parse the whole line, check all that can be checked, run it action by
+/// action.
 
 #include "ActionParser.h"
 #include "Help.h"

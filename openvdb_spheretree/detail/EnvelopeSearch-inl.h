@@ -18,7 +18,7 @@
 /// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
 /// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype).
 ///
-/// An Op supplies: Value, kTracksArg, penalty(d), candidate(), better(), best(), load(), store()
+/// An Op supplies: Value, kTracksStep, penalty(d), candidate(), better(), best(), load(), store()
 /// and blockReach(); see MinPlus.cc and MaxPlus.cc. This header is compiled once per instruction
 /// set.
 
@@ -105,10 +105,10 @@ private:
             return;
         }
         const int middle = (first + last) / 2;
-        int firstArg, lastArg;
-        searchMiddle(middle, low, high, firstArg, lastArg);
-        divide(first, middle - 1, low, lastArg);
-        divide(middle + 1, last, firstArg, high);
+        int firstBest, lastBest;
+        searchMiddle(middle, low, high, firstBest, lastBest);
+        divide(first, middle - 1, low, lastBest);
+        divide(middle + 1, last, firstBest, high);
     }
 
     void searchAll(int first, int last, int low, int high)
@@ -128,46 +128,48 @@ private:
         low = std::max(low, row - reach);
         high = std::min(high, row + N - 1 + reach);
         const V first = mOp.load(low, mLane);
-        V best[N], arg[N];
+        V best[N], step[N]; // where the best is, as steps from `row`
         for (int k = 0; k < N; ++k) {
             best[k] = mOp.candidate(first, hn::Set(d, mOp.penalty(row + k - low)));
-            arg[k] = hn::Set(d, Value(low));
+            step[k] = hn::Set(d, Value(low - row));
         }
         for (int j = low + 1; j <= high; ++j) {
             const V value = mOp.load(j, mLane);
-            const V here = hn::Set(d, Value(j));
+            const V here = hn::Set(d, Value(j - row));
             for (int k = 0; k < N; ++k) {
                 const V next = mOp.candidate(value, hn::Set(d, mOp.penalty(row + k - j)));
-                if (Op::kTracksArg)
-                    arg[k] = hn::IfThenElse(mOp.better(next, best[k]), here, arg[k]);
+                if (Op::kTracksStep) {
+                    step[k] = hn::IfThenElse(mOp.better(next, best[k]), here, step[k]);
+                }
                 best[k] = mOp.best(next, best[k]);
             }
         }
-        for (int k = 0; k < N; ++k) mOp.store(row + k, mLane, best[k], arg[k]);
+        for (int k = 0; k < N; ++k) {
+            mOp.store(row + k, mLane, best[k], hn::Sub(step[k], hn::Set(d, Value(k))));
+        }
     }
 
     /// One row, and between which rows its lanes found their best.
-    void searchMiddle(int row, int low, int high, int& firstArg, int& lastArg)
+    void searchMiddle(int row, int low, int high, int& firstBest, int& lastBest)
     {
         const D d;
         const int reach = mReach[row / kBlockRows];
         low = std::max(low, row - reach);
         high = std::min(high, row + reach);
         V best = mOp.candidate(mOp.load(low, mLane), hn::Set(d, mOp.penalty(row - low)));
-        V arg = hn::Set(d, Value(low));
+        V step = hn::Set(d, Value(low - row)); // a row's number need not fit a lane; steps do
         for (int j = low + 1; j <= high; ++j) {
             const V next = mOp.candidate(mOp.load(j, mLane), hn::Set(d, mOp.penalty(row - j)));
-            arg = hn::IfThenElse(mOp.better(next, best), hn::Set(d, Value(j)), arg);
+            step = hn::IfThenElse(mOp.better(next, best), hn::Set(d, Value(j - row)), step);
             best = mOp.best(next, best);
         }
-        mOp.store(row, mLane, best, arg);
+        mOp.store(row, mLane, best, step);
         // A background voxel cuts its line, so it bounds both sides by itself.
         const auto background = hn::Eq(mOp.load(row, mLane), hn::Zero(d));
-        arg = hn::IfThenElse(background, hn::Set(d, Value(row)), arg);
-        // As signed numbers: candidate -1 is a row of its own.
+        step = hn::IfThenZeroElse(background, step);
         const hn::RebindToSigned<D> ds;
-        firstArg = int(hn::GetLane(hn::MinOfLanes(ds, hn::BitCast(ds, arg))));
-        lastArg = int(hn::GetLane(hn::MaxOfLanes(ds, hn::BitCast(ds, arg))));
+        firstBest = row + int(hn::GetLane(hn::MinOfLanes(ds, hn::BitCast(ds, step))));
+        lastBest = row + int(hn::GetLane(hn::MaxOfLanes(ds, hn::BitCast(ds, step))));
     }
 
     const Op& mOp;

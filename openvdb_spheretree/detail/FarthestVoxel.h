@@ -10,9 +10,9 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @return the largest squared distance, in voxels, of a voxel of @a cells to the object; 0 if
-/// there
-///         are no cells. Exact (below 2^29 voxels), and the same for any number of threads.
+/// @return the largest squared distance, in voxels, of a voxel of @a cells to the object; 0
+///         if there are no cells. Exact (below 2^29 voxels), and the same for any number of
+///         threads.
 /// @note Cost grows with the number of cells, each of which is mostly one early-ending query.
 int64_t farthestDistSq(const std::vector<VoxelCell>& cells, const NearestVoxel& object,
     openvdb::util::NullInterrupter* interrupter);

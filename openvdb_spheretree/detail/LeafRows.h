@@ -24,6 +24,9 @@ namespace detail {
 
 constexpr int kLanes = 64; ///< values in a row
 
+/// @return where a lane of a row is; rows may be -1, and too many for an int to count their values.
+inline std::ptrdiff_t at(int row, int lane) { return std::ptrdiff_t(row) * kLanes + lane; }
+
 /// Rows of a run, with `margin` zero rows before the first and after the last. Grows, never
 /// shrinks; aligned for any vector width.
 template <typename T>

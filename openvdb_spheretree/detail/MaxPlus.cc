@@ -22,7 +22,7 @@ struct MaxPlusOp {
     using Offset = typename Power::Offset;
     using D = hn::CappedTag<Value, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kTracksArg = true;
+    static constexpr bool kTracksStep = true;
 
     const Value* in;
     Value* out;
@@ -32,21 +32,20 @@ struct MaxPlusOp {
     {
         return Value(Value(distance) * distance) << Power::kShift;
     }
-    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + row * kLanes + lane); }
+    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
     static HWY_INLINE V candidate(V key, V penalty) { return hn::Sub(key, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Gt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Max(a, b); }
 
-    HWY_INLINE void store(int row, int lane, V key, V arg) const
+    HWY_INLINE void store(int row, int lane, V key, V step) const
     {
         const D d;
         const auto background = hn::Eq(load(row, lane), hn::Zero(d));
-        const int at = row * kLanes + lane;
-        if (out) hn::Store(hn::IfThenZeroElse(background, key), d, out + at);
+        const std::ptrdiff_t place = at(row, lane);
+        if (out) hn::Store(hn::IfThenZeroElse(background, key), d, out + place);
         HWY_ALIGN Value steps[kLanes];
-        const V step = hn::Sub(arg, hn::Set(d, Value(row)));
         hn::Store(hn::IfThenZeroElse(background, step), d, steps);
-        for (std::size_t i = 0; i < hn::Lanes(d); ++i) offset[at + i] = Offset(steps[i]);
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i) offset[place + i] = Offset(steps[i]);
     }
 
     /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block,

@@ -27,13 +27,13 @@ void StepsToBackground(const uint64_t* words, int rows, uint16_t* steps)
         auto count = hn::Zero(d);
         for (int row = 0; row < rows; ++row) {
             count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
-            hn::Store(count, d, column + row * kLanes);
+            hn::Store(count, d, column + at(row, 0));
         }
         count = hn::Zero(d);
         for (int row = rows - 1; row >= 0; --row) {
             count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
-            const auto before = hn::Load(d, column + row * kLanes);
-            hn::Store(hn::Min(before, count), d, column + row * kLanes);
+            const auto before = hn::Load(d, column + at(row, 0));
+            hn::Store(hn::Min(before, count), d, column + at(row, 0));
         }
     }
 }
@@ -43,7 +43,7 @@ struct MinPlusOp {
     using Value = T;
     using D = hn::CappedTag<T, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kTracksArg = false;
+    static constexpr bool kTracksStep = false;
 
     const T* in;
     T* out;
@@ -53,7 +53,7 @@ struct MinPlusOp {
         const uint32_t square = uint32_t(distance) * uint32_t(distance);
         return T(std::min(square, sizeof(T) == 2 ? 65535u : kWideMax));
     }
-    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + row * kLanes + lane); }
+    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
     static HWY_INLINE hn::Vec<hn::CappedTag<uint16_t, kLanes>> add(
         hn::Vec<hn::CappedTag<uint16_t, kLanes>> a, hn::Vec<hn::CappedTag<uint16_t, kLanes>> b)
     {
@@ -69,7 +69,7 @@ struct MinPlusOp {
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
     HWY_INLINE void store(int row, int lane, V value, V) const
     {
-        hn::Store(value, D(), out + row * kLanes + lane);
+        hn::Store(value, D(), out + at(row, lane));
     }
 
     /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block

@@ -42,7 +42,7 @@ inline double toDoubleUp(int64_t x)
 {
     const double rounded = double(x);
     // 2^63 itself does not convert back; it is above every int64 already.
-    return rounded < 9.2e18 && int64_t(rounded) < x ? nextUp(rounded) : rounded;
+    return rounded < 0x1p63 && int64_t(rounded) < x ? nextUp(rounded) : rounded;
 }
 
 inline float toFloatUp(double x)

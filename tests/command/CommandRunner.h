@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CommandRunner.h
-/// @brief For tests of the command: a folder of their own, small inputs, and the program run as a user
-/// runs it, with what it printed and how it ended.
+/// @brief For tests of the command: a folder of their own, small inputs, and the program run as a
+/// user runs it, with what it printed and how it ended.
 
 #pragma once
 
@@ -74,6 +74,15 @@ public:
         _exit(127);
     }
 
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() // a test that fails half way leaves nothing running
+    {
+        if (mProcess <= 0) return;
+        kill(mProcess, SIGKILL);
+        waitpid(mProcess, nullptr, 0);
+    }
+
     void send(int signal) { kill(mProcess, signal); }
 
     /// @return whether @a text has come on stderr, waiting for it half a minute at most.
@@ -90,6 +99,7 @@ public:
     {
         int status = 0;
         waitpid(mProcess, &status, 0);
+        mProcess = -1;
         Result result;
         if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
         result.out = readText(mFolder / "stdout.txt");
@@ -141,8 +151,8 @@ protected:
         return names;
     }
 
-    Running start(const std::vector<std::string>& arguments,
-        const std::string& input = "/dev/null", const std::function<void()>& prepare = {}) const
+    Running start(const std::vector<std::string>& arguments, const std::string& input = "/dev/null",
+        const std::function<void()>& prepare = {}) const
     {
         std::vector<std::string> line = {VDB_SPHERETREE_COMMAND};
         line.insert(line.end(), arguments.begin(), arguments.end());
@@ -165,7 +175,8 @@ protected:
     }
 
     /// Values by x, then y, then z, as in the file.
-    void writeVol(const std::string& name, const openvdb::Coord& size, const std::string& values) const
+    void writeVol(
+        const std::string& name, const openvdb::Coord& size, const std::string& values) const
     {
         std::ostringstream text;
         text << "Version: 2\nX: " << size[0] << "\nY: " << size[1] << "\nZ: " << size[2]

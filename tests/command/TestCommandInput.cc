@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input that is missing, damaged or of the wrong kind: exit code 3, a message that names the file, and
-// nothing written.
+// Input that is missing, damaged or of the wrong kind: exit code 3, a message that names the file,
+// and nothing written.
 
 #include "CommandRunner.h"
 
@@ -49,12 +49,12 @@ protected:
     }
 
     /// Sets one attribute of every point.
-    template<typename Value>
+    template <typename Value>
     void damage(PointDataGrid& points, const std::string& attribute, Value value) const
     {
         for (auto leaf = points.tree().beginLeaf(); leaf; ++leaf) {
-            auto handle =
-                openvdb::points::AttributeWriteHandle<Value>::create(leaf->attributeArray(attribute));
+            auto handle = openvdb::points::AttributeWriteHandle<Value>::create(
+                leaf->attributeArray(attribute));
             for (openvdb::Index i = 0; i < handle->size(); ++i) handle->set(i, value);
         }
     }
@@ -97,7 +97,8 @@ TEST_F(CommandInput, AVdbTruncatedAnywhere)
     ASSERT_EQ(run("-read whole.vdb -spheretree").exitCode, 0);
     const std::string whole = command_test::readText(path("whole.vdb"));
     // Each length of the headers, then in steps that are no multiple of anything.
-    for (size_t length = 0; length < whole.size(); length += length < 700 ? 23 : 1 + whole.size() / 41) {
+    for (size_t length = 0; length < whole.size();
+         length += length < 700 ? 23 : 1 + whole.size() / 41) {
         command_test::writeText(path("cut.vdb"), whole.substr(0, length));
         SCOPED_TRACE(length);
         expectInputError("-read cut.vdb -spheretree -write t.vdb", "cut.vdb");
@@ -109,8 +110,8 @@ TEST_F(CommandInput, AVdbTruncatedAnywhere)
 TEST_F(CommandInput, ATruncatedPipe)
 {
     writeGrids("whole.vdb", {sphereGrid("ball", 2)});
-    const Result result = shell(
-        "head -c 9000 whole.vdb | $VDB_SPHERETREE -read stdin.vdb -spheretree -write t.vdb");
+    const Result result =
+        shell("head -c 9000 whole.vdb | $VDB_SPHERETREE -read stdin.vdb -spheretree -write t.vdb");
     EXPECT_EQ(result.exitCode, 3) << result.err;
     EXPECT_NE(result.err.find("stdin.vdb"), std::string::npos);
     EXPECT_EQ(command_test::readText(path("t.vdb")), "precious");
@@ -208,7 +209,8 @@ TEST_F(CommandInput, OneGridOfSeveralHasToBeChosen)
     writeGrids("two.vdb", {sphereGrid("one"), sphereGrid("other")});
     expectInputError("-read two.vdb -spheretree -write t.vdb", "'one'");
     expectInputError("-read two.vdb -spheretree -write t.vdb", "'other'");
-    expectInputError("-read two.vdb grids=third -spheretree -write t.vdb", "no grid is named 'third'");
+    expectInputError(
+        "-read two.vdb grids=third -spheretree -write t.vdb", "no grid is named 'third'");
     expectInputError("-read two.vdb -spheretree vdb=third -write t.vdb", "no 'third'");
     expectInputError("-read two.vdb -spheretree vdb=2 -write t.vdb", "no '2'");
     EXPECT_EQ(run("-read two.vdb grids=other -spheretree -write a.vdb").exitCode, 0);

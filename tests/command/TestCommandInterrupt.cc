@@ -47,8 +47,9 @@ TEST_F(CommandInterrupt, WakesACommandThatWaitsForItsInput)
     ASSERT_EQ(mkfifo(path("silent").c_str(), 0600), 0);
     writeBlock("a.vol");
     const auto before = files();
-    Running command = start({"-read", "a.vol", "-read", "stdin.vdb", "-spheretree", "-write", "t.vdb"},
-        path("silent").string());
+    Running command =
+        start({"-read", "a.vol", "-read", "stdin.vdb", "-spheretree", "-write", "t.vdb"},
+            path("silent").string());
     ASSERT_TRUE(command.waitForError("-read a.vol ... completed"));
     command.send(SIGINT);
     EXPECT_EQ(command.wait().exitCode, 5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where results go: targets that cannot be written (exit code 4), files that are whole or absent, the
-// same bytes always, pipes, stdout and stderr.
+// Where results go: targets that cannot be written (exit code 4), files that are whole or absent,
+// the same bytes always, pipes, stdout and stderr.
 
 #include "CommandRunner.h"
 
@@ -26,7 +26,8 @@ protected:
         const Result result = run("-read a.vol -spheretree -write " + target);
         EXPECT_EQ(result.exitCode, 4) << result.err;
         EXPECT_NE(result.err.find(target), std::string::npos) << result.err;
-        EXPECT_EQ(result.err.find("completed"), std::string::npos) << "work was done: " << result.err;
+        EXPECT_EQ(result.err.find("completed"), std::string::npos)
+            << "work was done: " << result.err;
     }
 };
 
@@ -69,8 +70,9 @@ TEST_F(CommandOutput, ADiskThatIsFullLeavesTheOldFile)
         setrlimit(RLIMIT_FSIZE, &small);
     };
     // stderr is a file too; -quiet keeps it short.
-    const Result result = start({"-quiet", "-read", "a.vol", "-spheretree", "-write", "t.vdb"},
-        "/dev/null", limit).wait();
+    const Result result =
+        start({"-quiet", "-read", "a.vol", "-spheretree", "-write", "t.vdb"}, "/dev/null", limit)
+            .wait();
     EXPECT_EQ(result.exitCode, 4) << result.err;
     EXPECT_NE(result.err.find("t.vdb"), std::string::npos) << result.err;
     EXPECT_EQ(readText(path("t.vdb")), "precious");
@@ -188,9 +190,9 @@ TEST_F(CommandOutput, StdoutCarriesNothingButTheGrids)
 
 TEST_F(CommandOutput, AClosedPipeIsAnOutputError)
 {
-    const Result result = shell(
-        "{ $VDB_SPHERETREE -read a.vol -spheretree -spheres2ls voxel=0.05 -write stdout.vdb codec=none;"
-        " echo $? > code; } | true");
+    const Result result = shell("{ $VDB_SPHERETREE -read a.vol -spheretree -spheres2ls voxel=0.05 "
+                                "-write stdout.vdb codec=none;"
+                                " echo $? > code; } | true");
     EXPECT_EQ(readText(path("code")), "4\n") << result.err;
     EXPECT_EQ(shell("$VDB_SPHERETREE -read a.vol -write stdout.vdb | cat > c.vdb").exitCode, 0);
     EXPECT_EQ(readGrids("c.vdb").size(), 1u) << "an open one is none";
@@ -201,10 +203,10 @@ TEST_F(CommandOutput, VdbToolAndVdbPrintTakeWhatWeWrite)
     if (!isInstalled("vdb_tool") || !isInstalled("vdb_print")) {
         GTEST_SKIP() << "needs vdb_tool and vdb_print";
     }
-    const Result piped = shell(
-        "vdb_tool -quiet -sphere dim=40 -o stdout.vdb"
-        " | $VDB_SPHERETREE -quiet -read stdin.vdb -spheretree dag=1 -write stdout.vdb"
-        " | vdb_tool -quiet -read stdin.vdb -write tool.vdb && vdb_print -l tool.vdb");
+    const Result piped =
+        shell("vdb_tool -quiet -sphere dim=40 -o stdout.vdb"
+              " | $VDB_SPHERETREE -quiet -read stdin.vdb -spheretree dag=1 -write stdout.vdb"
+              " | vdb_tool -quiet -read stdin.vdb -write tool.vdb && vdb_print -l tool.vdb");
     EXPECT_EQ(piped.exitCode, 0) << piped.err;
     EXPECT_NE(piped.out.find("spheretree"), std::string::npos) << piped.out << piped.err;
     const Result back = run("-read tool.vdb -stats");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a command line itself is found before any work: exit code 2, a message that names
-// the action or option, and an existing target keeps its bytes.
+// What is wrong with a command line itself is found before any work: exit code 2, a message that
+// names the action or option, and an existing target keeps its bytes.
 
 #include "CommandRunner.h"
 
@@ -80,6 +80,7 @@ const BadLine kBadLines[] = {
     {"NothingToWorkOn", "-spheretree -write t.vdb", "put -read before it"},
     {"NoFileToRead", "-read grids=a -write t.vdb", "-read: names no file"},
     {"NoFileToWrite", "-read a.vol -spheretree -write codec=zip", "-write: names no file"},
+    {"ConfigMissing", "-config -read a.vol -write t.vdb", "-config: names no file"},
     {"HelpOnNothing", "-help spheretrees", "did you mean spheretree"},
 };
 
@@ -109,6 +110,26 @@ TEST_F(CommandUsage, DashesAndPrefixesAreFree)
     EXPECT_EQ(result.exitCode, 2) << "a value is not an option: it may not be shortened";
     EXPECT_EQ(run("---i fil=a.vol --spheretree reversible fact=3 -o t.vdb").exitCode, 0);
     EXPECT_TRUE(exists("t.vdb"));
+}
+
+TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
+{
+    writeBlock("a b.vol");
+    command_test::writeText(path("c.txt"),
+        "vdb_spheretree 0.1.0\n# a comment\nread 'a b.vol'\n\n"
+        "  -spheretree factor=3 # and another\r\n");
+    const Result result = run("-config c.txt -stats json=- -write t.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("\"factor\": 3"), std::string::npos);
+    command_test::writeText(path("self.txt"), "config self.txt\n");
+    EXPECT_EQ(run("-config self.txt").exitCode, 2);
+    command_test::writeText(path("bad.txt"), "read 'a b.vol\n");
+    const Result bad = run("-config bad.txt");
+    EXPECT_EQ(bad.exitCode, 2);
+    EXPECT_NE(bad.err.find("bad.txt, line 1"), std::string::npos) << bad.err;
+    const Result missing = run("-config nowhere.txt");
+    EXPECT_EQ(missing.exitCode, 3);
+    EXPECT_NE(missing.err.find("nowhere.txt"), std::string::npos);
 }
 
 TEST_F(CommandUsage, HelpGoesToStdout)

@@ -50,11 +50,11 @@ TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
     EXPECT_EQ(valuesOf(json, "level").front(), "0");
     EXPECT_EQ(valuesOf(json, "excess").front(), "0") << "level 0 is the object";
     for (const std::string& missing : valuesOf(json, "missing")) EXPECT_EQ(missing, "0");
-    for (const char* key : {"name", "leaves", "tiles", "bbox_min", "bbox_max", "voxel_size", "origin",
-             "tree", "dim", "dist", "parent", "final_fit", "reconstruct", "scale", "padding", "dag",
-             "pyramid_voxels", "radius_min", "radius_max", "covered", "hamming_percent", "hausdorff",
-             "read", "mask", "pyramid", "distance", "power", "medial", "error", "write", "total",
-             "peak_bytes"}) {
+    for (const char* key : {"name", "leaves", "tiles", "bbox_min", "bbox_max", "voxel_size",
+             "origin", "tree", "dim", "dist", "parent", "final_fit", "reconstruct", "scale",
+             "padding", "dag", "pyramid_voxels", "radius_min", "radius_max", "covered",
+             "hamming_percent", "hausdorff", "read", "mask", "pyramid", "distance", "power",
+             "medial", "error", "write", "total", "peak_bytes"}) {
         EXPECT_NE(json.find("\"" + std::string(key) + "\": "), std::string::npos) << key;
     }
 }
@@ -102,7 +102,8 @@ TEST_F(CommandWork, AStoredTreeIsTheTreeThatWasBuilt)
     EXPECT_EQ(readText(path("t.vdb")), readText(path("u.vdb")));
     ASSERT_EQ(run("-read t.vdb grids=b -write v.vdb").exitCode, 0);
     EXPECT_EQ(readText(path("t.vdb")), readText(path("v.vdb"))) << "a tree brings its edges";
-    EXPECT_EQ(readText(path("t.csv")).rfind("level,id,parent,x,y,z,radius,i,j,k,radius_sq\n", 0), 0u);
+    EXPECT_EQ(
+        readText(path("t.csv")).rfind("level,id,parent,x,y,z,radius,i,j,k,radius_sq\n", 0), 0u);
 }
 
 TEST_F(CommandWork, CheckPassesWhatIsRightAndFailsWhatIsWrong)
@@ -122,7 +123,8 @@ TEST_F(CommandWork, CheckPassesWhatIsRightAndFailsWhatIsWrong)
 TEST_F(CommandWork, LevelZeroAsAMaskIsTheObject)
 {
     ASSERT_EQ(run("-read ball.vdb -mask name=o -write o.vdb").exitCode, 0);
-    ASSERT_EQ(run("-read ball.vdb -spheretree -spheres2mask level=0 name=o -write m.vdb").exitCode, 0);
+    ASSERT_EQ(
+        run("-read ball.vdb -spheretree -spheres2mask level=0 name=o -write m.vdb").exitCode, 0);
     const auto object = openvdb::gridPtrCast<openvdb::BoolGrid>(readGrids("o.vdb").at(0));
     const auto mask = openvdb::gridPtrCast<openvdb::BoolGrid>(readGrids("m.vdb").at(0));
     ASSERT_TRUE(object && mask);
@@ -154,8 +156,10 @@ TEST_F(CommandWork, OneLevelIsKeptByNumberOrBySpheres)
     const auto spheres = valuesOf(json.out, "spheres");
     ASSERT_GE(spheres.size(), 3u);
     ASSERT_EQ(run("-read ball.vdb -spheretree reversible -level 1 -write a.csv").exitCode, 0);
-    ASSERT_EQ(run("-read ball.vdb -spheretree reversible -level spheres=" + spheres[1]
-                  + " -write b.csv").exitCode, 0);
+    ASSERT_EQ(
+        run("-read ball.vdb -spheretree reversible -level spheres=" + spheres[1] + " -write b.csv")
+            .exitCode,
+        0);
     const std::string csv = readText(path("a.csv"));
     EXPECT_EQ(csv, readText(path("b.csv")));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + std::stoi(spheres[1]));
@@ -174,11 +178,15 @@ TEST_F(CommandWork, InputsAreConsumedUnlessKept)
 TEST_F(CommandWork, WhatIsWrittenLeavesWhenTheNextThingArrives)
 {
     ASSERT_EQ(run("-read a.vol -spheretree name=one -write one.vdb -stats -write one.csv"
-                  " -read ball.vdb -spheretree name=two -write two.vdb").exitCode, 0);
+                  " -read ball.vdb -spheretree name=two -write two.vdb")
+                  .exitCode,
+        0);
     EXPECT_TRUE(exists("one.csv"));
     EXPECT_EQ(readGrids("two.vdb").size(), 1u);
     ASSERT_EQ(run("-read a.vol -spheretree name=one -write one.vdb keep=1"
-                  " -read ball.vdb -spheretree name=two -write two.vdb").exitCode, 0);
+                  " -read ball.vdb -spheretree name=two -write two.vdb")
+                  .exitCode,
+        0);
     EXPECT_EQ(readGrids("two.vdb").size(), 2u);
 }
 

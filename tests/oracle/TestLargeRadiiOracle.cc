@@ -11,8 +11,8 @@ namespace {
 
 using namespace spheretree_test;
 
-constexpr int64_t kNarrowLabels = 127 * 127;   // largest distSq of 8-bit label offsets
-constexpr int64_t kWideDistances = 255 * 255;  // smallest distSq of 32-bit distances
+constexpr int64_t kNarrowLabels = 127 * 127;  // largest distSq of 8-bit label offsets
+constexpr int64_t kWideDistances = 255 * 255; // smallest distSq of 32-bit distances
 
 /// The voxels of a plane nearer to the origin than the root of @a radiusSq.
 Voxels disc(int radiusSq, int z)
@@ -38,7 +38,8 @@ std::vector<int64_t> distancesToBoundary(const Voxels& voxels)
 {
     Voxels boundary;
     for (const Coord& voxel : voxels) {
-        for (const Coord& step : {Coord(1, 0, 0), Coord(-1, 0, 0), Coord(0, 1, 0), Coord(0, -1, 0)}) {
+        for (const Coord& step :
+            {Coord(1, 0, 0), Coord(-1, 0, 0), Coord(0, 1, 0), Coord(0, -1, 0)}) {
             const Coord next = voxel + step;
             const bool on = std::binary_search(voxels.begin(), voxels.end(), next);
             if (!on) boundary.push_back(next);
@@ -74,7 +75,7 @@ testing::AssertionResult boxIsRight(const CoordBBox& box, const CoreStages& stag
         const int64_t expected = distSqInBox(box, voxel, dim);
         if (!result || distSq == expected) return;
         result = testing::AssertionFailure() << "distSq of " << voxel << " in " << box << " is "
-            << distSq << ", should be " << expected;
+                                             << distSq << ", should be " << expected;
     });
     return result;
 }
@@ -84,11 +85,13 @@ TEST(LargeRadiiOracle, MatchesOnThickSolidsOfManyShapes)
     Random random(77);
     const std::vector<std::pair<const char*, Voxels>> solids{
         {"ball", shapes::ball(24 * 24 + 5)},
-        {"two balls", [] {
-            Voxels voxels = shapes::ball(20 * 20);
-            for (const Coord& v : shapes::ball(17 * 17 + 3)) voxels.push_back(v + Coord(19, 11, -6));
-            return voxels;
-        }()},
+        {"two balls",
+            [] {
+                Voxels voxels = shapes::ball(20 * 20);
+                for (const Coord& v : shapes::ball(17 * 17 + 3))
+                    voxels.push_back(v + Coord(19, 11, -6));
+                return voxels;
+            }()},
         {"box", shapes::box(Coord(41, 60, 33))},
         {"long box along x", shapes::box(Coord(150, 18, 25))},
         {"long box along y", shapes::box(Coord(21, 160, 23))},
@@ -108,7 +111,9 @@ TEST(LargeRadiiOracle, MatchesOnThickSolidsOfManyShapes)
 
 TEST(LargeRadiiOracle, MatchesOnDiscsOnBothSidesOfEverySwitchOfWidth)
 {
-    struct { int radiusSq, holes; } const cases[] = {
+    struct {
+        int radiusSq, holes;
+    } const cases[] = {
         {127 * 127, 0}, {127 * 127 + 1, 0}, {150 * 150, 3}, {65000, 0}, {255 * 255, 2}};
     for (const auto& c : cases) {
         const Voxels voxels = withHoles(disc(c.radiusSq, 3), c.holes, 5);
@@ -199,8 +204,9 @@ TEST(LargeRadiiOracle, LabelsAtBothEndsOfALongPlankAreThoseOfAShortOne)
             for (const Coord& voxel : voxelsOfBox(box)) {
                 if (voxel[2] != z) continue;
                 const Coord shift = voxel[axis] < size[axis] / 2 ? Coord(0, 0, 0) : longer;
-                ASSERT_EQ(stages.labels.label(voxel + shift),
-                    reference.labelIn(plane, voxel).at + shift) << "axis " << axis;
+                ASSERT_EQ(
+                    stages.labels.label(voxel + shift), reference.labelIn(plane, voxel).at + shift)
+                    << "axis " << axis;
             }
         }
     }

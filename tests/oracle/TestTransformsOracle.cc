@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestTransformsOracle.cc
-/// @brief Distances, power labels and medial balls against the O(n^2) definition: on random objects,
-/// and on every mask of 2x2x3 voxels.
+/// @brief Distances, power labels and medial balls against the O(n^2) definition: on random
+/// objects, and on every mask of 2x2x3 voxels.
 
 #include "../support/CoreStages.h"
 #include "../support/RandomObjects.h"
@@ -30,8 +30,9 @@ void checkAllSmallMasks(int longAxis, const Coord& corner)
 {
     constexpr uint32_t kCount = 1 << 12;
     const auto cell = [&](uint32_t mask) {
-        return corner + Coord(int(mask & 15) * 16 - 128, int(mask >> 4 & 15) * 16 - 128,
-                            int(mask >> 8) * 16 - 128);
+        return corner
+            + Coord(int(mask & 15) * 16 - 128, int(mask >> 4 & 15) * 16 - 128,
+                int(mask >> 8) * 16 - 128);
     };
     Voxels all;
     std::vector<NaiveReference> references;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestTreesOracle.cc
-/// @brief Reversible and extended trees, with every combination of settings, against the dense program
-/// of support/DenseTree.h: the same balls on the same levels, the same parents, centres, radii and DAG.
+/// @brief Reversible and extended trees, with every combination of settings, against the dense
+/// program of support/DenseTree.h: the same balls on the same levels, the same parents, centres,
+/// radii and DAG.
 
 #include "../support/BuiltTrees.h"
 #include "../support/DenseTree.h"
@@ -34,8 +35,9 @@ testing::AssertionResult agreeOnNode(
     const DenseNode& expected, const SphereTree& tree, int32_t id, int32_t parentBegin)
 {
     const auto fail = [&](const char* what) {
-        return testing::AssertionFailure() << "node " << id << " at " << tree.ijk[id] << " has another "
-            << what << " than " << expected.ijk << " of the dense tree: ";
+        return testing::AssertionFailure()
+            << "node " << id << " at " << tree.ijk[id] << " has another " << what << " than "
+            << expected.ijk << " of the dense tree: ";
     };
     if (tree.ijk[id] != expected.ijk) return fail("ijk");
     if (tree.radiusSq[id] != expected.radiusSq) {
@@ -81,15 +83,14 @@ testing::AssertionResult agree(const std::vector<DenseLevel>& expected, const Sp
         const int32_t parents = k + 1 < expected.size() ? tree.levels[k + 1].begin : 0;
         if (level.size() != int32_t(expected[k].nodes.size())) {
             return fail() << "level " << k << " has " << level.size() << " nodes, should be "
-                << expected[k].nodes.size();
+                          << expected[k].nodes.size();
         }
         if (level.pyramidVoxels != int64_t(expected[k].voxels)) {
             return fail() << "level " << k << " is of " << level.pyramidVoxels
-                << " voxels, should be " << expected[k].voxels;
+                          << " voxels, should be " << expected[k].voxels;
         }
         for (int32_t i = 0; i < level.size(); ++i) {
-            const auto node =
-                agreeOnNode(expected[k].nodes[i], tree, level.begin + i, parents);
+            const auto node = agreeOnNode(expected[k].nodes[i], tree, level.begin + i, parents);
             if (!node) return fail() << "level " << k << ", " << node.message();
         }
         if (edgesOfLevel(tree, k) != expected[k].dag) {

@@ -35,9 +35,10 @@ testing::AssertionResult sameStages(const CoreStages& a, const CoreStages& b)
     }
     auto result = testing::AssertionSuccess();
     forEachVoxel(a.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
-        const bool same = b.distSq(voxel) == a.distances.at(leaf, k) &&
-            b.labels.label(voxel) == a.labels.label(voxel);
-        if (result && !same) result = testing::AssertionFailure() << "voxel " << voxel << " differs";
+        const bool same = b.distSq(voxel) == a.distances.at(leaf, k)
+            && b.labels.label(voxel) == a.labels.label(voxel);
+        if (result && !same)
+            result = testing::AssertionFailure() << "voxel " << voxel << " differs";
     });
     if (result && !(a.balls == b.balls)) return testing::AssertionFailure() << "balls differ";
     return result;
@@ -57,7 +58,8 @@ TEST(Invariance, TranslationByLeavesCarriesEverythingAlong)
             const CoreStages there(*maskOf(translated(object.voxels, by)));
             for (const Coord& voxel : object.voxels) {
                 ASSERT_EQ(there.distSq(voxel + by), here.distSq(voxel)) << object.name;
-                ASSERT_EQ(there.labels.label(voxel + by), here.labels.label(voxel) + by) << object.name;
+                ASSERT_EQ(there.labels.label(voxel + by), here.labels.label(voxel) + by)
+                    << object.name;
             }
             ASSERT_EQ(there.balls, moved(here.balls, by)) << object.name;
         }
@@ -92,7 +94,8 @@ TEST(Invariance, PermutedOrMirroredAxesCarryDistancesAndLabelsAlongUpToTies)
 {
     for (const RandomObject& object : objects()) {
         const CoreStages here(*maskOf(object.voxels));
-        for (const Coord& order : {Coord(1, 2, 0), Coord(2, 0, 1), Coord(0, 2, 1), Coord(1, 0, 2)}) {
+        for (const Coord& order :
+            {Coord(1, 2, 0), Coord(2, 0, 1), Coord(0, 2, 1), Coord(1, 0, 2)}) {
             for (int sign : {1, -1}) {
                 const auto turned = [&](const Coord& v) {
                     return Coord(sign * v[order[0]], v[order[1]], sign * v[order[2]]);
@@ -185,7 +188,8 @@ TEST(Invariance, TheNumberOfThreadsDoesNotMatter)
     all.push_back({"cluster of balls", cluster});
     for (const RandomObject& object : all) {
         const auto mask = maskOf(object.voxels);
-        const auto one = stagesWith(1, *mask), two = stagesWith(2, *mask), many = stagesWith(7, *mask);
+        const auto one = stagesWith(1, *mask), two = stagesWith(2, *mask),
+                   many = stagesWith(7, *mask);
         ASSERT_TRUE(sameStages(*one, *two)) << object.name;
         ASSERT_TRUE(sameStages(*one, *many)) << object.name;
     }

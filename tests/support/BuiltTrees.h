@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file support/BuiltTrees.h
-/// @brief For tests that build sphere-trees: the settings there are, and questions to a finished tree.
+/// @brief For tests that build sphere-trees: the settings there are, and questions to a finished
+/// tree.
 
 #pragma once
 
@@ -27,14 +28,14 @@ using openvdb_spheretree::TreeType;
 
 inline std::string describe(const SphereTreeSettings& s)
 {
-    return std::string(toString(s.tree)) + " factor=" + std::to_string(s.factor) +
-        " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent) +
-        " final_fit=" + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct) +
-        " scale=" + toString(s.scale) + " padding=" + std::to_string(s.padding);
+    return std::string(toString(s.tree)) + " factor=" + std::to_string(s.factor)
+        + " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent)
+        + " final_fit=" + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct)
+        + " scale=" + toString(s.scale) + " padding=" + std::to_string(s.padding);
 }
 
-/// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree of
-/// final fit and reconstruction; with the DAG.
+/// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree
+/// of final fit and reconstruction; with the DAG.
 inline std::vector<SphereTreeSettings> allSettings(TreeType type, int dim)
 {
     const bool extended = type == TreeType::Extended;
@@ -150,7 +151,8 @@ inline testing::AssertionResult covers(const SphereTree& tree, const Voxels& vox
             if (holds(tree, last, voxel)) continue;
             for (last = level.begin; last < level.end && !holds(tree, last, voxel);) ++last;
             if (last == level.end) {
-                return testing::AssertionFailure() << "level " << level.level << " misses " << voxel;
+                return testing::AssertionFailure()
+                    << "level " << level.level << " misses " << voxel;
             }
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoreStages.h
-/// @brief The core stages of one level, run one after the other, and how tests build their input and
-/// compare the outcome with a reference.
+/// @brief The core stages of one level, run one after the other, and how tests build their input
+/// and compare the outcome with a reference.
 
 #pragma once
 
@@ -42,8 +42,7 @@ inline openvdb::MaskTree::Ptr maskOf(const CoordBBox& box)
 
 inline openvdb::BoolGrid::Ptr gridOf(const openvdb::MaskTree& mask)
 {
-    auto tree =
-        std::make_shared<openvdb::BoolTree>(mask, false, true, openvdb::TopologyCopy());
+    auto tree = std::make_shared<openvdb::BoolTree>(mask, false, true, openvdb::TopologyCopy());
     return openvdb::BoolGrid::create(tree);
 }
 
@@ -84,12 +83,9 @@ private:
 
 struct CoreStages {
     explicit CoreStages(const openvdb::MaskTree& level, int dim = 3)
-        : layout(level)
-        , distances(distanceTransform(layout, dim))
-        , labels(powerMap(layout, distances, dim))
-        , balls(medialBalls(labels, distances))
-    {
-    }
+        : layout(level), distances(distanceTransform(layout, dim)),
+          labels(powerMap(layout, distances, dim)), balls(medialBalls(labels, distances))
+    {}
     CoreStages(const CoreStages&) = delete; // labels refer to the layout
 
     /// @return the squared distance at any voxel, 0 outside the leaves.
@@ -113,13 +109,13 @@ inline testing::AssertionResult agreeOnVoxels(
         const Coord voxel = naive.voxels()[i] + shift;
         const int64_t distSq = stages.distSq(voxel);
         if (distSq != naive.distSq(i)) {
-            return testing::AssertionFailure() << "distSq of " << voxel << " is " << distSq
-                << ", should be " << naive.distSq(i);
+            return testing::AssertionFailure()
+                << "distSq of " << voxel << " is " << distSq << ", should be " << naive.distSq(i);
         }
         const Coord label = stages.labels.label(voxel);
         if (label != naive.label(i) + shift) {
             return testing::AssertionFailure() << "label of " << voxel << " is " << label
-                << ", should be " << naive.label(i) + shift;
+                                               << ", should be " << naive.label(i) + shift;
         }
     }
     return testing::AssertionSuccess();
@@ -132,9 +128,9 @@ inline testing::AssertionResult agreeOnBalls(const std::vector<NaiveReference::B
         if (balls[i].center == expected[i].center && balls[i].radiusSq == expected[i].radiusSq) {
             continue;
         }
-        return testing::AssertionFailure() << "ball " << i << " is at " << balls[i].center
-            << ", radiusSq " << balls[i].radiusSq << ", should be at " << expected[i].center
-            << ", radiusSq " << expected[i].radiusSq;
+        return testing::AssertionFailure()
+            << "ball " << i << " is at " << balls[i].center << ", radiusSq " << balls[i].radiusSq
+            << ", should be at " << expected[i].center << ", radiusSq " << expected[i].radiusSq;
     }
     if (balls.size() == expected.size()) return testing::AssertionSuccess();
     return testing::AssertionFailure() << balls.size() << " balls, should be " << expected.size();
@@ -144,8 +140,8 @@ inline testing::AssertionResult agreeOnBalls(const std::vector<NaiveReference::B
 inline testing::AssertionResult agree(const NaiveReference& naive, const CoreStages& stages)
 {
     if (stages.layout.voxelCount() != int64_t(naive.voxels().size())) {
-        return testing::AssertionFailure() << stages.layout.voxelCount() << " voxels, should be "
-            << naive.voxels().size();
+        return testing::AssertionFailure()
+            << stages.layout.voxelCount() << " voxels, should be " << naive.voxels().size();
     }
     const auto voxels = agreeOnVoxels(naive, stages);
     return voxels ? agreeOnBalls(naive.balls(), stages.balls) : voxels;
@@ -160,25 +156,26 @@ inline testing::AssertionResult agreeOnDistances(
         const int64_t distSq = stages.distances.at(leaf, k);
         if (!result || distSq == reference.distSq(voxel)) return;
         result = testing::AssertionFailure() << "distSq of " << voxel << " is " << distSq
-            << ", should be " << reference.distSq(voxel);
+                                             << ", should be " << reference.distSq(voxel);
     });
     return result;
 }
 
 /// Label of every object voxel of a plane; @a sites, if given, collects them.
-inline testing::AssertionResult agreeOnPlane(
-    const LineReference& reference, const CoreStages& stages, int z, std::set<Coord>* sites = nullptr)
+inline testing::AssertionResult agreeOnPlane(const LineReference& reference,
+    const CoreStages& stages, int z, std::set<Coord>* sites = nullptr)
 {
     const auto plane = reference.labelsOfPlane(z);
     CoordBBox box = reference.box();
     box.min()[2] = box.max()[2] = z;
     for (const Coord& voxel : voxelsOfBox(box)) {
         if (reference.distSq(voxel) == 0) continue;
-        const Coord label = stages.labels.label(voxel), expected = reference.labelIn(plane, voxel).at;
+        const Coord label = stages.labels.label(voxel),
+                    expected = reference.labelIn(plane, voxel).at;
         if (sites) sites->insert(expected);
         if (label == expected) continue;
-        return testing::AssertionFailure() << "label of " << voxel << " is " << label
-            << ", should be " << expected;
+        return testing::AssertionFailure()
+            << "label of " << voxel << " is " << label << ", should be " << expected;
     }
     return testing::AssertionSuccess();
 }

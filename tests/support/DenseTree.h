@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file support/DenseTree.h
-/// @brief The reversible and the extended tree, written down once more from their definition: sets of
-/// voxels, doubles, and labels by NaiveReference.h. Shares no code with the library.
+/// @brief The reversible and the extended tree, written down once more from their definition: sets
+/// of voxels, doubles, and labels by NaiveReference.h. Shares no code with the library.
 ///
-/// Frame of level 0: a voxel v of level k is centred at f^k v + (f^k - 1) / 2 + origin. A medial ball
-/// of level k becomes a sphere of radius f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2.
-/// Reversible: the medial balls of every level of the OR pyramid.
-/// Extended, per level: medial balls of the coarsened voxels; every node's parent is the label of the
-/// parent voxel of its centre; balls without children go; the radius is what the leaf balls below
-/// need; the level's voxels become those within that radius of a centre, inside the pyramid's box.
+/// Frame of level 0: a voxel v of level k is centred at f^k v + (f^k - 1) / 2 + origin. A medial
+/// ball of level k becomes a sphere of radius f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2.
+/// Reversible: the medial balls of every level of the OR pyramid. Extended, per level: medial balls
+/// of the coarsened voxels; every node's parent is the label of the parent voxel of its centre;
+/// balls without children go; the radius is what the leaf balls below need; the level's voxels
+/// become those within that radius of a centre, inside the pyramid's box.
 ///
 /// For objects of some thousand voxels. Doubles do for these: where a choice could hang on the last
 /// digits (see `preferDagParent`), it is made with a margin.
@@ -50,8 +50,8 @@ struct DenseNode {
 };
 
 struct DenseLevel {
-    std::vector<DenseNode> nodes; ///< in the order of ijk
-    std::size_t voxels = 0;       ///< of the set whose medial balls these are
+    std::vector<DenseNode> nodes;      ///< in the order of ijk
+    std::size_t voxels = 0;            ///< of the set whose medial balls these are
     std::set<std::pair<int, int>> dag; ///< node of the next level, node of this level
 };
 
@@ -121,7 +121,8 @@ private:
     double radiusOf(int64_t radiusSq, int level) const
     {
         const bool paper = mSettings.paperScale && level > 0;
-        return scaleOf(level) * std::sqrt(double(paper ? radiusSq : radiusSq - 1)) + growthOf(level);
+        return scaleOf(level) * std::sqrt(double(paper ? radiusSq : radiusSq - 1))
+            + growthOf(level);
     }
 
     static double distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
@@ -156,8 +157,8 @@ private:
         DenseLevel result;
         result.voxels = medial.voxels().size();
         for (const NaiveReference::Ball& ball : medial.balls()) {
-            result.nodes.push_back({centerOf(ball.center, level), radiusOf(ball.radiusSq, level), -1,
-                ball.center, ball.radiusSq});
+            result.nodes.push_back({centerOf(ball.center, level), radiusOf(ball.radiusSq, level),
+                -1, ball.center, ball.radiusSq});
         }
         return result;
     }
@@ -176,8 +177,8 @@ private:
     std::set<Coord> coarsened(const std::set<Coord>& voxels, int level) const
     {
         const CoordBBox box = pyramidBox(level);
-        if (mSettings.extended && mSettings.reconstruct == DenseReconstruction::Free &&
-            box.min() == box.max()) {
+        if (mSettings.extended && mSettings.reconstruct == DenseReconstruction::Free
+            && box.min() == box.max()) {
             return {box.min()};
         }
         std::set<Coord> result;
@@ -195,8 +196,8 @@ private:
     }
 
     /// The nodes of @a level; hangs the nodes below on them.
-    DenseLevel nextLevel(
-        DenseLevel& below, int level, const NaiveReference& fine, const NaiveReference& coarse) const
+    DenseLevel nextLevel(DenseLevel& below, int level, const NaiveReference& fine,
+        const NaiveReference& coarse) const
     {
         DenseLevel balls = allBalls(coarse, level);
         const std::map<Coord, int> ballAt = indexByCentre(balls);
@@ -271,7 +272,8 @@ private:
     }
 
     /// The radii of a new level of an extended tree, and the voxels that they rebuild.
-    void fitAndRebuild(DenseLevel& nodes, const DenseLevel& below, int level, std::set<Coord>& voxels)
+    void fitAndRebuild(
+        DenseLevel& nodes, const DenseLevel& below, int level, std::set<Coord>& voxels)
     {
         for (DenseNode& node : nodes.nodes) node.radius = 0;
         for (Leaf& leaf : mLeaves) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LineReference.h
-/// @brief Distances and power labels of larger objects, on a dense box, line by line: O(n^2) a line,
-/// in 64 bits, without cutting lines at background, without pruning and without any kernel.
+/// @brief Distances and power labels of larger objects, on a dense box, line by line: O(n^2) a
+/// line, in 64 bits, without cutting lines at background, without pruning and without any kernel.
 ///
 /// Slower than the library by orders of magnitude, faster than NaiveReference.h by as many; a test
 /// holds the two references against each other.
@@ -88,7 +88,9 @@ private:
     {
         CoordBBox starts = mBox;
         starts.max()[axis] = starts.min()[axis];
-        const std::size_t stride = axis == 0 ? std::size_t(size(1)) * size(2) : axis == 1 ? size(2) : 1;
+        const std::size_t stride = axis == 0 ? std::size_t(size(1)) * size(2)
+            : axis == 1                      ? size(2)
+                                             : 1;
         const int n = size(axis);
         std::vector<int64_t> line(n);
         for (const Coord& start : voxelsOfBox(starts)) {

@@ -123,8 +123,8 @@ private:
             for (std::size_t p = 0; p < mVoxels.size(); ++p) {
                 if (apart(mVoxels[p], q)) continue;
                 const int64_t value = mDistSq[p] - squaredDistance(mVoxels[p], q);
-                if (best == mVoxels.size() || value > bestValue ||
-                    (value == bestValue && winsTie(p, best))) {
+                if (best == mVoxels.size() || value > bestValue
+                    || (value == bestValue && winsTie(p, best))) {
                     best = p;
                     bestValue = value;
                 }
@@ -155,7 +155,8 @@ inline std::vector<std::set<Coord>> naiveOrPyramid(const Voxels& object, int fac
         return int(quotient);
     };
     const Coord lowest = boxOf(object).min();
-    Coord origin(8 * floorDiv(lowest[0], 8), 8 * floorDiv(lowest[1], 8), 8 * floorDiv(lowest[2], 8));
+    Coord origin(
+        8 * floorDiv(lowest[0], 8), 8 * floorDiv(lowest[1], 8), 8 * floorDiv(lowest[2], 8));
     std::vector<std::set<Coord>> levels;
     levels.emplace_back(object.begin(), object.end());
     while (levels.back().size() > 1) {

@@ -26,10 +26,7 @@ public:
     explicit Random(uint32_t seed) : mEngine(seed) {}
 
     /// @return a number in [low, high].
-    int between(int low, int high)
-    {
-        return low + int(mEngine() % uint32_t(high - low + 1));
-    }
+    int between(int low, int high) { return low + int(mEngine() % uint32_t(high - low + 1)); }
     bool chance(double rate) { return double(mEngine()) < rate * 4294967296.0; }
     Coord coord(int low, int high)
     {
@@ -168,7 +165,8 @@ inline RandomObject randomObject(uint32_t seed)
     std::string shape;
     Voxels voxels;
     switch (seed % 11) {
-    case 0: case 1: shape = "noise", voxels = shapes::noise(random.coord(3, 15), rate, random); break;
+    case 0:
+    case 1: shape = "noise", voxels = shapes::noise(random.coord(3, 15), rate, random); break;
     case 2: shape = "ball", voxels = shapes::ball(random.between(1, 72)); break;
     case 3: shape = "box", voxels = shapes::box(random.coord(1, 13)); break;
     case 4: {
@@ -182,7 +180,8 @@ inline RandomObject randomObject(uint32_t seed)
     case 8: shape = "tree of boxes", voxels = shapes::boxTree(random); break;
     case 9: shape = "two balls", voxels = shapes::twoBalls(random); break;
     default:
-        shape = "pricked", voxels = seed % 2 ? shapes::box(random.coord(5, 13)) : shapes::boxShell(random);
+        shape = "pricked",
+        voxels = seed % 2 ? shapes::box(random.coord(5, 13)) : shapes::boxShell(random);
         voxels = shapes::pricked(voxels, (1 - rate) / 4, random);
     }
     if (voxels.empty()) voxels.emplace_back(0, 0, 0);

@@ -27,8 +27,8 @@ inline void addNode(SphereTree& tree, const openvdb::Vec3d& center, const openvd
     tree.center.push_back(center);
     tree.radius.push_back(radius);
     tree.coverSq.push_back(int64_t(4 * radius * radius));
-    tree.radiusWorld.push_back(std::nextafter(
-        float(radius * tree.voxelSize()), std::numeric_limits<float>::infinity()));
+    tree.radiusWorld.push_back(
+        std::nextafter(float(radius * tree.voxelSize()), std::numeric_limits<float>::infinity()));
     tree.parent.push_back(parent);
     tree.ijk.push_back(ijk);
     tree.radiusSq.push_back(radiusSq);
@@ -114,9 +114,7 @@ inline SphereTree sampleTree()
 inline SphereTree randomTree(int32_t n, unsigned seed)
 {
     std::mt19937 random(seed);
-    const auto number = [&](int lo, int hi) {
-        return lo + int(random() % uint32_t(hi - lo + 1));
-    };
+    const auto number = [&](int lo, int hi) { return lo + int(random() % uint32_t(hi - lo + 1)); };
     SphereTree tree;
     tree.transform = openvdb::math::Transform::createLinearTransform(0.07);
     tree.object.name = "random";

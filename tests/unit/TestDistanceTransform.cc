@@ -28,8 +28,8 @@ void expectBox(const MaskTree& tree, const CoordBBox& box, int dim)
     forEachVoxel(layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
         int steps = 1 << 20;
         for (int axis = 0; axis < dim; ++axis) {
-            steps = std::min({steps, voxel[axis] - box.min()[axis] + 1,
-                box.max()[axis] - voxel[axis] + 1});
+            steps = std::min(
+                {steps, voxel[axis] - box.min()[axis] + 1, box.max()[axis] - voxel[axis] + 1});
         }
         ASSERT_EQ(map.at(leaf, k), uint32_t(steps * steps)) << voxel << " in " << box;
     });
@@ -82,7 +82,8 @@ TEST(DistanceTransform, BoxesHaveTheirClosedForm)
 
 TEST(DistanceTransform, TwoDimensionsLeaveTheZAxisOut)
 {
-    const CoordBBox plate(Coord(-17, -3, 5), Coord(12, 40, 5)), box(Coord(1, 2, 3), Coord(30, 40, 60));
+    const CoordBBox plate(Coord(-17, -3, 5), Coord(12, 40, 5)),
+        box(Coord(1, 2, 3), Coord(30, 40, 60));
     expectBox(*maskOf(plate), plate, 2);
     expectBox(*maskOf(box), box, 2);
     const LeafLayout layout(*maskOf(plate));
@@ -92,7 +93,10 @@ TEST(DistanceTransform, TwoDimensionsLeaveTheZAxisOut)
 
 TEST(DistanceTransform, TilesHaveTheDistancesOfTheirVoxels)
 {
-    struct { int size; openvdb::Index level; } const tiles[] = {{8, 1}, {128, 2}};
+    struct {
+        int size;
+        openvdb::Index level;
+    } const tiles[] = {{8, 1}, {128, 2}};
     for (const auto& tile : tiles) {
         const CoordBBox box = CoordBBox::createCube(Coord(-tile.size, 0, tile.size), tile.size);
         MaskTree tree(false);
@@ -104,14 +108,15 @@ TEST(DistanceTransform, TilesHaveTheDistancesOfTheirVoxels)
 TEST(DistanceTransform, VoxelsFarApartDoNotSeeEachOther)
 {
     for (int far : {1000000, 1 << 27}) {
-        const LeafLayout layout(*maskOf(Voxels{Coord(0, 0, 0), Coord(far, 0, 0), Coord(0, far, far)}));
+        const LeafLayout layout(
+            *maskOf(Voxels{Coord(0, 0, 0), Coord(far, 0, 0), Coord(0, far, far)}));
         EXPECT_EQ(distanceTransform(layout).maxDistSq(), 1u);
     }
 }
 
 TEST(DistanceTransform, ValuesAreStoredIn16BitsWhereTheyFit)
 {
-    const LeafLayout thin(*maskOf(CoordBBox(Coord(0, 0, 0), Coord(506, 506, 0)))); // radius 254
+    const LeafLayout thin(*maskOf(CoordBBox(Coord(0, 0, 0), Coord(506, 506, 0))));  // radius 254
     const LeafLayout thick(*maskOf(CoordBBox(Coord(0, 0, 0), Coord(508, 508, 0)))); // radius 255
     const DistanceMap narrow = distanceTransform(thin, 2), wide = distanceTransform(thick, 2);
     EXPECT_NE(narrow.narrow(), nullptr);

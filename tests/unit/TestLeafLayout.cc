@@ -152,7 +152,10 @@ TEST(LeafLayout, FindsTheLeafOfAVoxelOnOrOff)
 
 TEST(LeafLayout, ATileIsTheLeavesItStandsFor)
 {
-    struct { int size; openvdb::Index level; } const tiles[] = {{8, 1}, {128, 2}};
+    struct {
+        int size;
+        openvdb::Index level;
+    } const tiles[] = {{8, 1}, {128, 2}};
     for (const auto& tile : tiles) {
         const CoordBBox box = CoordBBox::createCube(Coord(-tile.size, 0, tile.size), tile.size);
         MaskTree tree(false);

@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/LevelErrors.h>
 
 #include <openvdb_spheretree/Interrupted.h>
+#include <openvdb_spheretree/detail/MaskDifference.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -113,7 +114,8 @@ BoolGrid::Ptr randomObject(std::mt19937& random, const Coord& middle, int spread
 
 std::vector<Sphere> randomSpheres(std::mt19937& random, const Coord& middle, int spread)
 {
-    std::uniform_int_distribution<int> offset2(-2 * spread, 2 * spread), count(1, 5), square(0, 400);
+    std::uniform_int_distribution<int> offset2(-2 * spread, 2 * spread);
+    std::uniform_int_distribution<int> count(1, 5), square(0, 400);
     std::vector<Sphere> spheres(count(random));
     for (Sphere& s : spheres) {
         const double x = offset2(random), y = offset2(random), z = offset2(random);
@@ -182,6 +184,41 @@ TEST_F(LevelErrors, CountTilesOnBothSides)
     EXPECT_EQ(error.hausdorff, 48);
 }
 
+TEST_F(LevelErrors, ASphereWithinATileOfTheObjectHasNoExcess)
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    object->tree().addTile(2, Coord(0), true, true); // 128^3
+    const LevelError error = errorOf({{{64, 64, 64}, 4 * 100}}, *object);
+    EXPECT_EQ(error.excess, 0);
+    EXPECT_EQ(error.hausdorff, 0);
+    EXPECT_EQ(error.missing, 128 * 128 * 128 - error.covered);
+}
+
+TEST_F(LevelErrors, TheDifferenceOfMasksIsOpenVdbsForNodesOfEveryLevelAgainstEachOther)
+{
+    using openvdb::MaskTree;
+    // Every way to have something at the origin: nothing, voxels, and tiles of 8, 128 and 4096.
+    std::vector<MaskTree> masks(5);
+    for (openvdb::Index level = 1; level <= 3; ++level) {
+        masks[level].addTile(level, Coord(0), true, true);
+    }
+    for (int i = 0; i < 40; ++i) masks[4].setValueOn(Coord(i * 37 % 200, i * 11 % 13, i));
+    for (const MaskTree& a : masks) {
+        for (const MaskTree& b : masks) {
+            MaskTree expected(a);
+            expected.topologyDifference(b);
+            const detail::MaskDifference actual = detail::maskDifference(a, b, nullptr);
+            EXPECT_EQ(actual.voxels, int64_t(expected.activeVoxelCount()));
+            int64_t voxels = 0;
+            for (const detail::VoxelCell& cell : actual.cells) {
+                voxels += cell.voxels();
+                EXPECT_TRUE(expected.isValueOn(cell.first()));
+            }
+            EXPECT_EQ(voxels, actual.voxels);
+        }
+    }
+}
+
 TEST_F(LevelErrors, CompareWholeSphereTilesWithAnObjectFarSmaller)
 {
     BoolGrid::Ptr object = BoolGrid::create();
@@ -233,7 +270,8 @@ TEST_F(LevelErrors, ALevelOfTooManyRowsIsLeftOutWithTheReason)
     object->tree().setValueOn(Coord(0));
     object->tree().setValueOn(Coord(1000000, 1000000, 0));
     SphereTree tree = treeOf({{{0, 0, 0}, 0}, {{1000000, 1000000, 0}, 0},
-        {{500000, 500000, 0}, int64_t(2) * 1000000 * 1000000}}, *object);
+                                 {{500000, 500000, 0}, int64_t(2) * 1000000 * 1000000}},
+        *object);
     tree.levels[0].end = 2;
     tree.levels.push_back(tree.levels[0]);
     tree.levels[1].begin = 2;
@@ -243,15 +281,16 @@ TEST_F(LevelErrors, ALevelOfTooManyRowsIsLeftOutWithTheReason)
     ASSERT_TRUE(tree.levels[0].error.has_value());
     EXPECT_EQ(tree.levels[0].error->hammingPercent, 0);
     EXPECT_FALSE(tree.levels[1].error.has_value());
-    EXPECT_EQ(tree.levels[1].errorUnknown, "its spheres cross about 1570796326795 voxel rows, more "
-                                           "than the 134217728 that are counted");
+    EXPECT_EQ(tree.levels[1].errorUnknown,
+        "its spheres cross about 1570796326795 voxel rows, more "
+        "than the 134217728 that are counted");
 }
 
 TEST_F(LevelErrors, ManySpheresOnTopOfEachOtherAreNoMoreThanTheRowsOfTheirBox)
 {
     BoolGrid::Ptr object = BoolGrid::create();
     object->fill(CoordBBox(Coord(-5, -5, 0), Coord(5, 5, 0)), true, true);
-    // Each crosses 31,416 rows, all of them 157 million; the box has 201 x 201. (In 2-D, for speed.)
+    // Each crosses 31,416 rows, all of them 157 million; the box has 201 x 201. (2-D, for speed.)
     SphereTree tree = treeOf(std::vector<Sphere>(5000, Sphere{{0, 0, 0}, 40000}), *object, 2);
     computeLevelErrors(tree, *object);
     EXPECT_TRUE(tree.levels[0].error.has_value());

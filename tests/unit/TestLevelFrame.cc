@@ -19,21 +19,21 @@ using Wide = unsigned __int128;
 
 const Coord kOrigin(-16, 8, 1024);
 
-struct Setup {
+struct Pyramid {
     int factor, dim, level;
 };
 
-std::vector<Setup> someSetups()
+std::vector<Pyramid> somePyramids()
 {
     return {{2, 3, 1}, {2, 3, 2}, {2, 3, 3}, {3, 3, 1}, {3, 3, 2}, {5, 3, 1}, {2, 2, 1}, {2, 2, 3},
         {3, 2, 2}, {2, 3, 0}, {3, 2, 0}};
 }
 
-SphereTreeSettings settingsOf(const Setup& setup, RadiusScale scale = RadiusScale::Tight)
+SphereTreeSettings settingsOf(const Pyramid& pyramid, RadiusScale scale = RadiusScale::Tight)
 {
     SphereTreeSettings settings;
-    settings.factor = setup.factor;
-    settings.dim = setup.dim;
+    settings.factor = pyramid.factor;
+    settings.dim = pyramid.dim;
     settings.scale = scale;
     return settings;
 }
@@ -55,12 +55,12 @@ std::vector<Coord> offsetsOfBall(int radiusSq, int dim)
 }
 
 /// The finest voxel centres of the block of a level's voxel, doubled.
-std::vector<Doubled> blockOf(const Coord& voxel, const Setup& setup)
+std::vector<Doubled> blockOf(const Coord& voxel, const Pyramid& pyramid)
 {
-    const int side = power(setup.factor, setup.level), sideZ = setup.dim == 2 ? 1 : side;
-    const Coord origin = setup.level == 0 ? Coord(0, 0, 0) : kOrigin;
-    const Coord first(origin[0] + side * voxel[0], origin[1] + side * voxel[1],
-        origin[2] + sideZ * voxel[2]);
+    const int side = power(pyramid.factor, pyramid.level), sideZ = pyramid.dim == 2 ? 1 : side;
+    const Coord origin = pyramid.level == 0 ? Coord(0, 0, 0) : kOrigin;
+    const Coord first(
+        origin[0] + side * voxel[0], origin[1] + side * voxel[1], origin[2] + sideZ * voxel[2]);
     std::vector<Doubled> centres;
     for (int x = 0; x < side; ++x) {
         for (int y = 0; y < side; ++y) {
@@ -75,16 +75,16 @@ std::vector<Doubled> blockOf(const Coord& voxel, const Setup& setup)
 TEST(LevelFrame, SpheresHoldEveryFinestVoxelOfEveryVoxelOfTheirBall)
 {
     const Coord center(5, -3, 4);
-    for (const Setup& setup : someSetups()) {
+    for (const Pyramid& pyramid : somePyramids()) {
         for (const RadiusScale scale : {RadiusScale::Tight, RadiusScale::Paper}) {
-            const LevelFrame frame(setup.level, kOrigin, settingsOf(setup, scale));
+            const LevelFrame frame(pyramid.level, kOrigin, settingsOf(pyramid, scale));
             for (int radiusSq : {1, 2, 3, 4, 5, 6, 9, 14}) {
                 const int64_t coverSq = frame.radius(radiusSq).coverSq();
-                for (const Coord& offset : offsetsOfBall(radiusSq, setup.dim)) {
-                    for (const Doubled& voxel : blockOf(center + offset, setup)) {
+                for (const Coord& offset : offsetsOfBall(radiusSq, pyramid.dim)) {
+                    for (const Doubled& voxel : blockOf(center + offset, pyramid)) {
                         ASSERT_LE(distanceSq(voxel, frame.center(center)), coverSq)
-                            << "factor " << setup.factor << " dim " << setup.dim << " level "
-                            << setup.level << " radiusSq " << radiusSq;
+                            << "factor " << pyramid.factor << " dim " << pyramid.dim << " level "
+                            << pyramid.level << " radiusSq " << radiusSq;
                     }
                 }
             }
@@ -94,10 +94,10 @@ TEST(LevelFrame, SpheresHoldEveryFinestVoxelOfEveryVoxelOfTheirBall)
 
 TEST(LevelFrame, ASingleVoxelsSphereReachesJustToTheCornersOfItsBlock)
 {
-    for (const Setup& setup : someSetups()) {
-        const LevelFrame frame(setup.level, kOrigin, settingsOf(setup));
+    for (const Pyramid& pyramid : somePyramids()) {
+        const LevelFrame frame(pyramid.level, kOrigin, settingsOf(pyramid));
         int64_t farthest = 0;
-        for (const Doubled& voxel : blockOf(Coord(1, 2, 3), setup)) {
+        for (const Doubled& voxel : blockOf(Coord(1, 2, 3), pyramid)) {
             farthest = std::max(farthest, distanceSq(voxel, frame.center(Coord(1, 2, 3))));
         }
         EXPECT_EQ(frame.radius(1).coverSq(), farthest);
@@ -121,27 +121,28 @@ TEST(LevelFrame, OnLevel0SpheresHoldJustTheVoxelsOfTheBall)
 TEST(LevelFrame, CentresAreTheMiddleOfTheVoxelsBlock)
 {
     const Coord voxel(-7, 0, 11);
-    for (const Setup& setup : someSetups()) {
-        const std::vector<Doubled> block = blockOf(voxel, setup);
+    for (const Pyramid& pyramid : somePyramids()) {
+        const std::vector<Doubled> block = blockOf(voxel, pyramid);
         openvdb::Vec3d sum(0);
         for (const Doubled& at : block) sum += at.halved();
-        const LevelFrame frame(setup.level, kOrigin, settingsOf(setup));
+        const LevelFrame frame(pyramid.level, kOrigin, settingsOf(pyramid));
         EXPECT_EQ(frame.center(voxel).halved(), sum / double(block.size()));
-        EXPECT_EQ(frame.scale(), power(setup.factor, setup.level));
+        EXPECT_EQ(frame.scale(), power(pyramid.factor, pyramid.level));
     }
 }
 
 TEST(LevelFrame, RadiiFollowTheFormula)
 {
-    for (const Setup& setup : someSetups()) {
-        const long double scale = power(setup.factor, setup.level);
-        const long double growth = std::sqrt((long double)(setup.dim)) * (scale - 1) / 2;
-        const LevelFrame tight(setup.level, kOrigin, settingsOf(setup));
-        const LevelFrame paper(setup.level, kOrigin, settingsOf(setup, RadiusScale::Paper));
+    for (const Pyramid& pyramid : somePyramids()) {
+        const long double scale = power(pyramid.factor, pyramid.level);
+        const long double growth = std::sqrt((long double)(pyramid.dim)) * (scale - 1) / 2;
+        const LevelFrame tight(pyramid.level, kOrigin, settingsOf(pyramid));
+        const LevelFrame paper(pyramid.level, kOrigin, settingsOf(pyramid, RadiusScale::Paper));
         for (int radiusSq = 1; radiusSq < 400; ++radiusSq) {
             const long double expected = scale * std::sqrt((long double)(radiusSq - 1)) + growth;
-            EXPECT_NEAR(tight.radius(radiusSq).radius(), double(expected), 1e-12 * double(expected));
-            const long double covered = setup.level == 0 ? radiusSq - 1 : radiusSq;
+            EXPECT_NEAR(
+                tight.radius(radiusSq).radius(), double(expected), 1e-12 * double(expected));
+            const long double covered = pyramid.level == 0 ? radiusSq - 1 : radiusSq;
             const long double loose = scale * std::sqrt(covered) + growth;
             EXPECT_NEAR(paper.radius(radiusSq).radius(), double(loose), 1e-12 * double(loose));
         }
@@ -179,10 +180,52 @@ TEST(LevelFrame, CoverSqIsTheLargestIntegerBound)
     }
 }
 
+TEST(LevelFrame, BoundsOfThreeRootsAreThoseOfTwoWhenOneIsZero)
+{
+    for (const RootSum& sum : someRootSums()) {
+        const int64_t coverSq = sum.coverSq();
+        ASSERT_EQ(coverSqOfRoots(sum.a, sum.b, 0), coverSq) << sum.a << ' ' << sum.b;
+        ASSERT_EQ(coverSqOfRoots(sum.a, 0, sum.b), coverSq) << sum.a << ' ' << sum.b;
+        ASSERT_EQ(coverSqOfRoots(0, sum.a, sum.b), coverSq) << sum.a << ' ' << sum.b;
+    }
+}
+
+TEST(LevelFrame, BoundsOfThreeRootsAreExactWhereTheSumIs)
+{
+    // (l + m + n)^2 r is the bound, and one more is not.
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 100000; ++i) {
+        const int64_t r = 1 + int64_t(random() % 1000);
+        const int shift = 40 + int(random() % 20);
+        const int64_t l = int64_t(random() >> shift), m = int64_t(random() >> shift);
+        const int64_t n = int64_t(random() >> shift), sum = l + m + n;
+        ASSERT_EQ(coverSqOfRoots(l * l * r, m * m * r, n * n * r), sum * sum * r);
+        if (sum == 0) continue;
+        ASSERT_LT(coverSqOfRoots(l * l * r - (l > 0), m * m * r - (l == 0 && m > 0),
+                      n * n * r - (l == 0 && m == 0)),
+            sum * sum * r);
+    }
+}
+
+TEST(LevelFrame, BoundsOfThreeRootsAgreeWithLongDouble)
+{
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 100000; ++i) {
+        const int shift = 36 + int(random() % 20);
+        const int64_t a = int64_t(random() >> shift), b = int64_t(random() >> shift);
+        const int64_t c = int64_t(random() >> (36 + int(random() % 20)));
+        const auto root = [](int64_t x) { return std::sqrt((long double)(x)); };
+        const long double sum = root(a) + root(b) + root(c), square = sum * sum;
+        if (std::abs(square - std::round(square)) < 1e-6L) continue; // too close to call
+        ASSERT_EQ(coverSqOfRoots(a, b, c), int64_t(square)) << a << ' ' << b << ' ' << c;
+    }
+}
+
 TEST(LevelFrame, RadiiAreNeverBelowTheTrueOnesAndHardlyAbove)
 {
     for (const RootSum& sum : someRootSums()) {
-        const long double root = (std::sqrt((long double)(sum.a)) + std::sqrt((long double)(sum.b))) / 2;
+        const long double root =
+            (std::sqrt((long double)(sum.a)) + std::sqrt((long double)(sum.b))) / 2;
         const long double doubt = root * 0x1p-61L; // of the line above
         ASSERT_GE((long double)(sum.radius()), root - doubt) << sum.a << ' ' << sum.b;
         ASSERT_LE((long double)(sum.radius()), root * (1 + 0x1p-50L)) << sum.a << ' ' << sum.b;
@@ -204,6 +247,16 @@ TEST(LevelFrame, LargeLevelsDoNotOverflow)
     EXPECT_EQ(center.x, side - 17);
     EXPECT_EQ(center.y, side - 1);
     EXPECT_EQ(frame.radius(1).coverSq(), 3 * (side - 1) * (side - 1));
+}
+
+TEST(LevelFrame, RejectsALevelWhoseVoxelsAreTooWide)
+{
+    EXPECT_NO_THROW(LevelFrame(29, kOrigin, settingsOf({2, 3, 29})));
+    EXPECT_THROW(LevelFrame(30, kOrigin, settingsOf({2, 3, 30})), openvdb::ValueError);
+    EXPECT_THROW(LevelFrame(5, kOrigin, settingsOf({64, 3, 5})), openvdb::ValueError);
+    const LevelFrame widest(29, kOrigin, settingsOf({2, 3, 29}, RadiusScale::Paper));
+    const double fourRSq = std::pow(2 * widest.radius(1).radius(), 2);
+    EXPECT_NEAR(double(widest.radius(1).coverSq()), fourRSq, 1e-9 * fourRSq);
 }
 
 } // namespace

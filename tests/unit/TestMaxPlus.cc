@@ -116,7 +116,10 @@ Result runMaxPlus(const Rows& rows, bool withKeys = true)
     return result;
 }
 
-struct { const char* name; Value value; } const kValues[] = {
+struct {
+    const char* name;
+    Value value;
+} const kValues[] = {
     {"anything", [](Random& r, int64_t most) { return int64_t(r.between(1, int(most))); }},
     {"as large as can be", [](Random&, int64_t most) { return most; }},
     {"one", [](Random&, int64_t) { return int64_t(1); }},
@@ -125,7 +128,10 @@ struct { const char* name; Value value; } const kValues[] = {
     {"large but for a few", [](Random& r, int64_t most) { return r.chance(0.9) ? most : 1; }},
 };
 
-struct { const char* name; Background rate; } const kBackgrounds[] = {
+struct {
+    const char* name;
+    Background rate;
+} const kBackgrounds[] = {
     {"full lines", [](int) { return 0.0; }},
     {"empty lanes", [](int lane) { return lane % 3 ? 0.01 : 1.0; }},
     {"few cuts", [](int) { return 0.01; }},
@@ -142,8 +148,7 @@ void expectMatches(int64_t largestSq, uint32_t seed)
     for (const auto& value : kValues) {
         for (const auto& background : kBackgrounds) {
             for (int count : kRowCounts) {
-                const Rows rows =
-                    makeRows(count, largestSq, background.rate, value.value, random);
+                const Rows rows = makeRows(count, largestSq, background.rate, value.value, random);
                 const Result expected = naiveMaxPlus(rows), result = runMaxPlus<Power>(rows);
                 ASSERT_TRUE(result.best == expected.best && result.offsets == expected.offsets)
                     << "values " << value.name << ", " << background.name << ", rows " << count;
@@ -187,7 +192,8 @@ void expectOneSite(int64_t radius)
     }
     const Result result = runMaxPlus<Power>(rows);
     for (int64_t row = 0; row < count; ++row) {
-        // At radius - 1 and nearer the site's value is above 1; there and beyond, voxels are their own.
+        // At radius - 1 and nearer the site's value is above 1; there and beyond, voxels are their
+        // own.
         const int64_t step = middle - row;
         const bool owned = std::abs(step) < radius;
         ASSERT_EQ(result.offsets[row * kLanes + 63], owned ? step : 0) << radius << ", row " << row;
@@ -213,7 +219,8 @@ TEST(MaxPlus, LinesMayBeLongerThan65536Rows)
     }
     const Result result = runMaxPlus<NarrowPower>(rows);
     for (int64_t row = 0; row < kCount; ++row) {
-        // Voxels nearer to an end than 40 belong to the first site of full size, the rest to themselves.
+        // Voxels nearer to an end than 40 belong to the first site of full size, the rest to
+        // themselves.
         const int64_t site = std::min<int64_t>(std::max<int64_t>(row, 39), kCount - 40);
         ASSERT_EQ(result.offsets[row * kLanes], site - row) << row;
     }

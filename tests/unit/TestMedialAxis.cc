@@ -109,7 +109,10 @@ TEST(MedialAxis, TheStagesGiveTheSameAsTheGrid)
 
 TEST(MedialAxis, TilesHaveTheBallsOfTheirVoxels)
 {
-    struct { int size; openvdb::Index level; } const tiles[] = {{8, 1}, {128, 2}};
+    struct {
+        int size;
+        openvdb::Index level;
+    } const tiles[] = {{8, 1}, {128, 2}};
     for (const auto& tile : tiles) {
         MaskTree tree(false);
         tree.addTile(tile.level, Coord(-tile.size, 0, tile.size), true, true);

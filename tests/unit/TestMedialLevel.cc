@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestMedialLevel.cc
-/// @brief A level's stages in one piece: the same as one by one, and found again by centre and voxel.
+/// @brief A level's stages in one piece: the same as one by one, and found again by centre and
+/// voxel.
 
 #include <openvdb_spheretree/MedialLevel.h>
 
@@ -80,8 +81,7 @@ TEST(MedialLevel, StopsWhenInterruptedAtAnyStage)
         try {
             const MedialLevel level(*mask, 3, &stop);
             finished = true;
-        } catch (const Interrupted&) {
-        }
+        } catch (const Interrupted&) {}
     }
     EXPECT_GT(questions, 4) << "the stages hardly ask";
 }

@@ -286,13 +286,14 @@ TEST(MeshFile, RejectsCoordinatesThatAreNotFinite)
         EXPECT_NE("", errorOf("bad.ply", replaced(plyCube(), "\n0 0 0\n", "\n" + point + "\n")));
         EXPECT_NE("", errorOf("bad.stl", replaced(stlCube(), "vertex 0 0 0", "vertex " + point)));
     }
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
-             std::numeric_limits<float>::infinity()}) {
+    for (const float bad :
+        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         std::string bytes = binaryStlCube();
         EXPECT_NE("", errorOf("bad.stl", bytes.replace(84 + 12, 4, bytesOf(bad))));
         bytes = binaryPlyCube(false);
-        EXPECT_NE("", errorOf("bad.ply", bytes.replace(plyHeader("binary_little_endian").size(), 4,
-            bytesOf(bad))));
+        EXPECT_NE("",
+            errorOf("bad.ply",
+                bytes.replace(plyHeader("binary_little_endian").size(), 4, bytesOf(bad))));
     }
 }
 
@@ -377,10 +378,10 @@ TEST(MeshFile, ReadsWhatOffAndPlyWritersWrite)
 
 TEST(MeshFile, CutsConcavePolygonsIntoTrianglesThatStayInside)
 {
-    const TriangleMesh ell = read("ell.obj",
-        "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 3 4 5 6 1 2\n");
+    const TriangleMesh ell =
+        read("ell.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 3 4 5 6 1 2\n");
     EXPECT_EQ(4u, ell.triangles.size());
-    EXPECT_DOUBLE_EQ(3, areaOf(ell)); // overlapping triangles would have more
+    EXPECT_DOUBLE_EQ(3, areaOf(ell));          // overlapping triangles would have more
     const TriangleMesh comb = read("comb.obj", // in a plane that leans, the other way round
         "v 0 0 0\nv 0 3 3\nv 1 3 3\nv 1 1 1\nv 2 1 1\nv 2 3 3\nv 3 3 3\nv 3 1 1\nv 4 1 1\nv 4 3 3\n"
         "v 5 3 3\nv 5 0 0\nf 1 2 3 4 5 6 7 8 9 10 11 12\n");
@@ -389,8 +390,8 @@ TEST(MeshFile, CutsConcavePolygonsIntoTrianglesThatStayInside)
 
 TEST(MeshFile, CutsUpAPolygonThatCrossesItself)
 {
-    const TriangleMesh mesh = read("star.obj",
-        "v 0 3 0\nv 2 -2 0\nv -3 1 0\nv 3 1 0\nv -2 -2 0\nv 0 0 0\nf 1 2 3 4 5 6\n");
+    const TriangleMesh mesh = read(
+        "star.obj", "v 0 3 0\nv 2 -2 0\nv -3 1 0\nv 3 1 0\nv -2 -2 0\nv 0 0 0\nf 1 2 3 4 5 6\n");
     EXPECT_EQ(4u, mesh.triangles.size());
 }
 
@@ -405,8 +406,8 @@ TEST(MeshFile, JoinsPointsAtTheSamePlaceAndDropsUnusedOnes)
 
 TEST(MeshFile, KnowsItsFilesByTheirExtensionInAnyCase)
 {
-    for (const char* name : {"a.obj", "b/c.PLY", "d.Stl", "e.off", "f.gltf", "g.GLB", "h.fbx",
-             "i.dae", "j.3ds"}) {
+    for (const char* name :
+        {"a.obj", "b/c.PLY", "d.Stl", "e.off", "f.gltf", "g.GLB", "h.fbx", "i.dae", "j.3ds"}) {
         EXPECT_TRUE(isMeshFileName(name)) << name;
     }
     for (const char* name : {"a.vdb", "a.vol", "a.longvol", "a", "", "obj", "a.obj.gz", "a.csv"}) {
@@ -582,9 +583,8 @@ TEST(MeshFile, ReadsTheSampleMeshes)
 {
     const char* folder = std::getenv("SPHERETREE_DATA");
     if (!folder) GTEST_SKIP() << "needs SPHERETREE_DATA";
-    const std::map<std::string, std::pair<std::size_t, std::size_t>> sizes = {
-        {"cow", {2903, 5804}}, {"fandisk", {6475, 12946}}, {"rocker-arm", {10044, 20088}},
-        {"spot", {2930, 5856}}};
+    const std::map<std::string, std::pair<std::size_t, std::size_t>> sizes = {{"cow", {2903, 5804}},
+        {"fandisk", {6475, 12946}}, {"rocker-arm", {10044, 20088}}, {"spot", {2930, 5856}}};
     for (const auto& [name, size] : sizes) {
         const TriangleMesh mesh = readMeshFile(folder + ("/mesh/" + name + ".obj"));
         EXPECT_EQ(size.first, mesh.points.size()) << name;

@@ -70,23 +70,24 @@ const Distribution kDistributions[] = {
     {"zero or one", 1, [](Random& r, int, int) { return uint32_t(r.between(0, 1)); }},
     {"small", 30, [](Random& r, int, int) { return uint32_t(r.between(0, 30)); }},
     {"equal", 400, [](Random&, int, int) { return 400u; }},
-    {"squares", 254 * 254, [](Random& r, int, int) {
-        const int root = r.between(0, 254);
-        return uint32_t(root * root);
-    }},
-    {"some lanes zero", 65000, [](Random& r, int, int lane) {
-        return lane % 3 == 0 ? 0u : uint32_t(r.between(0, 65000));
-    }},
-    {"few zeros among the largest", kNarrowMax, [](Random& r, int, int) {
-        return r.chance(0.02) ? 0u : kNarrowMax;
-    }},
+    {"squares", 254 * 254,
+        [](Random& r, int, int) {
+            const int root = r.between(0, 254);
+            return uint32_t(root * root);
+        }},
+    {"some lanes zero", 65000,
+        [](Random& r, int, int lane) {
+            return lane % 3 == 0 ? 0u : uint32_t(r.between(0, 65000));
+        }},
+    {"few zeros among the largest", kNarrowMax,
+        [](Random& r, int, int) { return r.chance(0.02) ? 0u : kNarrowMax; }},
     {"only the largest", kNarrowMax, [](Random&, int, int) { return kNarrowMax; }},
-    {"blocks of small and large", kNarrowMax, [](Random& r, int row, int lane) {
-        return row / 24 % 2 ? uint32_t(r.between(0, 9)) : uint32_t(60000 + lane * 7 + row % 8);
-    }},
-    {"staircase", 65000, [](Random&, int row, int lane) {
-        return uint32_t((row * 37 + lane * 11) % 255 * 255);
-    }},
+    {"blocks of small and large", kNarrowMax,
+        [](Random& r, int row, int lane) {
+            return row / 24 % 2 ? uint32_t(r.between(0, 9)) : uint32_t(60000 + lane * 7 + row % 8);
+        }},
+    {"staircase", 65000,
+        [](Random&, int row, int lane) { return uint32_t((row * 37 + lane * 11) % 255 * 255); }},
 };
 
 constexpr int kRowCounts[] = {8, 16, 24, 40, 64, 72, 128, 200, 256, 512};
@@ -129,7 +130,8 @@ TEST(MinPlus, MatchesPlainLoopsOnValuesBeyond16Bits)
     }
 }
 
-/// The values of a slab whose lines are all alike: the distance to the nearest end, at most @a root.
+/// The values of a slab whose lines are all alike: the distance to the nearest end, at most @a
+/// root.
 template <typename T>
 void expectSlab(int rows, int64_t root)
 {

@@ -187,8 +187,8 @@ TEST(ObjectMask, TilesStayTilesOnEveryNodeLevel)
     grid->tree().addTile(1, Coord(16, 0, 0), -1.0f, true);
     const auto object = objectMask(*grid);
     const int64_t lower = 128, upper = 4096;
-    EXPECT_EQ(object->activeVoxelCount(),
-        uint64_t(512 + lower * lower * lower + upper * upper * upper));
+    EXPECT_EQ(
+        object->activeVoxelCount(), uint64_t(512 + lower * lower * lower + upper * upper * upper));
     EXPECT_EQ(object->tree().leafCount(), 0u);
     EXPECT_EQ(object->tree().activeTileCount(), 3u);
     EXPECT_LT(object->memUsage(), uint64_t(1) << 24);
@@ -204,10 +204,9 @@ TEST(ObjectMask, ValuesAboveTheThresholdCountAndOthersDoNot)
     grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 1.0f));
     grid->tree().setValueOn(Coord(-2, 0, 0), 1.0f);
     grid->tree().setValueOn(Coord(-3, 0, 0), -1.0f);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)),
-        (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(0.5))),
-        (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectMask(*grid, threshold(0.5))), (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
 }
 
 TEST(ObjectMask, InactiveValuesAboveTheThresholdCountAsWell)
@@ -264,12 +263,11 @@ TEST(ObjectMask, IntegersAreComparedWithoutRounding)
     grid->tree().setValueOn(Coord(2, 0, 0), std::numeric_limits<int64_t>::max());
     grid->tree().setValueOn(Coord(3, 0, 0), -5);
     using Voxels = std::set<Coord>;
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(double(big)))),
-        (Voxels{{1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(double(big)))), (Voxels{{1, 0, 0}, {2, 0, 0}}));
     EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-5.5))),
         (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-5))),
-        (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectMask(*grid, threshold(-5))), (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
     EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-std::ldexp(1.0, 63)))).size(), 4u);
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(std::ldexp(1.0, 63))), "threshold="));
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(-1e30)), "no bounds"));
@@ -319,8 +317,8 @@ TEST(ObjectMask, TheInteriorOfALevelSetIsWhereItsValueIsBelowTheIso)
 
 TEST(ObjectMask, TheDeepInteriorOfALevelSetStaysTiles)
 {
-    const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
-        100.0f, openvdb::Vec3f(0), 1.0f);
+    const auto grid =
+        openvdb::tools::createLevelSetSphere<FloatGrid>(100.0f, openvdb::Vec3f(0), 1.0f);
     const auto object = objectMask(*grid);
     EXPECT_GT(object->tree().activeTileCount(), 100u);
     EXPECT_LE(object->tree().leafCount(), grid->tree().leafCount());
@@ -340,8 +338,8 @@ TEST(ObjectMask, InteriorTilesFarFromAnyLeafCount)
 
 TEST(ObjectMask, AnIsoBeyondTheNarrowBandIsAnErrorThatNamesTheBand)
 {
-    const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
-        10.0f, openvdb::Vec3f(0), 0.5f);
+    const auto grid =
+        openvdb::tools::createLevelSetSphere<FloatGrid>(10.0f, openvdb::Vec3f(0), 0.5f);
     grid->setName("ball");
     for (double value : {1.5, -1.5, 2.0, -2.0}) {
         const std::string why = whyNot(*grid, iso(value));
@@ -363,8 +361,8 @@ TEST(ObjectMask, AFogVolumeMarkedAsLevelSetIsAnErrorThatSaysSo)
 
 TEST(ObjectMask, ALevelSetThatIsNotMarkedAsOneIsAnErrorThatSaysSo)
 {
-    const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
-        10.0f, openvdb::Vec3f(0), 0.5f);
+    const auto grid =
+        openvdb::tools::createLevelSetSphere<FloatGrid>(10.0f, openvdb::Vec3f(0), 0.5f);
     grid->setGridClass(openvdb::GRID_UNKNOWN);
     EXPECT_TRUE(mentions(whyNot(*grid), "'level set'"));
 }
@@ -377,8 +375,7 @@ TEST(ObjectMask, AVoxelOfAPointGridCountsWhenItHoldsAPoint)
     auto& tree = grid->tree();
     tree.setActiveState(Coord(0, 0, 3), true); // active, without a point of its own
     tree.addTile(1, Coord(64, 64, 64), 0, true);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)),
-        (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}, {7, 7, 7}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}, {7, 7, 7}}));
     tree.setActiveState(Coord(0, 0, 0), false);
     EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{-7, 3, 100}, {7, 7, 7}}));
 }
@@ -398,7 +395,7 @@ TEST(ObjectMask, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
 {
     openvdb::initialize();
     int bounded = 0;
-    openvdb::GridTypes::foreach([&](auto sample) {
+    openvdb::GridTypes::foreach ([&](auto sample) {
         using GridT = std::decay_t<decltype(sample)>;
         const typename GridT::Ptr grid = GridT::create();
         grid->setName("empty");
@@ -489,8 +486,8 @@ TEST(ObjectMask, InfinitiesAndNansInTheTransformAreErrors)
 {
     using namespace openvdb::math;
     for (const double bad : {std::nan(""), kInfinity}) {
-        EXPECT_TRUE(mentions(
-            whyNot(*dotWith(mapped(MapBase::Ptr(new UniformScaleMap(bad))))), "'dot'"));
+        EXPECT_TRUE(
+            mentions(whyNot(*dotWith(mapped(MapBase::Ptr(new UniformScaleMap(bad))))), "'dot'"));
         const auto moved = Transform::createLinearTransform(1.0);
         moved->postTranslate({0, bad, 0});
         EXPECT_TRUE(mentions(whyNot(*dotWith(moved)), "'dot'"));
@@ -505,9 +502,10 @@ TEST(ObjectMask, RotatedMirroredAndTinyCubesAreCubes)
     rotated->postRotate(1.4, X_AXIS);
     const auto large = Transform::createLinearTransform(1e8);
     large->postRotate(2.2, Y_AXIS);
-    for (const Transform::Ptr& transform : {rotated, large, mapped(MapBase::Ptr(
-             new ScaleMap({-0.5, 0.5, 0.5}))), mapped(MapBase::Ptr(new ScaleMap({1, 1 + 1e-8, 1}))),
-             Transform::createLinearTransform(1e-4)}) {
+    for (const Transform::Ptr& transform :
+        {rotated, large, mapped(MapBase::Ptr(new ScaleMap({-0.5, 0.5, 0.5}))),
+            mapped(MapBase::Ptr(new ScaleMap({1, 1 + 1e-8, 1}))),
+            Transform::createLinearTransform(1e-4)}) {
         EXPECT_EQ(objectMask(*dotWith(transform))->transform(), *transform);
     }
 }

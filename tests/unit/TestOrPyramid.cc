@@ -20,17 +20,19 @@ using openvdb::Index64;
 using openvdb::MaskTree;
 using openvdb::ValueError;
 
-testing::AssertionResult agree(const std::vector<std::set<Coord>>& expected, const OrPyramid& pyramid)
+testing::AssertionResult agree(
+    const std::vector<std::set<Coord>>& expected, const OrPyramid& pyramid)
 {
     if (pyramid.levels.size() != expected.size()) {
-        return testing::AssertionFailure() << pyramid.levels.size() << " levels, should be "
-            << expected.size();
+        return testing::AssertionFailure()
+            << pyramid.levels.size() << " levels, should be " << expected.size();
     }
     for (std::size_t k = 0; k < expected.size(); ++k) {
-        if (voxelsOf(*pyramid.levels[k]) == Voxels(expected[k].begin(), expected[k].end())) continue;
-        return testing::AssertionFailure() << "level " << k << " has "
-            << pyramid.levels[k]->activeVoxelCount() << " voxels, should have " << expected[k].size()
-            << " or others";
+        if (voxelsOf(*pyramid.levels[k]) == Voxels(expected[k].begin(), expected[k].end()))
+            continue;
+        return testing::AssertionFailure()
+            << "level " << k << " has " << pyramid.levels[k]->activeVoxelCount()
+            << " voxels, should have " << expected[k].size() << " or others";
     }
     return testing::AssertionSuccess();
 }
@@ -68,13 +70,15 @@ TEST(OrPyramid, MatchesSetsOfCoordinatesForManyFactorsAndBothDimensions)
         const int factor = std::array<int, 5>{2, 2, 3, 5, 8}[seed / 11 % 5];
         const auto mask = maskOf(object.voxels);
         if (seed % 2) mask->prune();
-        ASSERT_TRUE(agree(naiveOrPyramid(object.voxels, factor), buildOrPyramid(*gridOf(*mask), factor)))
+        ASSERT_TRUE(
+            agree(naiveOrPyramid(object.voxels, factor), buildOrPyramid(*gridOf(*mask), factor)))
             << object.name << ", factor " << factor;
 
         Voxels flat = object.voxels;
         for (Coord& voxel : flat) voxel[2] = object.voxels[0][2];
         sortVoxels(flat);
-        ASSERT_TRUE(agree(naiveOrPyramid(flat, factor, 2), buildOrPyramid(*gridOf(flat), factor, 2)))
+        ASSERT_TRUE(
+            agree(naiveOrPyramid(flat, factor, 2), buildOrPyramid(*gridOf(flat), factor, 2)))
             << object.name << " flattened, factor " << factor;
     }
 }
@@ -128,7 +132,8 @@ TEST(OrPyramid, ParentsAreRoundedDownAlsoBelowZero)
 
 TEST(OrPyramid, CoarsenWorksFromAnyOriginAndBelowZero)
 {
-    for (const Coord& origin : {Coord(0, 0, 0), Coord(64, -8, 8), Coord(3, 1, -5), Coord(1024, 8, 0)}) {
+    for (const Coord& origin :
+        {Coord(0, 0, 0), Coord(64, -8, 8), Coord(3, 1, -5), Coord(1024, 8, 0)}) {
         for (int factor : {2, 3}) {
             const PyramidStep step{origin, factor, 3};
             for (uint32_t seed = 0; seed < 22; ++seed) {
@@ -136,7 +141,8 @@ TEST(OrPyramid, CoarsenWorksFromAnyOriginAndBelowZero)
                 std::set<Coord> expected;
                 for (const Coord& voxel : object.voxels) expected.insert(step.parentVoxel(voxel));
                 ASSERT_EQ(voxelsOf(*coarsen(*maskOf(object.voxels), step)),
-                    Voxels(expected.begin(), expected.end())) << object.name << ", origin " << origin;
+                    Voxels(expected.begin(), expected.end()))
+                    << object.name << ", origin " << origin;
             }
         }
     }
@@ -144,18 +150,24 @@ TEST(OrPyramid, CoarsenWorksFromAnyOriginAndBelowZero)
 
 TEST(OrPyramid, TilesGiveTheLevelsOfTheirVoxels)
 {
-    struct { int size; openvdb::Index level; } const tiles[] = {{8, 1}, {128, 2}};
+    struct {
+        int size;
+        openvdb::Index level;
+    } const tiles[] = {{8, 1}, {128, 2}};
     for (const auto& tile : tiles) {
         for (int factor : {2, 3}) {
             auto asTile = openvdb::BoolGrid::create(false);
             asTile->tree().addTile(tile.level, Coord(-tile.size, 0, tile.size), true, true);
-            asTile->tree().setValueOn(Coord(-tile.size - 9, -5, 0)); // the origin then cuts the tile
+            asTile->tree().setValueOn(
+                Coord(-tile.size - 9, -5, 0)); // the origin then cuts the tile
             auto asVoxels = asTile->deepCopy();
             asVoxels->tree().voxelizeActiveTiles(false);
-            const OrPyramid a = buildOrPyramid(*asTile, factor), b = buildOrPyramid(*asVoxels, factor);
+            const OrPyramid a = buildOrPyramid(*asTile, factor),
+                            b = buildOrPyramid(*asVoxels, factor);
             ASSERT_EQ(a.levels.size(), b.levels.size());
             for (std::size_t k = 0; k < a.levels.size(); ++k) {
-                ASSERT_EQ(voxelsOf(*a.levels[k]), voxelsOf(*b.levels[k])) << tile.size << ", level " << k;
+                ASSERT_EQ(voxelsOf(*a.levels[k]), voxelsOf(*b.levels[k]))
+                    << tile.size << ", level " << k;
             }
         }
     }
@@ -216,7 +228,8 @@ TEST(OrPyramid, CoarseningLeavesNoFullLeafWhereATileWouldDo)
 
 TEST(OrPyramid, ATileAndVoxelsThatFillALeafTogetherBecomeATile)
 {
-    // The pyramid's origin cuts the tile, so that a leaf of the next level is half tile, half voxels.
+    // The pyramid's origin cuts the tile, so that a leaf of the next level is half tile, half
+    // voxels.
     MaskTree tree(false);
     tree.addTile(2, Coord(128, 0, 0), true, true);
     for (const Coord& voxel : voxelsOfBox(CoordBBox(Coord(112, 0, 0), Coord(127, 31, 31)))) {
@@ -238,10 +251,7 @@ TEST(OrPyramid, VoxelsFarApartMeetAtTheTop)
     EXPECT_LE(pyramid.levels.size(), 29u);
 }
 
-TEST(OrPyramid, RefusesAnEmptyObject)
-{
-    EXPECT_NE(refusal(*openvdb::BoolGrid::create()), "");
-}
+TEST(OrPyramid, RefusesAnEmptyObject) { EXPECT_NE(refusal(*openvdb::BoolGrid::create()), ""); }
 
 TEST(OrPyramid, RefusesASideOfMoreThan2To28VoxelsAndNamesIt)
 {
@@ -290,7 +300,9 @@ TEST(OrPyramid, AnIncludingModelMayAddVoxels)
 TEST(OrPyramid, AModelThatIsTheOrModelGivesTheSame)
 {
     const auto object = gridOf(randomObject(8).voxels);
-    const auto model = [](const MaskTree& level, const PyramidStep& step) { return coarsen(level, step); };
+    const auto model = [](const MaskTree& level, const PyramidStep& step) {
+        return coarsen(level, step);
+    };
     for (int factor : {2, 3}) {
         const OrPyramid plain = buildOrPyramid(*object, factor);
         const OrPyramid modelled = buildOrPyramid(*object, factor, 3, nullptr, model);

@@ -34,8 +34,8 @@ TEST(PowerMap, ASmallBallBelongsToItsCentre)
     }
 }
 
-/// Two crosses side by side along an axis share a voxel that both cover equally well, and as well as
-/// it covers itself.
+/// Two crosses side by side along an axis share a voxel that both cover equally well, and as well
+/// as it covers itself.
 TEST(PowerMap, OfEquallyGoodSitesTheLargerWinsAndThenTheFirst)
 {
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,14 +67,16 @@ TEST(PowerMap, ABoxOfEvenSizeIsSplitBetweenItsMiddleVoxels)
 TEST(PowerMap, VoxelsOutsideTheObjectHaveNoLabel)
 {
     const CoreStages stages(*maskOf(Voxels{Coord(-1, 0, 0), Coord(20, 0, 0)}));
-    for (const Coord& voxel : {Coord(-2, 0, 0), Coord(0, 0, 0), Coord(21, 0, 0), Coord(1000, 0, 0)}) {
+    for (const Coord& voxel :
+        {Coord(-2, 0, 0), Coord(0, 0, 0), Coord(21, 0, 0), Coord(1000, 0, 0)}) {
         EXPECT_THROW(stages.labels.label(voxel), openvdb::LookupError) << voxel;
     }
     try {
         stages.labels.label(Coord(12, 345, -6));
         FAIL() << "no exception";
     } catch (const openvdb::LookupError& error) {
-        EXPECT_NE(std::string(error.what()).find("[12, 345, -6]"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("[12, 345, -6]"), std::string::npos)
+            << error.what();
     }
 }
 
@@ -133,7 +135,10 @@ TEST(PowerMap, TwoDimensionsLeaveTheZAxisOut)
 
 TEST(PowerMap, TilesHaveTheLabelsOfTheirVoxels)
 {
-    struct { int size; openvdb::Index level; } const tiles[] = {{8, 1}, {128, 2}};
+    struct {
+        int size;
+        openvdb::Index level;
+    } const tiles[] = {{8, 1}, {128, 2}};
     for (const auto& tile : tiles) {
         MaskTree tree(false);
         tree.addTile(tile.level, Coord(-tile.size, 0, tile.size), true, true);

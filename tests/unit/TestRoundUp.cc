@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestRoundUp.cc
-/// @brief Every result is the smallest number of its type that is not below the true value: checked in
-/// 128-bit integers, which hold the true values of products, squares and conversions.
+/// @brief Every result is the smallest number of its type that is not below the true value: checked
+/// in 128-bit integers, which hold the true values of products, squares and conversions.
 
 #include <openvdb_spheretree/detail/RoundUp.h>
 
@@ -53,7 +53,9 @@ TEST(RoundUp, SumsAreTheSmallestDoubleNotBelow)
         const Wide sum = m + (Wide(n) << shift);
         const double up = addUp(a, b);
         ASSERT_GE(Wide(up), sum) << a << " + " << b;
-        if (up > 0) { ASSERT_LT(Wide(before(up)), sum) << a << " + " << b; }
+        if (up > 0) {
+            ASSERT_LT(Wide(before(up)), sum) << a << " + " << b;
+        }
         ASSERT_EQ(addUp(b, a), up);
     }
 }
@@ -102,7 +104,9 @@ TEST(RoundUp, IntegersBecomeTheSmallestDoubleNotBelow)
         ASSERT_GE(Wide(up), Wide(x));
         ASSERT_TRUE(up == double(x) || Wide(double(x)) < x) << x;
         ASSERT_LE(up, nextUp(double(x)));
-        if (std::abs(x) <= int64_t(1) << 53) { ASSERT_EQ(Wide(up), Wide(x)); }
+        if (std::abs(x) <= int64_t(1) << 53) {
+            ASSERT_EQ(Wide(up), Wide(x));
+        }
     }
     EXPECT_EQ(toDoubleUp((int64_t(1) << 53) + 1), 0x1p53 + 2);
     EXPECT_EQ(toDoubleUp(std::numeric_limits<int64_t>::max()), 0x1p63);

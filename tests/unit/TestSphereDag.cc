@@ -46,10 +46,7 @@ Edges edgesByCentres(
     return result;
 }
 
-Coord originOf(const Voxels& voxels)
-{
-    return boxOf(voxels).min() & ~7;
-}
+Coord originOf(const Voxels& voxels) { return boxOf(voxels).min() & ~7; }
 
 /// Checks the DAG between the voxels and those of the next level, given by the caller.
 void checkStep(const Voxels& voxels, const Voxels& above, const PyramidStep& step)
@@ -60,8 +57,7 @@ void checkStep(const Voxels& voxels, const Voxels& above, const PyramidStep& ste
     EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
     EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
     EXPECT_EQ(edgesByCentres(edges, fine, coarse),
-        edgesByDefinition(
-            NaiveReference(voxels, step.dim), NaiveReference(above, step.dim), step));
+        edgesByDefinition(NaiveReference(voxels, step.dim), NaiveReference(above, step.dim), step));
 }
 
 Voxels coarsened(const Voxels& voxels, const PyramidStep& step)

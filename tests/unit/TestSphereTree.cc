@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestSphereTree.cc
-/// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order, ids,
-/// world radii, records, errors, and that every tree ends.
+/// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order,
+/// ids, world radii, records, errors, and that every tree ends.
 
 #include <openvdb_spheretree/SphereTree.h>
 
@@ -48,12 +48,12 @@ TEST(SphereTree, RejectsVoxelsThatAreNotUniform)
     EXPECT_TRUE(mentions(messageOfBuild(*grid), "1 x 1 x 0.5"));
 }
 
-TEST(SphereTree, RejectsATransformThatIsNotLinear)
+TEST(SphereTree, RejectsAFrustum)
 {
     const auto grid = gridOf(block());
     grid->setTransform(openvdb::math::Transform::createFrustumTransform(
         openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(100)), 0.5, 100, 1));
-    EXPECT_TRUE(mentions(messageOfBuild(*grid), "linear"));
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "frustum"));
 }
 
 TEST(SphereTree, RejectsTwoDimensionsForAThickObject)
@@ -70,8 +70,8 @@ TEST(SphereTree, RejectsSettingsOutOfRange)
     for (int factor : {1, 0, -2, 65}) {
         SphereTreeSettings settings;
         settings.factor = factor;
-        EXPECT_TRUE(mentions(
-            messageOfBuild(*someGrid(), settings), "factor=" + std::to_string(factor)));
+        EXPECT_TRUE(
+            mentions(messageOfBuild(*someGrid(), settings), "factor=" + std::to_string(factor)));
     }
     SphereTreeSettings settings;
     settings.dim = 4;
@@ -99,7 +99,9 @@ TEST(SphereTree, ParentsStandBeforeTheirChildrenAndLevelsAreRangesOfIds)
             for (int32_t id = range.begin; id < range.end; ++id) {
                 EXPECT_EQ(tree.levelOf(id), level);
                 EXPECT_LT(tree.parent[id], range.begin);
-                if (id > range.begin) { EXPECT_LT(tree.ijk[id - 1], tree.ijk[id]); }
+                if (id > range.begin) {
+                    EXPECT_LT(tree.ijk[id - 1], tree.ijk[id]);
+                }
             }
         }
         EXPECT_EQ(begin, tree.size());
@@ -286,21 +288,33 @@ TEST(SphereTree, TwoVoxelsFarApartEndAtOneRootThatHoldsBoth)
     }
 }
 
+/// A tree that holds both voxels, or an error that says why not.
+void checkWideObject(const SphereTreeSettings& settings)
+{
+    SCOPED_TRACE(describe(settings));
+    const Voxels voxels{Coord(-int(kMaxExtent / 2), 0, 0), Coord(int(kMaxExtent / 2) - 1, 5, 0)};
+    const auto grid = gridOf(voxels);
+    if (settings.factor == 5 || settings.factor == 11 || settings.factor == 64) {
+        const std::string message = messageOfBuild(*grid, settings); // f^k would pass 2^29
+        EXPECT_TRUE(mentions(message, "factor=" + std::to_string(settings.factor)));
+        return;
+    }
+    const SphereTree tree = buildSphereTree(*grid, settings);
+    EXPECT_TRUE(endsAtOneRoot(tree));
+    EXPECT_TRUE(covers(tree, voxels));
+    const double fourRSq = 4 * tree.radius[0] * tree.radius[0];
+    EXPECT_NEAR(double(tree.coverSq[0]), fourRSq, 1e-9 * fourRSq);
+}
+
 TEST(SphereTree, TheWidestObjectThereMayBeOverflowsNowhere)
 {
-    const Voxels voxels{Coord(-int(kMaxExtent / 2), 0, 0), Coord(int(kMaxExtent / 2) - 1, 5, 0)};
     for (SphereTreeSettings settings : bothTypes()) {
         for (int i = 0; i < 4; ++i) {
             settings.finalFit = i % 2 == 0;
             settings.scale = i / 2 ? RadiusScale::Paper : RadiusScale::Tight;
-            for (int factor : {2, 3, 7, 10, 11, 17, 26, 48, 64}) {
+            for (int factor : {2, 3, 5, 6, 7, 11, 17, 64}) {
                 settings.factor = factor;
-                SCOPED_TRACE(describe(settings));
-                const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
-                EXPECT_TRUE(endsAtOneRoot(tree));
-                EXPECT_TRUE(covers(tree, voxels));
-                const double reach = 2 * tree.radius[0];
-                EXPECT_NEAR(double(tree.coverSq[0]), reach * reach, 1e-9 * reach * reach);
+                checkWideObject(settings);
             }
         }
     }
@@ -356,8 +370,7 @@ TEST(SphereTree, StopsWhenInterruptedAtAnyQuestion)
             StopAfter stop(questions);
             try {
                 finished = buildSphereTree(*grid, settings, &stop).size() > 0;
-            } catch (const Interrupted&) {
-            }
+            } catch (const Interrupted&) {}
         }
         EXPECT_GT(questions, 20) << "the build hardly asks";
     }

@@ -100,7 +100,7 @@ TEST(SphereTreeCsv, NumbersReadBackToTheSameDouble)
 
 TEST(SphereTreeCsv, TheRadiusIsNeverBelowTheStoredFloat)
 {
-    // The shortest text that tells 0.1f from other floats is 0.1, which as a double is less than it.
+    // The shortest text that tells 0.1f from other floats is 0.1, as a double less than it.
     SphereTree tree = oneVoxelTree();
     tree.radiusWorld[0] = 0.1f;
     const std::vector<std::string> row = split(split(csvOf(tree), '\n').at(1), ',');
@@ -121,8 +121,8 @@ TEST(SphereTreeCsv, TheLocaleOfTheStreamMakesNoDifference)
     writeCsv(tree, out);
     EXPECT_EQ(out.str(), csvOf(tree));
 
-    const std::locale before = std::locale::global(
-        std::locale(std::locale::classic(), new GermanNumbers));
+    const std::locale before =
+        std::locale::global(std::locale(std::locale::classic(), new GermanNumbers));
     const std::string text = csvOf(tree);
     std::locale::global(before);
     EXPECT_EQ(text, csvOf(tree));

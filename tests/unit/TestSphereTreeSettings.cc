@@ -22,10 +22,7 @@ std::string whyInvalid(const SphereTreeSettings& settings)
 
 } // namespace
 
-TEST(SphereTreeSettings, DefaultsAreValid)
-{
-    EXPECT_NO_THROW(SphereTreeSettings().validate());
-}
+TEST(SphereTreeSettings, DefaultsAreValid) { EXPECT_NO_THROW(SphereTreeSettings().validate()); }
 
 TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
 {
@@ -61,10 +58,10 @@ TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
         messageOf<openvdb::ValueError>([] { reconstructionFromString("Clip"); });
     EXPECT_TRUE(mentions(reconstruct, "reconstruct='Clip'"));
     EXPECT_TRUE(mentions(reconstruct, "clip, free or none"));
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([] { parentRuleFromString("center"); }),
-        "centre or dag"));
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([] { radiusScaleFromString(""); }),
-        "tight or paper"));
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([] { parentRuleFromString("center"); }), "centre or dag"));
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([] { radiusScaleFromString(""); }), "tight or paper"));
 }
 
 TEST(SphereTreeSettings, TightTreesAreSaidToBeUnavailableYet)

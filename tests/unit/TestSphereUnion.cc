@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/SphereUnion.h>
 
 #include <openvdb_spheretree/Interrupted.h>
+#include <openvdb_spheretree/detail/LeafBall.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -64,9 +65,9 @@ Spheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int 
     Spheres spheres;
     for (int i = 0; i < count; ++i) {
         const int r2 = pick(0, 2 * largest);
-        spheres.push_back(ball(2 * middle[0] + pick(-spread, spread),
-            2 * middle[1] + pick(-spread, spread), 2 * middle[2] + pick(-spread, spread),
-            pick(-3, r2 * r2)));
+        spheres.push_back(
+            ball(2 * middle[0] + pick(-spread, spread), 2 * middle[1] + pick(-spread, spread),
+                2 * middle[2] + pick(-spread, spread), pick(-3, r2 * r2)));
     }
     return spheres;
 }
@@ -76,8 +77,8 @@ TEST_F(SphereUnion, MatchesBruteForceOnRandomSpheresAcrossNodeBorders)
     for (unsigned seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
-        const Coord corners[] = {Coord(0), Coord(8, -128, 128), Coord(-4096, 4096, 0),
-            Coord(3), Coord(128, 128, 4096)};
+        const Coord corners[] = {
+            Coord(0), Coord(8, -128, 128), Coord(-4096, 4096, 0), Coord(3), Coord(128, 128, 4096)};
         const Coord middle = corners[seed % 5];
         const int largest = seed % 3 == 0 ? 3 : 14;
         const Spheres spheres = randomSpheres(random, 1 + seed % 7, middle, 20, largest);
@@ -129,8 +130,8 @@ TEST_F(SphereUnion, LargeSpheresBecomeTilesOfEveryNodeLevel)
     const CoordBBox clip(Coord(-300, -10, -10), Coord(4095));
     const MaskTree::Ptr tree = sphereUnion(spheres, clip);
     EXPECT_TRUE(tree->isValueOn(Coord(2000)));
-    EXPECT_EQ(tree->getValueDepth(Coord(2000)), 0);           // a tile of the root
-    EXPECT_EQ(tree->getValueDepth(Coord(-64, 2048, 2048)), 1); // 128^3
+    EXPECT_EQ(tree->getValueDepth(Coord(2000)), 0);             // a tile of the root
+    EXPECT_EQ(tree->getValueDepth(Coord(-64, 2048, 2048)), 1);  // 128^3
     EXPECT_EQ(tree->getValueDepth(Coord(-270, 2048, 2048)), 2); // 8^3, cut by x = -300
     EXPECT_EQ(tree->getValueDepth(Coord(-299, 2048, 2048)), 3);
     EXPECT_TRUE(tree->isValueOn(Coord(-300, 2048, 2048)));
@@ -157,6 +158,47 @@ TEST_F(SphereUnion, NodesGrowWithTheSurfaceOnly)
     EXPECT_GT(large->activeVoxelCount(), 7.9 * small->activeVoxelCount());
 }
 
+/// Bits that lie in a ball, whose centre may be anywhere near or far.
+void expectKernelsLikeBruteForce(const int64_t center2[3], int64_t coverSq)
+{
+    const Spheres ball{{{center2[0], center2[1], center2[2]}, coverSq}};
+    uint64_t expected[8] = {}, vector[8] = {}, portable[8] = {};
+    for (int i = 0; i < 512; ++i) {
+        if (inAny(ball, Coord(i >> 6, i >> 3 & 7, i & 7))) expected[i >> 6] |= 1ull << (i & 63);
+    }
+    detail::orBallIntoLeaf(center2, coverSq, vector);
+    detail::orBallIntoLeafPortable(center2, coverSq, portable);
+    for (int x = 0; x < 8; ++x) {
+        ASSERT_EQ(vector[x], expected[x])
+            << center2[0] << ' ' << center2[1] << ' ' << center2[2] << ' ' << coverSq;
+        ASSERT_EQ(portable[x], expected[x]);
+    }
+}
+
+TEST_F(SphereUnion, TheLeafKernelsMatchBruteForceUpToTheirLimits)
+{
+    std::mt19937 random(5);
+    const int64_t reach = detail::kLeafBallReach2;
+    for (int64_t range : {int64_t(0), int64_t(30), int64_t(300), reach - 14}) {
+        std::uniform_int_distribution<int64_t> offset(-range, range);
+        for (int trial = 0; trial < 2000; ++trial) {
+            const int64_t center2[3] = {7 + offset(random), 7 + offset(random), 7 + offset(random)};
+            // Mostly a surface that passes through the leaf.
+            int64_t square = 0;
+            for (int64_t c : center2) square += (c - 2 * int64_t(random() % 8)) * (c - 7);
+            expectKernelsLikeBruteForce(center2, std::min(std::abs(square), reach * reach));
+        }
+    }
+    for (int64_t x : {14 - reach, reach}) {
+        for (int64_t coverSq : {int64_t(0), reach * reach - 1, reach * reach}) {
+            const int64_t alongX[3] = {x, 6, 7}, alongZ[3] = {7, 6, x}, diagonal[3] = {x, x, x};
+            expectKernelsLikeBruteForce(alongX, coverSq);
+            expectKernelsLikeBruteForce(alongZ, coverSq);
+            expectKernelsLikeBruteForce(diagonal, coverSq);
+        }
+    }
+}
+
 TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
 {
     // Radius and distance 1.5 10^9, as many as the squares hold; the surface passes through x = 0.
@@ -177,8 +219,8 @@ TEST_F(SphereUnion, WorksAtTheLastCoordinates)
     const Coord corner(last - 5, -last + 5, last - 5);
     const CoordBBox clip(Coord(last - 9, -last, last - 9), Coord(last, -last + 9, last));
     const auto center = [](int32_t c) { return 2 * int64_t(c); };
-    const MaskTree::Ptr tree = sphereUnion(
-        {ball(center(corner[0]), center(corner[1]), center(corner[2]), 4 * 9)}, clip);
+    const MaskTree::Ptr tree =
+        sphereUnion({ball(center(corner[0]), center(corner[1]), center(corner[2]), 4 * 9)}, clip);
     EXPECT_EQ(tree->activeVoxelCount(), 123u); // lattice points within 3
     EXPECT_TRUE(tree->isValueOn(corner.offsetBy(3, 0, 0)));
 }

@@ -51,8 +51,8 @@ Volume randomVolume(std::array<int, 3> dim, int percent, std::uint64_t max)
 std::string headerOf(const std::array<int, 3>& dim, int version)
 {
     return "Center-X: 7\nX: " + std::to_string(dim[0]) + "\nY: " + std::to_string(dim[1])
-        + "\nZ: " + std::to_string(dim[2]) + "\nAlpha-Color: 0\nInt-Endian: 0123\nVersion: "
-        + std::to_string(version) + "\n.\n";
+        + "\nZ: " + std::to_string(dim[2])
+        + "\nAlpha-Color: 0\nInt-Endian: 0123\nVersion: " + std::to_string(version) + "\n.\n";
 }
 
 std::string bytesOf(const Volume& volume, int bytesPerValue)
@@ -68,8 +68,9 @@ std::string zipped(const std::string& bytes)
 {
     uLongf size = compressBound(bytes.size());
     std::string out(size, '\0');
-    EXPECT_EQ(Z_OK, compress(reinterpret_cast<Bytef*>(out.data()), &size,
-        reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    EXPECT_EQ(Z_OK,
+        compress(reinterpret_cast<Bytef*>(out.data()), &size,
+            reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
     out.resize(size);
     return out;
 }
@@ -119,7 +120,8 @@ void expectVoxels(const Volume& volume, const openvdb::GridBase::Ptr& base)
                 active += value != 0;
                 ASSERT_EQ(value != 0, grid->tree().isValueOn(Coord(x, y, z))) << Coord(x, y, z);
                 ASSERT_EQ(std::min(value, kInt64Max),
-                    std::uint64_t(grid->tree().getValue(Coord(x, y, z)))) << Coord(x, y, z);
+                    std::uint64_t(grid->tree().getValue(Coord(x, y, z))))
+                    << Coord(x, y, z);
             }
         }
     }
@@ -201,8 +203,8 @@ TEST(VolFile, RejectsEveryTruncationOfASmallFile)
         const std::string bytes = bytesOf(volume, bytesPerValue);
         const std::string name = bytesPerValue == 1 ? "cut.vol" : "cut.longvol";
         for (const int version : {2, 3}) {
-            const std::string whole
-                = headerOf(volume.dim, version) + (version == 2 ? bytes : zipped(bytes));
+            const std::string whole =
+                headerOf(volume.dim, version) + (version == 2 ? bytes : zipped(bytes));
             ASSERT_EQ("", errorOf(name, whole));
             for (std::size_t length = 0; length < whole.size(); ++length) {
                 ASSERT_NE("", errorOf(name, whole.substr(0, length)))
@@ -252,7 +254,7 @@ TEST(VolFile, RejectsAHeaderWhoseVolumeTheFileCannotHold)
     for (const char* version : {"2", "3"}) {
         const std::string rest = std::string("Version: ") + version + "\n.\nabc";
         for (const char* sides : {"X: 1\nY: 4\nZ: 100000\n",
-                 "X: 65536\nY: 65536\nZ: 1\n",             // 2^32: 0 in 32 bits
+                 "X: 65536\nY: 65536\nZ: 1\n",              // 2^32: 0 in 32 bits
                  "X: 1048576\nY: 1048576\nZ: 1048576\n"}) { // 2^63 bytes in a .longvol
             for (const char* name : {"lie.vol", "lie.longvol"}) {
                 const std::string error = errorOf(name, sides + rest);
@@ -311,8 +313,8 @@ TEST(VolFile, RejectsAHeaderThatIsNoHeader)
 
 TEST(VolFile, KeepsItsMessagesShortAndPrintable)
 {
-    const std::string error
-        = errorOf("noise.vol", "X: \x1b[2J" + std::string(60000, 'x') + "\nY: 1\nZ: 1\n.\na");
+    const std::string error =
+        errorOf("noise.vol", "X: \x1b[2J" + std::string(60000, 'x') + "\nY: 1\nZ: 1\n.\na");
     EXPECT_LT(error.size(), 400u);
     EXPECT_EQ(std::string::npos, error.find('\x1b'));
 }
