@@ -18,13 +18,16 @@ namespace {
 constexpr size_t kBufferSize = 1 << 20;
 constexpr size_t kLargestRead = 1 << 26; // Ctrl-C is looked for at least this often
 
-/// A signal that comes just before a read does not wake it; so wait in slices, and look.
+/// A signal that comes just before a read does not wake it; so wait in slices, and look. One that
+/// comes during the wait ends it early, with nothing to read: then look, and wait on.
 void waitForData(int fd)
 {
-    pollfd wanted{fd, POLLIN, 0};
-    do {
+    for (;;) {
         throwIfStopped();
-    } while (poll(&wanted, 1, 200) == 0);
+        pollfd wanted{fd, POLLIN, 0};
+        const int ready = poll(&wanted, 1, 200);
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return; // read() reports what is wrong
+    }
 }
 
 } // namespace

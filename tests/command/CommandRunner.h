@@ -65,9 +65,9 @@ public:
         mProcess = fork();
         if (mProcess != 0) return;
         // O_RDWR, so that opening a named pipe does not wait for the other end.
-        dup2(open(input.c_str(), O_RDWR), 0);
-        dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
-        dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+        dup2(open(input.c_str(), O_RDWR | O_CLOEXEC), 0);
+        dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600), 1);
+        dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600), 2);
         if (chdir(folder.c_str()) != 0) _exit(126);
         if (prepare) prepare();
         execvp(argv[0], argv.data());
@@ -95,10 +95,20 @@ public:
         return false;
     }
 
+    /// Waits five minutes at most, so that a command that hangs fails its test and no more.
     Result wait()
     {
         int status = 0;
-        waitpid(mProcess, &status, 0);
+        bool ended = false;
+        for (int i = 0; i < 300000 && !ended; ++i) {
+            ended = waitpid(mProcess, &status, WNOHANG) == mProcess;
+            if (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        if (!ended) {
+            ADD_FAILURE() << "the command hangs";
+            kill(mProcess, SIGKILL);
+            waitpid(mProcess, &status, 0);
+        }
         mProcess = -1;
         Result result;
         if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);

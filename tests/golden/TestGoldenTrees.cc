@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestGoldenTrees.cc
 /// @brief Sphere counts and errors of real objects, to the last sphere and the last digit given,
-/// from the text files tests/data/<object>.<tree>.txt. An independent dense program gave the
+/// from the text files tests/data/<object>.<tree>.txt. Independent dense programs gave the
 /// numbers.
 
 #include <openvdb_spheretree/LevelErrors.h>
@@ -109,7 +109,8 @@ std::string testName(const testing::TestParamInfo<const char*>& info)
 
 INSTANTIATE_TEST_SUITE_P(Of, GoldenTrees,
     testing::Values("Al.100.extended", "Al.100.reversible", "Al.100.reversible.paper",
-        "Al.100.extended.factor3", "cat10.extended", "dragon-128.extended", "fandisk-128.extended"),
+        "Al.100.extended.factor3", "Al.100.extended.free", "Al.100.extended.none", "cat10.extended",
+        "dragon-128.extended", "fandisk-128.extended"),
     testName);
 
 } // namespace
