@@ -22,6 +22,9 @@ using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
 using MaskLeaf = MaskTree::LeafNodeType;
 
+/// The widest object ends on level 28; an including model may take a few more.
+constexpr std::size_t kMaxLevels = 40;
+
 int floorDiv(int a, int b) { return a >= 0 ? a / b : -((-int64_t(a) + b - 1) / b); }
 
 /// A cube of the finer level: a leaf with its mask, or a tile (mask null).
@@ -265,8 +268,16 @@ OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
         OPENVDB_THROW(openvdb::ValueError, "the object has no voxels");
     }
     pyramid.origin = pyramidOrigin(bbox);
+    if (factor < 2) {
+        OPENVDB_THROW(openvdb::ValueError, "factor=" << factor << ": it must be 2 or more");
+    }
     PyramidStep step{pyramid.origin, factor, dim};
     while (pyramid.levels.back()->activeVoxelCount() > 1) {
+        if (pyramid.levels.size() > kMaxLevels) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "the pyramid does not end at one voxel: the model grows levels as fast as they "
+                "shrink, or the object is more than one voxel thick along z with dim=2");
+        }
         const MaskTree& level = *pyramid.levels.back();
         MaskTree::Ptr next = model ? model(level, step) : coarsen(level, step, interrupter);
         if (model) requireIncluding(level, *next, step, interrupter);

@@ -39,11 +39,12 @@ typename Power::Key powerKey(uint32_t distSq)
 }
 
 /// @brief outKey(i) = max over j of inKey(j) with (i - j)^2 taken off its value; offset(i) = j - i
-/// for the first such j. Background (key 0) stays 0 with offset 0.
+/// for the first such j. Background (key 0) stays 0 with offset 0, and cuts its line: a value must
+/// be at most the squared distance to the next background on its line, as distances, and what the
+/// passes before leave of them, are.
 /// @param inKey   row -1 and row `rows` are readable and zero
 /// @param outKey  may be null when only the offsets are wanted
 /// @param rows    a multiple of 8
-/// @param reach   scratch
 void maxPlus(
     const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch);
 void maxPlus(

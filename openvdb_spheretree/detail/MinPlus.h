@@ -11,7 +11,8 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Largest values the min-plus kernels handle; larger ones come out as this value or more.
+/// Results are exact while all of them stay below these. Where one does not, others may be wrong as
+/// well: the pass has to be done again in a wider type.
 constexpr uint32_t kNarrowMax = 255 * 255;     ///< of 16-bit values
 constexpr uint32_t kWideMax = 46340u * 46340u; ///< of 32-bit values: two of them still add up
 

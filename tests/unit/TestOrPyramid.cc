@@ -344,4 +344,11 @@ TEST(OrPyramid, StopsWhenInterrupted)
     }
 }
 
+TEST(OrPyramid, AnEndlessPyramidIsAnErrorRatherThanALoop)
+{
+    const auto object = gridOf(*maskOf(CoordBBox(Coord(0), Coord(20))));
+    EXPECT_THROW(buildOrPyramid(*object, 1), openvdb::ValueError);
+    EXPECT_THROW(buildOrPyramid(*object, 2, 2), openvdb::ValueError); // 21 voxels thick along z
+}
+
 } // namespace
