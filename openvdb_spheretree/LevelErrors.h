@@ -12,7 +12,7 @@ namespace openvdb_spheretree {
 
 /// A level whose spheres cross more voxel rows than this is not counted (two voxels a million apart
 /// have a root sphere of 10^12 rows): its error stays empty, with the reason.
-constexpr int64_t kMaxErrorRows = int64_t(1) << 27;
+constexpr int64_t kMaxErrorRows = int64_t(1) << 24;
 
 /// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree.
 /// @param object  what the tree was built from
