@@ -283,7 +283,7 @@ TEST_F(LevelErrors, ALevelOfTooManyRowsIsLeftOutWithTheReason)
     EXPECT_FALSE(tree.levels[1].error.has_value());
     EXPECT_EQ(tree.levels[1].errorUnknown,
         "its spheres cross about 1570796326795 voxel rows, more "
-        "than the 134217728 that are counted");
+        "than the 16777216 that are counted");
 }
 
 TEST_F(LevelErrors, ManySpheresOnTopOfEachOtherAreNoMoreThanTheRowsOfTheirBox)
