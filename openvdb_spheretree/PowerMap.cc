@@ -26,7 +26,9 @@ void distancesToKeys(Axis axis, const T* distances, typename Power::Key* rows)
 {
     alignas(64) T distanceRows[kLeafVoxels]; // moved while they are small
     detail::leafToRows(axis, distances, distanceRows);
-    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = detail::powerKey<Power>(distanceRows[i]);
+    for (int i = 0; i < kLeafVoxels; ++i) {
+        rows[i] = detail::powerKey<Power>(distanceRows[i], distanceRows[i]);
+    }
 }
 
 /// One pass: keys become the best of their line, offsets say where it stood.
@@ -43,7 +45,7 @@ void alongAxis(Axis axis, const LeafLayout& layout, const Load& load, typename P
         auto* out = keys ? scratch.out.rows(rows) : nullptr;
         auto* steps = scratch.offsets.rows(rows);
         for (uint32_t i = 0; i < run.count; ++i) load(run.leaves[i], in + i * kLeafVoxels);
-        detail::maxPlus(in, out, steps, rows, scratch.envelope);
+        detail::maxPlus<Power>(in, out, steps, rows, scratch.envelope);
         for (uint32_t i = 0; i < run.count; ++i) {
             const std::size_t leaf = std::size_t(run.leaves[i]) * kLeafVoxels;
             detail::rowsToLeaf(axis, steps + i * kLeafVoxels, offsets + leaf);
@@ -105,8 +107,11 @@ PowerMap powerMap(
     }
     const auto& o = map.mOffsets;
     if (narrow) {
-        computeOffsets<detail::NarrowPower>(layout, distances,
-            {o[0].narrow.get(), o[1].narrow.get(), o[2].narrow.get()}, interrupter);
+        const std::array<int8_t*, 3> offsets{
+            o[0].narrow.get(), o[1].narrow.get(), o[2].narrow.get()};
+        const bool small = distances.maxDistSq() <= detail::SmallPower::kMaxRadiusSq;
+        if (small) computeOffsets<detail::SmallPower>(layout, distances, offsets, interrupter);
+        else computeOffsets<detail::NarrowPower>(layout, distances, offsets, interrupter);
     } else {
         computeOffsets<detail::WidePower>(
             layout, distances, {o[0].wide.get(), o[1].wide.get(), o[2].wide.get()}, interrupter);

@@ -18,9 +18,10 @@
 /// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
 /// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype).
 ///
-/// An Op supplies: Value, kTracksStep, penalty(d), candidate(), better(), best(), load(), store()
-/// and blockReach(); see MinPlus.cc and MaxPlus.cc. This header is compiled once per instruction
-/// set.
+/// An Op supplies: Value, penalty(d), candidate(), better(), best(), load(), store(), blockReach(),
+/// and whether store() wants steps: kTracksStep for steps beside the values, kStepInKey where the
+/// values hold them and step() extracts them; see MinPlus.cc and MaxPlus.cc. This header is
+/// compiled once per instruction set.
 
 #if defined(SPHERETREE_ENVELOPE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_ENVELOPE_SEARCH_INL_H
@@ -129,15 +130,19 @@ private:
         high = std::min(high, row + N - 1 + reach);
         const V first = mOp.load(low, mLane);
         V best[N], step[N]; // where the best is, as steps from `row`
+        V penalty[N];       // of the candidate at hand; what row k pays now, k + 1 pays next
         for (int k = 0; k < N; ++k) {
-            best[k] = mOp.candidate(first, hn::Set(d, mOp.penalty(row + k - low)));
+            penalty[k] = hn::Set(d, mOp.penalty(row + k - low));
+            best[k] = mOp.candidate(first, penalty[k]);
             step[k] = hn::Set(d, Value(low - row));
         }
         for (int j = low + 1; j <= high; ++j) {
             const V value = mOp.load(j, mLane);
             const V here = hn::Set(d, Value(j - row));
+            for (int k = N - 1; k > 0; --k) penalty[k] = penalty[k - 1];
+            penalty[0] = hn::Set(d, mOp.penalty(row - j));
             for (int k = 0; k < N; ++k) {
-                const V next = mOp.candidate(value, hn::Set(d, mOp.penalty(row + k - j)));
+                const V next = mOp.candidate(value, penalty[k]);
                 if (Op::kTracksStep) {
                     step[k] = hn::IfThenElse(mOp.better(next, best[k]), here, step[k]);
                 }
@@ -145,7 +150,8 @@ private:
             }
         }
         for (int k = 0; k < N; ++k) {
-            mOp.store(row + k, mLane, best[k], hn::Sub(step[k], hn::Set(d, Value(k))));
+            const V tracked = hn::Sub(step[k], hn::Set(d, Value(k)));
+            mOp.store(row + k, mLane, best[k], Op::kStepInKey ? mOp.step(best[k]) : tracked);
         }
     }
 
@@ -160,9 +166,12 @@ private:
         V step = hn::Set(d, Value(low - row)); // a row's number need not fit a lane; steps do
         for (int j = low + 1; j <= high; ++j) {
             const V next = mOp.candidate(mOp.load(j, mLane), hn::Set(d, mOp.penalty(row - j)));
-            step = hn::IfThenElse(mOp.better(next, best), hn::Set(d, Value(j - row)), step);
+            if (!Op::kStepInKey) {
+                step = hn::IfThenElse(mOp.better(next, best), hn::Set(d, Value(j - row)), step);
+            }
             best = mOp.best(next, best);
         }
+        if (Op::kStepInKey) step = mOp.step(best);
         mOp.store(row, mLane, best, step);
         // A background voxel cuts its line, so it bounds both sides by itself.
         const auto background = hn::Eq(mOp.load(row, mLane), hn::Zero(d));

@@ -22,30 +22,41 @@ struct MaxPlusOp {
     using Offset = typename Power::Offset;
     using D = hn::CappedTag<Value, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kTracksStep = true;
+    static constexpr bool kStepInKey = Power::kSiteShift > 0;
+    static constexpr bool kTracksStep = !kStepInKey;
 
     const Value* in;
     Value* out;
     Offset* offset;
 
+    /// What the key of a site loses on the way to a row `distance` rows behind it.
     static Value penalty(int distance)
     {
-        return Value(Value(distance) * distance) << Power::kShift;
+        const Value square = Value(Value(distance) * distance) << Power::kShift;
+        return kStepInKey ? square - distance : square;
     }
     HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
     static HWY_INLINE V candidate(V key, V penalty) { return hn::Sub(key, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Gt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Max(a, b); }
+    static HWY_INLINE V stepBits(V key) { return hn::And(key, hn::Set(D(), kStepMask)); }
+    static HWY_INLINE V step(V key)
+    {
+        return hn::Sub(hn::Set(D(), Power::kStepBias), stepBits(key));
+    }
 
     HWY_INLINE void store(int row, int lane, V key, V step) const
     {
         const D d;
         const auto background = hn::Eq(load(row, lane), hn::Zero(d));
         const std::ptrdiff_t place = at(row, lane);
-        if (out) hn::Store(hn::IfThenZeroElse(background, key), d, out + place);
-        HWY_ALIGN Value steps[kLanes];
-        hn::Store(hn::IfThenZeroElse(background, step), d, steps);
-        for (std::size_t i = 0; i < hn::Lanes(d); ++i) offset[place + i] = Offset(steps[i]);
+        if (out) {
+            if (kStepInKey) { // the next pass counts its own steps
+                key = hn::Add(hn::Sub(key, stepBits(key)), hn::Set(d, Power::kStepBias));
+            }
+            hn::Store(hn::IfThenZeroElse(background, key), d, out + place);
+        }
+        storeSteps(hn::IfThenZeroElse(background, step), offset + place);
     }
 
     /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block,
@@ -73,6 +84,20 @@ struct MaxPlusOp {
     }
 
 private:
+    static constexpr Value kStepMask = (Value(1) << Power::kSiteShift) - 1;
+
+    static HWY_INLINE void storeSteps(V step, int8_t* offsets)
+    {
+        const hn::Rebind<int8_t, D> narrow;
+        hn::StoreU(hn::DemoteTo(narrow, step), narrow, offsets);
+    }
+    static HWY_INLINE void storeSteps(V step, int16_t* offsets)
+    {
+        HWY_ALIGN Value steps[kLanes];
+        hn::Store(step, D(), steps);
+        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(steps[i]);
+    }
+
     static int rootOrZero(int64_t square) { return square <= 0 ? 0 : floorRoot(square); }
 
     /// The largest value, and the smallest of an object voxel.
@@ -92,6 +117,12 @@ private:
             int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Power::kShift;
     }
 };
+
+void MaxPlusSmall(
+    const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    EnvelopeSearch<MaxPlusOp<SmallPower>>({inKey, outKey, offset}, rows, scratch).run();
+}
 
 void MaxPlusNarrow(
     const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
@@ -114,16 +145,26 @@ HWY_AFTER_NAMESPACE();
 namespace openvdb_spheretree {
 namespace detail {
 
+HWY_EXPORT(MaxPlusSmall);
 HWY_EXPORT(MaxPlusNarrow);
 HWY_EXPORT(MaxPlusWide);
 
-void maxPlus(
+template <>
+void maxPlus<SmallPower>(
+    const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    HWY_DYNAMIC_DISPATCH(MaxPlusSmall)(inKey, outKey, offset, rows, scratch);
+}
+
+template <>
+void maxPlus<NarrowPower>(
     const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
 {
     HWY_DYNAMIC_DISPATCH(MaxPlusNarrow)(inKey, outKey, offset, rows, scratch);
 }
 
-void maxPlus(
+template <>
+void maxPlus<WidePower>(
     const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch)
 {
     HWY_DYNAMIC_DISPATCH(MaxPlusWide)(inKey, outKey, offset, rows, scratch);

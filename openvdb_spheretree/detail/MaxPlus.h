@@ -3,9 +3,11 @@
 /// @brief The kernel of the power map, on rows of 64 lines (see LeafRows.h).
 ///
 /// A voxel's value and the radiusSq of the site it came from travel as one integer, the *key*:
-/// value in the upper half, site radiusSq in the lower. One comparison then decides by value first
-/// and by radiusSq among equals, which is the tie rule; the place along the axis decides last,
-/// because the first of equal rows wins.
+/// value in the upper bits, site radiusSq below. One comparison then decides by value first and by
+/// radiusSq among equals, which is the tie rule; the place along the axis decides last, because the
+/// first of equal rows wins. Where radii are small there is room below for that place as well: the
+/// step to the site, counted downwards from kStepBias so that the first row is the largest. A
+/// candidate then costs one subtraction and one max.
 
 #pragma once
 
@@ -16,11 +18,24 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// Keys and offsets for radii up to 60 voxels: 13 bits of value, 12 of radiusSq, 7 of step. (A
+/// block of four rows looks up to 62 rows away, and 62^2 still fits the value.)
+struct SmallPower {
+    using Key = int32_t;
+    using Offset = int8_t;
+    static constexpr int kSiteShift = 7;
+    static constexpr int kShift = 19;
+    static constexpr Key kStepBias = 64;
+    static constexpr uint32_t kMaxRadiusSq = 60 * 60;
+};
+
 /// Keys and offsets for radii up to 127 voxels.
 struct NarrowPower {
     using Key = int32_t;
     using Offset = int8_t;
+    static constexpr int kSiteShift = 0; ///< no room for the step
     static constexpr int kShift = 16;
+    static constexpr Key kStepBias = 0;
     static constexpr uint32_t kMaxRadiusSq = 127 * 127;
 };
 
@@ -28,14 +43,19 @@ struct NarrowPower {
 struct WidePower {
     using Key = int64_t;
     using Offset = int16_t;
+    static constexpr int kSiteShift = 0;
     static constexpr int kShift = 32;
+    static constexpr Key kStepBias = 0;
     static constexpr uint32_t kMaxRadiusSq = 32767u * 32767u;
 };
 
+/// The key of a voxel that a site of radius^2 @a siteSq covers by @a value; 0 for background.
 template <typename Power>
-typename Power::Key powerKey(uint32_t distSq)
+typename Power::Key powerKey(uint32_t value, uint32_t siteSq)
 {
-    return (typename Power::Key(distSq) << Power::kShift) | distSq;
+    using Key = typename Power::Key;
+    const Key key = (Key(value) << Power::kShift) | (Key(siteSq) << Power::kSiteShift);
+    return value ? key | Power::kStepBias : 0;
 }
 
 /// @brief outKey(i) = max over j of inKey(j) with (i - j)^2 taken off its value; offset(i) = j - i
@@ -45,10 +65,9 @@ typename Power::Key powerKey(uint32_t distSq)
 /// @param inKey   row -1 and row `rows` are readable and zero
 /// @param outKey  may be null when only the offsets are wanted
 /// @param rows    a multiple of 8
-void maxPlus(
-    const int32_t* inKey, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch);
-void maxPlus(
-    const int64_t* inKey, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch);
+template <typename Power>
+void maxPlus(const typename Power::Key* inKey, typename Power::Key* outKey,
+    typename Power::Offset* offset, int rows, EnvelopeScratch& scratch);
 
 } // namespace detail
 } // namespace openvdb_spheretree

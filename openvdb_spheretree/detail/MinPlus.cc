@@ -43,7 +43,7 @@ struct MinPlusOp {
     using Value = T;
     using D = hn::CappedTag<T, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kTracksStep = false;
+    static constexpr bool kStepInKey = false, kTracksStep = false;
 
     const T* in;
     T* out;
@@ -67,6 +67,7 @@ struct MinPlusOp {
     static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
+    static HWY_INLINE V step(V value) { return value; } // values hold none
     HWY_INLINE void store(int row, int lane, V value, V) const
     {
         hn::Store(value, D(), out + at(row, lane));

@@ -104,14 +104,16 @@ Result runMaxPlus(const Rows& rows, bool withKeys = true)
     Key* out = outBuffer.rows(count);
     auto* offsets = offsetBuffer.rows(count);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        in[i] = Key(rows[i].value) << Power::kShift | Key(rows[i].siteSq);
+        in[i] = powerKey<Power>(uint32_t(rows[i].value), uint32_t(rows[i].siteSq));
     }
     EnvelopeScratch scratch;
-    maxPlus(in, withKeys ? out : nullptr, offsets, count, scratch);
+    maxPlus<Power>(in, withKeys ? out : nullptr, offsets, count, scratch);
     Result result{Rows(rows.size()), std::vector<int>(offsets, offsets + rows.size())};
     for (std::size_t i = 0; withKeys && i < rows.size(); ++i) {
-        const Key siteSq = out[i] & ((Key(1) << Power::kShift) - 1);
-        result.best[i] = {int64_t(out[i] >> Power::kShift), int64_t(siteSq)};
+        const int64_t value = out[i] >> Power::kShift;
+        const int64_t siteSq = (out[i] & ((Key(1) << Power::kShift) - 1)) >> Power::kSiteShift;
+        result.best[i] = {value, siteSq};
+        EXPECT_EQ(out[i], powerKey<Power>(uint32_t(value), uint32_t(siteSq)));
     }
     return result;
 }
@@ -157,6 +159,11 @@ void expectMatches(int64_t largestSq, uint32_t seed)
     }
 }
 
+TEST(MaxPlus, SmallKeysMatchPlainLoopsTiesIncluded)
+{
+    expectMatches<SmallPower>(SmallPower::kMaxRadiusSq, 5);
+}
+
 TEST(MaxPlus, NarrowKeysMatchPlainLoopsTiesIncluded)
 {
     expectMatches<NarrowPower>(NarrowPower::kMaxRadiusSq, 1);
@@ -173,8 +180,9 @@ TEST(MaxPlus, OffsetsAreTheSameWithoutKeys)
     Random random(4);
     for (int count : kRowCounts) {
         const Rows rows = makeRows(
-            count, NarrowPower::kMaxRadiusSq, kBackgrounds[2].rate, kValues[1].value, random);
+            count, SmallPower::kMaxRadiusSq, kBackgrounds[2].rate, kValues[1].value, random);
         const Result expected = naiveMaxPlus(rows);
+        EXPECT_EQ(runMaxPlus<SmallPower>(rows, false).offsets, expected.offsets) << count;
         EXPECT_EQ(runMaxPlus<NarrowPower>(rows, false).offsets, expected.offsets) << count;
         EXPECT_EQ(runMaxPlus<WidePower>(rows, false).offsets, expected.offsets) << count;
     }
@@ -202,12 +210,15 @@ void expectOneSite(int64_t radius)
 
 TEST(MaxPlus, HoldsTheLargestRadiusOfEachWidth)
 {
+    expectOneSite<SmallPower>(60);
+    expectOneSite<NarrowPower>(61);
     expectOneSite<NarrowPower>(127);
     expectOneSite<WidePower>(128);
     expectOneSite<WidePower>(32767);
 }
 
-TEST(MaxPlus, LinesMayBeLongerThan65536Rows)
+template <typename Power>
+void expectLongLine()
 {
     constexpr int kCount = 8 * 8300;
     Rows rows(std::size_t(kCount) * kLanes);
@@ -217,13 +228,19 @@ TEST(MaxPlus, LinesMayBeLongerThan65536Rows)
             rows[row * kLanes + lane] = Entry{steps * steps, steps * steps};
         }
     }
-    const Result result = runMaxPlus<NarrowPower>(rows);
+    const Result result = runMaxPlus<Power>(rows);
     for (int64_t row = 0; row < kCount; ++row) {
         // Voxels nearer to an end than 40 belong to the first site of full size, the rest to
         // themselves.
         const int64_t site = std::min<int64_t>(std::max<int64_t>(row, 39), kCount - 40);
         ASSERT_EQ(result.offsets[row * kLanes], site - row) << row;
     }
+}
+
+TEST(MaxPlus, LinesMayBeLongerThan65536Rows)
+{
+    expectLongLine<SmallPower>();
+    expectLongLine<NarrowPower>();
 }
 
 } // namespace
