@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTree.h"
 
+#include "IntersectionDag.h"
 #include "UniformVoxels.h"
 #include "detail/RoundUp.h"
 #include "detail/TreeLevels.h"
@@ -130,6 +131,9 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     appendNodes(tree,
         settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
                                               : detail::extendedLevels(voxels, context));
+    if (settings.dag && settings.edges == DagEdges::Intersecting) {
+        tree.dag = intersectionDag(tree, interrupter);
+    }
     storeRadii(tree);
     if (settings.tree == TreeType::Extended) containStoredLeaves(tree);
     return tree;

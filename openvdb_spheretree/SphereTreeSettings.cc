@@ -29,6 +29,8 @@ constexpr std::array<Named<Reconstruction>, 3> kReconstructions{{{Reconstruction
     {Reconstruction::Free, "free"}, {Reconstruction::None, "none"}}};
 constexpr std::array<Named<RadiusScale>, 2> kRadiusScales{
     {{RadiusScale::Tight, "tight"}, {RadiusScale::Paper, "paper"}}};
+constexpr std::array<Named<DagEdges>, 2> kDagEdges{
+    {{DagEdges::Shared, "shared"}, {DagEdges::Intersecting, "intersecting"}}};
 
 template <typename Enum, std::size_t N>
 const char* nameOf(const std::array<Named<Enum>, N>& names, Enum value)
@@ -97,6 +99,7 @@ const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
 const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
 const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
 const char* toString(RadiusScale value) { return nameOf(kRadiusScales, value); }
+const char* toString(DagEdges value) { return nameOf(kDagEdges, value); }
 
 std::string paddingToString(double padding)
 {
@@ -130,6 +133,8 @@ RadiusScale radiusScaleFromString(const std::string& text)
 {
     return fromName(kRadiusScales, "scale", text);
 }
+
+DagEdges dagEdgesFromString(const std::string& text) { return fromName(kDagEdges, "edges", text); }
 
 double paddingFromString(const std::string& text)
 {

@@ -25,6 +25,11 @@ enum class Reconstruction {
     None  ///< coarsen a level as it is
 };
 
+enum class DagEdges {
+    Shared,      ///< balls whose power cells share a voxel (Definition 2): SphereDag.h
+    Intersecting ///< all spheres that meet (Eq. 3), for study: IntersectionDag.h
+};
+
 enum class RadiusScale {
     Tight, ///< f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2: no more than coverage needs
     Paper  ///< f^k sqrt(radiusSq) in place of the first term, on the levels above 0
@@ -47,6 +52,7 @@ struct SphereTreeSettings {
     double padding = kPadCubes;
     /// Also collect the edges of the Sphere-DAG.
     bool dag = false;
+    DagEdges edges = DagEdges::Shared; ///< which ones; parent=dag always goes by shared voxels
     /// Name of the tree, and of the grid it is stored in.
     std::string name = "spheretree";
 
@@ -63,6 +69,7 @@ const char* toString(TreeType);
 const char* toString(ParentRule);
 const char* toString(Reconstruction);
 const char* toString(RadiusScale);
+const char* toString(DagEdges);
 /// @return "cubes", "voxels", or the number as text.
 std::string paddingToString(double padding);
 /// @throw openvdb::ValueError naming the value and the values there are.
@@ -70,6 +77,7 @@ TreeType treeTypeFromString(const std::string&);
 ParentRule parentRuleFromString(const std::string&);
 Reconstruction reconstructionFromString(const std::string&);
 RadiusScale radiusScaleFromString(const std::string&);
+DagEdges dagEdgesFromString(const std::string&);
 double paddingFromString(const std::string&);
 /// @}
 

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TreeCheck.cc
 /// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
-/// trees are built: everything is computed anew from what is stored.
+/// trees are built, the edges of the Sphere-DAG aside: all is computed anew from what is stored.
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
 ///    fail, nothing else is looked at
 /// 2. checkObject, checkErrors: recorded counts
-/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node
+/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
+///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc)
 ///
 /// A tree of a single level has no links to check; only what concerns the level is.
 
 #include "TreeCheck.h"
 
+#include "IntersectionDag.h"
 #include "LevelErrors.h"
 #include "detail/MaskDifference.h"
 #include "detail/TreeCheckReport.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace openvdb_spheretree {
 namespace {
@@ -226,6 +229,27 @@ void checkDag(Check& check)
     }
 }
 
+/// The edges are those of the object, none more and none less. What a voxel witnesses is found by
+/// building the tree again; which spheres meet is seen from the stored ones.
+void checkDagEdges(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const std::vector<DagEdge> expected = tree.settings.edges == DagEdges::Shared
+        ? buildSphereTree(check.object, tree.settings, check.interrupter).dag
+        : intersectionDag(tree, check.interrupter);
+    std::vector<DagEdge> lost, wrong;
+    std::set_difference(expected.begin(), expected.end(), tree.dag.begin(), tree.dag.end(),
+        std::back_inserter(lost));
+    std::set_difference(tree.dag.begin(), tree.dag.end(), expected.begin(), expected.end(),
+        std::back_inserter(wrong));
+    for (const auto& [what, edges] :
+        {std::pair("lacks ", &lost), std::pair("should lack ", &wrong)}) {
+        if (edges->empty()) continue;
+        check.fail("the DAG ", what, edges->size(), edges->size() == 1 ? " edge" : " edges",
+            " (first: ", edges->front().parent, " to ", edges->front().child, ')');
+    }
+}
+
 /// Extended tree: every node above level 0 has a child.
 void checkChildren(Check& check)
 {
@@ -273,6 +297,7 @@ void checkLinks(Check& check)
     const bool parentsRight = check.failures.size() == before;
     checkDag(check);
     const SphereTree& tree = check.tree;
+    if (check.failures.empty() && tree.settings.dag && !tree.dag.empty()) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree) || tree.settings.tree != TreeType::Extended) return;
     checkChildren(check);
     checkLeavesContained(check);

@@ -17,7 +17,7 @@ namespace openvdb_spheretree {
 /// @brief Check that: level 0 rebuilds the object exactly; no level misses a voxel, in the exact
 /// radii and in the stored floats; every non-root has one parent on the next level; every inner
 /// node of an extended tree has a child, and contains the leaf balls below it in the stored floats;
-/// the recorded counts are right.
+/// the recorded counts are right; edges of the Sphere-DAG, where there are any, are the object's.
 /// @return a sentence for each thing that failed, with the first offender; empty if all holds
 std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter = nullptr);

@@ -45,6 +45,7 @@ void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
     json.value("scale", toString(settings.scale));
     json.value("padding", openvdb_spheretree::paddingToString(settings.padding));
     json.value("dag", settings.dag);
+    json.value("edges", toString(settings.edges));
     json.value("name", settings.name);
     json.endObject();
 }

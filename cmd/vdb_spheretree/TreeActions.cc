@@ -31,6 +31,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     settings.scale = spheretree::radiusScaleFromString(call.text("scale"));
     settings.padding = spheretree::paddingFromString(call.text("padding"));
     settings.dag = call.flag("dag");
+    settings.edges = spheretree::dagEdgesFromString(call.text("edges"));
     settings.name = call.text("name");
     return settings;
 }
@@ -40,6 +41,10 @@ void checkSpheretree(const ActionCall& call, Plan&)
     if (call.text("tree") == "tight") {
         throwUsage(
             "tree=tight is not available yet in this version; there are extended and reversible");
+    }
+    if (call.given("edges") && !call.flag("dag")) {
+        throwUsage("-spheretree edges=" + call.text("edges")
+            + " says which edges of the Sphere-DAG to store, and none are: add dag=1");
     }
     settingsOf(call).validate();
 }
@@ -139,6 +144,9 @@ std::vector<OptionSpec> spheretreeOptions()
             "of "
             "voxels"),
         flag("dag", false, "collect and store the edges of the Sphere-DAG too"),
+        choice("edges", {"shared", "intersecting"},
+            "with dag=1: edges between balls whose cells share a voxel, or between all spheres "
+            "that meet"),
         flag("errors", true, "count the exact error of every level, and store it"),
         vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree")};
     for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching",

@@ -73,10 +73,11 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
     Links links;
     links.parent = parentsByCentre(nodes, coarse, step, context.interrupter);
     const bool byDag = context.settings.parent == ParentRule::Dag;
-    if (!byDag && !context.settings.dag) return links;
+    const bool stored = context.settings.dag && context.settings.edges == DagEdges::Shared;
+    if (!byDag && !stored) return links;
     links.dag = edgesToNodes(sphereDag(fine, coarse, step, context.interrupter), nodes, fine);
     if (byDag) preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
-    if (!context.settings.dag) links.dag.clear();
+    if (!stored) links.dag.clear();
     return links;
 }
 

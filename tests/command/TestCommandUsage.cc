@@ -57,6 +57,7 @@ const BadLine kBadLines[] = {
     {"FactorNegative", "-read a.vol -spheretree factor=-2 -write t.vdb", "factor=-2"},
     {"FactorNoNumber", "-read a.vol -spheretree factor=2x -write t.vdb", "factor=2x"},
     {"FactorHuge", "-read a.vol -spheretree factor=99999999999999999999 -write t.vdb", "factor=9"},
+    {"EdgesOfNoDag", "-read a.vol -spheretree edges=shared -write t.vdb", "add dag=1"},
     {"DimFour", "-read a.vol -spheretree dim=4 -write t.vdb", "dim=4"},
     {"UnknownTree", "-read a.vol -spheretree tree=oak -write t.vdb", "tree=oak"},
     {"TreeToCome", "-read a.vol -spheretree tree=tight -write t.vdb", "tight is not available"},

@@ -52,7 +52,7 @@ TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
     for (const std::string& missing : valuesOf(json, "missing")) EXPECT_EQ(missing, "0");
     for (const char* key : {"name", "leaves", "tiles", "bbox_min", "bbox_max", "voxel_size",
              "origin", "tree", "dim", "dist", "parent", "final_fit", "reconstruct", "scale",
-             "padding", "dag", "pyramid_voxels", "radius_min", "radius_max", "covered",
+             "padding", "dag", "edges", "pyramid_voxels", "radius_min", "radius_max", "covered",
              "hamming_percent", "hausdorff", "read", "mask", "pyramid", "distance", "power",
              "medial", "error", "write", "total", "peak_bytes"}) {
         EXPECT_NE(json.find("\"" + std::string(key) + "\": "), std::string::npos) << key;

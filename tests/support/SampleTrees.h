@@ -73,6 +73,7 @@ inline void fillDescription(SphereTree& tree)
     tree.settings.scale = RadiusScale::Paper;
     tree.settings.padding = 0.1;
     tree.settings.dag = true;
+    tree.settings.edges = openvdb_spheretree::DagEdges::Intersecting;
     tree.settings.name = "sample tree";
     tree.object.name = "bunny, left ear";
     tree.object.voxels = int64_t(1) << 40;
@@ -164,6 +165,7 @@ inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
     EXPECT_EQ(a.settings.scale, b.settings.scale);
     EXPECT_EQ(a.settings.padding, b.settings.padding);
     EXPECT_EQ(a.settings.dag, b.settings.dag);
+    EXPECT_EQ(a.settings.edges, b.settings.edges);
     EXPECT_EQ(a.settings.name, b.settings.name);
     EXPECT_EQ(a.object.name, b.object.name);
     EXPECT_EQ(a.object.voxels, b.object.voxels);

@@ -47,6 +47,11 @@ TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
     for (RadiusScale v : {RadiusScale::Tight, RadiusScale::Paper}) {
         EXPECT_EQ(radiusScaleFromString(toString(v)), v);
     }
+    EXPECT_EQ(dagEdgesFromString("shared"), DagEdges::Shared);
+    EXPECT_EQ(dagEdgesFromString("intersecting"), DagEdges::Intersecting);
+    for (DagEdges v : {DagEdges::Shared, DagEdges::Intersecting}) {
+        EXPECT_EQ(dagEdgesFromString(toString(v)), v);
+    }
 }
 
 TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
