@@ -35,7 +35,7 @@ case "${file,,}" in
     *.vdb | *.vol | *.longvol) ;;
     *) to_level_set=(-mesh2ls dim=256) ;;
 esac
-name="$(basename "$file")"
+name="$(basename "$file" | tr ',=' '__')" # a comma or an equals sign means something to the command
 name="$results/${name%.*}"
 
 say "running vdb_spheretree"

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DistanceTransform.h"
 
+#include "SphereTreeSettings.h"
 #include "detail/LeafRows.h"
 #include "detail/MinPlus.h"
 #include "detail/Parallel.h"
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 
 namespace openvdb_spheretree {
 
@@ -34,7 +36,7 @@ void alongX(const LeafLayout& layout, T* values, NullInterrupter* interrupter)
         const LeafLayout::Run run = layout.run(Axis::X, uint32_t(index));
         const int rows = int(run.count) * kLeafDim;
         scratch.words.clear();
-        for (uint32_t i = 0; i < run.count; ++i) {
+        for (std::size_t i = 0; i < run.count; ++i) {
             const LeafMask& mask = layout.mask(run.leaves[i]);
             scratch.words.insert(scratch.words.end(), mask.begin(), mask.end());
         }
@@ -60,14 +62,14 @@ void alongAxis(Axis axis, const LeafLayout& layout, T* values, NullInterrupter* 
         const int rows = int(run.count) * kLeafDim;
         T* in = scratch.in.rows(rows, 1); // background beyond both ends
         T* out = scratch.out.rows(rows);
-        const auto leafValues = [&](uint32_t i) {
+        const auto leafValues = [&](std::size_t i) {
             return values + std::size_t(run.leaves[i]) * kLeafVoxels;
         };
-        for (uint32_t i = 0; i < run.count; ++i) {
+        for (std::size_t i = 0; i < run.count; ++i) {
             detail::leafToRows(axis, leafValues(i), in + i * kLeafVoxels);
         }
         detail::minPlus(in, out, rows, scratch.envelope);
-        for (uint32_t i = 0; i < run.count; ++i) {
+        for (std::size_t i = 0; i < run.count; ++i) {
             detail::rowsToLeaf(axis, out + i * kLeafVoxels, leafValues(i));
         }
     };
@@ -102,6 +104,7 @@ uint32_t transform(const LeafLayout& layout, int dim, T* values, NullInterrupter
 DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
 {
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
+    requireDim(dim);
     DistanceMap map;
     map.mNarrow = detail::makeLargeArray<uint16_t>(size);
     map.mMaxDistSq = transform(layout, dim, map.mNarrow.get(), interrupter);
@@ -124,9 +127,9 @@ openvdb::Int32Grid::Ptr distanceTransform(
     const DistanceMap map = distanceTransform(layout, dim, interrupter);
 
     using Leaf = openvdb::Int32Tree::LeafNodeType;
-    std::vector<Leaf*> leaves(layout.leafCount());
-    detail::parallelFor(leaves.size(), nullptr, [&](std::size_t i) {
-        leaves[i] = new Leaf(layout.origin(uint32_t(i)), 0);
+    std::vector<std::unique_ptr<Leaf>> leaves(layout.leafCount());
+    detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
+        leaves[i] = std::make_unique<Leaf>(layout.origin(uint32_t(i)), 0);
         Leaf::ValueType* values = leaves[i]->buffer().data();
         for (uint32_t k = 0; k < kLeafVoxels; ++k) values[k] = int32_t(map.at(uint32_t(i), k));
         const LeafMask& words = layout.mask(uint32_t(i));
@@ -135,7 +138,7 @@ openvdb::Int32Grid::Ptr distanceTransform(
         leaves[i]->setValueMask(on);
     });
     auto grid = openvdb::Int32Grid::create(0);
-    for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
+    for (auto& leaf : leaves) grid->tree().addLeaf(leaf.release());
     grid->setTransform(object.transform().copy());
     return grid;
 }

@@ -167,11 +167,11 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
-        voxels = timed(
-            &context.seconds->pyramid, [&] { return nextVoxels(*voxels, level - 1, context); });
+        voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
+            [&] { return nextVoxels(*voxels, level - 1, context); });
         auto coarse = std::make_unique<MedialLevel>(
             *voxels, settings.dim, context.interrupter, context.seconds);
-        timed(&context.seconds->tree, [&] {
+        timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse);
             for (int32_t& node : leaves.ancestor) node = links.parent[node];

@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 
@@ -124,14 +125,24 @@ void addEdges(const SphereTree& tree, const SphereTreeLevel& above, const Sphere
     std::vector<DagEdge>& edges, openvdb::util::NullInterrupter* interrupter)
 {
     constexpr int32_t kChunk = 256;
+    constexpr int64_t kMaxEdges = int64_t(1) << 28; // 2 GiB of them
     const SphereBoxes boxes(tree, above);
+    std::atomic<int64_t> found{int64_t(edges.size())};
     std::vector<std::vector<DagEdge>> ofChunk((below.size() + kChunk - 1) / kChunk);
     detail::parallelFor(ofChunk.size(), interrupter, [&](std::size_t chunk) {
+        if (found > kMaxEdges) return; // reported below
         const int32_t first = below.begin + int32_t(chunk) * kChunk;
         for (int32_t s = first; s < std::min(first + kChunk, below.end); ++s) {
             boxes.visitMeeting(s, [&](int32_t t) { ofChunk[chunk].push_back({t, s}); });
         }
+        found += int64_t(ofChunk[chunk].size());
     });
+    if (found > kMaxEdges) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "more than 2^28 pairs of spheres of levels " << below.level << " and " << above.level
+                                                         << " meet: use edges=shared, or a larger "
+                                                            "voxel");
+    }
     for (const auto& some : ofChunk) edges.insert(edges.end(), some.begin(), some.end());
 }
 

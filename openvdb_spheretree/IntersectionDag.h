@@ -20,6 +20,7 @@
 namespace openvdb_spheretree {
 
 /// @return the edges of all levels of @a tree by node id, sorted and unique.
+/// @throw openvdb::ValueError if there are more than 2^28
 /// @throw Interrupted if the interrupter (may be null) said so
 std::vector<DagEdge> intersectionDag(
     const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);

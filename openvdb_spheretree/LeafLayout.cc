@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafLayout.h"
 
+#include "detail/Memory.h"
+
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 
@@ -32,6 +34,30 @@ void appendTile(const openvdb::CoordBBox& tile, std::vector<Leaf>& leaves)
     }
 }
 
+/// Leaf nodes, and those that tiles stand for.
+int64_t countLeaves(const openvdb::MaskTree& level)
+{
+    int64_t count = int64_t(level.leafCount());
+    auto tile = level.cbeginValueOn();
+    tile.setMaxDepth(openvdb::MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) count += int64_t(tile.getVoxelCount() / kLeafVoxels);
+    return count;
+}
+
+/// @throw openvdb::ValueError, before anything is allocated
+void requireRoom(int64_t leaves)
+{
+    if (leaves > std::numeric_limits<uint32_t>::max() / 2) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object has "
+                << leaves
+                << " leaf nodes, those inside its tiles included, more than 2^31: use a "
+                   "larger voxel, or split the object");
+    }
+    // The layout itself, twice while it is sorted, and at least the distances.
+    detail::requireMemory(leaves, 2 * 88 + kLeafVoxels * sizeof(uint16_t));
+}
+
 } // namespace
 
 LeafLayout::LeafLayout(const openvdb::MaskTree& level)
@@ -43,7 +69,10 @@ LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 
 void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
+    const int64_t count = countLeaves(level);
+    requireRoom(count);
     std::vector<Leaf> leaves;
+    leaves.reserve(std::size_t(count));
     for (auto it = level.cbeginLeaf(); it; ++it) {
         if (it->isEmpty()) continue;
         Leaf leaf{it->origin(), {}};
@@ -56,12 +85,6 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
         openvdb::CoordBBox box;
         tile.getBoundingBox(box);
         appendTile(box, leaves);
-    }
-    if (leaves.size() > std::numeric_limits<uint32_t>::max() / 2) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the object has "
-                << leaves.size()
-                << " leaf nodes, more than 2^31: use a larger voxel, or split the object");
     }
     tbb::parallel_sort(leaves.begin(), leaves.end(),
         [](const Leaf& a, const Leaf& b) { return a.origin < b.origin; });

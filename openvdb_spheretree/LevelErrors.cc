@@ -13,6 +13,7 @@
 #include "detail/MaskDifference.h"
 #include "detail/NearestVoxel.h"
 #include "detail/Parallel.h"
+#include "detail/StageTimer.h"
 
 #include <cmath>
 
@@ -30,32 +31,11 @@ struct ObjectIndex {
     {}
 };
 
-/// Where the voxels of a level count: anywhere its spheres reach, but in the object's plane in 2-D.
-openvdb::CoordBBox countedBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
+/// Without numbers of the level, so that levels have it in common.
+std::string tooManyRows()
 {
-    openvdb::CoordBBox box = boundingBox(spheres);
-    if (tree.settings.dim == 2) {
-        box.min().z() = tree.object.bbox.min().z();
-        box.max().z() = tree.object.bbox.min().z();
-    }
-    return box;
-}
-
-/// Rows along z that the spheres cross: their discs, but no more than all rows of the box. Rounded;
-/// overlaps count again.
-double estimatedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box)
-{
-    if (box.empty()) return 0;
-    double discs = 0;
-    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : M_PI * double(s.coverSq) / 4;
-    const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
-    return std::min(discs, side(0) * side(1));
-}
-
-std::string tooManyRows(double rows)
-{
-    return "its spheres cross about " + std::to_string(std::llround(rows))
-        + " voxel rows, more than the " + std::to_string(kMaxErrorRows) + " that are counted";
+    return "its spheres cross more than the " + std::to_string(kMaxUnionRows)
+        + " rows of voxels that are counted";
 }
 
 std::string tooFar()
@@ -73,10 +53,9 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
         return;
     }
     const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
-    const openvdb::CoordBBox box = countedBox(tree, spheres);
-    const double rows = estimatedRows(spheres, box);
-    if (rows > double(kMaxErrorRows)) {
-        level.errorUnknown = tooManyRows(rows);
+    const openvdb::CoordBBox box = levelBox(tree, spheres);
+    if (crossedRows(spheres, box) > double(kMaxUnionRows)) {
+        level.errorUnknown = tooManyRows();
         return;
     }
     const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter);
@@ -105,6 +84,8 @@ void computeLevelErrors(
     std::vector<SphereTreeLevel> levels = tree.levels; // the tree changes at the end, or not at all
     for (SphereTreeLevel& level : levels) {
         detail::checkInterrupt(interrupter);
+        const std::string name = "errors of level " + std::to_string(level.level);
+        const detail::Stage stage(name.c_str(), interrupter, nullptr);
         computeError(tree, index, level, interrupter);
     }
     tree.levels = std::move(levels);

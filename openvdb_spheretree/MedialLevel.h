@@ -25,7 +25,8 @@ struct MedialLevel {
     MedialLevel(const MedialLevel&) = delete; // labels refer to the layout
     MedialLevel& operator=(const MedialLevel&) = delete;
 
-    /// @return the index in `balls` of the ball centred at @a center, which must be one.
+    /// @return the index in `balls` of the ball centred at @a center. O(log balls).
+    /// @throw openvdb::LookupError if there is none
     int32_t ballAt(const openvdb::Coord& center) const;
     /// @return the index in `balls` of the label of @a ijk.
     /// @throw openvdb::LookupError if @a ijk is off

@@ -22,6 +22,8 @@
 #include <assimp/scene.h>
 #endif
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -287,7 +289,7 @@ openvdb::math::Transform::Ptr transformOf(double voxelSize)
 
 } // namespace
 
-bool hasMeshReader()
+bool readsOtherMeshFormats()
 {
 #ifdef SPHERETREE_WITH_ASSIMP
     return true;
@@ -318,6 +320,25 @@ TriangleMesh readMeshFile(const std::string& path)
     }
     mesh.name = std::filesystem::path(path).stem().string();
     return mesh;
+}
+
+int64_t openEdges(const TriangleMesh& mesh)
+{
+    std::vector<uint64_t> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const Vec3I& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const uint64_t a = triangle[i], b = triangle[(i + 1) % 3];
+            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
+        }
+    }
+    tbb::parallel_sort(edges.begin(), edges.end());
+    int64_t open = 0;
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) ++end;
+        open += int64_t((end - begin) % 2);
+    }
+    return open;
 }
 
 openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize, double halfWidth,

@@ -23,7 +23,7 @@ struct TriangleMesh {
 };
 
 /// @return whether this build reads more than `.obj .off .ply .stl`: it was built with assimp.
-bool hasMeshReader();
+bool readsOtherMeshFormats();
 
 /// @return whether the reader knows files with this name's extension. Builds without assimp know
 /// its best-known formats too, so that readMeshFile() can say what is missing.
@@ -36,6 +36,10 @@ bool isMeshFileName(const std::string& path);
 ///        message names the file. (An OBJ does not say how much it holds: one cut between two lines
 ///        is read as the smaller mesh that it is.)
 TriangleMesh readMeshFile(const std::string& path);
+
+/// @return edges that belong to an odd number of triangles. Where there are any, the mesh has a hole
+/// or a fin, and its inside is a matter of luck. Cost: sorting the edges.
+int64_t openEdges(const TriangleMesh& mesh);
 
 /// @brief Narrow-band level set of @a mesh.
 /// @param voxelSize   world units, > 0

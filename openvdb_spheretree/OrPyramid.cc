@@ -2,6 +2,7 @@
 #include "OrPyramid.h"
 
 #include "LeafLayout.h"
+#include "SphereTreeSettings.h"
 #include "detail/Parallel.h"
 
 #include <openvdb/Exceptions.h>
@@ -11,6 +12,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace openvdb_spheretree {
 
@@ -105,20 +107,16 @@ void addLeaves(Cells& cells, MaskTree& result, NullInterrupter* interrupter)
 {
     groupByParent(cells);
     const std::size_t groups = cells.groupBegin.size() - 1;
-    std::vector<MaskLeaf*> leaves(groups);
+    std::vector<std::unique_ptr<MaskLeaf>> leaves(groups);
     detail::parallelFor(groups, interrupter, [&](std::size_t i) {
         const Cell* begin = cells.cells.data() + cells.groupBegin[i];
         const Cell* end = cells.cells.data() + cells.groupBegin[i + 1];
-        leaves[i] = new MaskLeaf(begin->parent, false);
+        leaves[i] = std::make_unique<MaskLeaf>(begin->parent, false);
         leaves[i]->setValueMask(joinLeaves(begin, end));
     });
-    for (MaskLeaf* leaf : leaves) {
-        if (leaf->isDense()) {
-            result.addTile(1, leaf->origin(), true, true);
-            delete leaf;
-        } else {
-            result.addLeaf(leaf);
-        }
+    for (auto& leaf : leaves) {
+        if (leaf->isDense()) result.addTile(1, leaf->origin(), true, true);
+        else result.addLeaf(leaf.release());
     }
 }
 
@@ -268,9 +266,8 @@ OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
         OPENVDB_THROW(openvdb::ValueError, "the object has no voxels");
     }
     pyramid.origin = pyramidOrigin(bbox);
-    if (factor < 2) {
-        OPENVDB_THROW(openvdb::ValueError, "factor=" << factor << ": it must be 2 or more");
-    }
+    requireFactor(factor);
+    requireDim(dim);
     PyramidStep step{pyramid.origin, factor, dim};
     while (pyramid.levels.back()->activeVoxelCount() > 1) {
         if (pyramid.levels.size() > kMaxLevels) {

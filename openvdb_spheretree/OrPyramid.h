@@ -53,8 +53,8 @@ struct OrPyramid {
 
 /// @brief All levels, from the active voxels of @a object to a single voxel.
 /// @param model  empty: the OR model
-/// @throw openvdb::ValueError if the object is empty or too wide, factor < 2, the model is not
-///        including, or the pyramid does not end at one voxel
+/// @throw openvdb::ValueError if the object is empty or too wide, factor or dim are out of range,
+///        the model is not including, or the pyramid does not end at one voxel
 /// @throw Interrupted if the interrupter (may be null) said so
 OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor = 2, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr, const PyramidModel& model = {});

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PowerMap.h"
 
+#include "SphereTreeSettings.h"
 #include "detail/LeafRows.h"
 #include "detail/MaxPlus.h"
+#include "detail/Memory.h"
 #include "detail/Parallel.h"
 
 #include <openvdb/Exceptions.h>
@@ -44,9 +46,9 @@ void alongAxis(Axis axis, const LeafLayout& layout, const Load& load, typename P
         auto* in = scratch.in.rows(rows, 1);
         auto* out = keys ? scratch.out.rows(rows) : nullptr;
         auto* steps = scratch.offsets.rows(rows);
-        for (uint32_t i = 0; i < run.count; ++i) load(run.leaves[i], in + i * kLeafVoxels);
+        for (std::size_t i = 0; i < run.count; ++i) load(run.leaves[i], in + i * kLeafVoxels);
         detail::maxPlus<Power>(in, out, steps, rows, scratch.envelope);
-        for (uint32_t i = 0; i < run.count; ++i) {
+        for (std::size_t i = 0; i < run.count; ++i) {
             const std::size_t leaf = std::size_t(run.leaves[i]) * kLeafVoxels;
             detail::rowsToLeaf(axis, steps + i * kLeafVoxels, offsets + leaf);
             if (keys) detail::rowsToLeaf(axis, out + i * kLeafVoxels, keys + leaf);
@@ -92,6 +94,7 @@ void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
 PowerMap powerMap(
     const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
 {
+    requireDim(dim);
     if (distances.maxDistSq() > detail::WidePower::kMaxRadiusSq) {
         OPENVDB_THROW(openvdb::ValueError,
             "the object holds a ball of more than 32767 voxels radius, "
@@ -99,6 +102,9 @@ PowerMap powerMap(
     }
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
     const bool narrow = distances.maxDistSq() <= detail::NarrowPower::kMaxRadiusSq;
+    // Keys while it runs, steps to stay.
+    const int64_t voxelBytes = narrow ? sizeof(int32_t) + dim : sizeof(int64_t) + 2 * dim;
+    detail::requireMemory(layout.leafCount(), kLeafVoxels * (voxelBytes + 2));
     PowerMap map;
     map.mLayout = &layout;
     for (int axis = 0; axis < dim; ++axis) {

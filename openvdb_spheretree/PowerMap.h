@@ -97,9 +97,11 @@ private:
 /// @param layout     kept by reference: must outlive the result
 /// @param distances  of that layout
 /// @param dim        3, or 2 to leave the z axis out
-/// @throw openvdb::ValueError if a radius exceeds 32767 voxels
+/// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or labels the machine's memory
 /// @throw Interrupted if the interrupter (may be null) said so
 PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr);
+PowerMap powerMap(LeafLayout&& layout, const DistanceMap& distances, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr) = delete; // it would not live on
 
 } // namespace openvdb_spheretree

@@ -40,11 +40,11 @@ std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const Bu
     auto fine = std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
     std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
-        voxels = timed(&context.seconds->pyramid,
+        voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return coarsen(*voxels, context.stepFrom(level), context.interrupter); });
         auto coarse =
             std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
-        timed(&context.seconds->tree, [&] {
+        timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             LevelNodes& nodes = levels.back();
             Links links = linkLevels(nodes, level, *fine, *coarse, context);
             nodes.parent = std::move(links.parent);

@@ -78,6 +78,12 @@ void storeRadii(SphereTree& tree)
     for (std::size_t i = 0; i < tree.radius.size(); ++i) {
         const double padded = detail::addUp(tree.radius[i], padding);
         tree.radiusWorld[i] = detail::toFloatUp(detail::multiplyUp(padded, voxel));
+        if (!std::isfinite(tree.radiusWorld[i])) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "a radius of " << padded << " voxels of " << voxel
+                               << " does not fit a float: use another unit of length, or less "
+                                  "padding");
+        }
     }
 }
 
@@ -85,15 +91,19 @@ void storeRadii(SphereTree& tree)
 /// rounded up by more than its ancestor's, and world-space centres are rounded too.
 void containStoredLeaves(SphereTree& tree)
 {
+    // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
+    // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
+    const double voxel = largestStretch(*tree.transform);
+    const double moved = tree.transform->indexToWorld(openvdb::Vec3d(0)).length();
+    const auto doubt = [&](int32_t id) {
+        return 1e-15 * (voxel * tree.center[id].length() + moved);
+    };
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
         const openvdb::Vec3d center = tree.centerWorld(leaf);
         for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
-            const openvdb::Vec3d other = tree.centerWorld(t);
-            // Coordinates carry relative errors of some 2^-52; the distance inherits them.
-            const double doubt = 1e-15 * (center.length() + other.length());
-            const double needed =
-                (center - other).length() * (1 + 1e-15) + doubt + double(tree.radiusWorld[leaf]);
+            const double apart = (center - tree.centerWorld(t)).length() * (1 + 1e-15);
+            const double needed = apart + doubt(leaf) + doubt(t) + double(tree.radiusWorld[leaf]);
             if (double(tree.radiusWorld[t]) < needed) {
                 tree.radiusWorld[t] = detail::toFloatUp(needed);
             }
@@ -164,6 +174,7 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.levels[0].begin = 0;
     result.levels[0].end = result.size();
     result.settings = tree.settings;
+    result.settings.dag = false; // edges lead from level to level
     result.object = tree.object;
     result.origin = tree.origin;
     result.transform = tree.transform->copy();

@@ -84,6 +84,7 @@ struct SphereTree {
     openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world
 
     int32_t size() const { return int32_t(center.size()); }
+    /// @return the top level; the tree must have one, as every tree built or read has.
     const SphereTreeLevel& root() const { return levels.back(); }
     /// @return the level of node @a id; O(levels).
     int levelOf(int32_t id) const;

@@ -21,6 +21,73 @@ using openvdb::points::PointDataGrid;
 
 constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG";
 
+// ---- What a tree must be, on its way out and on its way in
+
+/// Beyond these, squares of doubled coordinates would not fit 64 bits.
+constexpr double kMaxCoordinate = 2147483648.0;
+constexpr int64_t kMaxCoverSq = int64_t(1) << 62;
+
+/// @throw openvdb::ValueError, naming the first node that is no sphere
+void checkSpheres(const SphereTree& tree)
+{
+    const auto check = [](bool right, int32_t id, const char* attribute, auto value) {
+        if (right) return;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
+    };
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const openvdb::Vec3d& c = tree.center[id];
+        const double farthest = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
+        check(c.isFinite() && farthest <= kMaxCoordinate, id, "position", c);
+        check(std::isfinite(tree.radiusWorld[id]) && tree.radiusWorld[id] >= 0, id, "pscale",
+            tree.radiusWorld[id]);
+        check(tree.radius[id] >= 0 && tree.radius[id] <= kMaxCoordinate, id, "radius",
+            tree.radius[id]);
+        check(tree.coverSq[id] >= 0 && tree.coverSq[id] <= kMaxCoverSq, id, "cover_sq",
+            tree.coverSq[id]);
+        // -1 marks a sphere that is no digital ball
+        check(tree.radiusSq[id] > 0 || tree.radiusSq[id] == -1, id, "radius_sq", tree.radiusSq[id]);
+    }
+}
+
+/// A parent on the next level up leaves no room for a cycle.
+void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
+{
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t parent = tree.parent[id];
+        const bool isTop = levels[id] == tree.levels.back().level;
+        if (isTop && parent == -1) continue;
+        if (isTop || parent < 0 || parent >= tree.size()) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "node " << id << " on level " << levels[id] << " has the parent " << parent
+                        << ", but "
+                        << (isTop ? "the top level has no parents (-1)"
+                                  : "its parent must be a node of the next level up"));
+        }
+        if (levels[parent] == levels[id] + 1) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " on level " << levels[id] << " has the parent " << parent
+                    << " on level " << levels[parent]
+                    << ", but a parent must be on the next level up");
+    }
+}
+
+/// Edges are sorted, there once, and lead to the next level down.
+void checkEdges(const std::vector<DagEdge>& edges, const std::vector<int32_t>& levels)
+{
+    const auto exists = [&](int32_t id) { return id >= 0 && id < int32_t(levels.size()); };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const DagEdge& e = edges[i];
+        const bool right = exists(e.parent) && exists(e.child)
+            && levels[e.parent] == levels[e.child] + 1 && (i == 0 || edges[i - 1] < e);
+        if (right) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the edge from node " << e.parent << " to node " << e.child
+                                  << " is out of order or there twice, or does not lead to a node "
+                                     "of the next level down");
+    }
+}
+
 // ---- Writing
 
 [[noreturn]] void inconsistent(const std::string& why)
@@ -28,7 +95,18 @@ constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG";
     OPENVDB_THROW(openvdb::ValueError, "this sphere-tree cannot be stored: " << why);
 }
 
-/// What the layout takes for granted. Made to catch a caller's slip, not to prove the tree right.
+/// The number of every node's level.
+std::vector<int32_t> levelNumbers(const SphereTree& tree)
+{
+    std::vector<int32_t> numbers(tree.levels.front().end);
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        std::fill(numbers.begin() + tree.levels[k].begin, numbers.begin() + tree.levels[k].end,
+            tree.levels[k].level);
+    }
+    return numbers;
+}
+
+/// @throw openvdb::ValueError if fromPoints() would not take the tree back
 void checkLayout(const SphereTree& tree)
 {
     const std::size_t n = tree.center.size();
@@ -51,23 +129,11 @@ void checkLayout(const SphereTree& tree)
         end = level.begin;
     }
     if (end != 0) inconsistent("its levels do not divide its nodes");
-    for (const DagEdge& edge : tree.dag) {
-        if (edge.parent < 0 || edge.parent >= tree.size()) {
-            inconsistent("an edge of its DAG names a node that does not exist");
-        }
-    }
+    checkSpheres(tree);
+    const std::vector<int32_t> levels = levelNumbers(tree);
+    checkParents(tree, levels);
+    checkEdges(tree.dag, levels);
     tree.settings.validate();
-}
-
-/// Index in `levels` of every node's level.
-std::vector<int> levelIndices(const SphereTree& tree)
-{
-    std::vector<int> indices(tree.levels.front().end);
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        std::fill(
-            indices.begin() + tree.levels[k].begin, indices.begin() + tree.levels[k].end, int(k));
-    }
-    return indices;
 }
 
 std::vector<std::string> groupNames(const SphereTree& tree)
@@ -162,25 +228,6 @@ std::vector<int32_t> readNodes(const detail::PointReader& reader, int scale, Sph
     return levels;
 }
 
-void checkSpheres(const SphereTree& tree)
-{
-    const auto check = [](bool right, int32_t id, const char* attribute, auto value) {
-        if (right) return;
-        OPENVDB_THROW(openvdb::ValueError,
-            "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
-    };
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        check(tree.center[id].isFinite(), id, "position", tree.center[id]);
-        check(std::isfinite(tree.radiusWorld[id]) && tree.radiusWorld[id] >= 0, id, "pscale",
-            tree.radiusWorld[id]);
-        check(
-            std::isfinite(tree.radius[id]) && tree.radius[id] >= 0, id, "radius", tree.radius[id]);
-        check(tree.coverSq[id] >= 0, id, "cover_sq", tree.coverSq[id]);
-        // -1 marks a sphere that is no digital ball
-        check(tree.radiusSq[id] > 0 || tree.radiusSq[id] == -1, id, "radius_sq", tree.radiusSq[id]);
-    }
-}
-
 void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
 {
     std::vector<int32_t> counts(tree.levels.size());
@@ -204,28 +251,6 @@ void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
         OPENVDB_THROW(openvdb::ValueError,
             "node " << id << " is on level " << levels[id] << ", above the level of node " << id - 1
                     << ": ids must go down from the top level");
-    }
-}
-
-/// A parent on the next level up leaves no room for a cycle.
-void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
-{
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const int32_t parent = tree.parent[id];
-        const bool isTop = levels[id] == tree.levels.back().level;
-        if (isTop && parent == -1) continue;
-        if (isTop || parent < 0 || parent >= tree.size()) {
-            OPENVDB_THROW(openvdb::ValueError,
-                "node " << id << " on level " << levels[id] << " has the parent " << parent
-                        << ", but "
-                        << (isTop ? "the top level has no parents (-1)"
-                                  : "its parent must be a node of the next level up"));
-        }
-        if (levels[parent] == levels[id] + 1) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "node " << id << " on level " << levels[id] << " has the parent " << parent
-                    << " on level " << levels[parent]
-                    << ", but a parent must be on the next level up");
     }
 }
 
@@ -258,21 +283,10 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     }
     const std::vector<int32_t> parents = reader.attribute<int32_t>("parent");
     const std::vector<int32_t> children = reader.attribute<int32_t>("child");
-    const std::vector<int> levels = levelIndices(tree);
     std::vector<DagEdge> edges(parents.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
     std::sort(edges.begin(), edges.end());
-    const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const DagEdge& e = edges[i];
-        const bool right = exists(e.parent) && exists(e.child)
-            && levels[e.parent] == levels[e.child] + 1 && (i == 0 || !(edges[i - 1] == e));
-        if (right) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "its edge from node "
-                << e.parent << " to node " << e.child
-                << " is there twice, or does not lead to a node of the next level down");
-    }
+    checkEdges(edges, levelNumbers(tree));
     return edges;
 }
 
@@ -281,19 +295,20 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
 PointDataGrid::Ptr toPoints(const SphereTree& tree)
 {
     checkLayout(tree);
-    const std::vector<int> levels = levelIndices(tree);
-    const auto number = [&](uint32_t id) { return tree.levels[levels[id]].level; };
+    const std::vector<int32_t> levels = levelNumbers(tree);
+
+    const int lowest = tree.levels.front().level;
 
     detail::PointWriter writer(tree.center);
     writer.addAttribute<float>("pscale", [&](uint32_t id) { return tree.radiusWorld[id]; });
     writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
     writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return tree.parent[id]; });
-    writer.addAttribute<int32_t>("level", number);
+    writer.addAttribute<int32_t>("level", [&](uint32_t id) { return levels[id]; });
     writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
     writer.addAttribute<double>("radius", [&](uint32_t id) { return tree.radius[id]; });
     writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return tree.coverSq[id]; });
-    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levels[id]; });
+    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levels[id] - lowest; });
 
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
     detail::writeTreeMetadata(*grid, tree, writer.scale());
@@ -325,6 +340,12 @@ bool isSphereTree(const GridBase& grid)
     return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
 }
 
+bool isDagOf(const GridBase& grid, const std::string& treeName)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kDagFormatKey]
+        && grid.getName() == treeName + "_dag";
+}
+
 SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
 {
     if (!isSphereTree(points)) {
@@ -335,6 +356,7 @@ SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
+    if (!dag) tree.settings.dag = false;
     if (dag) {
         checkFormat(*dag, kDagKind, detail::kDagFormatKey);
         tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });

@@ -32,9 +32,13 @@ openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);
 /// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
 bool isSphereTree(const openvdb::GridBase& grid);
 
+/// @return whether a grid claims to be what dagToPoints() makes of a tree of that name.
+bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
+
 /// @brief The tree that toPoints() was given, identical in every field.
 /// @param points  a grid written by toPoints(), also after a round trip through a file
-/// @param dag     the grid of dagToPoints(), or null
+/// @param dag     the grid of dagToPoints(), or null: the tree read then has no edges, and its
+///                settings say that it has none
 /// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
 ///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
 ///        level missing, a radius that is no number or negative ...); the message names the damage

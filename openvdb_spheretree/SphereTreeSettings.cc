@@ -13,8 +13,6 @@ namespace openvdb_spheretree {
 
 namespace {
 
-constexpr int kMinFactor = 2, kMaxFactor = 64;
-
 template <typename Enum>
 struct Named {
     Enum value;
@@ -74,25 +72,34 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
 
 double SphereTreeSettings::paddingVoxels() const
 {
-    return padding < 0 ? std::sqrt(double(dim)) / 2 : padding;
+    return padding == kPadCubes ? std::sqrt(double(dim)) / 2 : padding;
 }
 
 void SphereTreeSettings::validate() const
 {
-    if (factor < kMinFactor || factor > kMaxFactor) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "factor=" << factor << " is out of range: it must be " << kMinFactor << " to "
-                      << kMaxFactor);
-    }
-    if (dim != 2 && dim != 3) {
-        OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
-    }
-    if (padding != kPadCubes && !(std::isfinite(padding) && padding >= 0)) {
+    requireFactor(factor);
+    requireDim(dim);
+    if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding
-                       << " is out of range: it must be cubes, voxels, or a number of voxels of 0 "
-                          "or more");
+                       << " is out of range: it must be cubes, voxels, or a number of voxels from "
+                          "0 to "
+                       << kMaxPadding);
     }
+}
+
+void requireFactor(int factor)
+{
+    if (factor >= 2 && factor <= SphereTreeSettings::kMaxFactor) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "factor=" << factor << " is out of range: it must be 2 to "
+                  << SphereTreeSettings::kMaxFactor);
+}
+
+void requireDim(int dim)
+{
+    if (dim == 2 || dim == 3) return;
+    OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
 }
 
 const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }

@@ -37,7 +37,7 @@ enum class RadiusScale {
 
 struct SphereTreeSettings {
     TreeType tree = TreeType::Extended;
-    /// Voxels of a level merged per axis into one voxel of the next level; 2 or more.
+    /// Voxels of a level merged per axis into one voxel of the next level: 2 to kMaxFactor.
     int factor = 2;
     /// 3, or 2 for an object one voxel thick along z: the z axis then takes no part.
     int dim = 3;
@@ -47,8 +47,8 @@ struct SphereTreeSettings {
     bool finalFit = true;
     Reconstruction reconstruct = Reconstruction::Clip; ///< extended tree only
     RadiusScale scale = RadiusScale::Tight;
-    /// Added to every radius that is stored, in voxels of level 0. Negative: sqrt(dim) / 2, which
-    /// covers whole voxel cubes (the default); 0 covers voxel centres.
+    /// Added to every radius that is stored, in voxels of level 0: 0 covers voxel centres, and
+    /// kPadCubes (the only negative value) stands for sqrt(dim) / 2, which covers whole cubes.
     double padding = kPadCubes;
     /// Also collect the edges of the Sphere-DAG.
     bool dag = false;
@@ -57,11 +57,18 @@ struct SphereTreeSettings {
     std::string name = "spheretree";
 
     static constexpr double kPadCubes = -1.0;
+    static constexpr double kMaxPadding = 1e9;
+    static constexpr int kMaxFactor = 1 << 15;
     /// @return the padding in voxels of level 0.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
     void validate() const;
 };
+
+/// @throw openvdb::ValueError unless @a factor is 2 to SphereTreeSettings::kMaxFactor
+void requireFactor(int factor);
+/// @throw openvdb::ValueError unless @a dim is 2 or 3
+void requireDim(int dim);
 
 /// @name The names that the command line and the metadata of files use
 /// @{

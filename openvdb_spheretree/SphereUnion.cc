@@ -49,4 +49,33 @@ openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres)
     return box;
 }
 
+openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
+{
+    openvdb::CoordBBox box = boundingBox(spheres);
+    if (tree.settings.dim == 2) box.min().z() = box.max().z() = tree.object.bbox.min().z();
+    return box;
+}
+
+double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box)
+{
+    if (box.empty()) return 0;
+    double discs = 0;
+    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : M_PI * double(s.coverSq) / 4;
+    const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
+    return std::min(discs, side(0) * side(1));
+}
+
+openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    const openvdb::CoordBBox box = levelBox(tree, spheres);
+    if (crossedRows(spheres, box) > double(kMaxUnionRows)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the spheres of level " << level.level << " reach over " << box.extents()
+                                    << " voxels, more than are drawn: choose a finer level");
+    }
+    return sphereUnion(spheres, box, interrupter);
+}
+
 } // namespace openvdb_spheretree

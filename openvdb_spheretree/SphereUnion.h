@@ -35,4 +35,19 @@ std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLe
 /// @return the smallest box that holds every voxel centre in the spheres.
 openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres);
 
+/// @return that box for spheres of a level of @a tree; in 2-D only their plane.
+openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres);
+
+/// A union that crosses more rows of voxels than this would take gigabytes.
+constexpr int64_t kMaxUnionRows = int64_t(1) << 24;
+
+/// @return about how many rows along z the spheres cross: their discs, but no more than all rows of
+/// the box; overlaps count again.
+double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box);
+
+/// @brief The voxels that a level covers: those whose centres lie in its spheres.
+/// @throw openvdb::ValueError if they cross more than kMaxUnionRows
+openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
 } // namespace openvdb_spheretree

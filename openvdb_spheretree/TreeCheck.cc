@@ -5,7 +5,7 @@
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
 ///    fail, nothing else is looked at
-/// 2. checkObject, checkErrors: recorded counts
+/// 2. checkTransform, checkObject, checkErrors: the place, and recorded counts
 /// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc)
@@ -94,6 +94,28 @@ void checkNodes(Check& check)
     if (radii) check.fail("the radius is negative or not a number for ", radii);
     if (stored) check.fail("the stored radius is negative or not a number for ", stored);
     if (balls) check.fail("radius_sq is less than 1 for ", balls);
+}
+
+/// The object is where the tree is. Files and programs round transforms differently: what counts is
+/// that no corner of the object's box moves by a thousandth of a voxel.
+void checkTransform(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    openvdb::CoordBBox box;
+    check.mask.evalActiveVoxelBoundingBox(box);
+    double farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const openvdb::Vec3d at(box.min()[0] + (corner & 1) * box.extents()[0],
+            box.min()[1] + (corner >> 1 & 1) * box.extents()[1],
+            box.min()[2] + (corner >> 2) * box.extents()[2]);
+        const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
+        farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
+    }
+    if (farthest <= 1e-3 * check.object.voxelSize()[0]) return;
+    check.fail("the object's transform is not the tree's: the corners of its box (voxels of ",
+        check.object.voxelSize()[0], ", first corner at ",
+        check.object.transform().indexToWorld(box.min()), ") lie up to ", farthest,
+        " world units from where the tree has them (voxels of ", tree.voxelSize(), ')');
 }
 
 /// What is recorded of the object is so.
@@ -297,7 +319,7 @@ void checkLinks(Check& check)
     const bool parentsRight = check.failures.size() == before;
     checkDag(check);
     const SphereTree& tree = check.tree;
-    if (check.failures.empty() && tree.settings.dag && !tree.dag.empty()) checkDagEdges(check);
+    if (check.failures.empty() && tree.settings.dag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree) || tree.settings.tree != TreeType::Extended) return;
     checkChildren(check);
     checkLeavesContained(check);
@@ -314,6 +336,7 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     if (check.failures.empty()) checkNodes(check);
     if (!check.failures.empty()) return check.failures;
 
+    checkTransform(check);
     checkObject(check);
     checkRadii(check);
     checkLinks(check);

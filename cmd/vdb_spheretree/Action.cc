@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 namespace command {
@@ -158,26 +159,34 @@ std::string ActionCall::typed() const
 
 void ActionCall::appendToList(const std::string& option, const std::string& value)
 {
-    std::string& values = mValues[option];
-    values += (values.empty() ? "" : ",") + value;
+    std::vector<std::string>& items = mValues[option];
+    std::error_code ignored;
+    if (std::filesystem::exists(value, ignored)) {
+        items.push_back(value);
+        return;
+    }
+    for (size_t begin = 0; begin < value.size();) {
+        const size_t end = std::min(value.find(',', begin), value.size());
+        items.push_back(value.substr(begin, end - begin));
+        begin = end + 1;
+    }
 }
 
 std::string ActionCall::text(const std::string& option) const
 {
     const auto found = mValues.find(option);
-    return found != mValues.end() ? found->second : mSpec->option(option)->fallback;
+    if (found == mValues.end()) return mSpec->option(option)->fallback;
+    std::string all;
+    for (const std::string& item : found->second) all += (all.empty() ? "" : ",") + item;
+    return all;
 }
 
 std::vector<std::string> ActionCall::list(const std::string& option) const
 {
-    std::vector<std::string> items;
-    const std::string all = text(option);
-    for (size_t begin = 0; begin < all.size();) {
-        const size_t end = std::min(all.find(',', begin), all.size());
-        items.push_back(all.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return items;
+    const auto found = mValues.find(option);
+    if (found != mValues.end()) return found->second;
+    const std::string& fallback = mSpec->option(option)->fallback; // a single item, or none
+    return fallback.empty() ? std::vector<std::string>() : std::vector<std::string>{fallback};
 }
 
 bool ActionCall::flag(const std::string& option) const { return *parseFlag(text(option)); }

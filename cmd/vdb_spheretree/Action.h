@@ -22,7 +22,8 @@ struct Session;
 
 enum class OptionKind {
     Text,
-    List,    ///< comma-separated texts; a main option of this kind takes any number of tokens
+    List,    ///< texts, a comma between; a main option of this kind takes any number of tokens.
+             ///< What names a file that exists is one text, commas and all.
     Flag,    ///< 1|0|true|false|yes|no|on|off
     Integer, ///< within [lowest, highest]
     Real,    ///< within [lowest, highest]
@@ -89,7 +90,8 @@ public:
     std::string typed() const;
 
     bool given(const std::string& option) const { return mValues.count(option) > 0; }
-    void set(const std::string& option, const std::string& value) { mValues[option] = value; }
+    void set(const std::string& option, const std::string& value) { mValues[option] = {value}; }
+    /// Splits @a value at its commas.
     void appendToList(const std::string& option, const std::string& value);
 
     /// @name The value of an option, or its default
@@ -103,7 +105,7 @@ public:
 
 private:
     const ActionSpec* mSpec;
-    std::map<std::string, std::string> mValues;
+    std::map<std::string, std::vector<std::string>> mValues; ///< one, or the items of a list
 };
 
 /// @brief Check one value against its option.

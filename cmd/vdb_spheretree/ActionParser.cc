@@ -4,6 +4,7 @@
 #include "ConfigFile.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 namespace command {
@@ -82,7 +83,8 @@ void addOption(ActionCall& call, const std::string& token, size_t equals)
         throwUsage(call.label() + ": option " + option.name + " is given more than once");
     }
     checkValue(call.spec(), option, value);
-    call.set(option.name, value);
+    if (option.kind == OptionKind::List) call.appendToList(option.name, value);
+    else call.set(option.name, value);
 }
 
 void addMain(ActionCall& call, const std::string& token)
@@ -119,9 +121,22 @@ void checkOrder(const std::vector<ActionCall>& calls)
         seen.push_back(spec);
         if (spec->name == "read") anythingRead = true;
         if (spec->needsInput && !anythingRead) {
-            throwUsage(call.label() + " has nothing to work on: put -read before it");
+            const bool afterHelp = seen.size() > 1 && seen[seen.size() - 2]->name == "help";
+            throwUsage(call.label() + " has nothing to work on: put -read before it"
+                + (afterHelp ? "; for its help: -help " + spec->name : ""));
         }
     }
+}
+
+/// A file name may hold an equals sign.
+bool isFileNotOption(const ActionSpec& action, const std::string& token, size_t equals)
+{
+    const std::string prefix = token.substr(0, equals);
+    for (const OptionSpec& option : action.options) {
+        if (startsWith(option.name, prefix)) return false;
+    }
+    std::error_code ignored;
+    return std::filesystem::exists(token, ignored);
 }
 
 std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
@@ -136,7 +151,7 @@ std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
             throwUsage("'" + token + "' stands before any action; to read a file: -read " + token);
         }
         const size_t equals = token.find('=');
-        if (equals == std::string::npos) {
+        if (equals == std::string::npos || isFileNotOption(calls.back().spec(), token, equals)) {
             addMain(calls.back(), token);
         } else {
             addOption(calls.back(), token, equals);

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include <limits.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,26 +19,47 @@ namespace {
 constexpr size_t kBufferSize = 1 << 20;
 constexpr size_t kLargestRead = 1 << 26; // Ctrl-C is looked for at least this often
 
-/// A signal that comes just before a read does not wake it; so wait in slices, and look. One that
-/// comes during the wait ends it early, with nothing to read: then look, and wait on.
-void waitForData(int fd)
+/// A signal that comes just before a read or write does not wake it; so wait in slices, and look.
+/// One that comes during the wait ends it early, with nothing there: then look, and wait on.
+void waitFor(int fd, short event)
 {
     for (;;) {
         throwIfStopped();
-        pollfd wanted{fd, POLLIN, 0};
+        pollfd wanted{fd, event, 0};
         const int ready = poll(&wanted, 1, 200);
-        if (ready > 0 || (ready < 0 && errno != EINTR)) return; // read() reports what is wrong
+        // What is wrong, if anything, is for read() or write() to report.
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return;
     }
 }
 
 } // namespace
+
+void writeToFd(int fd, std::streambuf& data, const std::string& what)
+{
+    char block[PIPE_BUF]; // a pipe that has any room takes this much without blocking
+    for (;;) {
+        const auto size = size_t(data.sgetn(block, sizeof(block)));
+        if (size == 0) return;
+        for (size_t done = 0; done < size;) {
+            waitFor(fd, POLLOUT);
+            const ssize_t count = ::write(fd, block + done, size - done);
+            if (count >= 0) {
+                done += size_t(count);
+            } else if (errno == EPIPE) {
+                throwOutput(what + ": the reading end of the pipe is closed");
+            } else if (errno != EINTR) {
+                throwOutput("cannot write " + systemError(what));
+            }
+        }
+    }
+}
 
 FdBuffer::FdBuffer(int fd) : mFd(fd), mBuffer(kBufferSize) {}
 
 size_t FdBuffer::fill(char* to, size_t size)
 {
     for (;;) {
-        waitForData(mFd);
+        waitFor(mFd, POLLIN);
         const ssize_t count = ::read(mFd, to, std::min(size, kLargestRead));
         if (count >= 0) {
             mPosition += count;

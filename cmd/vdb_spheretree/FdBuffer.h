@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FdBuffer.h
-/// @brief A file or pipe as a C++ input stream that ends every short read with an exception, and
-/// that Ctrl-C wakes from waiting.
+/// @brief Files and pipes that Ctrl-C wakes from waiting: one to read from as a C++ stream, which
+/// ends every short read with an exception, and one to write to.
 ///
 /// OpenVDB does not ask its stream whether a read succeeded, and works on with what happened to be
 /// in memory. Its reader is therefore given a stream that throws: a truncated file then fails where
@@ -11,9 +11,14 @@
 
 #include <istream>
 #include <streambuf>
+#include <string>
 #include <vector>
 
 namespace command {
+
+/// @brief Writes all that is left in @a data to a file descriptor.
+/// @throw Interrupted, CommandError (output) naming @a what and the reason
+void writeToFd(int fd, std::streambuf& data, const std::string& what);
 
 /// Reads from a file descriptor, which it does not own. Can tell its position, but not seek.
 class FdBuffer : public std::streambuf {

@@ -107,7 +107,7 @@ void checkHelp(const ActionCall& call, Plan&)
 
 void runHelp(const ActionCall& call, Session& session)
 {
-    std::ostream& out = session.textOut();
+    std::ostringstream out;
     const std::vector<std::string> names = call.list("actions");
     if (names.empty()) printGrammar(out);
     const auto print = call.flag("brief") ? printBrief : printAction;
@@ -115,6 +115,7 @@ void runHelp(const ActionCall& call, Session& session)
         for (const ActionSpec& action : actionTable()) print(out, action);
     }
     for (const std::string& name : names) print(out, *findAction(name));
+    session.print(out.str());
 }
 
 ActionSpec textAction(const std::string& name, const std::string& doc)
@@ -149,8 +150,8 @@ ActionSpec versionAction()
 {
     ActionSpec action = textAction("version", "print the versions of this command and of OpenVDB");
     action.run = [](const ActionCall&, Session& session) {
-        session.textOut() << "vdb_spheretree " << SPHERETREE_VERSION << " (OpenVDB "
-                          << openvdb::getLibraryVersionString() << ")\n";
+        session.print(std::string("vdb_spheretree ") + SPHERETREE_VERSION + " (OpenVDB "
+            + openvdb::getLibraryVersionString() + ")\n");
     };
     return action;
 }
@@ -159,23 +160,23 @@ ActionSpec examplesAction()
 {
     ActionSpec action = textAction("examples", "print some command lines");
     action.run = [](const ActionCall&, Session& session) {
-        session.textOut()
-            << "The sphere-tree of a grid, as VDB points, with a table of its levels:\n"
-               "  vdb_spheretree -read object.vdb -spheretree -stats -write tree.vdb\n"
-               "Of a mesh, by way of a level set of 200 voxels:\n"
-               "  vdb_spheretree -read mesh.obj -mesh2ls dim=200 -spheretree -write tree.vdb\n"
-               "Of the dense part of a fog volume:\n"
-               "  vdb_spheretree -read smoke.vdb grids=density -mask threshold=0.1 -spheretree \\\n"
-               "      -write tree.vdb tree.csv\n"
-               "One level of at most 64 spheres, as a table:\n"
-               "  vdb_spheretree -read tree.vdb -level spheres=64 -write level.csv\n"
-               "Verify a stored tree against its object:\n"
-               "  vdb_spheretree -read object.vdb -read tree.vdb -check\n"
-               "Errors and timings for a program:\n"
-               "  vdb_spheretree -quiet -read tree.vdb -stats json=-\n"
-               "In a pipe with vdb_tool:\n"
-               "  vdb_tool -sphere -o stdout.vdb | vdb_spheretree -read stdin.vdb -spheretree \\\n"
-               "      -write stdout.vdb | vdb_tool -read stdin.vdb -print\n";
+        session.print(
+            "The sphere-tree of a grid, as VDB points, with a table of its levels:\n"
+            "  vdb_spheretree -read object.vdb -spheretree -stats -write tree.vdb\n"
+            "Of a mesh, by way of a level set of 200 voxels:\n"
+            "  vdb_spheretree -read mesh.obj -mesh2ls dim=200 -spheretree -write tree.vdb\n"
+            "Of the dense part of a fog volume:\n"
+            "  vdb_spheretree -read smoke.vdb grids=density -mask threshold=0.1 -spheretree \\\n"
+            "      -write tree.vdb tree.csv\n"
+            "One level of at most 64 spheres, as a table:\n"
+            "  vdb_spheretree -read tree.vdb -level spheres=64 -write level.csv\n"
+            "Verify a stored tree against its object:\n"
+            "  vdb_spheretree -read object.vdb -read tree.vdb -check\n"
+            "Errors and timings for a program:\n"
+            "  vdb_spheretree -quiet -read tree.vdb -stats json=-\n"
+            "In a pipe with vdb_tool:\n"
+            "  vdb_tool -sphere -o stdout.vdb | vdb_spheretree -read stdin.vdb -spheretree \\\n"
+            "      -write stdout.vdb | vdb_tool -read stdin.vdb -print\n");
     };
     return action;
 }

@@ -5,6 +5,7 @@
 #include "Actions.h"
 #include "ObjectChoice.h"
 
+#include <openvdb/points/PointDataGrid.h>
 #include <openvdb_spheretree/MeshFile.h>
 
 #include <algorithm>
@@ -27,6 +28,11 @@ void runMesh2ls(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectMesh(call.text("geo"));
     const auto mesh = item.mesh;
+    if (const int64_t open = spheretree::openEdges(*mesh)) {
+        session.warn("mesh '" + mesh->name + "' is not closed: " + std::to_string(open)
+            + " edges belong to an odd number of triangles; where it is open it has no inside, and "
+              "the result may be a thin shell or nearly empty");
+    }
     const double voxel = call.given("voxel")
         ? call.real("voxel")
         : spheretree::voxelSizeForDim(*mesh, int(call.integer("dim")));
@@ -38,10 +44,30 @@ void runMesh2ls(const ActionCall& call, Session& session)
     session.stack.push(result);
 }
 
+/// An option that says nothing about this kind of grid would be passed over in silence.
+void requireRelevant(const ActionCall& call, const openvdb::GridBase& grid)
+{
+    const bool levelSet = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+    const bool scalar = !levelSet && !grid.isType<openvdb::BoolGrid>()
+        && !grid.isType<openvdb::MaskGrid>() && !grid.isType<openvdb::points::PointDataGrid>();
+    const std::string which = "'" + oneLine(grid.getName(), 60) + "' is none";
+    if (call.given("iso") && !levelSet) {
+        throwInput("iso is for level sets, and " + which + (scalar ? ": use threshold=" : ""));
+    }
+    if (call.given("threshold") && !scalar) {
+        throwInput("threshold is for fog volumes and other scalar grids, and " + which
+            + (levelSet ? ": use iso=" : ""));
+    }
+    if (call.given("values") && !grid.isType<openvdb::BoolGrid>()) {
+        throwInput("values is for bool grids, and " + which);
+    }
+}
+
 void runMask(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
     StackItem& item = selectObjectGrid(session, call.text("vdb"));
+    requireRelevant(call, *item.grid);
     spheretree::ObjectMaskSettings settings;
     settings.iso = call.real("iso");
     settings.threshold = call.real("threshold");

@@ -66,10 +66,8 @@ void Plan::addInput(const std::string& path)
     if (!willBeWritten) checkReadable(path);
     switch (fileKind(path)) {
     case FileKind::Vdb:
-    case FileKind::Vol: return;
-    case FileKind::Mesh:
-        if (openvdb_spheretree::hasMeshReader()) return;
-        throwInput("cannot read " + path + ": this program was built without the reader of meshes");
+    case FileKind::Vol:
+    case FileKind::Mesh: return;
     default:
         throwInput("cannot read " + path
             + ": files of this kind are not read; it reads .vdb, .vol, "

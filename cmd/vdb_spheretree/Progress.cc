@@ -58,6 +58,12 @@ void Progress::beginAction(const std::string& label)
     mNextDraw = (Clock::now() + kQuietTime).time_since_epoch().count();
 }
 
+void Progress::clearLine()
+{
+    const std::lock_guard<std::mutex> lock(mMutex);
+    erase();
+}
+
 void Progress::endAction()
 {
     const std::lock_guard<std::mutex> lock(mMutex);

@@ -35,6 +35,7 @@ public:
     void beginAction(const std::string& label);
     void endAction();
     /// @}
+    void clearLine(); ///< before something else is printed; the bar comes back by itself
     void setEnabled(bool enabled) { mEnabled = enabled && mTerminal; }
 
     void start(const char* name = nullptr) override;

@@ -51,11 +51,11 @@ private:
     std::set<std::string> mSeen;
 };
 
-PointDataGrid::Ptr findPoints(const openvdb::GridPtrVec& grids, const std::string& name)
+PointDataGrid::Ptr findDag(const openvdb::GridPtrVec& grids, const std::string& treeName)
 {
     for (const GridBase::Ptr& grid : grids) {
-        if (grid->getName() != name) continue;
-        if (auto points = openvdb::gridPtrCast<PointDataGrid>(grid)) return points;
+        if (!openvdb_spheretree::isDagOf(*grid, treeName)) continue;
+        return openvdb::gridPtrCast<PointDataGrid>(grid);
     }
     return nullptr;
 }
@@ -78,7 +78,7 @@ void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
     std::set<GridBase::Ptr> edges;
     for (const GridBase::Ptr& grid : grids) {
         if (!openvdb_spheretree::isSphereTree(*grid)) continue;
-        if (auto dag = findPoints(grids, grid->getName() + "_dag")) edges.insert(dag);
+        if (auto dag = findDag(grids, grid->getName())) edges.insert(dag);
     }
     for (const GridBase::Ptr& grid : grids) {
         if (edges.count(grid) || !filter.accepts(grid->getName())) continue;
@@ -89,11 +89,7 @@ void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
-        if (!points) {
-            throwInput(path + ": '" + oneLine(grid->getName(), 60)
-                + "' is marked as a sphere-tree, but is no point grid");
-        }
-        const auto dag = findPoints(grids, grid->getName() + "_dag");
+        const auto dag = findDag(grids, grid->getName());
         session.stack.push(treeItem(*points, dag.get(), path));
     }
 }

@@ -3,6 +3,7 @@
 
 #include "Terminal.h"
 
+#include <cerrno>
 #include <iostream>
 
 namespace command {
@@ -27,7 +28,6 @@ void Session::run(const std::vector<ActionCall>& line)
         throwIfStopped();
         runOne(call);
     }
-    if (!std::cout.flush()) throwOutput("cannot write to stdout");
 }
 
 void Session::runOne(const ActionCall& call)
@@ -50,9 +50,28 @@ void Session::runOne(const ActionCall& call)
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
 
+void Session::print(const std::string& text)
+{
+    if (mReaderIsGone) return;
+    errno = 0;
+    if (textOut() << text << std::flush) return;
+    if (errno != EPIPE) throwOutput("cannot write to " + systemError("stdout"));
+    mReaderIsGone = true;
+}
+
+void Session::warn(const std::string& line)
+{
+    if (verbosity == Verbosity::Quiet) return;
+    progress.clearLine();
+    std::cerr << "vdb_spheretree: " << coloured(std::cerr, Colour::Yellow, "warning: ")
+              << oneLine(line) << std::endl;
+}
+
 void Session::remark(const std::string& line)
 {
-    if (verbosity >= Verbosity::Verbose) std::cerr << "    " << oneLine(line) << std::endl;
+    if (verbosity < Verbosity::Verbose) return;
+    progress.clearLine();
+    std::cerr << "    " << oneLine(line) << std::endl;
 }
 
 void Session::reportTime(const std::string& what, double seconds)

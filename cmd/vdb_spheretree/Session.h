@@ -46,8 +46,13 @@ struct Session {
 
     /// Where tables and lists go: stdout, unless that carries data.
     std::ostream& textOut() const;
+    /// Puts @a text there. A reader that has seen enough (`| head`) is no error.
+    /// @throw CommandError (output)
+    void print(const std::string& text);
     /// A line on stderr, where -verbose or -debug has been given.
     void remark(const std::string& line);
+    /// A line on stderr, unless -quiet has been given.
+    void warn(const std::string& line);
 
     const Plan& plan;
     Stack stack;
@@ -60,6 +65,8 @@ struct Session {
 private:
     void runOne(const ActionCall& call);
     void reportTime(const std::string& what, double seconds);
+
+    bool mReaderIsGone = false;
 };
 
 /// @brief Look at everything that can be checked before any work.

@@ -51,9 +51,7 @@ const SphereTreeLevel& levelOf(const ActionCall& call, const SphereTree& tree)
 openvdb::GridBase::Ptr maskOf(
     const SphereTree& tree, const SphereTreeLevel& level, Session& session)
 {
-    const auto spheres = spheretree::levelSpheres(tree, level);
-    const auto covered =
-        spheretree::sphereUnion(spheres, spheretree::boundingBox(spheres), &session.progress);
+    const auto covered = spheretree::levelUnion(tree, level, &session.progress);
     auto mask = openvdb::BoolGrid::create(openvdb::BoolTree::Ptr(
         new openvdb::BoolTree(*covered, false, true, openvdb::TopologyCopy())));
     mask->setTransform(tree.transform->copy());

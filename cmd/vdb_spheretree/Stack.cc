@@ -128,8 +128,8 @@ StackItem& Stack::selectAmong(
     for (const StackItem* item : found) {
         names += (names.empty() ? "" : ", ") + item->description();
     }
-    throwInput("there is more than one that suits: " + names
-        + "; choose one: here with vdb=, or with grids= of -read");
+    throwInput("there is more than one that suits: " + names + "; choose one"
+        + (meshes ? " with geo=" : ": here with vdb=, or with grids= of -read"));
 }
 
 StackItem& Stack::select(const std::string& what, const Suits& suits, const std::string& ageOrName)

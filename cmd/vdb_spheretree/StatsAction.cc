@@ -9,7 +9,7 @@
 #include "Terminal.h"
 
 #include <algorithm>
-#include <iostream>
+#include <sstream>
 
 namespace command {
 
@@ -45,13 +45,12 @@ void runStats(const ActionCall& call, Session& session)
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     if (item.object && lacksErrors(*item.tree)) computeErrors(item, session);
     if (!call.given("json")) {
-        session.textOut() << statsTable(*item.tree, session) << std::flush;
+        session.print(statsTable(*item.tree, session));
     } else if (call.text("json") == "-") {
-        std::cout << statsJson(*item.tree, session) << std::flush;
+        session.print(statsJson(*item.tree, session));
     } else {
         writeText(call.text("json"), statsJson(*item.tree, session));
     }
-    if (!std::cout) throwOutput("cannot write to stdout");
 }
 
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
@@ -80,7 +79,7 @@ void printItem(std::ostream& out, const StackItem& item)
 
 void runPrint(const ActionCall&, Session& session)
 {
-    std::ostream& out = session.textOut();
+    std::ostringstream out;
     const auto& items = session.stack.items();
     if (items.empty()) out << "the stack is empty\n";
     int age = 0, meshAge = 0;
@@ -89,8 +88,7 @@ void runPrint(const ActionCall&, Session& session)
         out << (isMesh ? "geo " : "vdb ") << (isMesh ? meshAge++ : age++) << ": ";
         printItem(out, **item);
     }
-    out << std::flush;
-    if (!out) throwOutput("cannot write to stdout");
+    session.print(out.str());
 }
 
 } // namespace

@@ -64,10 +64,10 @@ void printReasons(std::ostream& out, const SphereTree& tree)
     std::string last;
     for (const SphereTreeLevel& level : tree.levels) {
         if (level.error) continue;
-        const std::string reason =
-            level.errorUnknown.empty() ? "errors not computed" : oneLine(level.errorUnknown);
+        const std::string reason = level.errorUnknown.empty() ? "errors were not counted (errors=0)"
+                                                              : oneLine(level.errorUnknown);
         if (reason == last) continue;
-        out << "-: level " << level.level << " on: " << reason << "\n";
+        out << "'-' from level " << level.level << " on: " << reason << "\n";
         last = reason;
     }
 }

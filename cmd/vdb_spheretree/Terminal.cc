@@ -20,8 +20,8 @@ std::string coloured(const std::ostream& stream, Colour colour, const std::strin
 {
     const char* const noColour = std::getenv("NO_COLOR");
     if (!isTerminal(stream) || (noColour && *noColour)) return text;
-    const char* const code = colour == Colour::Red ? "31" : colour == Colour::Green ? "32" : "1";
-    return "\033[" + std::string(code) + "m" + text + "\033[0m";
+    const char* const codes[] = {"31", "32", "33", "1"}; // in the order of Colour
+    return "\033[" + std::string(codes[int(colour)]) + "m" + text + "\033[0m";
 }
 
 std::string prettySeconds(double seconds)

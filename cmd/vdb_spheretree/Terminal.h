@@ -9,7 +9,7 @@
 
 namespace command {
 
-enum class Colour { Red, Green, Bold };
+enum class Colour { Red, Green, Yellow, Bold };
 
 /// @return whether std::cout or std::cerr (no other stream) is a terminal.
 bool isTerminal(const std::ostream& stream);

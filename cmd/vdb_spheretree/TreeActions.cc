@@ -114,14 +114,14 @@ void runCheck(const ActionCall& call, Session& session)
     }
     const auto failures = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
     throwIfStopped();
-    for (const std::string& failure : failures) session.textOut() << oneLine(failure) << "\n";
+    for (const std::string& failure : failures) session.print(oneLine(failure) + "\n");
     if (!failures.empty()) {
         throw CommandError(kCheckFailed,
             item.description()
                 + " does not hold what it promises: " + std::to_string(failures.size())
                 + " of the checks failed, the first: " + failures.front());
     }
-    if (session.verbosity != Verbosity::Quiet) session.textOut() << "all checks hold\n";
+    if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
 }
 
 std::vector<OptionSpec> spheretreeOptions()
@@ -130,7 +130,8 @@ std::vector<OptionSpec> spheretreeOptions()
         choice("tree", {"extended", "reversible", "tight"},
             "extended: spheres contain the leaf balls below them; reversible: every level rebuilds "
             "its own pyramid level; tight: not available yet"),
-        integer("factor", "2", 2, 1 << 15, "voxels per axis merged from level to level"),
+        integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
+            "voxels per axis merged from level to level"),
         integer("dim", "3", 2, 3, "2 for an object one voxel thick along z"),
         choice("dist", {"l2"}, "the distance: l2 is the Euclidean one"),
         choice("parent", {"centre", "dag"},

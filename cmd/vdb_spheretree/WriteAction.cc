@@ -5,6 +5,7 @@
 
 #include "Actions.h"
 #include "AtomicFile.h"
+#include "FdBuffer.h"
 #include "Session.h"
 #include "VdbStream.h"
 
@@ -15,9 +16,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
 #include <set>
 #include <sstream>
+
+#include <unistd.h>
 
 namespace command {
 
@@ -92,14 +94,19 @@ const openvdb_spheretree::SphereTree& onlyTree(
     return *tree->tree;
 }
 
-/// Two trees of one name could not be told apart when the file is read, nor could their edges.
+/// Two trees of one name could not be told apart when the file is read, nor a tree from the edges of
+/// another.
 void requireDistinctTrees(const std::vector<StackItem*>& items)
 {
     std::set<std::string> names;
     for (const StackItem* item : items) {
-        if (!item->tree || names.insert(item->name()).second) continue;
-        throwInput("two sphere-trees are named '" + oneLine(item->name(), 60)
-            + "': give them different names with name= of -spheretree");
+        if (!item->tree) continue;
+        const std::string name = item->name();
+        const bool edges = !item->tree->dag.empty();
+        if (names.insert(name).second && (!edges || names.insert(name + "_dag").second)) continue;
+        throwInput("two sphere-trees are named '" + oneLine(name, 60)
+            + "', or one as the edges of the other: give them different names with name= of "
+              "-spheretree");
     }
 }
 
@@ -108,8 +115,7 @@ void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
     std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
     writeVdb(buffer, grids, compression, /*seekable=*/false);
     buffer.seekg(0);
-    std::cout << buffer.rdbuf() << std::flush;
-    if (!std::cout) throwOutput("stdout.vdb: the reading end of the pipe is closed, or full");
+    writeToFd(STDOUT_FILENO, *buffer.rdbuf(), "stdout.vdb");
 }
 
 class Writer {

@@ -55,6 +55,18 @@ bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxel
     return bool(large);
 }
 
+/// @return more voxels than a level of this object can have, reconstructed without a clip as well.
+/// What a file records is not trusted with memory.
+double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
+{
+    const double scale = std::pow(double(check.tree.settings.factor), level.level);
+    CoordBBox box;
+    check.mask.evalActiveVoxelBoundingBox(box);
+    double voxels = 1;
+    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(box.extents()[axis]) / scale + 64;
+    return voxels;
+}
+
 /// Union of a level's digital balls; in 2-D, in their plane.
 MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
 {
@@ -129,6 +141,11 @@ void checkDigitalBalls(TreeCheck& check)
     for (const SphereTreeLevel& level : check.tree.levels) {
         const bool finest = level.level == 0;
         const int64_t voxels = finest ? countVoxels(check.mask) : level.pyramidVoxels;
+        if (double(voxels) > implausibleVoxels(check, level)) {
+            check.fail("level ", level.level, " records ", voxels,
+                " pyramid voxels, more than the object's box has room for");
+            continue;
+        }
         if (ballsTooLarge(check, level, voxels)) continue;
         const MaskTree::Ptr rebuilt = drawDigitalBalls(check, level);
         if (finest) checkRebuiltObject(check, *rebuilt);

@@ -10,11 +10,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
-#include <new>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -26,20 +21,14 @@ struct FreeLargeArray {
 template <typename T>
 using LargeArray = std::unique_ptr<T[], FreeLargeArray>;
 
+/// @return memory for std::free(), aligned to a cache line or a huge page. @throw std::bad_alloc
+void* allocateLarge(std::size_t bytes);
+
 /// @throw std::bad_alloc
 template <typename T>
 LargeArray<T> makeLargeArray(std::size_t size)
 {
-    constexpr std::size_t kHugePage = std::size_t(1) << 21;
-    std::size_t alignment = 64;
-    if (size * sizeof(T) >= 2 * kHugePage) alignment = kHugePage;
-    const std::size_t bytes = (size * sizeof(T) / alignment + 1) * alignment;
-    void* data = std::aligned_alloc(alignment, bytes);
-    if (!data) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    if (alignment == kHugePage) madvise(data, bytes, MADV_HUGEPAGE); // a wish: failure is fine
-#endif
-    return LargeArray<T>(static_cast<T*>(data));
+    return LargeArray<T>(static_cast<T*>(allocateLarge(size * sizeof(T))));
 }
 
 } // namespace detail

@@ -13,25 +13,44 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <cstddef>
 
 namespace openvdb_spheretree {
 namespace detail {
 
 /// @throw Interrupted if @a interrupter (which may be null) wants the work to stop.
-inline void checkInterrupt(openvdb::util::NullInterrupter* interrupter)
+inline void checkInterrupt(openvdb::util::NullInterrupter* interrupter, int percent = -1)
 {
-    if (interrupter && interrupter->wasInterrupted()) throw Interrupted();
+    if (interrupter && interrupter->wasInterrupted(percent)) throw Interrupted();
 }
+
+/// How far a loop has come, as told to an interrupter.
+class LoopProgress {
+public:
+    LoopProgress(std::size_t count, openvdb::util::NullInterrupter* interrupter)
+        : mCount(count), mInterrupter(interrupter)
+    {}
+    /// @throw Interrupted
+    void check() { checkInterrupt(mInterrupter, int(100.0 * double(mDone) / double(mCount))); }
+    void add(std::size_t done) { mDone.fetch_add(done, std::memory_order_relaxed); }
+
+private:
+    std::size_t mCount;
+    openvdb::util::NullInterrupter* mInterrupter;
+    std::atomic<std::size_t> mDone{0};
+};
 
 /// Calls body(i) for i in [0, count). An exception in a body, Interrupted included, cancels the
 /// loop and is passed on.
 template <typename Body>
 void parallelFor(std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
 {
+    LoopProgress progress(count, interrupter);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        checkInterrupt(interrupter);
+        progress.check();
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+        progress.add(range.size());
     });
 }
 
@@ -41,10 +60,12 @@ void parallelForWithScratch(
     std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
 {
     tbb::enumerable_thread_specific<Scratch> scratches;
+    LoopProgress progress(count, interrupter);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        checkInterrupt(interrupter);
+        progress.check();
         Scratch& scratch = scratches.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, scratch);
+        progress.add(range.size());
     });
 }
 

@@ -47,6 +47,8 @@ inline double toDoubleUp(int64_t x)
 
 inline float toFloatUp(double x)
 {
+    if (x > double(std::numeric_limits<float>::max()))
+        return std::numeric_limits<float>::infinity();
     const float rounded = float(x);
     return double(rounded) < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                                : rounded;

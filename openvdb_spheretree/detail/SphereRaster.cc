@@ -119,7 +119,9 @@ RootCells sortIntoRootCells(const std::vector<Ball>& balls, const Wanted& wanted
             }
             continue;
         }
+        int64_t visited = 0;
         for (auto at = range.begin(); at; ++at) {
+            if (++visited % 4096 == 0) checkInterrupt(interrupter);
             const Coord origin = *at << kRootCellLog2;
             if (!wanted.everywhere() && !cells.count(origin)) continue;
             enterRootCell(cells[origin], origin, ball, i);

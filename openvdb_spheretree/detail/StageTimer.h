@@ -1,28 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/StageTimer.h
-/// @brief Adds the time a stage takes to a sum of seconds.
+/// @brief Adds the time a stage takes to a sum of seconds, and tells the interrupter its name.
 
 #pragma once
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <chrono>
-#include <utility>
 
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @return what @a work returns; its seconds are added to @a sum, unless that is null.
+/// From its construction to its end. @a interrupter and @a sum may be null.
+class Stage {
+public:
+    Stage(const char* name, openvdb::util::NullInterrupter* interrupter, double* sum)
+        : mInterrupter(interrupter), mSum(sum)
+    {
+        if (mInterrupter) mInterrupter->start(name);
+    }
+    ~Stage()
+    {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - mStart;
+        if (mSum) *mSum += passed.count();
+        if (mInterrupter) mInterrupter->end();
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+private:
+    openvdb::util::NullInterrupter* mInterrupter;
+    double* mSum;
+    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+};
+
+/// @return what @a work returns.
 template <typename Work>
-auto timed(double* sum, const Work& work)
+auto timed(
+    const char* name, openvdb::util::NullInterrupter* interrupter, double* sum, const Work& work)
 {
-    struct Timer {
-        double* sum;
-        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-        ~Timer()
-        {
-            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-            if (sum) *sum += passed.count();
-        }
-    } timer{sum};
+    const Stage stage(name, interrupter, sum);
     return work();
 }
 

@@ -112,7 +112,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<std::string>(grid, "spheretree_scale", toString(settings.scale));
     setMeta<std::string>(grid, "spheretree_padding", paddingToString(settings.padding));
     setMeta<bool>(grid, "spheretree_dag", settings.dag);
-    setMeta<std::string>(grid, "spheretree_edges", toString(settings.edges));
+    setMeta<std::string>(grid, "spheretree_dag_edges", toString(settings.edges));
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
@@ -128,7 +128,7 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.scale = radiusScaleFromString(getMeta<std::string>(grid, "spheretree_scale"));
     settings.padding = paddingFromString(getMeta<std::string>(grid, "spheretree_padding"));
     settings.dag = getMeta<bool>(grid, "spheretree_dag");
-    settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_edges"));
+    settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_dag_edges"));
     settings.name = grid.getName();
     settings.validate();
     return settings;
