@@ -73,6 +73,16 @@ TEST(DistanceTransform, TheLargestDistanceIsThatOfTheDeepestVoxel)
     EXPECT_EQ(distSqAt(layout, map, Coord(0, 0, 0)), 81u);
 }
 
+TEST(DistanceTransform, TheLargestDistanceIsFoundInWhicheverLeafItIs)
+{
+    const Coord corners[] = {Coord(0, 0, 0), Coord(0, 8, 16), Coord(16, 0, 8), Coord(24, 24, 24)};
+    for (const Coord& deepest : corners) {
+        auto mask = maskOf(Voxels(std::begin(corners), std::end(corners)));
+        mask->fill(CoordBBox(deepest, deepest.offsetBy(4)), true);
+        EXPECT_EQ(distanceTransform(LeafLayout(*mask)).maxDistSq(), 9u) << deepest;
+    }
+}
+
 TEST(DistanceTransform, BoxesHaveTheirClosedForm)
 {
     const CoordBBox box(Coord(-17, -3, 120), Coord(12, 40, 131));

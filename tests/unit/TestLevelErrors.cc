@@ -141,6 +141,28 @@ TEST_F(LevelErrors, MatchBruteForceOnRandomObjectsAndSpheres)
     }
 }
 
+TEST_F(LevelErrors, FindTheFarthestOfAFewVoxelsAroundTheObject)
+{
+    // In the order of voxels the nearest comes first; the object is in the middle of them.
+    BoolGrid::Ptr dot = BoolGrid::create();
+    dot->tree().setValueOn(Coord(4, 4, 4));
+    EXPECT_EQ(errorOf({{{3, 4, 4}, 0}, {{5, 2, 2}, 0}, {{5, 6, 6}, 0}}, *dot).hausdorff, 3);
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const Coord middle(4, 4, 5);
+        const BoolGrid::Ptr object = randomObject(random, middle, 3, 1 + seed % 3);
+        std::vector<Sphere> spheres(1 + seed % 5);
+        for (Sphere& s : spheres) {
+            const double x = random() % 9, y = random() % 9, z = random() % 9;
+            s = {openvdb::Vec3d(x, y, z), 0};
+        }
+        CoordBBox box(middle, middle);
+        box.expand(6);
+        expectSame(errorOf(spheres, *object), bruteForce(spheres, *object, box));
+    }
+}
+
 TEST_F(LevelErrors, AreZeroWhereTheSpheresAreTheObject)
 {
     BoolGrid::Ptr object = BoolGrid::create();
@@ -164,6 +186,25 @@ TEST_F(LevelErrors, FindTheFarthestVoxelInsideAHole)
     const LevelError error = errorOf(spheres, *object);
     EXPECT_EQ(error.hausdorff, 11);
     expectSame(error, bruteForce(spheres, *object, CoordBBox(Coord(-24), Coord(24))));
+}
+
+TEST_F(LevelErrors, FindTheFarthestVoxelWhereverItIsInATile)
+{
+    // Of the ball that six voxels at its poles span, the middle is farthest from them.
+    for (int i = 0; i < 8; ++i) {
+        const Coord middle(i & 4 ? 40 : 90, i & 2 ? 40 : 90, i & 1 ? 40 : 90);
+        BoolGrid::Ptr object = BoolGrid::create();
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int step : {-300, 300}) {
+                Coord pole = middle;
+                pole[axis] += step;
+                object->tree().setValueOn(pole);
+            }
+        }
+        const LevelError error = errorOf({{middle.asVec3d(), int64_t(4) * 300 * 300}}, *object);
+        EXPECT_EQ(error.hausdorff, 300) << middle;
+        EXPECT_EQ(error.missing, 0);
+    }
 }
 
 TEST_F(LevelErrors, CountTilesOnBothSides)
@@ -284,6 +325,44 @@ TEST_F(LevelErrors, ALevelOfTooManyRowsIsLeftOutWithTheReason)
     EXPECT_EQ(tree.levels[1].errorUnknown,
         "its spheres cross more "
         "than the 16777216 that are counted");
+    tree.settings.dim = 2;
+    computeLevelErrors(tree, *object);
+    EXPECT_TRUE(tree.levels[0].error.has_value());
+    EXPECT_FALSE(tree.levels[1].error.has_value()) << "the plane has as many rows as space";
+}
+
+TEST_F(LevelErrors, ALevelOfJustTheRowsOfTheLimitIsCounted)
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    object->tree().setValueOn(Coord(0));
+    // Two discs of a radius of 2048 (4096 x 4096 rows from pole to pole) on one another; in 2-D.
+    ASSERT_EQ(kMaxErrorRows, 4096 * 4096);
+    const std::vector<Sphere> spheres(2, Sphere{{0.5, 0.5, 0}, int64_t(4095) * 4095 + 1});
+    const LevelError error = errorOf(spheres, *object, 2);
+    EXPECT_EQ(error.missing, 0);
+    EXPECT_NEAR(error.hausdorff, 2048, 1);
+}
+
+TEST_F(LevelErrors, AreUnknownOfAnEmptyObject)
+{
+    const BoolGrid::Ptr object = BoolGrid::create();
+    for (int64_t coverSq : {int64_t(-1), int64_t(100)}) {
+        SphereTree tree = treeOf({{{0, 0, 0}, coverSq}}, *object);
+        computeLevelErrors(tree, *object);
+        EXPECT_FALSE(tree.levels[0].error.has_value());
+        EXPECT_EQ(tree.levels[0].errorUnknown, "the object is empty");
+    }
+}
+
+TEST_F(LevelErrors, TakeThePlaceOfWhatWasRecordedBefore)
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    object->tree().setValueOn(Coord(0));
+    SphereTree tree = treeOf({{{0, 0, 0}, 0}}, *object);
+    tree.levels[0].errorUnknown = "not asked for";
+    computeLevelErrors(tree, *object);
+    EXPECT_TRUE(tree.levels[0].error.has_value());
+    EXPECT_EQ(tree.levels[0].errorUnknown, "");
 }
 
 TEST_F(LevelErrors, ManySpheresOnTopOfEachOtherAreNoMoreThanTheRowsOfTheirBox)

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 namespace {
@@ -130,6 +132,32 @@ TEST(MinPlus, MatchesPlainLoopsOnValuesBeyond16Bits)
     }
 }
 
+/// Around one row of a block of 8 all values are k^2 + 1: a zero at distance k is better by 1, and
+/// no row beyond it is. Elsewhere are values too small to reach as far.
+template <typename T>
+void expectReach(int k)
+{
+    constexpr int kRows = 128;
+    for (int row = 48; row < 56; ++row) {
+        for (int zero : {row - k, row + k}) {
+            Rows in(kRows * kLanes, 1);
+            for (int lane = 0; lane < kLanes; ++lane) {
+                for (int j = row - k; j <= row + k; ++j) in[j * kLanes + lane] = k * k + 1;
+                in[zero * kLanes + lane] = lane % 2 == 0 ? 0 : k * k + 1;
+            }
+            ASSERT_TRUE(runMinPlus<T>(in) == naiveMinPlus(in)) << "row " << row << ", k " << k;
+        }
+    }
+}
+
+TEST(MinPlus, ARowIsReachedFromAsFarAsItIsBetter)
+{
+    for (int k : {1, 2, 3, 4, 5, 6, 11, 30}) {
+        expectReach<uint16_t>(k);
+        expectReach<uint32_t>(k);
+    }
+}
+
 /// The values of a slab whose lines are all alike: the distance to the nearest end, at most @a
 /// root.
 template <typename T>
@@ -151,6 +179,25 @@ TEST(MinPlus, LinesMayBeLongerThanTheLargestRadius)
     expectSlab<uint16_t>(1000, 6);
     expectSlab<uint32_t>(1000, 46340);
     expectSlab<uint32_t>(8 * 12000, 46340);
+}
+
+/// Zeros twice as far apart as 32 bits allow, elsewhere in every line; between them the largest
+/// values, with the largest penalties on them.
+TEST(MinPlus, SumsOfTheLargestValuesAndPenaltiesFit)
+{
+    constexpr int kRows = 8 * 11720;
+    constexpr int64_t kRoot = 46339;
+    Rows in(std::size_t(kRows) * kLanes, kWideMax), expected(in.size());
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const int64_t first = 500 + lane, second = first + 2 * kRoot;
+        in[first * kLanes + lane] = in[second * kLanes + lane] = 0;
+        for (int64_t row = 0; row < kRows; ++row) {
+            const int64_t steps =
+                std::min({row + 1, kRows - row, std::abs(row - first), std::abs(row - second)});
+            expected[row * kLanes + lane] = uint32_t(steps * steps);
+        }
+    }
+    EXPECT_TRUE(runMinPlus<uint32_t>(in) == expected);
 }
 
 TEST(MinPlus, RowNumbersMayExceed16Bits)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/ObjectMask.h>
+#include <openvdb_spheretree/UniformVoxels.h>
 
 #include "../support/Messages.h"
 
@@ -315,6 +316,47 @@ TEST(ObjectMask, TheInteriorOfALevelSetIsWhereItsValueIsBelowTheIso)
     }
 }
 
+TEST(ObjectMask, AVoxelOfJustTheIsoIsOutside)
+{
+    const auto grid = named<FloatGrid>("set", 3.0f);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->tree().setValueOn(Coord(0, 0, 0), 0.5f);
+    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 0.0f));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
+
+    const auto doubles = named<openvdb::DoubleGrid>("doubles", 3.0);
+    doubles->setGridClass(openvdb::GRID_LEVEL_SET);
+    doubles->tree().setValueOn(Coord(0, 0, 0), 0.5);
+    doubles->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5, 0.0));
+    EXPECT_EQ(voxelsOf(*objectMask(*doubles, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
+}
+
+TEST(ObjectMask, ALevelSetMayBeOfIntegers)
+{
+    const auto grid = named<openvdb::Int32Grid>("set", 3);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    for (int x = -2; x <= 2; ++x) grid->tree().setValueOn(Coord(x, 0, 0), x);
+    using Voxels = std::set<Coord>;
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-1))), (Voxels{{-2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}}));
+}
+
+TEST(ObjectMask, TilesCountByTheirValueOnEveryNodeLevel)
+{
+    for (openvdb::Index level : {1, 2, 3}) {
+        const auto grid = named<FloatGrid>("tiles", 0.0f);
+        const Coord inactive(0, 0, 0), active(4096, 0, 0), below(8192, 0, 0);
+        grid->tree().addTile(level, inactive, 1.0f, false);
+        grid->tree().addTile(level, active, 1.0f, true);
+        grid->tree().addTile(level, below, -1.0f, true);
+        const auto object = objectMask(*grid);
+        const uint64_t side = uint64_t(level == 1 ? 8 : level == 2 ? 128 : 4096);
+        EXPECT_EQ(object->activeVoxelCount(), 2 * side * side * side);
+        EXPECT_TRUE(object->tree().isValueOn(inactive) && object->tree().isValueOn(active));
+    }
+}
+
 TEST(ObjectMask, TheDeepInteriorOfALevelSetStaysTiles)
 {
     const auto grid =
@@ -456,6 +498,7 @@ TEST(ObjectMask, VoxelsThatAreNotCubesAreAnErrorThatNamesGridAndSize)
     for (const MapBase::Ptr& map : {MapBase::Ptr(new ScaleMap({1, 1, 2})),
              MapBase::Ptr(new ScaleMap({1e-4, 1e-4, 2e-4})), // small enough for OpenVDB's tolerance
              MapBase::Ptr(new ScaleTranslateMap({2, 1, 1}, {5, 5, 5})),
+             MapBase::Ptr(new ScaleMap({2e-5, 2e-5, 2.05e-5})),
              MapBase::Ptr(new ScaleMap({1, 1.00001, 1}))}) {
         const std::string why = whyNot(*dotWith(mapped(map)));
         EXPECT_TRUE(mentions(why, "'dot'"));
@@ -465,6 +508,46 @@ TEST(ObjectMask, VoxelsThatAreNotCubesAreAnErrorThatNamesGridAndSize)
     const auto sheared = Transform::createLinearTransform(1.0);
     sheared->preShear(0.5, X_AXIS, Y_AXIS);
     EXPECT_TRUE(mentions(whyNot(*dotWith(sheared)), "sheared"));
+}
+
+TEST(ObjectMask, AxesThatLeanALittleTowardsOneAnotherOrApartAreSheared)
+{
+    for (double size : {1e-4, 1.0, 1e5}) {
+        for (double lean : {0.3, -0.3, 1e-5, -1e-5}) {
+            for (int i = 0; i < 3; ++i) {
+                const int j = (i + 1) % 3;
+                openvdb::Mat4d matrix = openvdb::Mat4d::identity();
+                matrix(i, i) = std::sqrt(1 - lean * lean); // edges of one length
+                matrix(i, j) = lean;
+                for (int a = 0; a < 3; ++a) {
+                    for (int b = 0; b < 3; ++b) matrix(a, b) *= size;
+                }
+                const auto transform = openvdb::math::Transform::createLinearTransform(matrix);
+                EXPECT_TRUE(mentions(whyNot(*dotWith(transform)), "sheared"))
+                    << size << ' ' << lean << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST(ObjectMask, NoDirectionIsStretchedMoreThanTheLargestStretch)
+{
+    std::mt19937 random(3);
+    for (double lean : {0.0, 5e-7, -5e-7}) {
+        openvdb::Mat4d matrix = openvdb::Mat4d::identity();
+        matrix(0, 0) = 1 + 1e-7;
+        matrix(0, 1) = matrix(1, 2) = lean;
+        const auto transform = openvdb::math::Transform::createLinearTransform(matrix);
+        const double stretch = largestStretch(*transform);
+        EXPECT_LE(stretch, 1 + 2e-6);
+        for (int n = 0; n < 10000; ++n) {
+            const auto step = [&] { return double(random()) / 2147483648.0 - 1; };
+            const double x = step(), y = step(), z = step();
+            const openvdb::Vec3d v(x, y, z);
+            const double length = transform->baseMap()->applyJacobian(v).length();
+            ASSERT_LE(length, stretch * v.length() * (1 + 1e-14)) << v << ' ' << lean;
+        }
+    }
 }
 
 TEST(ObjectMask, ARhombusOfEqualSidesIsNoCube)

@@ -3,6 +3,7 @@
 /// @brief The OR pyramid against sets of coordinates, its sparseness, and what it refuses.
 
 #include "../support/CoreStages.h"
+#include "../support/Messages.h"
 #include "../support/RandomObjects.h"
 
 #include <openvdb_spheretree/Interrupted.h>
@@ -173,6 +174,29 @@ TEST(OrPyramid, TilesGiveTheLevelsOfTheirVoxels)
     }
 }
 
+TEST(OrPyramid, EachTileOfACubeOfEightBecomesItsOwnEighth)
+{
+    for (int subset = 1; subset < 256; ++subset) {
+        MaskTree tree(false);
+        int tiles = 0;
+        const auto corner = [](int i, int size) {
+            return Coord(((i >> 2) - 2) * size, (i >> 1 & 1) * size, ((i & 1) + 2) * size);
+        };
+        for (int i = 0; i < 8; ++i) {
+            if (!(subset >> i & 1)) continue;
+            tree.addTile(2, corner(i, 128), true, true); // 128^3
+            ++tiles;
+        }
+        const auto level = coarsen(tree, PyramidStep{Coord(0, 0, 0), 2, 3});
+        ASSERT_EQ(level->activeVoxelCount(), Index64(tiles) * 64 * 64 * 64) << subset;
+        for (int i = 0; i < 8; ++i) {
+            const bool on = subset >> i & 1;
+            ASSERT_EQ(level->isValueOn(corner(i, 64)), on) << subset;
+            ASSERT_EQ(level->isValueOn(corner(i, 64).offsetBy(63)), on) << subset;
+        }
+    }
+}
+
 TEST(OrPyramid, ATileOf4096CubedStaysSparseOnEveryLevel)
 {
     const OrPyramid pyramid = buildOrPyramid(*hugeTile(Coord(-4096, 4096, 0)));
@@ -297,6 +321,22 @@ TEST(OrPyramid, AnIncludingModelMayAddVoxels)
     }
 }
 
+TEST(OrPyramid, AnIncludingModelMayTakeMoreLevelsThanTheWidestObjectButNotForever)
+{
+    const auto object = gridOf(Voxels{Coord(0, 0, 0), Coord(1, 0, 0)});
+    for (int levels : {28, 36, 1000}) {
+        int level = 0;
+        const auto model = [&](const MaskTree& finer, const PyramidStep& step) {
+            const MaskTree::Ptr next = coarsen(finer, step);
+            if (++level < levels) next->setValueOn(Coord(1, 0, 0));
+            return next;
+        };
+        const auto build = [&] { return buildOrPyramid(*object, 2, 3, nullptr, model); };
+        if (levels < 1000) EXPECT_EQ(build().levels.size(), std::size_t(levels + 1));
+        else EXPECT_THROW(build(), ValueError);
+    }
+}
+
 TEST(OrPyramid, AModelThatIsTheOrModelGivesTheSame)
 {
     const auto object = gridOf(randomObject(8).voxels);
@@ -347,7 +387,8 @@ TEST(OrPyramid, StopsWhenInterrupted)
 TEST(OrPyramid, AnEndlessPyramidIsAnErrorRatherThanALoop)
 {
     const auto object = gridOf(*maskOf(CoordBBox(Coord(0), Coord(20))));
-    EXPECT_THROW(buildOrPyramid(*object, 1), openvdb::ValueError);
+    const std::string why = messageOf<ValueError>([&] { buildOrPyramid(*object, 1); });
+    EXPECT_TRUE(mentions(why, "factor=1: it must be 2 or more"));
     EXPECT_THROW(buildOrPyramid(*object, 2, 2), openvdb::ValueError); // 21 voxels thick along z
 }
 

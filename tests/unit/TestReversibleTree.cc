@@ -145,4 +145,34 @@ TEST(ReversibleTree, ParentsByDagAreDagParents)
     EXPECT_GT(others, 100) << "the rules hardly differ on these objects";
 }
 
+TEST(ReversibleTree, OfItsDagParentsANodeHasTheOneOfLeastCoveringPowerAndOfEqualsTheFirst)
+{
+    int choices = 0, ties = 0;
+    for (const RandomObject& object : someObjects(900, 33)) {
+        for (int factor : {2, 3}) {
+            SCOPED_TRACE(object.name + ", factor " + std::to_string(factor));
+            SphereTreeSettings settings = reversible(factor);
+            settings.dag = true;
+            settings.parent = ParentRule::Dag;
+            const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+            const auto power = [&](int32_t parent, int32_t child) {
+                const double apart = (tree.center[parent] - tree.center[child]).length();
+                return apart + tree.radius[child] - tree.radius[parent];
+            };
+            std::vector<int32_t> expected(tree.parent.size(), -1);
+            for (const DagEdge& edge : tree.dag) { // by parent
+                int32_t& best = expected[edge.child];
+                choices += best >= 0;
+                ties += best >= 0 && power(edge.parent, edge.child) == power(best, edge.child);
+                if (best < 0 || power(edge.parent, edge.child) < power(best, edge.child)) {
+                    best = edge.parent;
+                }
+            }
+            ASSERT_EQ(tree.parent, expected);
+        }
+    }
+    EXPECT_GT(choices, 1000);
+    EXPECT_GT(ties, 10);
+}
+
 } // namespace

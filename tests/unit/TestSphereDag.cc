@@ -91,6 +91,18 @@ TEST(SphereDag, LeavesTheThirdAxisAloneInTwoDimensions)
     }
 }
 
+TEST(SphereDag, WorksFromAnyOrigin)
+{
+    for (uint32_t seed = 300; seed < 333; ++seed) {
+        const RandomObject object = randomObject(seed);
+        SCOPED_TRACE(object.name);
+        for (int factor : {2, 3, 5}) {
+            const PyramidStep step{originOf(object.voxels).offsetBy(3, -1, 5), factor, 3};
+            checkStep(object.voxels, coarsened(object.voxels, step), step);
+        }
+    }
+}
+
 TEST(SphereDag, PassesOverVoxelsWhoseParentIsOff)
 {
     for (uint32_t seed = 200; seed < 233; ++seed) {

@@ -58,6 +58,12 @@ private:
     std::streamsize mRoom;
 };
 
+/// Takes everything and loses it when it is to be kept.
+class LateFailure : public std::stringbuf {
+protected:
+    int sync() override { return -1; }
+};
+
 } // namespace
 
 TEST(SphereTreeCsv, WritesAHeaderAndARowANodeFromTheTopDown)
@@ -148,4 +154,12 @@ TEST(SphereTreeCsv, AFullDiskIsAnError)
     FullDisk disk(size);
     std::ostream out(&disk);
     EXPECT_NO_THROW(writeCsv(tree, out));
+}
+
+TEST(SphereTreeCsv, ADiskThatFailsOnlyAtTheEndIsAnError)
+{
+    LateFailure disk;
+    std::ostream out(&disk);
+    const std::string why = messageOf<openvdb::IoError>([&] { writeCsv(oneVoxelTree(), out); });
+    EXPECT_TRUE(mentions(why, "is the disk full?"));
 }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -117,6 +118,7 @@ std::vector<math::Transform::Ptr> transformsOfEveryKind()
     add(new ScaleMap({0.1, 0.1 + 1e-9, -0.1}));
     add(new UniformScaleMap(1.0 / 3));
     add(new TranslationMap({0.1, 2e10, -7}));
+    add(new UnitaryMap(openvdb::Vec3d(1, 2, 3), 0.7));
     add(new ScaleTranslateMap({0.1, -0.1, 0.1}, {1.0 / 7, 0, 5}));
     add(new UniformScaleTranslateMap(1e-4, {1.0 / 7, 1e9, 5}));
     transforms.push_back(Transform().copy()); // OpenVDB simplifies every map that it copies
@@ -377,6 +379,40 @@ TEST(SphereTreePoints, ADagEdgeThatSkipsALevelOrRepeatsIsAnError)
         "spheretree_dag_format"));
 }
 
+TEST(SphereTreePoints, ADagEdgeFromANodeThatDoesNotExistIsAnError)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr points = toPoints(tree);
+    for (int32_t parent : {-1, 8, 1 << 30, std::numeric_limits<int32_t>::min()}) {
+        const PointDataGrid::Ptr dag = dagToPoints(tree);
+        for (auto leaf = dag->tree().beginLeaf(); leaf; ++leaf) {
+            points::AttributeWriteHandle<int32_t> parents(leaf->attributeArray("parent"));
+            for (openvdb::Index n = 0; n < parents.size(); ++n) parents.set(n, parent);
+        }
+        const std::string why =
+            messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
+        EXPECT_TRUE(mentions(why, "from node " + std::to_string(parent) + " to node "));
+    }
+}
+
+TEST(SphereTreePoints, ADagThatWasCutShortIsAnError)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+    dag->removeMeta("spheretree_edges");
+    dag->insertMeta("spheretree_edges", openvdb::Int32Metadata(int32_t(tree.dag.size()) + 1));
+    const std::string why = messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
+    EXPECT_TRUE(mentions(why, "9 edges of 8 nodes are expected"));
+}
+
+TEST(SphereTreePoints, DagEdgesComeBackSortedWhereverTheirPointsAre)
+{
+    SphereTree tree = sampleTree();
+    std::reverse(tree.center.begin(), tree.center.end());
+    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+    EXPECT_EQ(fromPoints(*points, dag.get()).dag, tree.dag);
+}
+
 // ---- Damage
 
 TEST(SphereTreePoints, OrdinaryPointsAreNoSphereTree)
@@ -442,8 +478,8 @@ TEST(SphereTreePoints, CompressedPositionsAreAnError)
 TEST(SphereTreePoints, IdsThatAreNotEachOfThePossibleOnesOnceAreAnError)
 {
     EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 4), "two points have the id 4"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 8), "id 8"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, -1), "id -1"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 8), "there is an id 8"));
+    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, -1), "there is an id -1"));
     const int32_t lowest = std::numeric_limits<int32_t>::min();
     EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, lowest), "id -2147483648"));
 }
@@ -454,7 +490,10 @@ TEST(SphereTreePoints, AParentThatDoesNotExistIsAnErrorThatNamesNodeAndParent)
         const std::string why = whyDamaged<int32_t>("parent", 5, parent);
         EXPECT_TRUE(mentions(why, "node 5"));
         EXPECT_TRUE(mentions(why, "parent " + std::to_string(parent)));
+        EXPECT_TRUE(mentions(why, "must be a node of the next level up"));
     }
+    const std::string why = whyDamaged<int32_t>("parent", 0, -2);
+    EXPECT_TRUE(mentions(why, "the top level has no parents"));
 }
 
 TEST(SphereTreePoints, AParentThatIsNotOnTheNextLevelUpIsAnError)
@@ -527,14 +566,30 @@ TEST(SphereTreePoints, MetadataOutOfRangeIsAnError)
         EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_point_scale", scale), "power of"));
     }
     for (int32_t count : {0, -1, 4, 1 << 30}) {
-        whyDamagedMeta<int32_t>("spheretree_levels", count);
+        EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_levels", count),
+            count == 4 ? "level_3" : "it has " + std::to_string(count) + " levels"));
+    }
+    for (int32_t lowest : {-1, 1025}) {
+        const PointDataGrid::Ptr grid = toPoints(oneLevelOf(sampleTree(), 0));
+        grid->insertMeta("spheretree_lowest_level", openvdb::Int32Metadata(lowest));
+        EXPECT_TRUE(mentions(whyDamaged(*grid), "from level " + std::to_string(lowest) + " on"));
     }
     EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_levels", 2), "by its metadata 7"));
     EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_lowest_level", 1), "from level 1 on"));
     EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_level_0_spheres", 0), "level 0"));
-    EXPECT_TRUE(mentions(
-        whyDamagedMeta<int32_t>("spheretree_level_0_spheres", std::numeric_limits<int32_t>::max()),
-        "more than 2^31"));
+    for (int32_t above : {0, 2}) { // three spheres stand on the levels above
+        const int32_t spheres = std::numeric_limits<int32_t>::max() - above;
+        EXPECT_TRUE(mentions(
+            whyDamagedMeta<int32_t>("spheretree_level_0_spheres", spheres), "more than 2^31"));
+    }
+}
+
+TEST(SphereTreePoints, AFrustumIsNoTransformOfATree)
+{
+    const PointDataGrid::Ptr grid = toPoints(sampleTree());
+    grid->setTransform(math::Transform::createFrustumTransform(
+        openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(10)), 0.5, 10.0, 1.0));
+    EXPECT_TRUE(mentions(whyDamaged(*grid), "its transform is a frustum"));
 }
 
 TEST(SphereTreePoints, AMessageStaysOnOneShortLine)
@@ -555,6 +610,34 @@ TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
     tree.radius.pop_back();
     EXPECT_TRUE(mentions(why(tree), "length"));
     tree = sampleTree();
+    tree.coverSq.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.radiusWorld.push_back(1);
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.parent.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.ijk.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.radiusSq.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = oneLevelOf(sampleTree(), 1);
+    tree.levels[0].level = -1;
+    EXPECT_TRUE(mentions(why(tree), "start at 0"));
+    tree = sampleTree();
+    for (SphereTreeLevel& level : tree.levels) ++level.level;
+    EXPECT_TRUE(mentions(why(tree), "start at 0"));
+    tree = sampleTree();
+    tree.levels[1].end = 2;
+    EXPECT_TRUE(mentions(why(tree), "divide")) << "node 2 is on no level";
+    tree = sampleTree();
+    tree.levels[1].begin = tree.levels[1].end = tree.levels[0].begin;
+    tree.levels[2].end = tree.levels[0].begin;
+    EXPECT_TRUE(mentions(why(tree), "divide")) << "level 1 is empty";
+    tree = sampleTree();
     tree.transform.reset();
     EXPECT_TRUE(mentions(why(tree), "transform"));
     tree = sampleTree();
@@ -566,7 +649,9 @@ TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
     tree = sampleTree();
     tree.settings.factor = 1;
     EXPECT_TRUE(mentions(why(tree), "factor=1"));
-    tree = sampleTree();
-    tree.dag.push_back({99, 1});
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
+    for (int32_t parent : {-1, 8, 99}) {
+        tree = sampleTree();
+        tree.dag.push_back({parent, 1});
+        EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
+    }
 }

@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/detail/LeafBall.h>
+#include <openvdb_spheretree/detail/SphereRaster.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -136,6 +137,8 @@ TEST_F(SphereUnion, LargeSpheresBecomeTilesOfEveryNodeLevel)
     EXPECT_EQ(tree->getValueDepth(Coord(-299, 2048, 2048)), 3);
     EXPECT_TRUE(tree->isValueOn(Coord(-300, 2048, 2048)));
     EXPECT_FALSE(tree->isValueOn(Coord(-301, 2048, 2048)));
+    const MaskTree::Ptr both = sphereUnion({spheres[0], ball(4000, 4000, 4000, 1000)}, clip);
+    EXPECT_EQ(both->getValueDepth(Coord(2000)), 0) << "a small one inside changes nothing";
 }
 
 TEST_F(SphereUnion, AClippedTileIsDescended)
@@ -211,6 +214,28 @@ TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
     EXPECT_TRUE(tree->isValueOn(Coord(-1, 3, 3)));
     EXPECT_EQ(tree->activeVoxelCount(), 20u * 49 + 1);
     EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2)}).max().x(), 0);
+
+    // One less: doubles cannot tell the square from that of the radius.
+    EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2 - 1)}).max().x(), -1);
+    const MaskTree::Ptr below =
+        sphereUnion({ball(0, 0, -r2, r2 * r2 - 1)}, CoordBBox(Coord(-3, -3, -20), Coord(3, 3, 20)));
+    EXPECT_EQ(below->activeVoxelCount(), 20u * 49);
+
+    // The largest that there may be.
+    const int64_t root = 3037000499, most = std::numeric_limits<int64_t>::max();
+    EXPECT_EQ(sphereUnion({ball(-root, 0, 0, most)}, clip)->activeVoxelCount(), 21u * 49);
+    EXPECT_EQ(boundingBox({ball(-root, 0, 0, most)}).max().x(), 0);
+}
+
+TEST_F(SphereUnion, AtTheCornersOfItsBoxAHugeSphereHoldsNothing)
+{
+    const Coord corner(1490000000);
+    for (int i = 0; i < 8; ++i) {
+        const Coord at((i & 4 ? -1 : 1) * corner[0], (i & 2 ? -1 : 1) * corner[1],
+            (i & 1 ? -1 : 1) * corner[2]);
+        const CoordBBox clip(at - Coord(20), at + Coord(20));
+        EXPECT_TRUE(sphereUnion({ball(0, 0, 0, int64_t(9000000000000000000))}, clip)->empty());
+    }
 }
 
 TEST_F(SphereUnion, WorksAtTheLastCoordinates)
@@ -241,6 +266,47 @@ TEST_F(SphereUnion, DoesNotDependOnThreadsNorOnTheOrderOfSpheres)
         EXPECT_EQ(one->activeTileCount(), other->activeTileCount());
         EXPECT_EQ(one->activeVoxelCount(), other->activeVoxelCount());
     }
+}
+
+TEST_F(SphereUnion, DrawnWithinAMaskTheVoxelsOfTheMaskAreTheSame)
+{
+    std::mt19937 random(13);
+    MaskTree mask(false);
+    mask.addTile(3, Coord(-4096, 0, 0), true, true);
+    mask.addTile(2, Coord(0, 0, 0), true, true);
+    mask.addTile(1, Coord(256, 8, 0), true, true);
+    for (int i = 0; i < 3000; ++i) {
+        mask.setValueOn(Coord(128 + int(random() % 200), int(random() % 90), -int(random() % 90)));
+    }
+    for (int trial = 0; trial < 6; ++trial) {
+        Spheres spheres = randomSpheres(random, 40, Coord(100, 40, 0), 500, 60);
+        if (trial > 2) spheres.push_back(ball(-300, 100, 7, int64_t(4) * 5000 * 5000 / trial));
+        const MaskTree::Ptr drawn = detail::rasterSpheres(spheres, kWide, &mask, nullptr);
+        const MaskTree::Ptr expected = sphereUnion(spheres, kWide);
+        drawn->topologyIntersection(mask);
+        expected->topologyIntersection(mask);
+        EXPECT_EQ(drawn->activeVoxelCount(), expected->activeVoxelCount());
+        drawn->topologyDifference(*expected);
+        EXPECT_EQ(drawn->activeVoxelCount(), 0u) << "trial " << trial;
+    }
+}
+
+TEST_F(SphereUnion, DrawnWithinAMaskNodesWithoutVoxelsOfTheMaskAreLeftOut)
+{
+    MaskTree mask(false);
+    mask.setValueOn(Coord(0));
+    mask.setValueOn(Coord(1000));
+    mask.setValueOn(Coord(70000));
+    const Spheres surface{ball(70000, 70000, 70000, int64_t(3) * 70000 * 70000)};
+    const MaskTree::Ptr cut = detail::rasterSpheres(surface, kWide, &mask, nullptr);
+    EXPECT_EQ(cut->leafCount(), 1u);       // of (70000, 70000, 70000), the last voxel that it holds
+    EXPECT_EQ(cut->activeTileCount(), 1u); // the 4096^3 voxels at the origin are all inside
+    for (int c : {0, 1000, 70000}) EXPECT_TRUE(cut->isValueOn(Coord(c))) << c;
+    const Spheres inside{ball(2000, 2000, 2000, int64_t(12) * 1100 * 1100)};
+    const MaskTree::Ptr whole = detail::rasterSpheres(inside, kWide, &mask, nullptr);
+    EXPECT_EQ(whole->leafCount(), 0u);
+    EXPECT_LE(whole->activeTileCount(), 2u); // of the leaves of (0, 0, 0) and (1000, 1000, 1000)
+    EXPECT_TRUE(whole->isValueOn(Coord(0)) && whole->isValueOn(Coord(1000)));
 }
 
 TEST_F(SphereUnion, StopsWhenInterrupted)

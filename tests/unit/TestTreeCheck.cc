@@ -177,6 +177,21 @@ TEST_F(TreeCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     EXPECT_NE(joined(checkSphereTree(tree, *object)), "");
 }
 
+TEST_F(TreeCheck, FindsNothingWrongWithADiscInTwoDimensions)
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    const CoordBBox square(Coord(-20, -20, 5), Coord(20, 20, 5));
+    for (auto q = square.begin(); q; ++q) {
+        if ((*q)[0] * (*q)[0] + (*q)[1] * (*q)[1] <= 400) object->tree().setValueOn(*q);
+    }
+    for (TreeType type : {TreeType::Extended, TreeType::Reversible}) {
+        SphereTreeSettings settings;
+        settings.dim = 2;
+        settings.tree = type;
+        EXPECT_EQ(joined(checkSphereTree(buildSphereTree(*object, settings), *object)), "");
+    }
+}
+
 TEST_F(TreeCheck, SaysWhenArraysDifferInLength)
 {
     expectFailure([](SphereTree& tree) { tree.parent.pop_back(); },
@@ -195,13 +210,27 @@ TEST_F(TreeCheck, SaysWhenLevelsAreNoRangesOfNodes)
         "level 0 is nodes 3 to 7 (exclusive), where nodes from 3 on are expected");
     expectFailure(
         [](SphereTree& tree) { tree.levels[1].level = 4; }, "level 4 stands where level 1 belongs");
+    expectFailure([](SphereTree& tree) { tree.levels[1].end = tree.levels[0].begin = 1; },
+        "level 1 is nodes 1 to 1 (exclusive), where nodes from 1 on are expected");
     expectFailure([](SphereTree& tree) { tree.levels.clear(); }, "the tree has no levels");
     expectFailure([](SphereTree& tree) { tree.transform.reset(); }, "the tree has no transform");
 }
 
+TEST_F(TreeCheck, SaysWhenTheNumberOfALevelThatStandsAloneIsNegative)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = oneLevel(validTree(*object), 1);
+    tree.levels[0].level = -1;
+    EXPECT_EQ(joined(checkSphereTree(tree, *object)), "level -1 stands where level 0 belongs\n");
+}
+
 TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
 {
-    const double nan = std::nan("");
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    for (double far : {infinity, -infinity, 1e10}) {
+        expectFailure([&](SphereTree& tree) { tree.center[2].z() = far; },
+            "the centre is not a multiple of half a voxel in range for 1 node (first: id 2)");
+    }
     expectFailure([&](SphereTree& tree) { tree.center[3].y() = nan; },
         "the centre is not a multiple of half a voxel in range for 1 node (first: id 3)");
     expectFailure([](SphereTree& tree) { tree.center[1].x() = tree.center[2].x() = 0.25; },
@@ -210,8 +239,12 @@ TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
         "the radius is negative or not a number for 1 node (first: id 4)");
     expectFailure([](SphereTree& tree) { tree.coverSq[0] = -1; },
         "the radius is negative or not a number for 1 node (first: id 0)");
-    expectFailure([&](SphereTree& tree) { tree.radiusWorld[0] = float(nan); },
-        "the stored radius is negative or not a number for 1 node (first: id 0)");
+    expectFailure([](SphereTree& tree) { tree.radius[4] = -1; },
+        "the radius is negative or not a number for 1 node (first: id 4)");
+    for (double bad : {nan, infinity, -0.5}) {
+        expectFailure([&](SphereTree& tree) { tree.radiusWorld[0] = float(bad); },
+            "the stored radius is negative or not a number for 1 node (first: id 0)");
+    }
     expectFailure([](SphereTree& tree) { tree.radiusSq[2] = 0; },
         "radius_sq is less than 1 for 1 node (first: id 2)");
 }
@@ -266,6 +299,8 @@ TEST_F(TreeCheck, SaysWhenAParentIsNotOnTheNextLevelUp)
         "level 0: the parent is not on the next level up for 1 node (first: id 4)");
     expectFailure([](SphereTree& tree) { tree.parent[0] = 0; },
         "level 2: the parent is not -1, though this is the top level, for 1 node (first: id 0)");
+    expectFailure([](SphereTree& tree) { tree.parent[3] = 3; }, // the first of its own level
+        "level 0: the parent is not on the next level up for 1 node (first: id 3)");
     expectFailure([](SphereTree& tree) { tree.parent[3] = 1000000; },
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
 }
@@ -305,6 +340,11 @@ TEST_F(TreeCheck, SaysWhenDagEdgesAreWrong)
             tree.dag[0] = {0, 5};
         },
         "1 edges of the DAG do not lead to the next level down (first: 0 to 5)");
+    expectFailure(
+        [](SphereTree& tree) {
+            tree.dag[1] = {0, 3};
+        },
+        "1 edges of the DAG do not lead to the next level down (first: 0 to 3)");
     expectFailure([](SphereTree& tree) { tree.dag[1] = tree.dag[0]; },
         "1 edges of the DAG are out of order or repeated (first: 0 to 1)");
 }
@@ -334,7 +374,16 @@ TEST_F(TreeCheck, SaysWhenLevel0DoesNotRebuildTheObject)
     expectFailure([](SphereTree& tree) { tree.ijk[4].x() = 12; },
         "level 0 does not rebuild the object: its digital balls hold 1 voxel (first: [12, 2, 2]) "
         "that the object has not");
-    expectFailure([](SphereTree& tree) { tree.radiusSq[4] = 2000000000; },
+    expectFailure([](SphereTree& tree) { tree.ijk[4].x() = 12; },
+        "level 0 does not rebuild the object: its digital balls lack 1 voxel (first: [9, 2, 2])");
+    const auto huge = [](SphereTree& tree) { tree.radiusSq[4] = 2000000000; };
+    expectFailure(huge,
+        "level 0: the digital ball is larger than the level's 8 voxels for 1 node (first: id 4)");
+    expectFailure( // the object counts, not what is recorded of it
+        [&](SphereTree& tree) {
+            huge(tree);
+            tree.levels[0].pyramidVoxels = int64_t(1) << 60;
+        },
         "level 0: the digital ball is larger than the level's 8 voxels for 1 node (first: id 4)");
 }
 
@@ -342,6 +391,8 @@ TEST_F(TreeCheck, SaysWhenARecordedVolumeIsNotThatOfTheBalls)
 {
     expectFailure([](SphereTree& tree) { tree.levels[0].pyramidVoxels = 7; },
         "level 0 records 7 pyramid voxels, but its digital balls rebuild 8");
+    expectFailure([](SphereTree& tree) { tree.levels[0].pyramidVoxels = 9; },
+        "level 0 records 9 pyramid voxels, but its digital balls rebuild 8");
     expectFailure([](SphereTree& tree) { tree.levels[1].pyramidVoxels = 1; },
         "level 1 records 1 pyramid voxels, but its digital balls rebuild 2");
     const auto more = [](SphereTree& tree) { tree.levels[1].pyramidVoxels = 3; };
@@ -358,8 +409,10 @@ TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheExactRadii)
     const auto damage = [](SphereTree& tree) { tree.coverSq[1] = 10; };
     expectFailure(
         damage, "level 1 misses 3 voxels (first: [1, 2, 2]) of the object, in the exact radii");
-    expectFailure([](SphereTree& tree) { tree.center[0].x() = 6; },
-        "level 2 misses 1 voxel (first: [1, 2, 2]) of the object, in the exact radii");
+    const auto moved = [](SphereTree& tree) { tree.center[0].x() = 6; };
+    const std::string sentence = "level 2 misses 1 voxel (first: [1, 2, 2]) of the object, in the ";
+    expectFailure(moved, sentence + "exact radii");
+    expectFailure(moved, sentence + "stored radii less their padding");
 }
 
 TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheStoredRadii)
