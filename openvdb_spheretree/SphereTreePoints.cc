@@ -82,9 +82,10 @@ void checkEdges(const std::vector<DagEdge>& edges, const std::vector<int32_t>& l
             && levels[e.parent] == levels[e.child] + 1 && (i == 0 || edges[i - 1] < e);
         if (right) continue;
         OPENVDB_THROW(openvdb::ValueError,
-            "the edge from node " << e.parent << " to node " << e.child
-                                  << " is out of order or there twice, or does not lead to a node "
-                                     "of the next level down");
+            "the edge of the DAG from node "
+                << e.parent << " to node " << e.child
+                << " is out of order or there twice, or does not lead to a node "
+                   "of the next level down");
     }
 }
 

@@ -50,11 +50,11 @@ void Session::runOne(const ActionCall& call)
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
 
-void Session::print(const std::string& text)
+void Session::print(const std::string& text, std::ostream& out)
 {
     if (mReaderIsGone) return;
     errno = 0;
-    if (textOut() << text << std::flush) return;
+    if (out << text << std::flush) return;
     if (errno != EPIPE) throwOutput("cannot write to " + systemError("stdout"));
     mReaderIsGone = true;
 }

@@ -46,9 +46,11 @@ struct Session {
 
     /// Where tables and lists go: stdout, unless that carries data.
     std::ostream& textOut() const;
-    /// Puts @a text there. A reader that has seen enough (`| head`) is no error.
+    /// Puts @a text there, or to another stream. A reader that has seen enough (`| head`) is no
+    /// error.
     /// @throw CommandError (output)
-    void print(const std::string& text);
+    void print(const std::string& text) { print(text, textOut()); }
+    void print(const std::string& text, std::ostream& out);
     /// A line on stderr, where -verbose or -debug has been given.
     void remark(const std::string& line);
     /// A line on stderr, unless -quiet has been given.

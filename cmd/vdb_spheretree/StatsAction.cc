@@ -9,6 +9,7 @@
 #include "Terminal.h"
 
 #include <algorithm>
+#include <iostream>
 #include <sstream>
 
 namespace command {
@@ -47,7 +48,7 @@ void runStats(const ActionCall& call, Session& session)
     if (!call.given("json")) {
         session.print(statsTable(*item.tree, session));
     } else if (call.text("json") == "-") {
-        session.print(statsJson(*item.tree, session));
+        session.print(statsJson(*item.tree, session), std::cout);
     } else {
         writeText(call.text("json"), statsJson(*item.tree, session));
     }

@@ -151,6 +151,7 @@ inline SphereTree oneLevelOf(const SphereTree& tree, int number)
     kept.levels[0].begin = 0;
     kept.levels[0].end = level.size();
     kept.dag.clear();
+    kept.settings.dag = false;
     return kept;
 }
 

@@ -4,6 +4,8 @@
 
 #include <openvdb_spheretree/LevelErrors.h>
 
+#include <openvdb_spheretree/SphereUnion.h>
+
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/detail/MaskDifference.h>
 
@@ -323,8 +325,7 @@ TEST_F(LevelErrors, ALevelOfTooManyRowsIsLeftOutWithTheReason)
     EXPECT_EQ(tree.levels[0].error->hammingPercent, 0);
     EXPECT_FALSE(tree.levels[1].error.has_value());
     EXPECT_EQ(tree.levels[1].errorUnknown,
-        "its spheres cross more "
-        "than the 16777216 that are counted");
+        "its spheres cross more than the 16777216 rows of voxels that are counted");
     tree.settings.dim = 2;
     computeLevelErrors(tree, *object);
     EXPECT_TRUE(tree.levels[0].error.has_value());
@@ -336,7 +337,7 @@ TEST_F(LevelErrors, ALevelOfJustTheRowsOfTheLimitIsCounted)
     BoolGrid::Ptr object = BoolGrid::create();
     object->tree().setValueOn(Coord(0));
     // Two discs of a radius of 2048 (4096 x 4096 rows from pole to pole) on one another; in 2-D.
-    ASSERT_EQ(kMaxErrorRows, 4096 * 4096);
+    ASSERT_EQ(kMaxUnionRows, 4096 * 4096);
     const std::vector<Sphere> spheres(2, Sphere{{0.5, 0.5, 0}, int64_t(4095) * 4095 + 1});
     const LevelError error = errorOf(spheres, *object, 2);
     EXPECT_EQ(error.missing, 0);

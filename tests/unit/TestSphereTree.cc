@@ -67,7 +67,7 @@ TEST(SphereTree, RejectsTwoDimensionsForAThickObject)
 
 TEST(SphereTree, RejectsSettingsOutOfRange)
 {
-    for (int factor : {1, 0, -2, 65}) {
+    for (int factor : {1, 0, -2, 32769}) {
         SphereTreeSettings settings;
         settings.factor = factor;
         EXPECT_TRUE(
