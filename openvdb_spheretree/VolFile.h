@@ -25,8 +25,7 @@ bool isVolFileName(const std::string& path);
 /// ignored. Values of a `.longvol` beyond 2^63 - 1 are stored as 2^63 - 1.
 /// @throw openvdb::IoError if the file cannot be read, is truncated, has a damaged stream, or its
 ///        header is wrong or asks for more (or less) than the file holds; the message names the
-///        file
-///        and key
+///        file and key
 /// @throw Interrupted if the interrupter said so
 /// @note Memory is that of the result and of sixteen slices of the volume.
 openvdb::GridBase::Ptr readVolFile(

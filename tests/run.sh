@@ -4,6 +4,10 @@
 #
 #   tests/run.sh [ctest arguments]     for example: tests/run.sh -R SphereTree
 set -euo pipefail
+if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then
+    sed -n '3,5s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    exit 0
+fi
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/dependencies.sh"
 

@@ -131,7 +131,7 @@ std::vector<OptionSpec> spheretreeOptions()
             "extended: spheres contain the leaf balls below them; reversible: every level rebuilds "
             "its own pyramid level; tight: not available yet"),
         integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
-            "voxels per axis merged from level to level"),
+            "voxels per axis merged from level to level, 2 to 32768"),
         integer("dim", "3", 2, 3, "2 for an object one voxel thick along z"),
         choice("dist", {"l2"}, "the distance: l2 is the Euclidean one"),
         choice("parent", {"centre", "dag"},
@@ -142,8 +142,7 @@ std::vector<OptionSpec> spheretreeOptions()
         choice("scale", {"tight", "paper"}, "how a level's radii become those of level 0"),
         text("padding", "cubes",
             "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
-            "of "
-            "voxels"),
+            "of voxels"),
         flag("dag", false, "collect and store the edges of the Sphere-DAG too"),
         choice("edges", {"shared", "intersecting"},
             "with dag=1: edges between balls whose cells share a voxel, or between all spheres "

@@ -14,8 +14,7 @@ namespace command {
 /// @brief Every grid of a `.vdb`, whole and in memory, in the file's order.
 /// @param path  a file, or `stdin.vdb`
 /// @throw CommandError (input) naming the file: missing, not a .vdb, truncated, damaged, empty, or
-/// with
-///        another number of voxels than it says
+///        with another number of voxels than it says
 /// @throw Interrupted if the user has asked for a stop
 openvdb::GridPtrVec readVdb(const std::string& path);
 

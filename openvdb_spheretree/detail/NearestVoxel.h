@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/NearestVoxel.h
-/// @brief Exact nearest-voxel queries on a sparse mask: a tree of bounding boxes over its leaves
+/// @brief Nearest-voxel queries on a sparse mask: a tree of bounding boxes over its leaves
 /// and tiles.
 ///
 /// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
@@ -9,7 +9,8 @@
 /// Within a leaf, rows are searched by bits.
 ///
 /// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
-/// likewise: |2 q - point2|^2.
+/// likewise: |2 q - point2|^2. Exact at voxel centres. Between them a tile counts as the continuous
+/// box of its voxel centres, so that the answer may be too small, by half a voxel an axis at most.
 
 #pragma once
 

@@ -265,4 +265,36 @@ TEST_F(CommandInput, ALevelThatTheTreeDoesNotHave)
     expectInputError("-read a.vol -spheretree -spheres2mask 77 -write t.vdb", "77");
 }
 
+TEST_F(CommandInput, AMaskOptionThatSaysNothingAboutTheGrid)
+{
+    writeGrids("ls.vdb", {sphereGrid("ball")});
+    writeBlock("a.vol");
+    expectInputError("-read a.vol -mask iso=0.5 -write t.vdb", "use threshold=");
+    expectInputError("-read ls.vdb -mask threshold=0.5 -write t.vdb", "use iso=");
+    expectInputError("-read ls.vdb -mask values=1 -write t.vdb", "values is for bool grids");
+}
+
+TEST_F(CommandInput, SpheresTooLargeToDraw)
+{
+    auto far = openvdb::BoolGrid::create();
+    far->tree().setValueOn(openvdb::Coord(0, 0, 0));
+    far->tree().setValueOn(openvdb::Coord(60000, 0, 0));
+    writeGrids("far.vdb", {far});
+    expectInputError("-read far.vdb -spheretree errors=0 -spheres2mask level=16 -write t.vdb",
+        "choose a finer level");
+}
+
+TEST_F(CommandInput, ATreeOfAnObjectElsewhereFailsItsCheck)
+{
+    auto ball = sphereGrid("ball");
+    writeGrids("here.vdb", {ball});
+    ball->transform().postTranslate(openvdb::Vec3d(1000, 0, 0));
+    writeGrids("there.vdb", {ball});
+    ASSERT_EQ(run("-read there.vdb -spheretree -write tree.vdb").exitCode, 0);
+    EXPECT_EQ(run("-read there.vdb -read tree.vdb -check").exitCode, 0);
+    const Result result = run("-read here.vdb -read tree.vdb -check");
+    EXPECT_EQ(result.exitCode, 6);
+    EXPECT_NE(result.out.find("transform"), std::string::npos) << result.out;
+}
+
 } // namespace

@@ -238,4 +238,62 @@ TEST_F(CommandWork, AStrangeGridNameDoesNotBreakJson)
     EXPECT_NE(result.out.find("\"a\\\"b\\\\c\\u000a\\ufffd\""), std::string::npos) << result.out;
 }
 
+TEST_F(CommandWork, FileNamesMayHoldCommasAndEqualsSigns)
+{
+    for (const std::string name : {"a,b.vol", "c=d.vol", "e,f=g.vol"}) {
+        writeBlock(name);
+        EXPECT_EQ(runWords({"-read", name, "-spheretree", "-write", "t.vdb"}).exitCode, 0) << name;
+    }
+    EXPECT_EQ(runWords({"-read", "a.vol,a,b.vol", "-print"}).exitCode, 3) << "no such files";
+    EXPECT_EQ(runWords({"-read", "files=a.vol,c=d.vol", "-print"}).exitCode, 0);
+}
+
+TEST_F(CommandWork, AnOpenMeshIsWarnedOf)
+{
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    command_test::writeText(path("open.obj"), points + "f 1 3 2\nf 1 2 4\nf 2 3 4\n");
+    command_test::writeText(path("closed.obj"), points + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    EXPECT_NE(
+        run("-read open.obj -mesh2ls dim=20").err.find("not closed: 3 edges"), std::string::npos);
+    EXPECT_EQ(run("-read closed.obj -mesh2ls dim=20").err.find("warning"), std::string::npos);
+    EXPECT_EQ(run("-quiet -read open.obj -mesh2ls dim=20").err, "");
+}
+
+TEST_F(CommandWork, AReaderThatHasSeenEnoughLosesNoTree)
+{
+    // The pipe is closed before anything is printed.
+    const Result result =
+        shell("{ \"$VDB_SPHERETREE\" -quiet -read a.vol -spheretree -stats -write t.vdb; "
+              "echo $? > code; } | true; cat code");
+    EXPECT_EQ(result.out, "0\n") << result.err;
+    EXPECT_TRUE(exists("t.vdb"));
+}
+
+TEST_F(CommandWork, APointGridNamedLikeEdgesIsReadAsPoints)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree dag=1 name=a -write t.vdb").exitCode, 0);
+    auto grids = readGrids("t.vdb");
+    ASSERT_EQ(grids.size(), 2u);
+    for (auto& grid : grids) {
+        if (grid->getName() == "a_dag") grid->removeMeta("spheretree_dag_format");
+    }
+    writeGrids("u.vdb", grids);
+    const Result result = run("-read u.vdb -print");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("'a_dag'"), std::string::npos) << result.out;
+}
+
+TEST_F(CommandWork, AFlatTreeAsAMaskIsTheObject)
+{
+    writeVol("flat.vol", {20, 20, 1}, std::string(400, '\1'));
+    ASSERT_EQ(run("-read flat.vol -spheretree dim=2 -spheres2mask -write m.vdb").exitCode, 0);
+    EXPECT_EQ(readGrids("m.vdb").at(0)->activeVoxelCount(), 400u);
+}
+
+TEST_F(CommandWork, TheEdgesOfMeetingSpheresAreStoredAndChecked)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree dag=1 edges=intersecting -write t.vdb").exitCode, 0);
+    EXPECT_EQ(run("-read a.vol t.vdb -check").exitCode, 0);
+}
+
 } // namespace

@@ -5,6 +5,8 @@
 #include "../support/CoreStages.h"
 #include "../support/RandomObjects.h"
 
+#include <openvdb_spheretree/detail/Memory.h>
+
 namespace {
 
 using namespace openvdb_spheretree;
@@ -193,6 +195,25 @@ TEST(LeafLayout, VoxelsFarApartAreTwoLeaves)
         EXPECT_EQ(layout.leafCount(), 2u);
         EXPECT_EQ(layout.runCount(Axis::X), 2u);
     }
+}
+
+TEST(LeafLayout, AnObjectOfTooManyLeavesIsAnErrorBeforeMemoryIsTaken)
+{
+    openvdb::MaskTree tree(false);
+    for (int i = 0; i < 17; ++i) tree.root().addTile(openvdb::Coord(4096 * i, 0, 0), true, true);
+    try {
+        const openvdb_spheretree::LeafLayout layout(tree);
+        FAIL() << "17 tiles of 4096^3 voxels fit nowhere";
+    } catch (const openvdb::ValueError& error) {
+        EXPECT_NE(std::string(error.what()).find("2281701376 leaf nodes"), std::string::npos);
+    }
+}
+
+TEST(LeafLayout, AnObjectThatNeedsMoreMemoryThanThereIsIsAnError)
+{
+    EXPECT_NO_THROW(openvdb_spheretree::detail::requireMemory(1000, 10000));
+    EXPECT_THROW(openvdb_spheretree::detail::requireMemory(int64_t(1) << 40, int64_t(1) << 20),
+        openvdb::ValueError);
 }
 
 } // namespace

@@ -593,4 +593,18 @@ TEST(MeshFile, ReadsTheSampleMeshes)
     }
 }
 
+TEST(MeshFile, CountsTheEdgesWhereAMeshIsOpen)
+{
+    TriangleMesh mesh; // a tetrahedron
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    EXPECT_EQ(openEdges(mesh), 0);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(openEdges(mesh), 3);
+    mesh.triangles = {{0, 2, 1}};
+    EXPECT_EQ(openEdges(mesh), 3);
+    mesh.triangles.clear();
+    EXPECT_EQ(openEdges(mesh), 0);
+}
+
 } // namespace

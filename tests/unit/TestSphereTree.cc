@@ -3,6 +3,9 @@
 /// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order,
 /// ids, world radii, records, errors, and that every tree ends.
 
+#include <openvdb_spheretree/IntersectionDag.h>
+#include <openvdb_spheretree/MedialLevel.h>
+#include <openvdb_spheretree/OrPyramid.h>
 #include <openvdb_spheretree/SphereTree.h>
 
 #include "../support/BuiltTrees.h"
@@ -445,6 +448,72 @@ TEST(KeepLevel, RejectsALevelThatIsNotThere)
         EXPECT_TRUE(mentions(message, "0 to " + std::to_string(top)));
     }
     EXPECT_THROW(keepLevel(keepLevel(tree, 1), 0), openvdb::ValueError);
+}
+
+TEST(SphereTree, ARadiusThatFitsNoFloatIsAnError)
+{
+    const auto object = someGrid();
+    object->setTransform(openvdb::math::Transform::createLinearTransform(1e31));
+    SphereTreeSettings settings;
+    settings.padding = 1e9;
+    EXPECT_TRUE(mentions(messageOfBuild(*object, settings), "does not fit a float"));
+}
+
+TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
+{
+    struct Listener : openvdb::util::NullInterrupter {
+        std::mutex mutex;
+        std::set<std::string> names;
+        int depth = 0, largest = -1;
+        void start(const char* name = nullptr) override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            names.insert(name);
+            ++depth;
+        }
+        void end() override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            --depth;
+        }
+        bool wasInterrupted(int percent = -1) override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            largest = std::max(largest, percent);
+            return false;
+        }
+    } listener;
+    buildSphereTree(*someGrid(), {}, &listener);
+    for (const char* name : {"distance transform", "power labels", "medial balls", "pyramid"}) {
+        EXPECT_TRUE(listener.names.count(name)) << name;
+    }
+    EXPECT_EQ(listener.depth, 0);
+    EXPECT_GE(listener.largest, 0);
+    EXPECT_LE(listener.largest, 100);
+}
+
+TEST(SphereTree, StagesRefuseADimensionThatIsNone)
+{
+    const auto object = someGrid();
+    EXPECT_THROW(distanceTransform(*object, 1), openvdb::ValueError);
+    EXPECT_THROW(distanceTransform(*object, 4), openvdb::ValueError);
+    EXPECT_THROW(medialBalls(*object, 7), openvdb::ValueError);
+    EXPECT_THROW(buildOrPyramid(*object, 2, -1), openvdb::ValueError);
+    const openvdb::MaskTree mask(object->tree(), false, openvdb::TopologyCopy());
+    const LeafLayout layout(mask);
+    EXPECT_THROW(powerMap(layout, distanceTransform(layout), 4), openvdb::ValueError);
+}
+
+TEST(SphereTree, ParentsByTheDagLeaveNoEdgesBehindUnlessAsked)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        settings.parent = ParentRule::Dag;
+        EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
+        settings.dag = true;
+        settings.edges = DagEdges::Intersecting;
+        const SphereTree tree = buildSphereTree(*someGrid(), settings);
+        EXPECT_TRUE(tree.dag == intersectionDag(tree));
+    }
 }
 
 } // namespace

@@ -11,6 +11,8 @@
 #include <openvdb/points/PointGroup.h>
 
 #include <gtest/gtest.h>
+
+#include <functional>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -673,4 +675,30 @@ TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
         tree.dag.push_back({parent, 1});
         EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
     }
+}
+
+TEST(SphereTreePoints, ATreeReadWithoutItsEdgesSaysThatItHasNone)
+{
+    const SphereTree tree = sampleTree();
+    ASSERT_TRUE(tree.settings.dag);
+    const SphereTree read = fromPoints(*toPoints(tree));
+    EXPECT_TRUE(read.dag.empty());
+    EXPECT_FALSE(read.settings.dag);
+}
+
+TEST(SphereTreePoints, WhatCouldNotBeReadBackIsNotWritten)
+{
+    const auto expectRefused = [](const std::function<void(SphereTree&)>& damage) {
+        SphereTree tree = sampleTree();
+        ASSERT_NO_THROW(toPoints(tree));
+        damage(tree);
+        EXPECT_THROW(toPoints(tree), openvdb::ValueError);
+    };
+    expectRefused([](SphereTree& t) { t.radiusWorld[2] = std::numeric_limits<float>::infinity(); });
+    expectRefused([](SphereTree& t) { t.coverSq[2] = std::numeric_limits<int64_t>::max(); });
+    expectRefused([](SphereTree& t) { t.center[2][1] = 1e10; });
+    expectRefused([](SphereTree& t) { t.radius[2] = -1; });
+    expectRefused([](SphereTree& t) { t.parent[5] = 1 << 30; });
+    expectRefused([](SphereTree& t) { t.parent[5] = 4; });
+    expectRefused([](SphereTree& t) { t.radiusSq[2] = 0; });
 }

@@ -346,4 +346,39 @@ TEST_F(SphereUnion, SpheresOfALevelAreItsRangeWithDoubledCentres)
     EXPECT_EQ(spheres[1].coverSq, 9);
 }
 
+TEST(LevelUnion, OfAFlatTreeStaysInItsPlane)
+{
+    auto object = openvdb::BoolGrid::create();
+    for (int x = -20; x <= 20; ++x) {
+        for (int y = -20; y <= 20; ++y) {
+            if (x * x + y * y < 400) object->tree().setValueOn(openvdb::Coord(x, y, 7));
+        }
+    }
+    openvdb_spheretree::SphereTreeSettings settings;
+    settings.dim = 2;
+    const auto tree = openvdb_spheretree::buildSphereTree(*object, settings);
+    const auto covered = openvdb_spheretree::levelUnion(tree, tree.levels.front());
+    EXPECT_EQ(covered->activeVoxelCount(), object->activeVoxelCount());
+    covered->topologyDifference(object->tree());
+    EXPECT_EQ(covered->activeVoxelCount(), 0u);
+}
+
+TEST(LevelUnion, OfSpheresTooLargeToDrawIsAnError)
+{
+    auto object = openvdb::BoolGrid::create();
+    object->tree().setValueOn(openvdb::Coord(0, 0, 0));
+    object->tree().setValueOn(openvdb::Coord(60000, 0, 0));
+    const auto tree = openvdb_spheretree::buildSphereTree(*object);
+    EXPECT_THROW(openvdb_spheretree::levelUnion(tree, tree.root()), openvdb::ValueError);
+    EXPECT_EQ(openvdb_spheretree::levelUnion(tree, tree.levels.front())->activeVoxelCount(), 2u);
+}
+
+TEST_F(SphereUnion, ABlockOfNothingButFullLeavesIsKept)
+{
+    const openvdb_spheretree::ExactSphere large{{0, 0, 0}, 4 * 1000000};
+    const auto covered = openvdb_spheretree::sphereUnion(
+        {large}, openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(7)));
+    EXPECT_EQ(covered->activeVoxelCount(), 512u);
+}
+
 } // namespace

@@ -459,4 +459,36 @@ TEST_F(TreeCheck, StopsWhenInterrupted)
     EXPECT_THROW(checkSphereTree(validTree(*object), *object, &stop), Interrupted);
 }
 
+TEST_F(TreeCheck, SaysWhenTheObjectLiesElsewhereInTheWorld)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    const SphereTree tree = validTree(*object);
+    const auto failuresWith = [&](const openvdb::math::Transform::Ptr& transform) {
+        object->setTransform(transform);
+        return joined(checkSphereTree(tree, *object));
+    };
+    auto moved = openvdb::math::Transform::createLinearTransform(0.5);
+    moved->postTranslate(openvdb::Vec3d(0, 0.01, 0));
+    EXPECT_EQ(failuresWith(moved).rfind("the object's transform is not the tree's", 0), 0u);
+    const auto larger = openvdb::math::Transform::createLinearTransform(1.5);
+    EXPECT_EQ(failuresWith(larger).rfind("the object's transform is not the tree's", 0), 0u);
+    auto rotated = openvdb::math::Transform::createLinearTransform(0.5);
+    rotated->postRotate(0.1, openvdb::math::Z_AXIS);
+    EXPECT_EQ(failuresWith(rotated).rfind("the object's transform is not the tree's", 0), 0u);
+    auto rounded = openvdb::math::Transform::createLinearTransform(0.5);
+    rounded->postTranslate(openvdb::Vec3d(0, 1e-6, 0)); // as another program may have written it
+    EXPECT_EQ(failuresWith(rounded), "");
+}
+
+TEST_F(TreeCheck, TakesNoMemoryOnTheWordOfADamagedFile)
+{
+    expectFailure(
+        [](SphereTree& tree) {
+            tree.radiusSq[0] = std::numeric_limits<int32_t>::max();
+            tree.levels[2].pyramidVoxels = int64_t(1) << 62;
+        },
+        "level 2 records 4611686018427387904 pyramid voxels, more than the object's box has room "
+        "for");
+}
+
 } // namespace
