@@ -14,6 +14,7 @@
 #include "Interrupted.h"
 #include "detail/MeshFormats.h"
 #include "detail/Polygon.h"
+#include "detail/Text.h"
 
 #include <openvdb/tools/MeshToVolume.h>
 
@@ -62,13 +63,6 @@ std::string messageOf(const openvdb::Exception& error)
     const std::string text = error.what();
     const std::size_t colon = text.find("Error: ");
     return colon == text.npos ? text : text.substr(colon + 7);
-}
-
-std::string lowerExtension(const std::string& path)
-{
-    std::string text = std::filesystem::path(path).extension().string();
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
 }
 
 void needRegularFile(const std::string& path)
@@ -300,14 +294,14 @@ bool readsOtherMeshFormats()
 
 bool isMeshFileName(const std::string& path)
 {
-    const std::string extension = lowerExtension(path);
+    const std::string extension = detail::lowerExtension(path);
     return detail::isStrictFormat(extension) || assimpKnows(extension);
 }
 
 TriangleMesh readMeshFile(const std::string& path)
 {
     needRegularFile(path);
-    const std::string extension = lowerExtension(path);
+    const std::string extension = detail::lowerExtension(path);
     TriangleMesh mesh;
     try {
         mesh = toTriangles(detail::isStrictFormat(extension)

@@ -27,13 +27,6 @@ std::string absolute(const std::string& path)
     return error ? path : resolved.string();
 }
 
-std::string extensionOf(const std::string& path)
-{
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
 void checkReadable(const std::string& path)
 {
     struct stat info;
@@ -43,6 +36,13 @@ void checkReadable(const std::string& path)
 }
 
 } // namespace
+
+std::string extensionOf(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
 
 FileKind fileKind(const std::string& path)
 {

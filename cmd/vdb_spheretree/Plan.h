@@ -12,6 +12,9 @@ namespace command {
 
 enum class FileKind { Vdb, Vol, Mesh, Csv, Unknown };
 
+/// @return `.vdb` of `path/Tree.VDB`.
+std::string extensionOf(const std::string& path);
+
 /// By extension, in any case.
 FileKind fileKind(const std::string& path);
 

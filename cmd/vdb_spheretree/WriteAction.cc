@@ -15,7 +15,6 @@
 #include <openvdb_spheretree/SphereTreePoints.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <sstream>
 
@@ -27,9 +26,7 @@ namespace {
 
 bool isLaterFormat(const std::string& path)
 {
-    const size_t dot = path.rfind('.');
-    std::string extension = dot == std::string::npos ? "" : path.substr(dot);
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = extensionOf(path);
     for (const char* known : {".json", ".ply", ".usda", ".sph", ".html", ".png"}) {
         if (extension == known) return true;
     }

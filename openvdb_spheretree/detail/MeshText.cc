@@ -28,15 +28,6 @@ bool parse(std::string_view word, Number& number)
 
 } // namespace
 
-std::string shown(std::string_view text)
-{
-    std::string clean(text.substr(0, 40));
-    for (char& c : clean) {
-        if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
-    }
-    return "'" + clean + (text.size() > 40 ? "...'" : "'");
-}
-
 bool MeshText::nextLine()
 {
     if (mRest.empty()) {

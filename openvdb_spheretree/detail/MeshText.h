@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "Text.h"
+
 #include <openvdb/Types.h>
 
 #include <cstdint>
@@ -12,9 +14,6 @@
 
 namespace openvdb_spheretree {
 namespace detail {
-
-/// Text of a file for use in a message: short, and nothing a terminal would obey.
-std::string shown(std::string_view text);
 
 /// Walks through a text line by line, word by word.
 class MeshText {
