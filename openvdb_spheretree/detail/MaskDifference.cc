@@ -7,6 +7,7 @@
 
 #include "MaskDifference.h"
 
+#include "MaskNodes.h"
 #include "Parallel.h"
 
 #include <openvdb/tools/Count.h>
@@ -17,9 +18,6 @@ namespace {
 
 using openvdb::Coord;
 using openvdb::MaskTree;
-using RootCellNode = MaskTree::RootNodeType::ChildNodeType; // 4096^3
-using BlockNode = RootCellNode::ChildNodeType;              // 128^3
-using LeafNode = MaskTree::LeafNodeType;                    // 8^3
 
 constexpr uint64_t kAllOn = ~uint64_t(0);
 

@@ -15,6 +15,7 @@
 
 #include "BallLists.h"
 #include "BlockCanvas.h"
+#include "MaskNodes.h"
 #include "Parallel.h"
 
 #include <tbb/parallel_sort.h>
@@ -28,9 +29,6 @@ namespace {
 
 using openvdb::Coord;
 using openvdb::MaskTree;
-using RootCellNode = MaskTree::RootNodeType::ChildNodeType; // 4096^3
-using BlockNode = RootCellNode::ChildNodeType;              // 128^3
-using LeafNode = MaskTree::LeafNodeType;                    // 8^3
 
 constexpr int kRootCellLog2 = 12;
 
