@@ -357,11 +357,12 @@ SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
-    if (!dag) tree.settings.dag = false;
-    if (dag) {
-        checkFormat(*dag, kDagKind, detail::kDagFormatKey);
-        tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
+    if (!dag) {
+        tree.settings.dag = false;
+        return tree;
     }
+    checkFormat(*dag, kDagKind, detail::kDagFormatKey);
+    tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
     return tree;
 }
 

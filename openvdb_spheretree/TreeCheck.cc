@@ -101,8 +101,7 @@ void checkNodes(Check& check)
 void checkTransform(Check& check)
 {
     const SphereTree& tree = check.tree;
-    openvdb::CoordBBox box;
-    check.mask.evalActiveVoxelBoundingBox(box);
+    const openvdb::CoordBBox& box = check.box;
     double farthest = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const openvdb::Vec3d at(box.min()[0] + (corner & 1) * box.extents()[0],
@@ -130,10 +129,8 @@ void checkObject(Check& check)
     compare("voxels", info.voxels, detail::countVoxels(check.mask));
     compare("leaves", info.leaves, int64_t(object.leafCount()));
     compare("tiles", info.tiles, int64_t(object.activeTileCount()));
-    openvdb::CoordBBox box;
-    check.mask.evalActiveVoxelBoundingBox(box);
-    if (info.bbox != box) {
-        check.fail("the tree records ", info.bbox, " as the object's box, which is ", box);
+    if (info.bbox != check.box) {
+        check.fail("the tree records ", info.bbox, " as the object's box, which is ", check.box);
     }
 }
 
@@ -331,7 +328,9 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree mask = detail::maskOf(object.tree());
-    Check check{tree, object, mask, interrupter, {}};
+    openvdb::CoordBBox box;
+    mask.evalActiveVoxelBoundingBox(box);
+    Check check{tree, object, mask, box, interrupter, {}};
     checkShape(check);
     if (check.failures.empty()) checkNodes(check);
     if (!check.failures.empty()) return check.failures;

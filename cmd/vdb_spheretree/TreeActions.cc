@@ -8,8 +8,6 @@
 #include <openvdb_spheretree/LevelErrors.h>
 #include <openvdb_spheretree/TreeCheck.h>
 
-#include <iostream>
-
 namespace command {
 
 namespace spheretree = openvdb_spheretree;

@@ -60,10 +60,9 @@ bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxel
 double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 {
     const double scale = std::pow(double(check.tree.settings.factor), level.level);
-    CoordBBox box;
-    check.mask.evalActiveVoxelBoundingBox(box);
+    const openvdb::Coord size = check.box.extents();
     double voxels = 1;
-    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(box.extents()[axis]) / scale + 64;
+    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
     return voxels;
 }
 
@@ -120,9 +119,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
 /// @return object voxels that no sphere covers. Draws only where the object is.
 MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
 {
-    CoordBBox box;
-    check.mask.evalActiveVoxelBoundingBox(box);
-    const MaskTree::Ptr covered = rasterSpheres(spheres, box, &check.mask, check.interrupter);
+    const MaskTree::Ptr covered = rasterSpheres(spheres, check.box, &check.mask, check.interrupter);
     return maskDifference(check.mask, *covered, check.interrupter);
 }
 

@@ -22,6 +22,7 @@ struct TreeCheck {
     const SphereTree& tree;
     const openvdb::BoolGrid& object;
     const openvdb::MaskTree& mask; ///< the object's topology
+    openvdb::CoordBBox box;        ///< of its voxels
     openvdb::util::NullInterrupter* interrupter;
     std::vector<std::string> failures;
 
