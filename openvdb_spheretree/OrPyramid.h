@@ -14,29 +14,17 @@
 
 #pragma once
 
+#include "PyramidModel.h"
+
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <functional>
 #include <vector>
 
 namespace openvdb_spheretree {
 
 /// A side of the object's box may have this many voxels, so that squares of distances fit 64 bits.
 constexpr int64_t kMaxExtent = int64_t(1) << 28;
-
-/// How voxels of one level become voxels of the next.
-struct PyramidStep {
-    openvdb::Coord origin; ///< of the finer level's cells: parent = floor((ijk - origin) / factor)
-    int factor = 2;
-    int dim = 3; ///< 2: z stays as it is
-
-    openvdb::Coord parentVoxel(const openvdb::Coord& ijk) const;
-};
-
-/// Makes level k+1 of level k. Must be including: it has the OR model's voxels, maybe more.
-using PyramidModel =
-    std::function<openvdb::MaskTree::Ptr(const openvdb::MaskTree& level, const PyramidStep& step)>;
 
 /// @brief The OR model. Parallel; the result has no full node that could be a tile.
 openvdb::MaskTree::Ptr coarsen(const openvdb::MaskTree& level, const PyramidStep& step,

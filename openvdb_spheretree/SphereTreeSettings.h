@@ -5,6 +5,9 @@
 
 #pragma once
 
+#include "Distance.h"
+#include "PyramidModel.h"
+
 #include <string>
 
 namespace openvdb_spheretree {
@@ -39,8 +42,17 @@ struct SphereTreeSettings {
     TreeType tree = TreeType::Extended;
     /// Voxels of a level merged per axis into one voxel of the next level: 2 to kMaxFactor.
     int factor = 2;
-    /// 3, or 2 for an object one voxel thick along z: the z axis then takes no part.
+    /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
     int dim = 3;
+    /// With dim = 2, the axis along which the object is one voxel thick (0, 1 or 2 for x, y, z).
+    /// Found by the builder, whatever stands here.
+    int flatAxis = 2;
+    Distance dist; ///< what the balls are balls of
+    /// Pyramid model: 0 for OR, else OR after a closing of this radius (voxels of the child level).
+    int closing = 0;
+    /// An including model of one's own, in place of the above. It sees an object with dim = 2 turned
+    /// so that it is flat along z. Files record that there was one, not which.
+    PyramidModel customModel;
     ParentRule parent = ParentRule::Centre;
     /// Extended tree: store the smallest sphere around its own centre that contains the leaf balls
     /// below it (Section 4.2 of the paper), rather than the one that the reconstruction used.
@@ -52,6 +64,8 @@ struct SphereTreeSettings {
     double padding = kPadCubes;
     /// Also collect the edges of the Sphere-DAG.
     bool dag = false;
+    /// Also count components, tunnels and cavities of the voxels of every level.
+    bool topology = true;
     DagEdges edges = DagEdges::Shared; ///< which ones; parent=dag always goes by shared voxels
     /// Name of the tree, and of the grid it is stored in.
     std::string name = "spheretree";

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Distance.h"
+
+#include "detail/RoundUp.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+/// @return whether some way from voxel to voxel costs just @a value. More than face - 1 steps of
+/// another kind are never needed: that many of them cost as much as steps across faces do.
+bool isCostOfAWay(int64_t value, int face, int edge, int corner)
+{
+    for (int64_t k = 0; k < face && corner * k <= value; ++k) {
+        for (int64_t j = 0; j < face && corner * k + edge * j <= value; ++j) {
+            if ((value - corner * k - edge * j) % face == 0) return true;
+        }
+    }
+    return false;
+}
+
+std::string chamferText(int face, int edge, int corner)
+{
+    return "chamfer:" + std::to_string(face) + ',' + std::to_string(edge) + ','
+        + std::to_string(corner);
+}
+
+[[noreturn]] void throwUnknown(const std::string& text)
+{
+    OPENVDB_THROW(openvdb::ValueError,
+        "dist='" << text.substr(0, 60)
+                 << "' is unknown: choose l2, l1, linf, or chamfer:a,b,c with the costs of a step "
+                    "across a face, an edge and a corner, such as chamfer:3,4,5");
+}
+
+} // namespace
+
+Distance Distance::chamfer(int face, int edge, int corner)
+{
+    const std::string text = chamferText(face, edge, corner);
+    for (const int weight : {face, edge, corner}) {
+        if (weight >= 1 && weight <= kMaxWeight) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "dist=" << text << ": weights are 1 to " << kMaxWeight << ", not " << weight);
+    }
+    if (face < edge - face || edge - face < corner - edge || corner < edge || edge < face) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "dist=" << text
+                    << " is not a norm: with the weights a,b,c it must hold that a <= b <= c, "
+                       "b <= 2 a and a + c <= 2 b, as for chamfer:3,4,5");
+    }
+    return {face, edge, corner};
+}
+
+double Distance::length(double x, double y, double z) const
+{
+    return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
+}
+
+int64_t Distance::reach(int64_t x, int64_t y, int64_t limitSq) const
+{
+    if (lengthSq(x, y, 0) > limitSq) return -1;
+    if (isEuclidean()) return int64_t(detail::integerRoot(uint64_t(limitSq - x * x - y * y)));
+    const int64_t limit = int64_t(detail::integerRoot(uint64_t(limitSq)));
+    const int64_t most = std::max(std::abs(x), std::abs(y)),
+                  least = std::abs(x) + std::abs(y) - most;
+    const int64_t a = mFace, b = mEdge - mFace, c = mCorner - mEdge;
+    // What z costs is c a step while it is the smallest coordinate, b as the middle one, then a.
+    const int64_t asLargest = (limit - b * most - c * least) / a;
+    if (asLargest >= most) return asLargest;
+    const int64_t left = limit - a * most; // not negative: lengthSq(x, y, 0) fits
+    if (b == 0) return most;               // the middle coordinate costs nothing
+    const int64_t asMiddle = (left - c * least) / b;
+    if (left >= c * least && asMiddle >= least) return std::min(asMiddle, most);
+    if (c == 0) return least;
+    return std::min((left - b * least) / c, least);
+}
+
+int64_t Distance::closedSq(int64_t radiusSq) const
+{
+    if (isEuclidean()) return radiusSq - 1;
+    int64_t radius = int64_t(detail::integerRoot(uint64_t(radiusSq))) - 1;
+    while (radius > 0 && !isCostOfAWay(radius, mFace, mEdge, mCorner)) --radius;
+    return radius * radius;
+}
+
+std::string toString(const Distance& distance)
+{
+    if (distance.isEuclidean()) return "l2";
+    if (distance == Distance::l1()) return "l1";
+    if (distance == Distance::linf()) return "linf";
+    return chamferText(distance.face(), distance.edge(), distance.corner());
+}
+
+Distance distanceFromString(const std::string& text)
+{
+    if (text == "l2") return {};
+    if (text == "l1") return Distance::l1();
+    if (text == "linf") return Distance::linf();
+    const std::string prefix = "chamfer:";
+    if (text.compare(0, prefix.size(), prefix) != 0) throwUnknown(text);
+    int weights[3];
+    const char* at = text.data() + prefix.size();
+    const char* const end = text.data() + text.size();
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0 && (at == end || *at++ != ',')) throwUnknown(text);
+        const auto parsed = std::from_chars(at, end, weights[i]);
+        if (parsed.ec != std::errc()) throwUnknown(text);
+        at = parsed.ptr;
+    }
+    if (at != end) throwUnknown(text);
+    return Distance::chamfer(weights[0], weights[1], weights[2]);
+}
+
+} // namespace openvdb_spheretree
