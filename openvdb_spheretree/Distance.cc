@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Distance.h"
 
-#include "detail/RoundUp.h"
-
 #include <openvdb/Exceptions.h>
 
 #include <charconv>
-#include <cmath>
 
 namespace openvdb_spheretree {
 
@@ -57,16 +54,9 @@ Distance Distance::chamfer(int face, int edge, int corner)
     return {face, edge, corner};
 }
 
-double Distance::length(double x, double y, double z) const
+int64_t Distance::normReach(int64_t x, int64_t y, int64_t limitSq) const
 {
-    return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
-}
-
-int64_t Distance::reach(int64_t x, int64_t y, int64_t limitSq) const
-{
-    if (lengthSq(x, y, 0) > limitSq) return -1;
-    if (isEuclidean()) return int64_t(detail::integerRoot(uint64_t(limitSq - x * x - y * y)));
-    const int64_t limit = int64_t(detail::integerRoot(uint64_t(limitSq)));
+    const int64_t limit = detail::floorSqrt(limitSq);
     const int64_t most = std::max(std::abs(x), std::abs(y)),
                   least = std::abs(x) + std::abs(y) - most;
     const int64_t a = mFace, b = mEdge - mFace, c = mCorner - mEdge;
@@ -84,7 +74,7 @@ int64_t Distance::reach(int64_t x, int64_t y, int64_t limitSq) const
 int64_t Distance::closedSq(int64_t radiusSq) const
 {
     if (isEuclidean()) return radiusSq - 1;
-    int64_t radius = int64_t(detail::integerRoot(uint64_t(radiusSq))) - 1;
+    int64_t radius = detail::floorSqrt(radiusSq) - 1;
     while (radius > 0 && !isCostOfAWay(radius, mFace, mEdge, mCorner)) --radius;
     return radius * radius;
 }

@@ -17,7 +17,10 @@
 
 #pragma once
 
+#include "detail/RoundUp.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -55,7 +58,10 @@ public:
         return mFace * most + (mEdge - mFace) * middle + (mCorner - mEdge) * least;
     }
     /// @return the length of a vector, in units.
-    double length(double x, double y, double z) const;
+    double length(double x, double y, double z) const
+    {
+        return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
+    }
     /// @return the squared length of an integer vector, exactly; or INT64_MAX, where the length
     ///         exceeds kFar.
     int64_t lengthSq(int64_t x, int64_t y, int64_t z) const
@@ -73,7 +79,12 @@ public:
     }
 
     /// @return the largest r with lengthSq(x, y, r) <= limitSq; -1 if there is none.
-    int64_t reach(int64_t x, int64_t y, int64_t limitSq) const;
+    int64_t reach(int64_t x, int64_t y, int64_t limitSq) const
+    {
+        const int64_t soFar = lengthSq(x, y, 0);
+        if (soFar > limitSq) return -1;
+        return isEuclidean() ? detail::floorSqrt(limitSq - soFar) : normReach(x, y, limitSq);
+    }
 
     /// @return the largest closed radius, squared, that holds no more voxels than the open ball
     ///         { q : lengthSq(q) < radiusSq }; for a norm, radiusSq is a square.
@@ -86,6 +97,8 @@ public:
     bool operator!=(const Distance& o) const { return !(*this == o); }
 
 private:
+    int64_t normReach(int64_t x, int64_t y, int64_t limitSq) const;
+
     Distance(int face, int edge, int corner) : mFace(face), mEdge(edge), mCorner(corner) {}
 
     int mFace = 0, mEdge = 0, mCorner = 0;

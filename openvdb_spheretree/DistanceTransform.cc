@@ -4,6 +4,7 @@
 #include "SphereTreeSettings.h"
 #include "detail/LeafRows.h"
 #include "detail/MinPlus.h"
+#include "detail/NormSweep.h"
 #include "detail/Parallel.h"
 
 #include <algorithm>
@@ -99,13 +100,36 @@ uint32_t transform(const LeafLayout& layout, int dim, T* values, NullInterrupter
     return largest(values, layout.leafCount(), interrupter);
 }
 
+/// Balls of a norm have squared radii too.
+void requireSquareFits(uint32_t largest, const Distance& distance)
+{
+    constexpr uint32_t kLargestRoot = 46340;
+    if (largest < kLargestRoot) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object holds a ball of " << kLargestRoot / uint32_t(distance.unit())
+                                      << " voxels radius or more, whose square does not fit 32 "
+                                         "bits with dist="
+                                      << toString(distance)
+                                      << ": use a larger voxel, or smaller "
+                                         "weights");
+}
+
 } // namespace
 
-DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+DistanceMap distanceTransform(
+    const LeafLayout& layout, int dim, NullInterrupter* interrupter, const Distance& distance)
 {
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
     requireDim(dim);
     DistanceMap map;
+    map.mDistance = distance;
+    if (!distance.isEuclidean()) {
+        map.mWide = detail::makeLargeArray<uint32_t>(size);
+        detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
+        map.mMaxDistSq = largest(map.mWide.get(), layout.leafCount(), interrupter);
+        requireSquareFits(map.mMaxDistSq, distance);
+        return map;
+    }
     map.mNarrow = detail::makeLargeArray<uint16_t>(size);
     map.mMaxDistSq = transform(layout, dim, map.mNarrow.get(), interrupter);
     if (map.mMaxDistSq < kLimit<uint16_t>) return map;
@@ -119,12 +143,12 @@ DistanceMap distanceTransform(const LeafLayout& layout, int dim, NullInterrupter
         "square does not fit 32 bits: use a larger voxel");
 }
 
-openvdb::Int32Grid::Ptr distanceTransform(
-    const openvdb::BoolGrid& object, int dim, NullInterrupter* interrupter)
+openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim,
+    NullInterrupter* interrupter, const Distance& distance)
 {
     const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
     const LeafLayout layout(mask);
-    const DistanceMap map = distanceTransform(layout, dim, interrupter);
+    const DistanceMap map = distanceTransform(layout, dim, interrupter, distance);
 
     using Leaf = openvdb::Int32Tree::LeafNodeType;
     std::vector<std::unique_ptr<Leaf>> leaves(layout.leafCount());

@@ -83,13 +83,15 @@ LevelNodes keepParents(Links& links, const MedialLevel& coarse)
 }
 
 /// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
-void fitRadii(LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame)
+void fitRadii(
+    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const Distance& distance)
 {
     nodes.radius.assign(nodes.balls.size(), 0.0);
     nodes.coverSq.assign(nodes.balls.size(), 0);
     for (std::size_t s = 0; s < leaves.center.size(); ++s) {
         const int32_t t = leaves.ancestor[s];
-        const int64_t apart = distanceSq(leaves.center[s], frame.center(nodes.balls[t].center));
+        const int64_t apart =
+            distanceSq(leaves.center[s], frame.center(nodes.balls[t].center), distance);
         const RootSum needed{apart, leaves.radius[s].a}; // a leaf's radius is a single root
         nodes.radius[t] = std::max(nodes.radius[t], needed.radius());
         nodes.coverSq[t] = std::max(nodes.coverSq[t], needed.coverSq());
@@ -112,32 +114,36 @@ CoordBBox pyramidBox(int level, const BuildContext& context)
 MaskTree::Ptr reconstruct(const LevelNodes& nodes, int level, const BuildContext& context)
 {
     const double scale = double(context.frame(level).scale());
+    const Distance& distance = context.settings.dist;
     std::vector<ExactSphere> spheres;
     for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
         const double limit = nodes.radius[i] / scale * (1 + 1e-9);
+        const auto whole = int64_t(limit);
         const Coord& c = nodes.balls[i].center;
         spheres.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * int64_t(std::floor(limit * limit))});
+            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)});
     }
     CoordBBox box = pyramidBox(level, context);
     if (context.settings.reconstruct == Reconstruction::Free) {
-        const CoordBBox free = boundingBox(spheres);
+        const CoordBBox free = boundingBox(spheres, distance);
         for (int axis = 0; axis < context.settings.dim; ++axis) {
             box.min()[axis] = free.min()[axis];
             box.max()[axis] = free.max()[axis];
         }
     }
-    return sphereUnion(spheres, box, context.interrupter);
+    return sphereUnion(spheres, box, context.interrupter, distance);
 }
 
 /// Section 4.2 switched off: the stored sphere is the reconstruction's, grown like any ball's.
-void useReconstructionRadii(LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame)
+void useReconstructionRadii(
+    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const Distance& distance)
 {
     const RootSum growth = frame.growth();
     for (double& radius : nodes.radius) radius = addUp(radius, growth.radius());
     for (std::size_t s = 0; s < leaves.center.size(); ++s) {
         const int32_t t = leaves.ancestor[s];
-        const int64_t apart = distanceSq(leaves.center[s], frame.center(nodes.balls[t].center));
+        const int64_t apart =
+            distanceSq(leaves.center[s], frame.center(nodes.balls[t].center), distance);
         nodes.coverSq[t] =
             std::max(nodes.coverSq[t], coverSqOfRoots(apart, leaves.radius[s].a, growth.b));
     }
@@ -161,26 +167,24 @@ MaskTree::Ptr nextVoxels(const MaskTree& voxels, int level, const BuildContext& 
 std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext& context)
 {
     const SphereTreeSettings& settings = context.settings;
-    auto fine =
-        std::make_unique<MedialLevel>(*voxels, settings.dim, context.interrupter, context.seconds);
+    auto fine = context.medialLevel(*voxels);
     Leaves leaves;
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return nextVoxels(*voxels, level - 1, context); });
-        auto coarse = std::make_unique<MedialLevel>(
-            *voxels, settings.dim, context.interrupter, context.seconds);
+        auto coarse = context.medialLevel(*voxels);
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse);
             for (int32_t& node : leaves.ancestor) node = links.parent[node];
-            fitRadii(nodes, leaves, context.frame(level));
+            fitRadii(nodes, leaves, context.frame(level), settings.dist);
             if (settings.reconstruct != Reconstruction::None && nodes.balls.size() > 1) {
                 voxels = reconstruct(nodes, level, context);
             }
             if (!settings.finalFit) {
-                useReconstructionRadii(nodes, leaves, context.frame(level));
+                useReconstructionRadii(nodes, leaves, context.frame(level), settings.dist);
             }
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);

@@ -22,11 +22,11 @@ bool meet(const SphereTree& tree, int32_t s, int32_t t)
 {
     using Wide = unsigned __int128;
     const Wide reach = Wide(tree.coverSq[s]) + Wide(tree.coverSq[t]);
-    Wide apart = 0;
+    int64_t d[3];
     for (int axis = 0; axis < 3; ++axis) {
-        const auto d = int64_t(2 * tree.center[s][axis]) - int64_t(2 * tree.center[t][axis]);
-        apart += Wide(__int128(d) * d);
+        d[axis] = int64_t(2 * tree.center[s][axis]) - int64_t(2 * tree.center[t][axis]);
     }
+    const Wide apart = tree.settings.dist.lengthSq(d[0], d[1], d[2]);
     if (apart <= reach) return true;
     const Wide beyond = apart - reach;
     // The right-hand side is at most D + D', so below 2^64: the square fits.

@@ -26,8 +26,8 @@ struct ObjectIndex {
     detail::NearestVoxel nearest;
     int64_t voxels;
 
-    explicit ObjectIndex(const openvdb::BoolTree& tree)
-        : mask(detail::maskOf(tree)), nearest(mask), voxels(detail::countVoxels(mask))
+    ObjectIndex(const openvdb::BoolTree& tree, const Distance& distance)
+        : mask(detail::maskOf(tree)), nearest(mask, distance), voxels(detail::countVoxels(mask))
     {}
 };
 
@@ -54,11 +54,12 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     }
     const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     const openvdb::CoordBBox box = levelBox(tree, spheres);
-    if (crossedRows(spheres, box) > double(kMaxUnionRows)) {
+    const Distance& distance = tree.settings.dist;
+    if (crossedRows(spheres, box, distance) > double(kMaxUnionRows)) {
         level.errorUnknown = tooManyRows();
         return;
     }
-    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter);
+    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, distance);
     const detail::MaskDifference excess =
         detail::maskDifference(*covered, object.mask, interrupter);
     const int64_t distSq = detail::farthestDistSq(excess.cells, object.nearest, interrupter);
@@ -71,7 +72,7 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     error.excess = excess.voxels;
     error.missing = object.voxels - (error.covered - error.excess);
     error.hammingPercent = 100.0 * double(error.excess + error.missing) / double(object.voxels);
-    error.hausdorff = std::sqrt(double(distSq));
+    error.hausdorff = std::sqrt(double(distSq)) / distance.unit();
     level.error = error;
 }
 
@@ -80,7 +81,7 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
 void computeLevelErrors(
     SphereTree& tree, const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
-    const ObjectIndex index(object.tree());
+    const ObjectIndex index(object.tree(), tree.settings.dist);
     std::vector<SphereTreeLevel> levels = tree.levels; // the tree changes at the end, or not at all
     for (SphereTreeLevel& level : levels) {
         detail::checkInterrupt(interrupter);

@@ -50,7 +50,7 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
 
 LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
     : mLevel(level), mDim(settings.dim), mTight(level == 0 || settings.scale == RadiusScale::Tight),
-      mOrigin(level == 0 ? openvdb::Coord() : origin)
+      mDistance(settings.dist), mOrigin(level == 0 ? openvdb::Coord() : origin)
 {
     for (int k = 0; k < level; ++k) {
         mScale *= settings.factor;
@@ -60,7 +60,14 @@ LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTree
                 << settings.factor << ": level " << k + 1 << " would have voxels of " << mScale
                 << ", and " << kMaxScale << " is the most: use another factor, or larger voxels");
     }
-    mGrowthSq = mDim * (mScale - 1) * (mScale - 1);
+    const int64_t grown = mScale - 1;
+    mGrowthSq = mDistance.lengthSq(grown, grown, mDim == 3 ? grown : 0);
+    if (mGrowthSq == INT64_MAX) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object is too wide for dist=" << toString(mDistance)
+                                               << " and factor=" << settings.factor
+                                               << ": use smaller weights, or larger voxels");
+    }
 }
 
 Doubled LevelFrame::center(const openvdb::Coord& ijk) const
@@ -75,7 +82,7 @@ Doubled LevelFrame::center(const openvdb::Coord& ijk) const
 
 RootSum LevelFrame::radius(int32_t radiusSq) const
 {
-    const int64_t covered = mTight ? int64_t(radiusSq) - 1 : int64_t(radiusSq);
+    const int64_t covered = mTight ? mDistance.closedSq(radiusSq) : int64_t(radiusSq);
     return {4 * mScale * mScale * covered, mGrowthSq};
 }
 

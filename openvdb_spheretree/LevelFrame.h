@@ -10,11 +10,15 @@
 /// all radii of a level grow by the same value). Level 0 needs no frame: there the sphere of radius
 /// sqrt(radiusSq - 1) holds just the ball's voxels.
 ///
+/// With a norm N (Distance.h) radii are in its units, f^k closed + N(1, 1, 1) (f^k - 1) / 2, where
+/// `closed` is the radius of the closed ball of the same voxels; such sums are integers.
+///
 /// Twice a radius is always a sum of two square roots of integers; such a sum is compared exactly
 /// with the root of a third one, so which voxels a sphere holds is never a matter of rounding.
 
 #pragma once
 
+#include "Distance.h"
 #include "MedialAxis.h"
 #include "SphereTreeSettings.h"
 #include "detail/RoundUp.h"
@@ -33,13 +37,12 @@ struct Doubled {
 };
 
 /// @return the squared distance of two doubled points (four times that of the points).
-inline int64_t distanceSq(const Doubled& a, const Doubled& b)
+inline int64_t distanceSq(const Doubled& a, const Doubled& b, const Distance& distance = {})
 {
-    const int64_t x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    return x * x + y * y + z * z;
+    return distance.lengthSq(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// The radius (sqrt(a) + sqrt(b)) / 2.
+/// The radius (sqrt(a) + sqrt(b)) / 2, in units of the distance.
 struct RootSum {
     int64_t a, b;
 
@@ -67,14 +70,15 @@ public:
     /// bits.
     static constexpr int64_t kMaxScale = int64_t(1) << 29;
 
-    /// @throw openvdb::ValueError if the level's voxels are wider than that
+    /// @throw openvdb::ValueError if the level's voxels are wider than that, or than the distance's
+    ///        weights allow
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
 
     /// @return twice the centre of a voxel of the level.
     Doubled center(const openvdb::Coord& ijk) const;
     /// @return the radius of a ball of the level, by the formula above.
     RootSum radius(int32_t radiusSq) const;
-    /// @return sqrt(dim) (f^k - 1) / 2: what a level-k radius in level-0 voxels grows by.
+    /// @return sqrt(dim) (f^k - 1) / 2, or the like of a norm: what a level-k radius in level-0 voxels grows by.
     RootSum growth() const { return {0, mGrowthSq}; }
     /// @return f^k.
     int64_t scale() const { return mScale; }
@@ -83,6 +87,7 @@ private:
     int mLevel;
     int mDim;
     bool mTight;
+    Distance mDistance;
     int64_t mScale = 1;
     int64_t mGrowthSq;
     openvdb::Coord mOrigin;

@@ -101,6 +101,34 @@ void visitInOrder(LeafRange slab, const Masks& marks, const LeafLayout& layout, 
     }
 }
 
+/// Without steps: the voxels that are their own labels, since a label's own label is itself.
+Masks ownLabels(const PowerMap& labels, NullInterrupter* interrupter)
+{
+    const LeafLayout& layout = labels.layout();
+    Masks marks(layout.leafCount(), LeafMask{});
+    detail::parallelFor(marks.size(), interrupter, [&](std::size_t i) {
+        const auto leaf = uint32_t(i);
+        for (uint32_t offset = 0; offset < kLeafVoxels; ++offset) {
+            if (!isOn(layout.mask(leaf), offset)) continue;
+            const PowerMap::Voxel site = labels.label(PowerMap::Voxel{leaf, offset});
+            if (site.leaf != leaf || site.offset != offset) continue;
+            marks[leaf][offset >> 6] |= uint64_t(1) << (offset & 63);
+        }
+    });
+    return marks;
+}
+
+Masks endsOfSteps(const PowerMap& labels, NullInterrupter* interrupter)
+{
+    const LeafLayout& layout = labels.layout();
+    const auto object = [&](uint32_t leaf) -> const LeafMask& { return layout.mask(leaf); };
+    Masks marks = marksAlong(Axis::X, labels, object, interrupter);
+    const auto marked = [&](uint32_t leaf) -> const LeafMask& { return marks[leaf]; };
+    marks = marksAlong(Axis::Y, labels, marked, interrupter);
+    if (labels.usesZ()) marks = marksAlong(Axis::Z, labels, marked, interrupter);
+    return marks;
+}
+
 std::vector<MedialBall> collectBalls(
     const Masks& marks, const LeafLayout& layout, const DistanceMap& distances)
 {
@@ -114,10 +142,12 @@ std::vector<MedialBall> collectBalls(
         first.push_back(first.back() + count);
     }
     std::vector<MedialBall> balls(first.back());
+    const bool squared = distances.distance().isEuclidean();
     detail::parallelFor(slabs.size(), nullptr, [&](std::size_t slab) {
         MedialBall* ball = balls.data() + first[slab];
         visitInOrder(slabs[slab], marks, layout, [&](uint32_t leaf, uint32_t offset) {
-            *ball++ = {layout.voxel(leaf, offset), int32_t(distances.at(leaf, offset))};
+            const auto value = int32_t(distances.at(leaf, offset));
+            *ball++ = {layout.voxel(leaf, offset), squared ? value : value * value};
         });
     });
     return balls;
@@ -128,21 +158,17 @@ std::vector<MedialBall> collectBalls(
 std::vector<MedialBall> medialBalls(
     const PowerMap& labels, const DistanceMap& distances, NullInterrupter* interrupter)
 {
-    const LeafLayout& layout = labels.layout();
-    const auto object = [&](uint32_t leaf) -> const LeafMask& { return layout.mask(leaf); };
-    Masks marks = marksAlong(Axis::X, labels, object, interrupter);
-    const auto marked = [&](uint32_t leaf) -> const LeafMask& { return marks[leaf]; };
-    marks = marksAlong(Axis::Y, labels, marked, interrupter);
-    if (labels.usesZ()) marks = marksAlong(Axis::Z, labels, marked, interrupter);
-    return collectBalls(marks, layout, distances);
+    const Masks marks =
+        labels.hasSteps() ? endsOfSteps(labels, interrupter) : ownLabels(labels, interrupter);
+    return collectBalls(marks, labels.layout(), distances);
 }
 
-std::vector<MedialBall> medialBalls(
-    const openvdb::BoolGrid& object, int dim, NullInterrupter* interrupter)
+std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim,
+    NullInterrupter* interrupter, const Distance& distance)
 {
     const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
     const LeafLayout layout(mask);
-    const DistanceMap distances = distanceTransform(layout, dim, interrupter);
+    const DistanceMap distances = distanceTransform(layout, dim, interrupter, distance);
     const PowerMap labels = powerMap(layout, distances, dim, interrupter);
     return medialBalls(labels, distances, interrupter);
 }

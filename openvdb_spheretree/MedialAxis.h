@@ -23,7 +23,8 @@
 
 namespace openvdb_spheretree {
 
-/// The digital ball { q : |q - center|^2 < radiusSq }, in voxels of its level.
+/// The digital ball { q : |q - center|^2 < radiusSq }, in voxels of its level; of a norm,
+/// { q : N(q - center)^2 < radiusSq }, in its units.
 struct MedialBall {
     openvdb::Coord center;
     int32_t radiusSq;
@@ -41,6 +42,6 @@ std::vector<MedialBall> medialBalls(const PowerMap& labels, const DistanceMap& d
 /// @brief The same for people who come for just this: the medial balls of the active voxels of
 /// @a object, centres in its index space.
 std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr);
+    openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
 
 } // namespace openvdb_spheretree

@@ -7,13 +7,13 @@
 
 namespace openvdb_spheretree {
 
-MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim,
+MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
     : layout(detail::timed("layout of leaves", interrupter, seconds ? &seconds->distance : nullptr,
         [&] { return LeafLayout(voxels); })),
       distances(
           detail::timed("distance transform", interrupter, seconds ? &seconds->distance : nullptr,
-              [&] { return distanceTransform(layout, dim, interrupter); })),
+              [&] { return distanceTransform(layout, dim, interrupter, distance); })),
       labels(detail::timed("power labels", interrupter, seconds ? &seconds->power : nullptr,
           [&] { return powerMap(layout, distances, dim, interrupter); })),
       balls(detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,

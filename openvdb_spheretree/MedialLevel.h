@@ -18,9 +18,10 @@
 namespace openvdb_spheretree {
 
 struct MedialLevel {
+    /// @param distance  what the balls are balls of
     /// @param seconds  may be null; the stages' times are added to it
     /// @throw as distanceTransform() and powerMap()
-    MedialLevel(const openvdb::MaskTree& voxels, int dim,
+    MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
         openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds = nullptr);
     MedialLevel(const MedialLevel&) = delete; // labels refer to the layout
     MedialLevel& operator=(const MedialLevel&) = delete;

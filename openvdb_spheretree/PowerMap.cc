@@ -5,6 +5,7 @@
 #include "detail/LeafRows.h"
 #include "detail/MaxPlus.h"
 #include "detail/Memory.h"
+#include "detail/NormSweep.h"
 #include "detail/Parallel.h"
 
 #include <openvdb/Exceptions.h>
@@ -89,12 +90,35 @@ void computeOffsets(const LeafLayout& layout, const DistanceMap& distances,
     alongAxis<Power>(Axis::X, layout, fromKeys(Axis::X), nullptr, offsets[0], interrupter);
 }
 
+/// The labels of a norm are numbers of voxels, in 32 bits.
+void requireNumberedVoxels(const LeafLayout& layout)
+{
+    constexpr uint32_t kMaxLeaves = uint32_t(1) << 23;
+    if (layout.leafCount() > kMaxLeaves) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object has " << layout.leafCount()
+                              << " leaf nodes, and with this distance 2^23 is the most: use a "
+                                 "larger voxel, or dist=l2");
+    }
+    detail::requireMemory(layout.leafCount(), kLeafVoxels * (2 * sizeof(uint32_t)));
+}
+
 } // namespace
 
 PowerMap powerMap(
     const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
 {
     requireDim(dim);
+    if (!distances.distance().isEuclidean()) {
+        requireNumberedVoxels(layout);
+        PowerMap map;
+        map.mLayout = &layout;
+        map.mSites =
+            detail::makeLargeArray<uint32_t>(std::size_t(layout.leafCount()) * kLeafVoxels);
+        detail::NormSweep(layout, distances.distance(), dim, interrupter)
+            .labels(distances.wide(), map.mSites.get());
+        return map;
+    }
     if (distances.maxDistSq() > detail::WidePower::kMaxRadiusSq) {
         OPENVDB_THROW(openvdb::ValueError,
             "the object holds a ball of more than 32767 voxels radius, "

@@ -11,6 +11,9 @@
 /// x, from there dy along y, and from there dz along z. Keys are 32-bit with 8-bit offsets for
 /// radii up to 127 voxels, else 64-bit with 16-bit offsets.
 ///
+/// For a norm N of the 3x3x3 neighbourhood (Distance.h) the power is distance(p) - N(p - q), ties as
+/// above; the label itself is kept, 4 bytes a voxel (detail/NormSweep.h).
+///
 /// Exact, integer, ties included. Cost: as the distance transform's; 3 or 6 bytes a voxel kept, 4
 /// or 8 more while it runs. Tests: TestPowerMap.cc, against all sites one by one.
 
@@ -38,6 +41,10 @@ public:
     /// @return the label of the object voxel @a voxel.
     Voxel label(Voxel voxel) const
     {
+        if (mSites) {
+            const uint32_t site = mSites[std::size_t(voxel.leaf) * kLeafVoxels + voxel.offset];
+            return {site / kLeafVoxels, site % kLeafVoxels};
+        }
         voxel = step(Axis::X, voxel);
         voxel = step(Axis::Y, voxel);
         return mOffsets[2].empty() ? voxel : step(Axis::Z, voxel);
@@ -45,6 +52,10 @@ public:
     /// @return the label of @a ijk, in coordinates of the level. O(log leaves).
     /// @throw openvdb::LookupError if @a ijk is no object voxel
     openvdb::Coord label(const openvdb::Coord& ijk) const;
+
+    /// @return whether labels are kept as steps, as those of the Euclidean distance are. Without,
+    ///         there are no steps to ask for below.
+    bool hasSteps() const { return !mSites; }
 
     /// @return how far along @a axis the voxel's own step goes.
     int offset(Axis axis, Voxel voxel) const
@@ -92,12 +103,14 @@ private:
 
     const LeafLayout* mLayout = nullptr;
     std::array<Offsets, 3> mOffsets;
+    detail::LargeArray<uint32_t> mSites; ///< of a norm: 512 leaf + offset of each voxel's label
 };
 
 /// @param layout     kept by reference: must outlive the result
-/// @param distances  of that layout
+/// @param distances  of that layout; labels are for the distance they were made with
 /// @param dim        3, or 2 to leave the z axis out
-/// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or labels the machine's memory
+/// @throw openvdb::ValueError if a radius exceeds 32767 voxels, labels the machine's memory, or
+///        leaves 2^23 with a norm
 /// @throw Interrupted if the interrupter (may be null) said so
 PowerMap powerMap(const LeafLayout& layout, const DistanceMap& distances, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr);

@@ -36,14 +36,12 @@ LevelNodes allBalls(const MedialLevel& medial, const LevelFrame& frame)
 
 std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const BuildContext& context)
 {
-    const int dim = context.settings.dim;
-    auto fine = std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
+    auto fine = context.medialLevel(*voxels);
     std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return coarsen(*voxels, context.stepFrom(level), context.interrupter); });
-        auto coarse =
-            std::make_unique<MedialLevel>(*voxels, dim, context.interrupter, context.seconds);
+        auto coarse = context.medialLevel(*voxels);
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             LevelNodes& nodes = levels.back();
             Links links = linkLevels(nodes, level, *fine, *coarse, context);

@@ -5,6 +5,7 @@
 #include "UniformVoxels.h"
 #include "detail/RoundUp.h"
 #include "detail/TreeLevels.h"
+#include "detail/WorldDistance.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -28,8 +29,9 @@ ObjectInfo describe(const openvdb::BoolGrid& object)
     return info;
 }
 
-void requireValidObject(const ObjectInfo& info, int dim)
+void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settings)
 {
+    const int dim = settings.dim;
     if (info.voxels == 0) {
         OPENVDB_THROW(openvdb::ValueError, "the object '" << info.name << "' has no voxels");
     }
@@ -38,6 +40,14 @@ void requireValidObject(const ObjectInfo& info, int dim)
         OPENVDB_THROW(openvdb::ValueError,
             "dim=2 needs an object one voxel thick along z, but '" << info.name << "' has "
                                                                    << thickness << " voxels there");
+    }
+    // Twice the centres, and radii beyond the object's own size: four times its extent is enough.
+    const openvdb::Coord size = info.bbox.extents();
+    const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
+    if (settings.dist.lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist)
+                           << ": use smaller weights, or larger voxels");
     }
 }
 
@@ -55,7 +65,7 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
         range.pyramidVoxels = nodes.pyramidVoxels;
         for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
             tree.center.push_back(frame.center(nodes.balls[i].center).halved());
-            tree.radius.push_back(nodes.radius[i]);
+            tree.radius.push_back(detail::divideUp(nodes.radius[i], tree.settings.dist.unit()));
             tree.coverSq.push_back(nodes.coverSq[i]);
             tree.parent.push_back(nodes.parent.empty() ? -1 : above + nodes.parent[i]);
             tree.ijk.push_back(nodes.balls[i].center);
@@ -98,11 +108,11 @@ void containStoredLeaves(SphereTree& tree)
     const auto doubt = [&](int32_t id) {
         return 1e-15 * (voxel * tree.center[id].length() + moved);
     };
+    const detail::WorldDistance distance(tree);
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
-        const openvdb::Vec3d center = tree.centerWorld(leaf);
         for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
-            const double apart = (center - tree.centerWorld(t)).length() * (1 + 1e-15);
+            const double apart = distance(leaf, t) * (1 + 1e-14);
             const double needed = apart + doubt(leaf) + doubt(t) + double(tree.radiusWorld[leaf]);
             if (double(tree.radiusWorld[t]) < needed) {
                 tree.radiusWorld[t] = detail::toFloatUp(needed);
@@ -129,7 +139,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     SphereTree tree;
     tree.settings = settings;
     tree.object = describe(object);
-    requireValidObject(tree.object, settings.dim);
+    requireValidObject(tree.object, settings);
     tree.origin = pyramidOrigin(tree.object.bbox);
     tree.transform = object.transform().copy();
 

@@ -81,12 +81,13 @@ struct SphereTree {
     /// @{
     std::vector<openvdb::Vec3d> center; ///< index space of the source grid; multiples of 1/2
     std::vector<double> radius;         ///< voxels of level 0, covers voxel centres, no padding
-    /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq.
+    /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq, the
+    /// length being that of settings.dist, in its units.
     std::vector<int64_t> coverSq;
     std::vector<float> radiusWorld;  ///< world units, padded, rounded up
     std::vector<int32_t> parent;     ///< id on the next level up; -1 where there is none
     std::vector<openvdb::Coord> ijk; ///< the digital ball's centre in its level's own grid
-    std::vector<int32_t> radiusSq;   ///< the digital ball {q : |q - ijk|^2 < radiusSq}
+    std::vector<int32_t> radiusSq;   ///< the digital ball {q : |q - ijk|^2 < radiusSq}: MedialBall
     /// @}
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for

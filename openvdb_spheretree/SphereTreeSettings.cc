@@ -72,7 +72,7 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
 
 double SphereTreeSettings::paddingVoxels() const
 {
-    return padding == kPadCubes ? std::sqrt(double(dim)) / 2 : padding;
+    return padding == kPadCubes ? dist.length(0.5, 0.5, dim == 3 ? 0.5 : 0) / dist.unit() : padding;
 }
 
 void SphereTreeSettings::validate() const

@@ -13,9 +13,10 @@
 namespace openvdb_spheretree {
 
 openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
-    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter)
+    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter,
+    const Distance& distance)
 {
-    return detail::rasterSpheres(spheres, clip, nullptr, interrupter);
+    return detail::rasterSpheres(spheres, distance, clip, nullptr, interrupter);
 }
 
 std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level)
@@ -30,7 +31,7 @@ std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLe
     return spheres;
 }
 
-openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres)
+openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres, const Distance& distance)
 {
     constexpr int64_t kFirst = std::numeric_limits<int32_t>::min() + 1;
     constexpr int64_t kLast = std::numeric_limits<int32_t>::max() - 1;
@@ -39,7 +40,7 @@ openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres)
         openvdb::Coord lo, hi;
         bool empty = false;
         for (int a = 0; a < 3; ++a) {
-            const detail::Interval range = detail::extent(sphere, a);
+            const detail::Interval range = detail::extent(sphere, a, distance);
             empty = empty || range.lo > range.hi;
             lo[a] = int32_t(std::max(kFirst, std::min(range.lo, kLast)));
             hi[a] = int32_t(std::max(kFirst, std::min(range.hi, kLast)));
@@ -51,16 +52,19 @@ openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres)
 
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
 {
-    openvdb::CoordBBox box = boundingBox(spheres);
+    openvdb::CoordBBox box = boundingBox(spheres, tree.settings.dist);
     if (tree.settings.dim == 2) box.min().z() = box.max().z() = tree.object.bbox.min().z();
     return box;
 }
 
-double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box)
+double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box,
+    const Distance& distance)
 {
     if (box.empty()) return 0;
-    double discs = 0;
-    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : M_PI * double(s.coverSq) / 4;
+    double discs = 0; // of a norm: squares, at least as large
+    const double area =
+        distance.isEuclidean() ? M_PI / 4 : 1.0 / (distance.unit() * distance.unit());
+    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : area * double(s.coverSq);
     const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
     return std::min(discs, side(0) * side(1));
 }
@@ -70,12 +74,12 @@ openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel&
 {
     const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     const openvdb::CoordBBox box = levelBox(tree, spheres);
-    if (crossedRows(spheres, box) > double(kMaxUnionRows)) {
+    if (crossedRows(spheres, box, tree.settings.dist) > double(kMaxUnionRows)) {
         OPENVDB_THROW(openvdb::ValueError,
             "the spheres of level " << level.level << " reach over " << box.extents()
                                     << " voxels, more than are drawn: choose a finer level");
     }
-    return sphereUnion(spheres, box, interrupter);
+    return sphereUnion(spheres, box, interrupter, tree.settings.dist);
 }
 
 } // namespace openvdb_spheretree

@@ -15,7 +15,8 @@
 
 namespace openvdb_spheretree {
 
-/// The closed sphere { q : |2 q - center2|^2 <= coverSq }, in voxels of the grid it is drawn on.
+/// The closed sphere { q : |2 q - center2|^2 <= coverSq }, in voxels of the grid it is drawn on; with
+/// the length of a norm where one is given beside it.
 /// Twice the centre, so that centres between voxels stay integers.
 struct ExactSphere {
     int64_t center2[3];
@@ -27,13 +28,15 @@ struct ExactSphere {
 /// @note Cost grows with the surface of the spheres (in leaf nodes), not with their volume. Exact:
 ///       integer arithmetic. Parallel; the result does not depend on threads.
 openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
-    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter = nullptr);
+    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter = nullptr,
+    const Distance& distance = {});
 
 /// @return the spheres of a level, in index space of the tree's source grid (without padding).
 std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level);
 
 /// @return the smallest box that holds every voxel centre in the spheres.
-openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres);
+openvdb::CoordBBox boundingBox(
+    const std::vector<ExactSphere>& spheres, const Distance& distance = {});
 
 /// @return that box for spheres of a level of @a tree; in 2-D only their plane.
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres);
@@ -43,7 +46,8 @@ constexpr int64_t kMaxUnionRows = int64_t(1) << 24;
 
 /// @return about how many rows along z the spheres cross: their discs, but no more than all rows of
 /// the box; overlaps count again.
-double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box);
+double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box,
+    const Distance& distance = {});
 
 /// @brief The voxels that a level covers: those whose centres lie in its spheres.
 /// @throw openvdb::ValueError if they cross more than kMaxUnionRows

@@ -18,6 +18,7 @@
 #include "LevelErrors.h"
 #include "detail/MaskDifference.h"
 #include "detail/TreeCheckReport.h"
+#include "detail/WorldDistance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,17 +80,26 @@ bool isHalfInteger(const openvdb::Vec3d& center)
     return true;
 }
 
+bool isSquare(int32_t value)
+{
+    const int64_t root = detail::floorSqrt(value);
+    return root * root == value;
+}
+
 void checkNodes(Check& check)
 {
     const SphereTree& tree = check.tree;
-    Offenders centers, radii, stored, balls;
+    const bool norm = !tree.settings.dist.isEuclidean();
+    Offenders centers, radii, stored, balls, roots;
     for (int32_t id = 0; id < tree.size(); ++id) {
         if (!isHalfInteger(tree.center[id])) centers.add(id);
         const bool valid = std::isfinite(tree.radius[id]) && tree.radius[id] >= 0;
         if (!valid || tree.coverSq[id] < 0) radii.add(id);
         if (!std::isfinite(tree.radiusWorld[id]) || tree.radiusWorld[id] < 0) stored.add(id);
         if (tree.radiusSq[id] < 1) balls.add(id);
+        else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
     }
+    if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
     if (centers) check.fail("the centre is not a multiple of half a voxel in range for ", centers);
     if (radii) check.fail("the radius is negative or not a number for ", radii);
     if (stored) check.fail("the stored radius is negative or not a number for ", stored);
@@ -184,7 +194,7 @@ void checkRadii(Check& check)
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
     Offenders apart, small;
     for (int32_t id = 0; id < tree.size(); ++id) {
-        const double exact = std::sqrt(double(tree.coverSq[id])) / 2;
+        const double exact = std::sqrt(double(tree.coverSq[id])) / (2 * tree.settings.dist.unit());
         const double over = tree.radius[id] - exact, rounding = kRounding * tree.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
         const double padded = (tree.radius[id] + padding) * voxel;
@@ -290,14 +300,12 @@ void checkChildren(Check& check)
 void checkLeavesContained(Check& check)
 {
     const SphereTree& tree = check.tree;
-    std::vector<openvdb::Vec3d> center(tree.size());
-    for (int32_t id = 0; id < tree.size(); ++id) center[id] = tree.centerWorld(id);
+    const detail::WorldDistance distance(tree);
     std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
         for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
-            const double needed =
-                (center[leaf] - center[t]).length() + double(tree.radiusWorld[leaf]);
+            const double needed = distance(leaf, t) + double(tree.radiusWorld[leaf]);
             if (double(tree.radiusWorld[t]) < needed) sticksOut[t] = 1;
         }
     }

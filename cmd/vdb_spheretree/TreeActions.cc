@@ -23,6 +23,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     settings.tree = spheretree::treeTypeFromString(call.text("tree"));
     settings.factor = int(call.integer("factor"));
     settings.dim = int(call.integer("dim"));
+    settings.dist = spheretree::distanceFromString(call.text("dist"));
     settings.parent = spheretree::parentRuleFromString(call.text("parent"));
     settings.finalFit = call.flag("final_fit");
     settings.reconstruct = spheretree::reconstructionFromString(call.text("reconstruct"));
@@ -131,7 +132,10 @@ std::vector<OptionSpec> spheretreeOptions()
         integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
             "voxels per axis merged from level to level, 2 to 32768"),
         integer("dim", "3", 2, 3, "2 for an object one voxel thick along z"),
-        choice("dist", {"l2"}, "the distance: l2 is the Euclidean one"),
+        text("dist", "l2",
+            "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of "
+            "a "
+            "step across a face, an edge and a corner, such as chamfer:3,4,5"),
         choice("parent", {"centre", "dag"},
             "which ball a ball hangs below: by its centre, or by its edges in the Sphere-DAG"),
         flag("final_fit", true, "store the smallest radius around the leaf balls (extended)"),

@@ -128,7 +128,8 @@ private:
     void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
     {
         int64_t center2[3];
-        bool fits = !ball.clipped && ball.coverSq <= kLeafBallReach2 * kLeafBallReach2;
+        bool fits = ball.distance.isEuclidean() && !ball.clipped
+            && ball.coverSq <= kLeafBallReach2 * kLeafBallReach2;
         for (int a = 0; a < 3; ++a) {
             center2[a] = ball.center2[a] - 2 * int64_t(origin[a]);
             fits = fits && std::abs(center2[a] - 7) + 7 <= kLeafBallReach2;
@@ -148,12 +149,11 @@ private:
         const int64_t center2[3] = {ball.center2[0] - 2 * int64_t(origin[0]),
             ball.center2[1] - 2 * int64_t(origin[1]), ball.center2[2] - 2 * int64_t(origin[2])};
         for (int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-            const int64_t leftX = takeSquare(ball.coverSq, 2 * x - center2[0]);
-            if (leftX < 0) continue;
             for (int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-                const int64_t left = takeSquare(leftX, 2 * y - center2[1]);
-                if (left < 0) continue;
-                const Interval run(center2[2], floorSqrt(left));
+                const int64_t reach =
+                    ball.distance.reach(2 * x - center2[0], 2 * y - center2[1], ball.coverSq);
+                if (reach < 0) continue;
+                const Interval run(center2[2], reach);
                 const int64_t lo = std::max<int64_t>(run.lo, box.lo[2]);
                 const int64_t hi = std::min<int64_t>(run.hi, box.hi[2]);
                 drawRow(

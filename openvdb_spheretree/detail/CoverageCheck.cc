@@ -30,7 +30,7 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
     for (int32_t id = level.begin; id < level.end; ++id) {
         const openvdb::Coord& c = tree.ijk[id];
         balls.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * (int64_t(tree.radiusSq[id]) - 1)});
+            4 * tree.settings.dist.closedSq(tree.radiusSq[id])});
     }
     return balls;
 }
@@ -40,12 +40,17 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
 bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxels)
 {
     const int dim = check.tree.settings.dim;
+    const Distance& distance = check.tree.settings.dist;
+    // A ball of any norm holds the l1 ball of its radius.
+    const double unitBall =
+        distance.isEuclidean() ? (dim == 3 ? 4 * M_PI / 3 : M_PI) : (dim == 3 ? 4.0 / 3 : 2);
+    const double cube = distance.length(0.5, 0.5, dim == 3 ? 0.5 : 0);
     Offenders large;
     for (int32_t id = level.begin; id < level.end; ++id) {
         // A sphere this much smaller lies within the voxel cubes of the ball, wherever it is.
-        const double inner = std::sqrt(double(check.tree.radiusSq[id])) - 0.5 * std::sqrt(dim);
+        const double inner = (std::sqrt(double(check.tree.radiusSq[id])) - cube) / distance.unit();
         if (inner < 1) continue;
-        const double size = dim == 3 ? 4 * M_PI / 3 * inner * inner * inner : M_PI * inner * inner;
+        const double size = unitBall * inner * inner * (dim == 3 ? inner : 1);
         if (size * (1 - 1e-9) > double(voxels)) large.add(id);
     }
     if (large) {
@@ -70,11 +75,12 @@ double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
 {
     const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
-    CoordBBox box = boundingBox(balls);
+    const Distance& distance = check.tree.settings.dist;
+    CoordBBox box = boundingBox(balls, distance);
     if (check.tree.settings.dim == 2 && !box.empty()) {
         box.min().z() = box.max().z() = check.tree.ijk[level.begin].z();
     }
-    return sphereUnion(balls, box, check.interrupter);
+    return sphereUnion(balls, box, check.interrupter, distance);
 }
 
 void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
@@ -109,7 +115,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius =
             double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
-        const double diameter = 2 * radius * (1 + 1e-12);
+        const double diameter = 2 * radius * tree.settings.dist.unit() * (1 + 1e-12);
         spheres[id - level.begin].coverSq =
             radius < 0 ? -1 : int64_t(std::min(diameter * diameter, 9e18));
     }
@@ -119,7 +125,8 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
 /// @return object voxels that no sphere covers. Draws only where the object is.
 MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
 {
-    const MaskTree::Ptr covered = rasterSpheres(spheres, check.box, &check.mask, check.interrupter);
+    const MaskTree::Ptr covered =
+        rasterSpheres(spheres, check.tree.settings.dist, check.box, &check.mask, check.interrupter);
     return maskDifference(check.mask, *covered, check.interrupter);
 }
 

@@ -59,12 +59,12 @@ private:
     /// @return whether no voxel of the box can be farther than B.
     bool dismissed(const CellBox& box) const
     {
-        int64_t center2[3], diagonalSq = 0;
+        int64_t center2[3], side[3];
         for (int a = 0; a < 3; ++a) {
-            const int64_t side = int64_t(box.hi[a]) - box.lo[a];
+            side[a] = int64_t(box.hi[a]) - box.lo[a];
             center2[a] = int64_t(box.lo[a]) + box.hi[a];
-            diagonalSq += side * side;
         }
+        const int64_t diagonalSq = mObject.distance().lengthSq(side[0], side[1], side[2]);
         constexpr double kLess = 1 - 1e-12; // by more than all that the roots may be off
         const double reach =
             std::sqrt(double(bestSq2())) * kLess - std::sqrt(double(diagonalSq)) / kLess;

@@ -59,7 +59,8 @@ void NearestVoxel::Box::expand(const Box& other)
     }
 }
 
-NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask)
+NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask, const Distance& distance)
+    : mDistance(distance)
 {
     for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) addLeaf(*leaf);
     auto tile = mask.cbeginValueOn();
@@ -118,32 +119,31 @@ void NearestVoxel::group()
 }
 
 /// No voxel of the box is nearer than this.
-int64_t NearestVoxel::nearSq(const Box& box, const int64_t point2[3])
+int64_t NearestVoxel::nearSq(const Box& box, const int64_t point2[3]) const
 {
-    int64_t sum = 0;
+    int64_t gap[3];
     for (int a = 0; a < 3; ++a) {
         const int64_t below = 2 * int64_t(box.lo[a]) - point2[a];
         const int64_t above = point2[a] - 2 * int64_t(box.hi[a]);
-        const int64_t gap = clamped(std::max<int64_t>({below, above, 0}));
-        sum += gap * gap;
+        gap[a] = clamped(std::max<int64_t>({below, above, 0}));
     }
-    return sum;
+    return mDistance.lengthSq(gap[0], gap[1], gap[2]);
 }
 
 /// Some voxel of the box is at least as near: one on the face nearest along some axis, which may be
 /// anywhere on it.
-int64_t NearestVoxel::faceSq(const Box& box, const int64_t point2[3])
+int64_t NearestVoxel::faceSq(const Box& box, const int64_t point2[3]) const
 {
-    int64_t far = 0, saved = 0;
+    int64_t far[3], near[3];
     for (int a = 0; a < 3; ++a) {
         const int64_t lo = std::abs(2 * int64_t(box.lo[a]) - point2[a]);
         const int64_t hi = std::abs(2 * int64_t(box.hi[a]) - point2[a]);
-        const int64_t farther = std::max(lo, hi), nearer = std::min(lo, hi);
-        if (farther > kFar2) return std::numeric_limits<int64_t>::max();
-        far += farther * farther;
-        saved = std::max(saved, farther * farther - nearer * nearer);
+        far[a] = std::max(lo, hi);
+        near[a] = std::min(lo, hi);
+        if (far[a] > kFar2) return std::numeric_limits<int64_t>::max();
     }
-    return far - saved;
+    return std::min({mDistance.lengthSq(near[0], far[1], far[2]),
+        mDistance.lengthSq(far[0], near[1], far[2]), mDistance.lengthSq(far[0], far[1], near[2])});
 }
 
 int64_t NearestVoxel::distSq(const int64_t point2[3], int64_t enough) const
@@ -191,7 +191,7 @@ void NearestVoxel::searchNode(std::size_t level, std::size_t node, Query& query)
     }
 }
 
-void NearestVoxel::searchItem(const Item& item, Query& query)
+void NearestVoxel::searchItem(const Item& item, Query& query) const
 {
     if (item.solid) {
         query.best = std::min(query.best, nearSq(item.box, query.point2));
@@ -201,14 +201,13 @@ void NearestVoxel::searchItem(const Item& item, Query& query)
     for (int a = 0; a < 3; ++a) local2[a] = query.point2[a] - 2 * int64_t(item.origin[a]);
     for (int x = 0; x < 8; ++x) {
         const int64_t dx = clamped(std::abs(2 * x - local2[0]));
-        if (!item.words[x] || dx * dx >= query.best) continue;
+        if (!item.words[x] || mDistance.lengthSq(dx, 0, 0) >= query.best) continue;
         for (int y = 0; y < 8; ++y) {
             const uint32_t row = (item.words[x] >> (8 * y)) & 0xff;
             const int64_t dy = clamped(std::abs(2 * y - local2[1]));
-            const int64_t sq = dx * dx + dy * dy;
-            if (!row || sq >= query.best) continue;
+            if (!row || mDistance.lengthSq(dx, dy, 0) >= query.best) continue;
             const int64_t dz = clamped(rowDistance(row, local2[2]));
-            query.best = std::min(query.best, sq + dz * dz);
+            query.best = std::min(query.best, mDistance.lengthSq(dx, dy, dz));
         }
     }
 }

@@ -9,10 +9,12 @@
 /// Within a leaf, rows are searched by bits.
 ///
 /// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
-/// likewise: |2 q - point2|^2. Exact at voxel centres. Between them a tile counts as the continuous
+/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centres. Between them a tile counts as the continuous
 /// box of its voxel centres, so that the answer may be too small, by half a voxel an axis at most.
 
 #pragma once
+
+#include "../Distance.h"
 
 #include <openvdb/openvdb.h>
 
@@ -28,7 +30,9 @@ public:
     /// at least this.
     static constexpr int64_t kFar2 = int64_t(1) << 30;
 
-    explicit NearestVoxel(const openvdb::MaskTree& mask);
+    explicit NearestVoxel(const openvdb::MaskTree& mask, const Distance& distance = {});
+
+    const Distance& distance() const { return mDistance; }
 
     /// @return the squared distance to the nearest voxel where it is more than @a enough; otherwise
     ///         anything up to @a enough that is no less than it: the search stops there.
@@ -55,14 +59,15 @@ private:
     };
     static constexpr int kFanout = 8;
 
-    static int64_t nearSq(const Box& box, const int64_t point2[3]);
-    static int64_t faceSq(const Box& box, const int64_t point2[3]);
+    int64_t nearSq(const Box& box, const int64_t point2[3]) const;
+    int64_t faceSq(const Box& box, const int64_t point2[3]) const;
     void addTile(const openvdb::Coord& origin, int32_t size);
     void addLeaf(const openvdb::MaskTree::LeafNodeType& leaf);
     void group();
     void searchNode(std::size_t level, std::size_t node, Query& query) const;
-    static void searchItem(const Item& item, Query& query);
+    void searchItem(const Item& item, Query& query) const;
 
+    Distance mDistance;
     std::vector<Item> mItems;
     std::vector<std::vector<Box>> mLevels; ///< of boxes: [0] those of the items, back() the root's
 };

@@ -31,6 +31,12 @@ inline double multiplyUp(double a, double b)
     return std::fma(a, b, -product) > 0 ? nextUp(product) : product;
 }
 
+inline double divideUp(double a, double b)
+{
+    const double quotient = a / b;
+    return std::fma(quotient, b, -a) < 0 ? nextUp(quotient) : quotient;
+}
+
 /// @param x  not negative
 inline double sqrtUp(double x)
 {
@@ -52,6 +58,16 @@ inline float toFloatUp(double x)
     const float rounded = float(x);
     return double(rounded) < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                                : rounded;
+}
+
+/// @return floor(sqrt(value)) for value >= 0.
+inline int64_t floorSqrt(int64_t value)
+{
+    auto root = uint64_t(std::sqrt(double(value)));
+    if (value < (int64_t(1) << 52)) return int64_t(root); // exact as it is: both fit a double
+    while (root * root > uint64_t(value)) --root;
+    while ((root + 1) * (root + 1) <= uint64_t(value)) ++root;
+    return int64_t(root);
 }
 
 /// @return the largest integer whose square is at most @a x.

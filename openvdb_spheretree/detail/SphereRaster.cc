@@ -68,13 +68,13 @@ private:
     std::vector<Coord> mRootCells;
 };
 
-std::vector<Ball> clipSpheres(
-    const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& clip)
+std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const Distance& distance,
+    const openvdb::CoordBBox& clip)
 {
     std::vector<Ball> balls(spheres.size());
     std::vector<char> kept(spheres.size());
     parallelFor(spheres.size(), nullptr,
-        [&](std::size_t i) { kept[i] = clippedBall(spheres[i], clip, balls[i]); });
+        [&](std::size_t i) { kept[i] = clippedBall(spheres[i], distance, clip, balls[i]); });
     std::size_t count = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (kept[i]) balls[count++] = balls[i];
@@ -233,11 +233,12 @@ MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
 
 } // namespace
 
-MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& clip,
-    const MaskTree* within, openvdb::util::NullInterrupter* interrupter)
+MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Distance& distance,
+    const openvdb::CoordBBox& clip, const MaskTree* within,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const Wanted wanted(within);
-    std::vector<Ball> balls = clipSpheres(spheres, clip);
+    std::vector<Ball> balls = clipSpheres(spheres, distance, clip);
     sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);

@@ -54,8 +54,8 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
         const MedialBall& s = nodes.balls[edge.child];
         const MedialBall& t = coarse.balls[edge.parent];
         const double apart = 0.5
-            * std::sqrt(
-                double(distanceSq(fineFrame.center(s.center), coarseFrame.center(t.center))));
+            * std::sqrt(double(distanceSq(
+                fineFrame.center(s.center), coarseFrame.center(t.center), context.settings.dist)));
         const double power =
             apart + fineFrame.radius(s.radiusSq).radius() - coarseFrame.radius(t.radiusSq).radius();
         if (power >= least[edge.child]) continue;

@@ -12,6 +12,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <memory>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -30,13 +31,18 @@ struct BuildContext {
     {
         return {level == 0 ? origin : openvdb::Coord(), settings.factor, settings.dim};
     }
+    std::unique_ptr<MedialLevel> medialLevel(const openvdb::MaskTree& voxels) const
+    {
+        return std::make_unique<MedialLevel>(
+            voxels, settings.dim, settings.dist, interrupter, seconds);
+    }
     LevelFrame frame(int level) const { return LevelFrame(level, origin, settings); }
 };
 
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {
     std::vector<MedialBall> balls; ///< ordered by centre
-    std::vector<double> radius;    ///< voxels of level 0
+    std::vector<double> radius;    ///< units of the distance, on level 0
     std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
     std::vector<int32_t> parent;   ///< node of the next level; empty at the root
     std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for

@@ -110,6 +110,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<bool>(grid, "spheretree_final_fit", settings.finalFit);
     setMeta<std::string>(grid, "spheretree_reconstruct", toString(settings.reconstruct));
     setMeta<std::string>(grid, "spheretree_scale", toString(settings.scale));
+    setMeta<std::string>(grid, "spheretree_dist", toString(settings.dist));
     setMeta<std::string>(grid, "spheretree_padding", paddingToString(settings.padding));
     setMeta<bool>(grid, "spheretree_dag", settings.dag);
     setMeta<std::string>(grid, "spheretree_dag_edges", toString(settings.edges));
@@ -126,6 +127,9 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.reconstruct =
         reconstructionFromString(getMeta<std::string>(grid, "spheretree_reconstruct"));
     settings.scale = radiusScaleFromString(getMeta<std::string>(grid, "spheretree_scale"));
+    if (grid["spheretree_dist"]) { // files of the first version have none
+        settings.dist = distanceFromString(getMeta<std::string>(grid, "spheretree_dist"));
+    }
     settings.padding = paddingFromString(getMeta<std::string>(grid, "spheretree_padding"));
     settings.dag = getMeta<bool>(grid, "spheretree_dag");
     settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_dag_edges"));
