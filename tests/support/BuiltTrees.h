@@ -29,9 +29,9 @@ using openvdb_spheretree::TreeType;
 inline std::string describe(const SphereTreeSettings& s)
 {
     return std::string(toString(s.tree)) + " factor=" + std::to_string(s.factor)
-        + " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent)
-        + " final_fit=" + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct)
-        + " scale=" + toString(s.scale) + " padding=" + std::to_string(s.padding);
+        + " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent) + " final_fit="
+        + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct) + " scale="
+        + toString(s.scale) + " dist=" + toString(s.dist) + " padding=" + std::to_string(s.padding);
 }
 
 /// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree
@@ -51,6 +51,23 @@ inline std::vector<SphereTreeSettings> allSettings(TreeType type, int dim)
         settings.finalFit = i / 8 % 2 == 0;
         settings.reconstruct = Reconstruction(i / 16);
         if (extended || i < 8) all.push_back(settings);
+    }
+    return all;
+}
+
+/// The norms, with factors 2 and 3, both parent rules, and for the extended tree both fits.
+inline std::vector<SphereTreeSettings> normSettings(TreeType type, int dim)
+{
+    using openvdb_spheretree::Distance;
+    std::vector<SphereTreeSettings> all;
+    for (const Distance& distance : {Distance::l1(), Distance::linf(), Distance::chamfer(3, 4, 5),
+             Distance::chamfer(16, 21, 26), Distance::chamfer(2, 3, 3)}) {
+        for (SphereTreeSettings settings : allSettings(type, dim)) {
+            const bool plain = settings.reconstruct == Reconstruction::Clip
+                && (settings.finalFit || settings.scale == RadiusScale::Tight);
+            settings.dist = distance;
+            if (plain) all.push_back(settings);
+        }
     }
     return all;
 }
@@ -89,15 +106,17 @@ inline std::vector<RandomObject> someObjects(uint32_t firstSeed, uint32_t count)
     return objects;
 }
 
-/// |2 (q - center)|^2, exactly.
+/// |2 (q - center)|^2, exactly, by the tree's distance.
 inline int64_t doubledDistanceSq(const SphereTree& tree, int32_t id, const Coord& q)
 {
-    int64_t sum = 0;
+    Coord d;
     for (int axis = 0; axis < 3; ++axis) {
-        const int64_t d = 2 * int64_t(q[axis]) - std::llround(2 * tree.center[id][axis]);
-        sum += d * d;
+        d[axis] = int32_t(2 * int64_t(q[axis]) - std::llround(2 * tree.center[id][axis]));
     }
-    return sum;
+    const auto& dist = tree.settings.dist;
+    if (dist.isEuclidean()) return squaredDistance(d, Coord(0, 0, 0));
+    const int64_t length = normOf({dist.face(), dist.edge(), dist.corner()})(d, Coord(0, 0, 0));
+    return length * length;
 }
 
 inline bool holds(const SphereTree& tree, int32_t id, const Coord& q)

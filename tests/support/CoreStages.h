@@ -82,13 +82,14 @@ private:
 };
 
 struct CoreStages {
-    explicit CoreStages(const openvdb::MaskTree& level, int dim = 3)
-        : layout(level), distances(distanceTransform(layout, dim)),
+    explicit CoreStages(const openvdb::MaskTree& level, int dim = 3,
+        const openvdb_spheretree::Distance& distance = {})
+        : layout(level), distances(distanceTransform(layout, dim, nullptr, distance)),
           labels(powerMap(layout, distances, dim)), balls(medialBalls(labels, distances))
     {}
     CoreStages(const CoreStages&) = delete; // labels refer to the layout
 
-    /// @return the squared distance at any voxel, 0 outside the leaves.
+    /// @return the distance (squared if Euclidean) at any voxel, 0 outside the leaves.
     uint32_t distSq(const Coord& ijk) const
     {
         const auto leaf = layout.findLeaf(ijk);

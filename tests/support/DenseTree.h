@@ -10,6 +10,9 @@
 /// balls without children go; the radius is what the leaf balls below need; the level's voxels
 /// become those within that radius of a centre, inside the pyramid's box.
 ///
+/// With a norm, lengths are the norm's, in voxels: divided by the cost of a face step. A ball of less
+/// than the radius r holds what is within the largest cost below r that steps can add up to.
+///
 /// For objects of some thousand voxels. Doubles do for these: where a choice could hang on the last
 /// digits (see `preferDagParent`), it is made with a margin.
 
@@ -39,6 +42,7 @@ struct DenseSettings {
     bool finalFit = true;
     DenseReconstruction reconstruct = DenseReconstruction::Clip;
     bool paperScale = false;
+    Weights norm = {0, 0, 0}; ///< all 0: Euclidean
 };
 
 struct DenseNode {
@@ -116,26 +120,53 @@ private:
         return center;
     }
 
-    double growthOf(int level) const { return std::sqrt(mSettings.dim) * (scaleOf(level) - 1) / 2; }
+    bool hasNorm() const { return mSettings.norm[0] > 0; }
+
+    double growthOf(int level) const
+    {
+        const double half = (scaleOf(level) - 1) / 2;
+        return distance({0, 0, 0}, {half, half, mSettings.dim == 3 ? half : 0});
+    }
 
     double radiusOf(int64_t radiusSq, int level) const
     {
         const bool paper = mSettings.paperScale && level > 0;
-        return scaleOf(level) * std::sqrt(double(paper ? radiusSq : radiusSq - 1))
-            + growthOf(level);
+        const double covered = paper ? std::sqrt(double(radiusSq)) : closed(radiusSq);
+        return scaleOf(level) * covered / std::max(mSettings.norm[0], 1) + growthOf(level);
     }
 
-    static double distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+    double closed(int64_t radiusSq) const
     {
-        return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        if (!hasNorm()) return std::sqrt(double(radiusSq - 1));
+        const auto radius = int(std::lround(std::sqrt(double(radiusSq))));
+        std::vector<bool> reached(radius, false); // costs that steps add up to
+        reached[0] = true;
+        int last = 0;
+        for (int cost = 1; cost < radius; ++cost) {
+            for (const int step : mSettings.norm) {
+                if (step <= cost && reached[cost - step]) reached[cost] = true;
+            }
+            if (reached[cost]) last = cost;
+        }
+        return last;
+    }
+
+    double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) const
+    {
+        std::array<double, 3> d{
+            std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])};
+        if (!hasNorm()) return std::hypot(d[0], d[1], d[2]);
+        std::sort(d.begin(), d.end());
+        const Weights& cost = mSettings.norm;
+        return (cost[2] * d[0] + cost[1] * (d[1] - d[0]) + cost[0] * (d[2] - d[1])) / cost[0];
     }
 
     const NaiveReference& medial(const std::set<Coord>& voxels)
     {
-        std::unique_ptr<NaiveReference>& known = mMedial[{mSettings.dim, voxels}];
+        std::unique_ptr<NaiveReference>& known = mMedial[{{mSettings.dim, mSettings.norm}, voxels}];
         if (!known) {
-            known = std::make_unique<NaiveReference>(
-                Voxels(voxels.begin(), voxels.end()), mSettings.dim);
+            known = std::make_unique<NaiveReference>(Voxels(voxels.begin(), voxels.end()),
+                mSettings.dim, hasNorm() ? normOf(mSettings.norm) : Length(squaredDistance));
         }
         return *known;
     }
@@ -157,8 +188,9 @@ private:
         DenseLevel result;
         result.voxels = medial.voxels().size();
         for (const NaiveReference::Ball& ball : medial.balls()) {
-            result.nodes.push_back({centerOf(ball.center, level), radiusOf(ball.radiusSq, level),
-                -1, ball.center, ball.radiusSq});
+            const int64_t radiusSq = hasNorm() ? ball.radiusSq * ball.radiusSq : ball.radiusSq;
+            result.nodes.push_back({centerOf(ball.center, level), radiusOf(radiusSq, level), -1,
+                ball.center, radiusSq});
         }
         return result;
     }
@@ -298,7 +330,9 @@ private:
             const int reach = floorOf(limit), reachZ = mSettings.dim == 2 ? 0 : reach;
             const Coord corner(reach, reach, reachZ);
             for (const Coord& v : voxelsOfBox(CoordBBox(node.ijk - corner, node.ijk + corner))) {
-                if (std::sqrt(double(squaredDistance(v, node.ijk))) > limit) continue;
+                const Coord apart = v - node.ijk;
+                const std::array<double, 3> d{double(apart[0]), double(apart[1]), double(apart[2])};
+                if (distance(d, {0, 0, 0}) > limit) continue;
                 const bool free = mSettings.reconstruct == DenseReconstruction::Free;
                 if (free || clip.isInside(v)) voxels.insert(v);
             }
@@ -310,7 +344,8 @@ private:
     Voxels mObject;
     DenseSettings mSettings;
     std::vector<Leaf> mLeaves;
-    std::map<std::pair<int, std::set<Coord>>, std::unique_ptr<NaiveReference>> mMedial;
+    std::map<std::pair<std::pair<int, Weights>, std::set<Coord>>, std::unique_ptr<NaiveReference>>
+        mMedial;
 };
 
 } // namespace spheretree_test

@@ -4,6 +4,8 @@
 /// against every background voxel, every object voxel against every site. Shares no code with the
 /// library.
 ///
+/// Other lengths than |.|^2 may be given: those of a norm, not squared.
+///
 /// Squared distance of p: the smallest |p - b|^2 over all background voxels b of the object's box,
 /// one wider on every side (the nearest background voxel never lies further out).
 /// Label of q: the object voxel p of largest distSq(p) - |p - q|^2, then of largest distSq(p), then
@@ -17,7 +19,10 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <limits>
 #include <set>
 #include <vector>
@@ -66,6 +71,24 @@ inline int64_t squaredDistance(const Coord& a, const Coord& b)
     return x * x + y * y + z * z;
 }
 
+/// A function of two voxels.
+using Length = std::function<int64_t(const Coord&, const Coord&)>;
+
+/// Costs of a step across a face, an edge, a corner.
+using Weights = std::array<int, 3>;
+
+/// The norm with these costs: corner steps until the smallest coordinate is 0, then edge steps, then
+/// face steps.
+inline Length normOf(const Weights& weights)
+{
+    return [weights](const Coord& p, const Coord& q) {
+        std::array<int64_t, 3> d;
+        for (int axis = 0; axis < 3; ++axis) d[axis] = std::abs(int64_t(p[axis]) - q[axis]);
+        std::sort(d.begin(), d.end());
+        return weights[2] * d[0] + weights[1] * (d[1] - d[0]) + weights[0] * (d[2] - d[1]);
+    };
+}
+
 class NaiveReference {
 public:
     struct Ball {
@@ -73,7 +96,8 @@ public:
         int64_t radiusSq;
     };
 
-    explicit NaiveReference(Voxels voxels, int dim = 3) : mVoxels(std::move(voxels)), mDim(dim)
+    explicit NaiveReference(Voxels voxels, int dim = 3, Length length = squaredDistance)
+        : mVoxels(std::move(voxels)), mDim(dim), mLength(std::move(length))
     {
         sortVoxels(mVoxels);
         computeDistances();
@@ -109,7 +133,7 @@ private:
         for (const Coord& p : mVoxels) {
             int64_t nearest = std::numeric_limits<int64_t>::max();
             for (const Coord& b : background) {
-                if (!apart(p, b)) nearest = std::min(nearest, squaredDistance(p, b));
+                if (!apart(p, b)) nearest = std::min(nearest, mLength(p, b));
             }
             mDistSq.push_back(nearest);
         }
@@ -122,7 +146,7 @@ private:
             int64_t bestValue = 0;
             for (std::size_t p = 0; p < mVoxels.size(); ++p) {
                 if (apart(mVoxels[p], q)) continue;
-                const int64_t value = mDistSq[p] - squaredDistance(mVoxels[p], q);
+                const int64_t value = mDistSq[p] - mLength(mVoxels[p], q);
                 if (best == mVoxels.size() || value > bestValue
                     || (value == bestValue && winsTie(p, best))) {
                     best = p;
@@ -141,6 +165,7 @@ private:
 
     Voxels mVoxels;
     int mDim;
+    Length mLength;
     std::vector<int64_t> mDistSq;
     std::vector<std::size_t> mLabels;
 };

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file support/DenseAgreement.h
+/// @brief Whether a tree is the one that the dense program of DenseTree.h builds.
+
+#pragma once
+
+#include "BuiltTrees.h"
+#include "DenseTree.h"
+
+#include <set>
+
+namespace spheretree_test {
+
+constexpr double kDenseTolerance = 1e-9;
+
+inline DenseSettings denseSettings(const SphereTreeSettings& settings)
+{
+    DenseSettings dense;
+    dense.extended = settings.tree == TreeType::Extended;
+    dense.factor = settings.factor;
+    dense.dim = settings.dim;
+    dense.parentByDag = settings.parent == ParentRule::Dag;
+    dense.finalFit = settings.finalFit;
+    dense.reconstruct = settings.reconstruct == Reconstruction::Clip ? DenseReconstruction::Clip
+        : settings.reconstruct == Reconstruction::Free               ? DenseReconstruction::Free
+                                                                     : DenseReconstruction::None;
+    dense.paperScale = settings.scale == RadiusScale::Paper;
+    dense.norm = {settings.dist.face(), settings.dist.edge(), settings.dist.corner()};
+    return dense;
+}
+
+inline testing::AssertionResult agreeOnNode(
+    const DenseNode& expected, const SphereTree& tree, int32_t id, int32_t parentBegin)
+{
+    const auto fail = [&](const char* what) {
+        return testing::AssertionFailure()
+            << "node " << id << " at " << tree.ijk[id] << " has another " << what << " than "
+            << expected.ijk << " of the dense tree: ";
+    };
+    if (tree.ijk[id] != expected.ijk) return fail("ijk");
+    if (tree.radiusSq[id] != expected.radiusSq) {
+        return fail("radiusSq") << tree.radiusSq[id] << ", not " << expected.radiusSq;
+    }
+    const int parent = tree.parent[id] < 0 ? -1 : tree.parent[id] - parentBegin;
+    if (parent != expected.parent) return fail("parent") << parent << ", not " << expected.parent;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(tree.center[id][axis] - expected.center[axis]) > kDenseTolerance) {
+            return fail("center") << tree.center[id];
+        }
+    }
+    if (std::abs(tree.radius[id] - expected.radius) > kDenseTolerance * (1 + expected.radius)) {
+        return fail("radius") << tree.radius[id] << ", not " << expected.radius;
+    }
+    // coverSq is (2 radius)^2, in units of the distance, rounded down, but for what doubles cannot tell.
+    const double unit = tree.settings.dist.unit();
+    const double fourRSq = 4 * unit * unit * expected.radius * expected.radius;
+    if (std::abs(double(tree.coverSq[id]) + 0.5 - fourRSq)
+        > 0.5 + kDenseTolerance * (1 + fourRSq)) {
+        return fail("coverSq") << tree.coverSq[id] << ", not the floor of " << fourRSq;
+    }
+    return testing::AssertionSuccess();
+}
+
+inline std::set<std::pair<int, int>> edgesOfLevel(const SphereTree& tree, std::size_t level)
+{
+    const SphereTreeLevel& range = tree.levels[level];
+    std::set<std::pair<int, int>> edges;
+    for (const auto& edge : tree.dag) {
+        if (edge.child < range.begin || edge.child >= range.end) continue;
+        edges.emplace(edge.parent - tree.levels[level + 1].begin, edge.child - range.begin);
+    }
+    return edges;
+}
+
+inline testing::AssertionResult agree(
+    const std::vector<DenseLevel>& expected, const SphereTree& tree)
+{
+    const auto fail = [] { return testing::AssertionFailure(); };
+    if (tree.levels.size() != expected.size()) {
+        return fail() << tree.levels.size() << " levels, should be " << expected.size();
+    }
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        const int32_t parents = k + 1 < expected.size() ? tree.levels[k + 1].begin : 0;
+        if (level.size() != int32_t(expected[k].nodes.size())) {
+            return fail() << "level " << k << " has " << level.size() << " nodes, should be "
+                          << expected[k].nodes.size();
+        }
+        if (level.pyramidVoxels != int64_t(expected[k].voxels)) {
+            return fail() << "level " << k << " is of " << level.pyramidVoxels
+                          << " voxels, should be " << expected[k].voxels;
+        }
+        for (int32_t i = 0; i < level.size(); ++i) {
+            const auto node = agreeOnNode(expected[k].nodes[i], tree, level.begin + i, parents);
+            if (!node) return fail() << "level " << k << ", " << node.message();
+        }
+        if (edgesOfLevel(tree, k) != expected[k].dag) {
+            return fail() << "other DAG edges between levels " << k + 1 << " and " << k;
+        }
+    }
+    return testing::AssertionSuccess();
+}
+
+} // namespace spheretree_test
