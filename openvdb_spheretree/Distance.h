@@ -62,27 +62,26 @@ public:
     {
         return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
     }
-    /// @return the squared length of an integer vector, exactly; or INT64_MAX, where the length
-    ///         exceeds kFar.
+    /// @return the squared length of an integer vector, exactly; or INT64_MAX, where it does not fit
+    ///         63 bits.
     int64_t lengthSq(int64_t x, int64_t y, int64_t z) const
     {
-        constexpr uint64_t kFarSq = uint64_t(kFar) * kFar;
         if (std::max(std::abs(x), std::max(std::abs(y), std::abs(z))) > kFar) return INT64_MAX;
         if (!isEuclidean()) {
             const int64_t value = norm(x, y, z); // below 2^42
             return value > kFar ? INT64_MAX : value * value;
         }
-        const uint64_t plane = uint64_t(x * x) + uint64_t(y * y); // twice kFarSq is below 2^64
-        if (plane > kFarSq) return INT64_MAX;
+        const uint64_t plane = uint64_t(x * x) + uint64_t(y * y); // twice kFar^2 is below 2^64
+        if (plane > INT64_MAX) return INT64_MAX;
         const uint64_t sum = plane + uint64_t(z * z);
-        return sum > kFarSq ? INT64_MAX : int64_t(sum);
+        return int64_t(std::min<uint64_t>(sum, INT64_MAX)); // itself no sum of three squares
     }
 
     /// @return the largest r with lengthSq(x, y, r) <= limitSq; -1 if there is none.
     int64_t reach(int64_t x, int64_t y, int64_t limitSq) const
     {
         const int64_t soFar = lengthSq(x, y, 0);
-        if (soFar > limitSq) return -1;
+        if (soFar > limitSq || soFar == INT64_MAX) return -1;
         return isEuclidean() ? detail::floorSqrt(limitSq - soFar) : normReach(x, y, limitSq);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DistanceTransform.h"
 
+#include "FlatAxis.h"
 #include "SphereTreeSettings.h"
 #include "detail/LeafRows.h"
 #include "detail/MinPlus.h"
@@ -8,6 +9,7 @@
 #include "detail/Parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <memory>
 
@@ -146,19 +148,26 @@ DistanceMap distanceTransform(
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim,
     NullInterrupter* interrupter, const Distance& distance)
 {
-    const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
-    const LeafLayout layout(mask);
+    const FlatAxis flat = flatAxisOf(object, dim);
+    const LeafLayout layout(*flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
     const DistanceMap map = distanceTransform(layout, dim, interrupter, distance);
 
+    std::array<uint32_t, kLeafVoxels> place; // of a voxel of the turned leaf
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+        place[k] = leafOffset(flat.fromZ(openvdb::Coord(k >> 6, k >> 3 & 7, k & 7)));
+    }
     using Leaf = openvdb::Int32Tree::LeafNodeType;
     std::vector<std::unique_ptr<Leaf>> leaves(layout.leafCount());
     detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
-        leaves[i] = std::make_unique<Leaf>(layout.origin(uint32_t(i)), 0);
+        leaves[i] = std::make_unique<Leaf>(flat.fromZ(layout.origin(uint32_t(i))), 0);
         Leaf::ValueType* values = leaves[i]->buffer().data();
-        for (uint32_t k = 0; k < kLeafVoxels; ++k) values[k] = int32_t(map.at(uint32_t(i), k));
-        const LeafMask& words = layout.mask(uint32_t(i));
+        const LeafMask& mask = layout.mask(uint32_t(i));
         Leaf::NodeMaskType on;
-        for (uint32_t x = 0; x < 8; ++x) on.getWord<uint64_t>(x) = words[x];
+        for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+            values[place[k]] = int32_t(map.at(uint32_t(i), k));
+            if (isOn(mask, k)) on.setOn(place[k]);
+        }
         leaves[i]->setValueMask(on);
     });
     auto grid = openvdb::Int32Grid::create(0);

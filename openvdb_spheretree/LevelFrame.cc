@@ -49,8 +49,9 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
 }
 
 LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
-    : mLevel(level), mDim(settings.dim), mTight(level == 0 || settings.scale == RadiusScale::Tight),
-      mDistance(settings.dist), mOrigin(level == 0 ? openvdb::Coord() : origin)
+    : mLevel(level), mDim(settings.dim), mFlatAxis(settings.flatAxis),
+      mTight(level == 0 || settings.scale == RadiusScale::Tight), mDistance(settings.dist),
+      mOrigin(level == 0 ? openvdb::Coord() : origin)
 {
     for (int k = 0; k < level; ++k) {
         mScale *= settings.factor;
@@ -73,7 +74,7 @@ LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTree
 Doubled LevelFrame::center(const openvdb::Coord& ijk) const
 {
     const auto along = [&](int axis) {
-        const bool scaled = axis < mDim;
+        const bool scaled = mDim == 3 || axis != mFlatAxis;
         return 2 * int64_t(mOrigin[axis])
             + (scaled ? 2 * mScale * ijk[axis] + mScale - 1 : 2 * int64_t(ijk[axis]));
     };

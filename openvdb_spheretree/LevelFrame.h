@@ -70,6 +70,7 @@ public:
     /// bits.
     static constexpr int64_t kMaxScale = int64_t(1) << 29;
 
+    /// @param settings  its `flatAxis` is not scaled if `dim` is 2
     /// @throw openvdb::ValueError if the level's voxels are wider than that, or than the distance's
     ///        weights allow
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
@@ -85,7 +86,7 @@ public:
 
 private:
     int mLevel;
-    int mDim;
+    int mDim, mFlatAxis;
     bool mTight;
     Distance mDistance;
     int64_t mScale = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MedialAxis.h"
 
+#include "FlatAxis.h"
 #include "detail/Parallel.h"
 #include "detail/StepBits.h"
 
@@ -166,11 +167,14 @@ std::vector<MedialBall> medialBalls(
 std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim,
     NullInterrupter* interrupter, const Distance& distance)
 {
-    const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
-    const LeafLayout layout(mask);
+    const FlatAxis flat = flatAxisOf(object, dim);
+    const LeafLayout layout(*flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
     const DistanceMap distances = distanceTransform(layout, dim, interrupter, distance);
     const PowerMap labels = powerMap(layout, distances, dim, interrupter);
-    return medialBalls(labels, distances, interrupter);
+    std::vector<MedialBall> balls = medialBalls(labels, distances, interrupter);
+    for (MedialBall& ball : balls) ball.center = flat.fromZ(ball.center);
+    return balls;
 }
 
 } // namespace openvdb_spheretree

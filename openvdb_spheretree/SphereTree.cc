@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTree.h"
 
+#include "FlatAxis.h"
 #include "IntersectionDag.h"
 #include "UniformVoxels.h"
 #include "detail/RoundUp.h"
@@ -31,18 +32,17 @@ ObjectInfo describe(const openvdb::BoolGrid& object)
 
 void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settings)
 {
-    const int dim = settings.dim;
     if (info.voxels == 0) {
         OPENVDB_THROW(openvdb::ValueError, "the object '" << info.name << "' has no voxels");
     }
-    const int64_t thickness = int64_t(info.bbox.max().z()) - info.bbox.min().z() + 1;
-    if (dim == 2 && thickness > 1) {
+    const openvdb::Coord size = info.bbox.extents();
+    if (settings.dim == 2 && flatAxisOf(info.bbox) < 0) {
         OPENVDB_THROW(openvdb::ValueError,
-            "dim=2 needs an object one voxel thick along z, but '" << info.name << "' has "
-                                                                   << thickness << " voxels there");
+            "dim=2 needs an object one voxel thick along an axis, but '"
+                << info.name << "' has " << size[0] << " x " << size[1] << " x " << size[2]
+                << " voxels: use dim=3");
     }
     // Twice the centres, and radii beyond the object's own size: four times its extent is enough.
-    const openvdb::Coord size = info.bbox.extents();
     const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
     if (settings.dist.lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -54,6 +54,7 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
 /// Nodes of all levels, top level first: ids in the order of the header.
 void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
 {
+    const FlatAxis flat(tree.settings.flatAxis);
     tree.levels.resize(levels.size());
     for (int level = int(levels.size()) - 1; level >= 0; --level) {
         const LevelNodes& nodes = levels[level];
@@ -64,11 +65,12 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
         range.begin = tree.size();
         range.pyramidVoxels = nodes.pyramidVoxels;
         for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
-            tree.center.push_back(frame.center(nodes.balls[i].center).halved());
+            const openvdb::Coord ijk = flat.fromZ(nodes.balls[i].center);
+            tree.center.push_back(frame.center(ijk).halved());
             tree.radius.push_back(detail::divideUp(nodes.radius[i], tree.settings.dist.unit()));
             tree.coverSq.push_back(nodes.coverSq[i]);
             tree.parent.push_back(nodes.parent.empty() ? -1 : above + nodes.parent[i]);
-            tree.ijk.push_back(nodes.balls[i].center);
+            tree.ijk.push_back(ijk);
             tree.radiusSq.push_back(nodes.balls[i].radiusSq);
         }
         range.end = tree.size();
@@ -140,14 +142,18 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     tree.settings = settings;
     tree.object = describe(object);
     requireValidObject(tree.object, settings);
+    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
     tree.origin = pyramidOrigin(tree.object.bbox);
     tree.transform = object.transform().copy();
 
     BuildSeconds ownSeconds;
-    const detail::BuildContext context{
-        settings, tree.origin, tree.object.bbox, interrupter, seconds ? seconds : &ownSeconds};
-    auto voxels =
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy());
+    const FlatAxis flat(tree.settings.flatAxis);
+    SphereTreeSettings turned = settings;
+    turned.flatAxis = 2;
+    const detail::BuildContext context{turned, flat.toZ(tree.origin), flat.toZ(tree.object.bbox),
+        interrupter, seconds ? seconds : &ownSeconds};
+    auto voxels = flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
     appendNodes(tree,
         settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
                                               : detail::extendedLevels(voxels, context));

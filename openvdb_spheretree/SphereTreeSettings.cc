@@ -79,6 +79,10 @@ void SphereTreeSettings::validate() const
 {
     requireFactor(factor);
     requireDim(dim);
+    if (flatAxis < 0 || flatAxis > 2) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
+    }
     if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding

@@ -53,7 +53,8 @@ openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres, const Di
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
 {
     openvdb::CoordBBox box = boundingBox(spheres, tree.settings.dist);
-    if (tree.settings.dim == 2) box.min().z() = box.max().z() = tree.object.bbox.min().z();
+    const int flat = tree.settings.flatAxis;
+    if (tree.settings.dim == 2) box.min()[flat] = box.max()[flat] = tree.object.bbox.min()[flat];
     return box;
 }
 

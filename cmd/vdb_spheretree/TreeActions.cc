@@ -131,7 +131,7 @@ std::vector<OptionSpec> spheretreeOptions()
             "its own pyramid level; tight: not available yet"),
         integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
             "voxels per axis merged from level to level, 2 to 32768"),
-        integer("dim", "3", 2, 3, "2 for an object one voxel thick along z"),
+        integer("dim", "3", 2, 3, "2 for an object one voxel thick along an axis"),
         text("dist", "l2",
             "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of "
             "a "

@@ -78,7 +78,8 @@ MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& le
     const Distance& distance = check.tree.settings.dist;
     CoordBBox box = boundingBox(balls, distance);
     if (check.tree.settings.dim == 2 && !box.empty()) {
-        box.min().z() = box.max().z() = check.tree.ijk[level.begin].z();
+        const int flat = check.tree.settings.flatAxis;
+        box.min()[flat] = box.max()[flat] = check.tree.ijk[level.begin][flat];
     }
     return sphereUnion(balls, box, check.interrupter, distance);
 }

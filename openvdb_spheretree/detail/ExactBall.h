@@ -83,7 +83,7 @@ inline bool clippedBall(
         ball.center2[a] = s.center2[a];
         ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
-    ball.coverSq = s.coverSq;
+    ball.coverSq = std::min(s.coverSq, INT64_MAX - 1); // lengths that do not fit are beyond it
     return true;
 }
 

@@ -106,6 +106,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<std::string>(grid, "spheretree_tree", toString(settings.tree));
     setMeta<int32_t>(grid, "spheretree_factor", settings.factor);
     setMeta<int32_t>(grid, "spheretree_dim", settings.dim);
+    if (settings.dim == 2) setMeta<int32_t>(grid, "spheretree_flat_axis", settings.flatAxis);
     setMeta<std::string>(grid, "spheretree_parent", toString(settings.parent));
     setMeta<bool>(grid, "spheretree_final_fit", settings.finalFit);
     setMeta<std::string>(grid, "spheretree_reconstruct", toString(settings.reconstruct));
@@ -122,6 +123,9 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.tree = treeTypeFromString(getMeta<std::string>(grid, "spheretree_tree"));
     settings.factor = getMeta<int32_t>(grid, "spheretree_factor");
     settings.dim = getMeta<int32_t>(grid, "spheretree_dim");
+    if (grid["spheretree_flat_axis"]) {
+        settings.flatAxis = getMeta<int32_t>(grid, "spheretree_flat_axis");
+    }
     settings.parent = parentRuleFromString(getMeta<std::string>(grid, "spheretree_parent"));
     settings.finalFit = getMeta<bool>(grid, "spheretree_final_fit");
     settings.reconstruct =

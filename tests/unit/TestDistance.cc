@@ -97,7 +97,8 @@ TEST(Distance, LengthsBeyondSixtyThreeBitsAreInfinite)
 {
     const int64_t far = Distance::kFar;
     EXPECT_EQ(Distance().lengthSq(far, 0, 0), far * far);
-    EXPECT_EQ(Distance().lengthSq(far, 1, 0), INT64_MAX);
+    EXPECT_EQ(Distance().lengthSq(far, 1, 0), far * far + 1);
+    EXPECT_EQ(Distance().lengthSq(far, far, 0), INT64_MAX);
     EXPECT_EQ(Distance().lengthSq(far, far, far), INT64_MAX);
     EXPECT_EQ(Distance().lengthSq(0, -far - 1, 0), INT64_MAX);
     EXPECT_EQ(Distance::linf().lengthSq(far, far, far), far * far);

@@ -281,7 +281,8 @@ TEST_F(SphereUnion, DrawnWithinAMaskTheVoxelsOfTheMaskAreTheSame)
     for (int trial = 0; trial < 6; ++trial) {
         Spheres spheres = randomSpheres(random, 40, Coord(100, 40, 0), 500, 60);
         if (trial > 2) spheres.push_back(ball(-300, 100, 7, int64_t(4) * 5000 * 5000 / trial));
-        const MaskTree::Ptr drawn = detail::rasterSpheres(spheres, kWide, &mask, nullptr);
+        const MaskTree::Ptr drawn =
+            detail::rasterSpheres(spheres, Distance(), kWide, &mask, nullptr);
         const MaskTree::Ptr expected = sphereUnion(spheres, kWide);
         drawn->topologyIntersection(mask);
         expected->topologyIntersection(mask);
@@ -298,12 +299,12 @@ TEST_F(SphereUnion, DrawnWithinAMaskNodesWithoutVoxelsOfTheMaskAreLeftOut)
     mask.setValueOn(Coord(1000));
     mask.setValueOn(Coord(70000));
     const Spheres surface{ball(70000, 70000, 70000, int64_t(3) * 70000 * 70000)};
-    const MaskTree::Ptr cut = detail::rasterSpheres(surface, kWide, &mask, nullptr);
+    const MaskTree::Ptr cut = detail::rasterSpheres(surface, Distance(), kWide, &mask, nullptr);
     EXPECT_EQ(cut->leafCount(), 1u);       // of (70000, 70000, 70000), the last voxel that it holds
     EXPECT_EQ(cut->activeTileCount(), 1u); // the 4096^3 voxels at the origin are all inside
     for (int c : {0, 1000, 70000}) EXPECT_TRUE(cut->isValueOn(Coord(c))) << c;
     const Spheres inside{ball(2000, 2000, 2000, int64_t(12) * 1100 * 1100)};
-    const MaskTree::Ptr whole = detail::rasterSpheres(inside, kWide, &mask, nullptr);
+    const MaskTree::Ptr whole = detail::rasterSpheres(inside, Distance(), kWide, &mask, nullptr);
     EXPECT_EQ(whole->leafCount(), 0u);
     EXPECT_LE(whole->activeTileCount(), 2u); // of the leaves of (0, 0, 0) and (1000, 1000, 1000)
     EXPECT_TRUE(whole->isValueOn(Coord(0)) && whole->isValueOn(Coord(1000)));

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FlatAxis.h"
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::MaskTree;
+
+template <typename Turn>
+MaskTree::Ptr turned(const MaskTree& mask, const Turn& turn)
+{
+    auto result = std::make_shared<MaskTree>(false);
+    openvdb::tree::ValueAccessor<MaskTree> accessor(*result);
+    for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel) {
+        accessor.setValueOn(turn(voxel.getCoord()));
+    }
+    return result;
+}
+
+} // namespace
+
+int flatAxisOf(const openvdb::CoordBBox& box)
+{
+    for (int axis = 2; axis >= 0; --axis) {
+        if (box.min()[axis] == box.max()[axis]) return axis;
+    }
+    return -1;
+}
+
+FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim)
+{
+    openvdb::CoordBBox box;
+    if (dim != 2 || !object.tree().evalActiveVoxelBoundingBox(box)) return FlatAxis(2);
+    const int axis = flatAxisOf(box);
+    return FlatAxis(axis < 0 ? 2 : axis);
+}
+
+MaskTree::Ptr FlatAxis::toZ(const MaskTree::Ptr& mask) const
+{
+    return isZ() ? mask : turned(*mask, [this](const Coord& ijk) { return toZ(ijk); });
+}
+
+MaskTree::Ptr FlatAxis::fromZ(const MaskTree::Ptr& mask) const
+{
+    return isZ() ? mask : turned(*mask, [this](const Coord& ijk) { return fromZ(ijk); });
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file FlatAxis.h
+/// @brief Objects one voxel thick, along whichever axis: they are turned so that it is z, which the
+/// stages leave out in two dimensions, and what comes out is turned back.
+///
+/// The two other axes keep their order, so that the order of voxels, and with it every tie, is the
+/// same on both sides.
+
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+namespace openvdb_spheretree {
+
+/// @return the axis along which a box is one voxel thick: z if it is, or else y or x; -1 if none is.
+int flatAxisOf(const openvdb::CoordBBox& box);
+
+class FlatAxis {
+public:
+    /// @param axis  the flat axis, 0 to 2; 2 changes nothing
+    explicit FlatAxis(int axis) : mAxis(axis) {}
+
+    /// @return the vector with the flat axis moved to the end.
+    template <typename Vector>
+    Vector toZ(const Vector& v) const
+    {
+        if (mAxis == 0) return Vector(v[1], v[2], v[0]);
+        return mAxis == 1 ? Vector(v[0], v[2], v[1]) : v;
+    }
+    /// @return the vector with z moved to the flat axis.
+    template <typename Vector>
+    Vector fromZ(const Vector& v) const
+    {
+        if (mAxis == 0) return Vector(v[2], v[0], v[1]);
+        return mAxis == 1 ? Vector(v[0], v[2], v[1]) : v;
+    }
+    openvdb::CoordBBox toZ(const openvdb::CoordBBox& box) const
+    {
+        return {toZ(box.min()), toZ(box.max())};
+    }
+    /// The voxels of a flat mask, one by one; the mask itself if the axis is z.
+    openvdb::MaskTree::Ptr toZ(const openvdb::MaskTree::Ptr& mask) const;
+    openvdb::MaskTree::Ptr fromZ(const openvdb::MaskTree::Ptr& mask) const;
+
+    bool isZ() const { return mAxis == 2; }
+
+private:
+    int mAxis;
+};
+
+/// @return how to turn @a object for stages that leave out z if @a dim is 2. An object that is flat
+///         along no axis stays as it is: each of its slices of equal z is one of its own.
+FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim);
+
+} // namespace openvdb_spheretree
