@@ -14,6 +14,7 @@
 
 #pragma once
 
+#include "LevelTopology.h"
 #include "SphereTreeSettings.h"
 
 #include <openvdb/openvdb.h>
@@ -34,18 +35,6 @@ struct LevelError {
     int64_t missing = 0;       ///< in the object, but not covered: 0 for every tree built here
     double hammingPercent = 0; ///< 100 (excess + missing) / object voxels
     double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
-};
-
-/// The Betti numbers of a level's voxels, as closed cubes: what the pyramid joins, and what it fills.
-struct LevelTopology {
-    int64_t components = 0; ///< connected by faces, edges or corners
-    int64_t tunnels = 0;    ///< in two dimensions: holes
-    int64_t cavities = 0;   ///< of the background, enclosed: connected by faces
-
-    bool operator==(const LevelTopology& o) const
-    {
-        return components == o.components && tunnels == o.tunnels && cavities == o.cavities;
-    }
 };
 
 struct SphereTreeLevel {
