@@ -63,6 +63,7 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
         range.level = level;
         range.begin = tree.size();
         range.pyramidVoxels = nodes.pyramidVoxels;
+        range.topology = nodes.topology;
         for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
             tree.center.push_back(frame.center(nodes.balls[i].center).halved());
             tree.radius.push_back(detail::divideUp(nodes.radius[i], tree.settings.dist.unit()));

@@ -41,7 +41,7 @@ struct SphereTreeLevel {
     int level = 0;                         ///< 0 is the finest
     int32_t begin = 0, end = 0;            ///< the level's nodes are [begin, end)
     int64_t pyramidVoxels = 0;             ///< voxels of the volume whose medial balls these are
-    std::optional<LevelTopology> topology; ///< of these voxels; empty unless asked for
+    std::optional<LevelTopology> topology; ///< of these voxels; empty if not asked for
     std::optional<LevelError> error;       ///< empty until computed, or when out of reach
     std::string errorUnknown;              ///< why `error` is empty, where it was asked for
 
@@ -97,7 +97,7 @@ struct SphereTree {
 
 /// Seconds spent in the stages of a build, summed over levels.
 struct BuildSeconds {
-    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0;
+    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0, topology = 0;
 };
 
 /// @brief Build the sphere-tree of the active voxels of @a object.

@@ -4,6 +4,7 @@
 
 #include "../support/BuiltTrees.h"
 #include "../support/CoreStages.h"
+#include "../support/DenseAgreement.h"
 #include "../support/DenseTopology.h"
 #include "../support/RandomObjects.h"
 
@@ -136,6 +137,27 @@ TEST(TopologyOracle, ObjectsFarApartAddUp)
         voxels.insert(voxels.end(), objects[i - 1].voxels.begin(), objects[i - 1].voxels.end());
         ASSERT_EQ(topologyOf(voxels), sum) << objects[i - 1].name << " and " << objects[i].name;
     }
+}
+
+/// Of the volume whose medial balls the level has, which in an extended tree is no pyramid level.
+TEST(TopologyOracle, EveryLevelOfATreeHasThatOfItsVolume)
+{
+    int holes = 0;
+    for (const RandomObject& object : someObjects(9000, 132)) {
+        DenseTreeBuilder dense(object.voxels);
+        for (const SphereTreeSettings& settings : bothTypes()) {
+            const auto expected = dense.build(denseSettings(settings));
+            const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+            ASSERT_EQ(tree.levels.size(), expected.size());
+            for (std::size_t k = 0; k < expected.size(); ++k) {
+                ASSERT_TRUE(tree.levels[k].topology);
+                ASSERT_EQ(*tree.levels[k].topology, DenseTopology(expected[k].voxels).numbers())
+                    << object.name << ", " << describe(settings) << ", level " << k;
+                holes += k > 0 && tree.levels[k].topology->tunnels > 0;
+            }
+        }
+    }
+    EXPECT_GT(holes, 50) << "levels above 0 have hardly any topology to get wrong";
 }
 
 TEST(TopologyOracle, TheNumberOfThreadsMakesNoDifference)
