@@ -62,6 +62,8 @@ public:
 
     /// @return the leaf there, or kNone.
     uint32_t at(int dx, int dy, int dz) const { return mLeaf[index(dx, dy, dz)]; }
+    /// @return the same of all, at 9 (dx + 1) + 3 (dy + 1) + dz + 1.
+    const std::array<uint32_t, 27>& all() const { return mLeaf; }
     /// @return the first leaf, in order, that stands there or later; leafCount() if none does.
     uint32_t firstFrom(int dx, int dy, int dz) const { return mFrom[index(dx, dy, dz)]; }
 
