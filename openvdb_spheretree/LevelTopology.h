@@ -35,8 +35,8 @@ struct LevelTopology {
 /// @param interrupter  may be null; asked from many threads
 /// @throw Interrupted if the interrupter said so
 /// @throw openvdb::ValueError if leaves are cut into more than 2^32 parts
-/// @note Exact, and the same for any number of threads. Linear in leaves, wherever they are; up to
-///       40 bytes a leaf, and 512 for those that their voxels or the background cut into parts.
+/// @note Exact, and the same for any number of threads. Linear in leaves, wherever they are; some
+///       24 bytes a leaf; where object or background is in parts, 512 more and 4 for each part.
 LevelTopology levelTopology(
     const LeafLayout& level, openvdb::util::NullInterrupter* interrupter = nullptr);
 
