@@ -585,6 +585,8 @@ TEST(SphereTreePoints, MissingMetadataIsNamed)
 TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
 {
     SphereTree tree = sampleTree();
+    tree.dag.clear(); // which is a grid of its own
+    tree.settings.dag = false;
     tree.settings.topology = true;
     const PointDataGrid::Ptr grid = toPoints(tree);
     for (const char* key :
