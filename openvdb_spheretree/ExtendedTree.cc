@@ -170,6 +170,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     auto fine = context.medialLevel(*voxels);
     Leaves leaves;
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
+    levels.back().topology = topologyOf(*fine, context);
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
@@ -190,6 +191,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));
         });
+        levels.back().topology = topologyOf(*coarse, context);
         fine = std::move(coarse);
     }
     return levels;

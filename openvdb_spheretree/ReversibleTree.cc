@@ -38,6 +38,7 @@ std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const Bu
 {
     auto fine = context.medialLevel(*voxels);
     std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
+    levels.back().topology = topologyOf(*fine, context);
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return coarsen(*voxels, context.stepFrom(level), context.interrupter); });
@@ -49,6 +50,7 @@ std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const Bu
             nodes.dag = std::move(links.dag);
             levels.push_back(allBalls(*coarse, context.frame(level + 1)));
         });
+        levels.back().topology = topologyOf(*coarse, context);
         fine = std::move(coarse);
     }
     return levels;

@@ -64,6 +64,7 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
         range.level = level;
         range.begin = tree.size();
         range.pyramidVoxels = nodes.pyramidVoxels;
+        range.topology = nodes.topology;
         for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
             const openvdb::Coord ijk = flat.fromZ(nodes.balls[i].center);
             tree.center.push_back(frame.center(ijk).halved());

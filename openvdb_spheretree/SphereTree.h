@@ -14,6 +14,7 @@
 
 #pragma once
 
+#include "LevelTopology.h"
 #include "SphereTreeSettings.h"
 
 #include <openvdb/openvdb.h>
@@ -36,23 +37,11 @@ struct LevelError {
     double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
 };
 
-/// The Betti numbers of a level's voxels, as closed cubes: what the pyramid joins, and what it fills.
-struct LevelTopology {
-    int64_t components = 0; ///< connected by faces, edges or corners
-    int64_t tunnels = 0;    ///< in two dimensions: holes
-    int64_t cavities = 0;   ///< of the background, enclosed: connected by faces
-
-    bool operator==(const LevelTopology& o) const
-    {
-        return components == o.components && tunnels == o.tunnels && cavities == o.cavities;
-    }
-};
-
 struct SphereTreeLevel {
     int level = 0;                         ///< 0 is the finest
     int32_t begin = 0, end = 0;            ///< the level's nodes are [begin, end)
     int64_t pyramidVoxels = 0;             ///< voxels of the volume whose medial balls these are
-    std::optional<LevelTopology> topology; ///< of these voxels; empty unless asked for
+    std::optional<LevelTopology> topology; ///< of these voxels; empty if not asked for
     std::optional<LevelError> error;       ///< empty until computed, or when out of reach
     std::string errorUnknown;              ///< why `error` is empty, where it was asked for
 
@@ -108,7 +97,7 @@ struct SphereTree {
 
 /// Seconds spent in the stages of a build, summed over levels.
 struct BuildSeconds {
-    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0;
+    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0, topology = 0;
 };
 
 /// @brief Build the sphere-tree of the active voxels of @a object.

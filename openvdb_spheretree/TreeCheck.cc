@@ -5,7 +5,7 @@
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
 ///    fail, nothing else is looked at
-/// 2. checkTransform, checkObject, checkErrors: the place, and recorded counts
+/// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
 /// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc)
@@ -15,6 +15,7 @@
 #include "TreeCheck.h"
 
 #include "IntersectionDag.h"
+#include "LeafLayout.h"
 #include "LevelErrors.h"
 #include "detail/MaskDifference.h"
 #include "detail/TreeCheckReport.h"
@@ -142,6 +143,22 @@ void checkObject(Check& check)
     if (info.bbox != check.box) {
         check.fail("the tree records ", info.bbox, " as the object's box, which is ", check.box);
     }
+}
+
+/// What is recorded of level 0, whose voxels are the object's, is so.
+void checkTopology(Check& check)
+{
+    const SphereTreeLevel& finest = check.tree.levels.front();
+    if (finest.level != 0 || !finest.topology) return;
+    const LevelTopology& recorded = *finest.topology;
+    const LevelTopology actual = levelTopology(LeafLayout(check.mask), check.interrupter);
+    const auto compare = [&](const char* what, int64_t was, int64_t is) {
+        if (was == is) return;
+        check.fail("level 0 records ", was, ' ', what, " of the object, which has ", is);
+    };
+    compare("components", recorded.components, actual.components);
+    compare("tunnels", recorded.tunnels, actual.tunnels);
+    compare("cavities", recorded.cavities, actual.cavities);
 }
 
 bool nearlyEqual(double a, double b)
@@ -345,6 +362,7 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
 
     checkTransform(check);
     checkObject(check);
+    checkTopology(check);
     checkRadii(check);
     checkLinks(check);
     detail::checkDigitalBalls(check);

@@ -46,7 +46,21 @@ void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
     json.value("padding", openvdb_spheretree::paddingToString(settings.padding));
     json.value("dag", settings.dag);
     json.value("edges", toString(settings.edges));
+    json.value("topology", settings.topology);
     json.value("name", settings.name);
+    json.endObject();
+}
+
+void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
+{
+    if (!level.topology) {
+        json.null("topology");
+        return;
+    }
+    json.beginObject("topology");
+    json.value("components", level.topology->components);
+    json.value("tunnels", level.topology->tunnels);
+    json.value("cavities", level.topology->cavities);
     json.endObject();
 }
 
@@ -76,6 +90,7 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         json.value("level", level.level);
         json.value("spheres", level.size());
         json.value("pyramid_voxels", level.pyramidVoxels);
+        writeTopology(json, level);
         json.value("radius_min", radii.smallest);
         json.value("radius_max", radii.largest);
         writeError(json, level);
@@ -95,6 +110,7 @@ void writeSeconds(JsonWriter& json, const Session& session)
     json.value("power", seconds.build.power);
     json.value("medial", seconds.build.medial);
     json.value("tree", seconds.build.tree);
+    json.value("topology", seconds.build.topology);
     json.value("error", seconds.error);
     json.value("write", seconds.write);
     json.value("total", session.total.seconds());

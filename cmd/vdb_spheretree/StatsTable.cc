@@ -18,8 +18,8 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-const Row kHeader = {"level", "spheres", "voxels", "radius min", "radius max", "covered", "excess",
-    "missing", "hamming %", "hausdorff"};
+const Row kHeader = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
+    "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
 
 std::string fixed(double number, int digits)
 {
@@ -31,8 +31,16 @@ std::string fixed(double number, int digits)
 Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
 {
     const LevelRadii radii = radiiOf(tree, level);
-    Row row = {std::to_string(level.level), withCommas(level.size()),
-        withCommas(level.pyramidVoxels), fixed(radii.smallest, 2), fixed(radii.largest, 2)};
+    Row row = {
+        std::to_string(level.level), withCommas(level.size()), withCommas(level.pyramidVoxels)};
+    if (level.topology) {
+        row.insert(row.end(),
+            {withCommas(level.topology->components), withCommas(level.topology->tunnels),
+                withCommas(level.topology->cavities)});
+    } else {
+        row.insert(row.end(), 3, "-");
+    }
+    row.insert(row.end(), {fixed(radii.smallest, 2), fixed(radii.largest, 2)});
     if (!level.error) {
         row.insert(row.end(), 5, "-");
         return row;
@@ -67,9 +75,16 @@ void printReasons(std::ostream& out, const SphereTree& tree)
         const std::string reason = level.errorUnknown.empty() ? "errors were not counted (errors=0)"
                                                               : oneLine(level.errorUnknown);
         if (reason == last) continue;
-        out << "'-' from level " << level.level << " on: " << reason << "\n";
+        out << "'-' for errors from level " << level.level << " on: " << reason << "\n";
         last = reason;
     }
+}
+
+void printTopologyReason(std::ostream& out, const SphereTree& tree)
+{
+    const auto counted = [](const SphereTreeLevel& level) { return level.topology.has_value(); };
+    if (std::all_of(tree.levels.begin(), tree.levels.end(), counted)) return;
+    out << "'-' for parts, tunnels and cavities: these were not counted (topology=0)\n";
 }
 
 void printSeconds(std::ostream& out, const Session& session)
@@ -77,7 +92,8 @@ void printSeconds(std::ostream& out, const Session& session)
     const StageSeconds& s = session.seconds;
     const std::vector<std::pair<const char*, double>> stages = {{"read", s.read}, {"mask", s.mask},
         {"pyramid", s.build.pyramid}, {"distance", s.build.distance}, {"power", s.build.power},
-        {"medial", s.build.medial}, {"tree", s.build.tree}, {"error", s.error}, {"write", s.write}};
+        {"medial", s.build.medial}, {"tree", s.build.tree}, {"topology", s.build.topology},
+        {"error", s.error}, {"write", s.write}};
     out << "seconds:";
     for (const auto& [name, seconds] : stages) {
         if (seconds > 0) out << " " << name << " " << fixed(seconds, 3) << ",";
@@ -118,6 +134,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
     printRows(out, rows);
     printReasons(out, tree);
+    printTopologyReason(out, tree);
     printSeconds(out, session);
     return out.str();
 }

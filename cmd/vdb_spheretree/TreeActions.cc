@@ -31,6 +31,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     settings.padding = spheretree::paddingFromString(call.text("padding"));
     settings.dag = call.flag("dag");
     settings.edges = spheretree::dagEdgesFromString(call.text("edges"));
+    settings.topology = call.flag("topology");
     settings.name = call.text("name");
     return settings;
 }
@@ -149,6 +150,7 @@ std::vector<OptionSpec> spheretreeOptions()
         choice("edges", {"shared", "intersecting"},
             "with dag=1: edges between balls whose cells share a voxel, or between all spheres "
             "that meet"),
+        flag("topology", true, "count components, tunnels and cavities of every level's voxels"),
         flag("errors", true, "count the exact error of every level, and store it"),
         vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree")};
     for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching",

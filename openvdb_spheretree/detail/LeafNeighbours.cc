@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafNeighbours.h"
 
+#include "LeafWalk.h"
 #include "Parallel.h"
+
+#include <algorithm>
 
 namespace openvdb_spheretree {
 namespace detail {
 
 LeafNeighbours::LeafNeighbours(const LeafLayout& layout) : mNeighbours(layout.leafCount())
 {
-    const uint32_t count = layout.leafCount();
-    parallelFor(27, nullptr, [&](std::size_t direction) {
-        const int d = int(direction);
-        const openvdb::Coord step(
-            (d / 9 - 1) * kLeafDim, (d / 3 % 3 - 1) * kLeafDim, (d % 3 - 1) * kLeafDim);
-        uint32_t there = 0;
-        for (uint32_t leaf = 0; leaf < count; ++leaf) {
-            const openvdb::Coord wanted = layout.origin(leaf) + step;
-            while (there < count && layout.origin(there) < wanted) ++there;
-            const bool found = there < count && layout.origin(there) == wanted;
-            mNeighbours[leaf][direction] = found ? there : kNone;
+    constexpr std::size_t kChunk = 256;
+    const std::size_t count = mNeighbours.size();
+    parallelFor((count + kChunk - 1) / kChunk, nullptr, [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kChunk;
+        LeafWalk around(layout, uint32_t(begin));
+        for (std::size_t leaf = begin; leaf < std::min(begin + kChunk, count); ++leaf) {
+            around.moveTo(uint32_t(leaf));
+            mNeighbours[leaf] = around.all();
         }
     });
 }

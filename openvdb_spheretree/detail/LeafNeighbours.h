@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/LeafNeighbours.h
-/// @brief The 26 leaves around each leaf of a layout.
-///
-/// Leaves are in the order of their origins, and moving all of them by one step keeps the order: so
-/// each of the 26 directions is one merge of the list with itself. Cost: 26 n steps, 108 bytes a
-/// leaf.
+/// @brief The 26 leaves around each leaf of a layout, as a table: what LeafWalk.h finds for one leaf
+/// after the other. Cost: linear in leaves, 108 bytes a leaf.
 
 #pragma once
 

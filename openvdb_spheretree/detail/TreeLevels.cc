@@ -3,6 +3,7 @@
 
 #include "../SphereDag.h"
 #include "Parallel.h"
+#include "StageTimer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,13 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
 }
 
 } // namespace
+
+std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context)
+{
+    if (!context.settings.topology) return std::nullopt;
+    return timed("topology", context.interrupter, &context.seconds->topology,
+        [&] { return levelTopology(level.layout, context.interrupter); });
+}
 
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
     const MedialLevel& coarse, const BuildContext& context)

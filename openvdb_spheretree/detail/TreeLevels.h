@@ -13,6 +13,7 @@
 #include <openvdb/openvdb.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -47,6 +48,7 @@ struct LevelNodes {
     std::vector<int32_t> parent;   ///< node of the next level; empty at the root
     std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for
     int64_t pyramidVoxels = 0;
+    std::optional<LevelTopology> topology; ///< of these voxels, if asked for
 };
 
 /// How the nodes of a level hang on the medial balls of the next one.
@@ -54,6 +56,9 @@ struct Links {
     std::vector<int32_t> parent; ///< per node: index in the coarser level's balls
     std::vector<DagEdge> dag;    ///< coarser ball, node; empty unless the settings want a DAG
 };
+
+/// @return the topology of a level's voxels, if the settings want it.
+std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context);
 
 /// @brief Find the parents of @a nodes, which are balls of @a fine, among the balls of @a coarse.
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,

@@ -20,6 +20,7 @@ using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
 constexpr char kTransformTypeKey[] = "spheretree_transform_type";
+constexpr char kTopologyKey[] = "spheretree_topology"; // files were first written without
 constexpr int kMaxLevels = 1024; // far more than 32 bits of coordinates can be halved
 
 std::string levelKey(int level, const char* what)
@@ -115,6 +116,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<std::string>(grid, "spheretree_padding", paddingToString(settings.padding));
     setMeta<bool>(grid, "spheretree_dag", settings.dag);
     setMeta<std::string>(grid, "spheretree_dag_edges", toString(settings.edges));
+    setMeta<bool>(grid, kTopologyKey, settings.topology);
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
@@ -137,6 +139,7 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.padding = paddingFromString(getMeta<std::string>(grid, "spheretree_padding"));
     settings.dag = getMeta<bool>(grid, "spheretree_dag");
     settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_dag_edges"));
+    settings.topology = grid[kTopologyKey] && getMeta<bool>(grid, kTopologyKey);
     settings.name = grid.getName();
     settings.validate();
     return settings;
@@ -169,6 +172,11 @@ void writeLevel(GridBase& grid, const SphereTreeLevel& level)
     const auto key = [&](const char* what) { return levelKey(level.level, what); };
     setMeta<int32_t>(grid, key("spheres"), level.size());
     setMeta<int64_t>(grid, key("pyramid_voxels"), level.pyramidVoxels);
+    if (level.topology) {
+        setMeta<int64_t>(grid, key("components"), level.topology->components);
+        setMeta<int64_t>(grid, key("tunnels"), level.topology->tunnels);
+        setMeta<int64_t>(grid, key("cavities"), level.topology->cavities);
+    }
     if (level.error) {
         setMeta<int64_t>(grid, key("covered"), level.error->covered);
         setMeta<int64_t>(grid, key("excess"), level.error->excess);
@@ -191,6 +199,10 @@ SphereTreeLevel readLevel(const GridBase& grid, int number)
                      << " spheres by its metadata, every level must have one or more");
     }
     level.pyramidVoxels = getMeta<int64_t>(grid, key("pyramid_voxels"));
+    if (grid[key("components")]) {
+        level.topology = LevelTopology{getMeta<int64_t>(grid, key("components")),
+            getMeta<int64_t>(grid, key("tunnels")), getMeta<int64_t>(grid, key("cavities"))};
+    }
     if (grid[key("covered")]) {
         LevelError error;
         error.covered = getMeta<int64_t>(grid, key("covered"));

@@ -10,6 +10,7 @@
 /// Objects are made here, plus volumes of the folder SPHERETREE_DATA where there is one.
 
 #include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/LevelTopology.h>
 #include <openvdb_spheretree/MedialLevel.h>
 #include <openvdb_spheretree/ObjectMask.h>
 #include <openvdb_spheretree/OrPyramid.h>
@@ -132,6 +133,8 @@ const std::vector<std::pair<std::string, Stage>>& stages()
             [](const Input& in) {
                 benchmark::DoNotOptimize(st::medialBalls(in.labels, in.distances));
             }},
+        {"topology",
+            [](const Input& in) { benchmark::DoNotOptimize(st::levelTopology(in.layout)); }},
         {"pyramid", [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
         {"reversible", [](const Input& in) { buildTree(in, st::TreeType::Reversible); }},
         {"extended", [](const Input& in) { buildTree(in, st::TreeType::Extended); }},

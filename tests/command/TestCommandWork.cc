@@ -50,11 +50,14 @@ TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
     EXPECT_EQ(valuesOf(json, "level").front(), "0");
     EXPECT_EQ(valuesOf(json, "excess").front(), "0") << "level 0 is the object";
     for (const std::string& missing : valuesOf(json, "missing")) EXPECT_EQ(missing, "0");
+    for (const std::string& parts : valuesOf(json, "components")) EXPECT_EQ(parts, "1");
+    EXPECT_EQ(valuesOf(json, "tunnels"), std::vector<std::string>(spheres.size(), "0"));
+    EXPECT_EQ(valuesOf(json, "cavities"), std::vector<std::string>(spheres.size(), "0"));
     for (const char* key : {"name", "leaves", "tiles", "bbox_min", "bbox_max", "voxel_size",
              "origin", "tree", "dim", "dist", "parent", "final_fit", "reconstruct", "scale",
              "padding", "dag", "edges", "pyramid_voxels", "radius_min", "radius_max", "covered",
              "hamming_percent", "hausdorff", "read", "mask", "pyramid", "distance", "power",
-             "medial", "error", "write", "total", "peak_bytes"}) {
+             "medial", "topology", "error", "write", "total", "peak_bytes"}) {
         EXPECT_NE(json.find("\"" + std::string(key) + "\": "), std::string::npos) << key;
     }
 }
@@ -85,6 +88,16 @@ TEST_F(CommandWork, ErrorsThatWereNotComputedAreNullWithAReason)
     EXPECT_EQ(valuesOf(result.out, "error_unknown").front(), "\"not computed\"");
     const Result table = run("-read t.vdb -stats");
     EXPECT_NE(table.out.find(" -  "), std::string::npos) << table.out;
+}
+
+TEST_F(CommandWork, TopologyThatWasNotCountedIsNullOrADash)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree topology=0 -write t.vdb").exitCode, 0);
+    const std::string json = run("-read t.vdb -stats json=-").out;
+    EXPECT_EQ(valuesOf(json, "topology").at(1), "null") << json; // after that of the settings
+    EXPECT_EQ(json.find("components"), std::string::npos) << json;
+    EXPECT_NE(run("-read t.vdb -stats").out.find("topology=0"), std::string::npos);
+    EXPECT_EQ(run("-read a.vol -spheretree -stats").out.find("topology=0"), std::string::npos);
 }
 
 TEST_F(CommandWork, StatsComputesMissingErrorsWhileTheObjectIsKnown)

@@ -135,6 +135,7 @@ inline testing::AssertionResult sameNodes(const SphereTree& a, const SphereTree&
         const SphereTreeLevel &x = a.levels[k], &y = b.levels[k];
         if (x.level != y.level || x.begin != y.begin || x.end != y.end) return differ("levels");
         if (x.pyramidVoxels != y.pyramidVoxels) return differ("pyramidVoxels");
+        if (!(x.topology == y.topology)) return differ("topology");
     }
     if (a.parent != b.parent) return differ("parent");
     if (a.ijk != b.ijk) return differ("ijk");

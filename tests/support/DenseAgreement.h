@@ -86,9 +86,9 @@ inline testing::AssertionResult agree(
             return fail() << "level " << k << " has " << level.size() << " nodes, should be "
                           << expected[k].nodes.size();
         }
-        if (level.pyramidVoxels != int64_t(expected[k].voxels)) {
+        if (level.pyramidVoxels != int64_t(expected[k].voxels.size())) {
             return fail() << "level " << k << " is of " << level.pyramidVoxels
-                          << " voxels, should be " << expected[k].voxels;
+                          << " voxels, should be " << expected[k].voxels.size();
         }
         for (int32_t i = 0; i < level.size(); ++i) {
             const auto node = agreeOnNode(expected[k].nodes[i], tree, level.begin + i, parents);

@@ -55,7 +55,7 @@ struct DenseNode {
 
 struct DenseLevel {
     std::vector<DenseNode> nodes;      ///< in the order of ijk
-    std::size_t voxels = 0;            ///< of the set whose medial balls these are
+    Voxels voxels;                     ///< the set whose medial balls these are
     std::set<std::pair<int, int>> dag; ///< node of the next level, node of this level
 };
 
@@ -186,7 +186,7 @@ private:
     DenseLevel allBalls(const NaiveReference& medial, int level) const
     {
         DenseLevel result;
-        result.voxels = medial.voxels().size();
+        result.voxels = medial.voxels();
         for (const NaiveReference::Ball& ball : medial.balls()) {
             const int64_t radiusSq = hasNorm() ? ball.radiusSq * ball.radiusSq : ball.radiusSq;
             result.nodes.push_back({centerOf(ball.center, level), radiusOf(radiusSq, level), -1,

@@ -74,6 +74,7 @@ inline void fillDescription(SphereTree& tree)
     tree.settings.padding = 0.1;
     tree.settings.dag = true;
     tree.settings.edges = openvdb_spheretree::DagEdges::Intersecting;
+    tree.settings.topology = false;
     tree.settings.name = "sample tree";
     tree.object.name = "bunny, left ear";
     tree.object.voxels = int64_t(1) << 40;
@@ -83,7 +84,7 @@ inline void fillDescription(SphereTree& tree)
 }
 
 /// Three levels of 1, 2 and 5 nodes: negative and half-voxel centres, one centre on all levels, an
-/// error known, one unknown, one never asked for, a DAG, and no setting at its default.
+/// error known, one unknown, one never asked for, one topology, a DAG, and no setting at its default.
 inline SphereTree sampleTree()
 {
     SphereTree tree;
@@ -107,6 +108,7 @@ inline SphereTree sampleTree()
     tree.radiusWorld[6] = 0;
     tree.levels[0].error = openvdb_spheretree::LevelError{int64_t(1) << 41, 5, 1, 0.1, 1.0 / 3};
     tree.levels[1].errorUnknown = "too many rows";
+    tree.levels[0].topology = openvdb_spheretree::LevelTopology{3, int64_t(1) << 33, 2};
     tree.dag = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {1, 5}, {2, 5}, {2, 6}, {2, 7}};
     return tree;
 }
@@ -167,6 +169,7 @@ inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
     EXPECT_EQ(a.settings.padding, b.settings.padding);
     EXPECT_EQ(a.settings.dag, b.settings.dag);
     EXPECT_EQ(a.settings.edges, b.settings.edges);
+    EXPECT_EQ(a.settings.topology, b.settings.topology);
     EXPECT_EQ(a.settings.name, b.settings.name);
     EXPECT_EQ(a.object.name, b.object.name);
     EXPECT_EQ(a.object.voxels, b.object.voxels);
@@ -191,6 +194,7 @@ inline void expectSameLevel(const SphereTreeLevel& a, const SphereTreeLevel& b)
     EXPECT_EQ(a.begin, b.begin);
     EXPECT_EQ(a.end, b.end);
     EXPECT_EQ(a.pyramidVoxels, b.pyramidVoxels);
+    EXPECT_TRUE(a.topology == b.topology);
     EXPECT_EQ(a.errorUnknown, b.errorUnknown);
     ASSERT_EQ(a.error.has_value(), b.error.has_value());
     if (!a.error) return;

@@ -389,6 +389,22 @@ TEST(SphereTree, AddsTheTimesOfItsStages)
     EXPECT_GT(seconds.power, 0);
     EXPECT_GT(seconds.medial, 0);
     EXPECT_GT(seconds.tree, 0);
+    EXPECT_GT(seconds.topology, 0);
+}
+
+TEST(SphereTree, CountsTopologyUnlessToldNotTo)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        for (const bool topology : {true, false}) {
+            settings.topology = topology;
+            BuildSeconds seconds;
+            const SphereTree tree = buildSphereTree(*someGrid(), settings, nullptr, &seconds);
+            for (const SphereTreeLevel& level : tree.levels) {
+                EXPECT_EQ(level.topology.has_value(), topology);
+            }
+            EXPECT_EQ(seconds.topology > 0, topology);
+        }
+    }
 }
 
 TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
@@ -436,6 +452,8 @@ TEST(KeepLevel, KeepsWhatTheTreeRecords)
     EXPECT_NE(kept.transform, tree.transform);
     ASSERT_TRUE(kept.levels[0].error.has_value());
     EXPECT_EQ(kept.levels[0].error->covered, 5);
+    ASSERT_TRUE(kept.levels[0].topology.has_value());
+    EXPECT_TRUE(kept.levels[0].topology == tree.levels[1].topology);
 }
 
 TEST(KeepLevel, RejectsALevelThatIsNotThere)

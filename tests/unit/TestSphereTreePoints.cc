@@ -314,6 +314,11 @@ TEST(SphereTreePoints, AttributesAndMetadataHaveTheNamesAndTypesOfTheFormat)
     EXPECT_EQ(text("spheretree_object_voxels"), std::to_string(int64_t(1) << 40));
     EXPECT_EQ(text("spheretree_level_0_spheres"), "5");
     EXPECT_EQ(text("spheretree_level_0_excess"), "5");
+    EXPECT_EQ(text("spheretree_topology"), "false");
+    EXPECT_EQ(text("spheretree_level_0_components"), "3");
+    EXPECT_EQ(text("spheretree_level_0_tunnels"), std::to_string(int64_t(1) << 33));
+    EXPECT_EQ(text("spheretree_level_0_cavities"), "2");
+    EXPECT_EQ(text("spheretree_level_1_components"), "none");
     EXPECT_EQ(text("spheretree_level_1_covered"), "none");
     EXPECT_EQ(text("spheretree_level_1_error_unknown"), "too many rows");
     EXPECT_EQ(text("spheretree_level_2_pyramid_voxels"), "3");
@@ -566,7 +571,8 @@ TEST(SphereTreePoints, MissingMetadataIsNamed)
     for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
         const std::string key = it->first;
         const bool optional = key == "spheretree_level_1_error_unknown"
-            || key == "spheretree_level_0_covered" || key.rfind("spheretree_", 0) != 0;
+            || key == "spheretree_level_0_covered" || key == "spheretree_level_0_components"
+            || key == "spheretree_topology" || key.rfind("spheretree_", 0) != 0;
         if (optional || key == "spheretree_format") continue;
         const PointDataGrid::Ptr grid = toPoints(sampleTree());
         grid->removeMeta(key);
@@ -574,6 +580,22 @@ TEST(SphereTreePoints, MissingMetadataIsNamed)
         ++keys;
     }
     EXPECT_GE(keys, 25);
+}
+
+TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
+{
+    SphereTree tree = sampleTree();
+    tree.dag.clear(); // which is a grid of its own
+    tree.settings.dag = false;
+    tree.settings.topology = true;
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    for (const char* key :
+        {"topology", "level_0_components", "level_0_tunnels", "level_0_cavities"}) {
+        grid->removeMeta("spheretree_" + std::string(key));
+    }
+    tree.settings.topology = false;
+    tree.levels[0].topology.reset();
+    expectSameTree(fromPoints(*grid), tree);
 }
 
 TEST(SphereTreePoints, MetadataOutOfRangeIsAnError)

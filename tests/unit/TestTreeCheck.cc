@@ -81,6 +81,7 @@ SphereTree validTree(const BoolGrid& object, TreeType type = TreeType::Extended)
         tree.levels[k].end = k == 0 ? 5 : begins[k - 1];
         tree.levels[k].pyramidVoxels = voxels[k];
     }
+    tree.levels[0].topology = LevelTopology{2, 0, 0};
     tree.dag = {{0, 1}, {0, 2}, {1, 3}, {2, 4}};
     computeLevelErrors(tree, object);
     return tree;
@@ -277,6 +278,25 @@ TEST_F(TreeCheck, SaysWhenARecordedErrorIsWrong)
         "level 0 records 12.5 % Hamming error, but it is 0");
     expectFailure([](SphereTree& tree) { tree.levels[0].error->hausdorff = 1; },
         "level 0 records 1 voxels of Hausdorff distance, but it is 0");
+}
+
+TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)
+{
+    expectFailure(
+        [](SphereTree& tree) {
+            tree.levels[0].topology = LevelTopology{1, 0, 0};
+        },
+        "level 0 records 1 components of the object, which has 2");
+    expectFailure(
+        [](SphereTree& tree) {
+            tree.levels[0].topology = LevelTopology{2, 4, 0};
+        },
+        "level 0 records 4 tunnels of the object, which has 0");
+    expectFailure(
+        [](SphereTree& tree) {
+            tree.levels[0].topology = LevelTopology{2, 0, 5};
+        },
+        "level 0 records 5 cavities of the object, which has 0");
 }
 
 TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)
