@@ -42,7 +42,7 @@ struct PictureSettings {
     int samples = 4;
     /// Rays from a pixel to the sky, 1 to kMaxLightRays, and half as many to the lamp; a sample sends
     /// one of each at least. More of them make shadows less grainy; time is proportional to them.
-    int lightRays = 16;
+    int lightRays = 24;
 
     static constexpr int kMaxSide = 16384;
     static constexpr int kMaxSamples = 16;
@@ -63,7 +63,8 @@ struct PictureSettings {
 Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     const PictureSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @brief Draw the active voxels of @a object as cubes, tiles included. Parameters as above.
+/// @brief Draw the active voxels of @a object as cubes, tiles included. Parameters as above; an eye
+/// within the object sees what of it there is to see beyond the voxel or tile that holds it.
 /// @throw openvdb::ValueError if the object is empty, its voxels are not uniform, or the camera or a
 ///        setting is wrong
 /// @throw Interrupted if the interrupter said so
