@@ -31,10 +31,12 @@ bool meet(const SphereTree& tree, int32_t s, int32_t t)
     return beyond <= reach && beyond * beyond <= 4 * Wide(tree.coverSq[s]) * tree.coverSq[t];
 }
 
-/// Around a sphere, a voxel wider than needed so that rounding is no matter.
+/// Around a sphere, a voxel wider than needed so that rounding is no matter. The ball of a norm lies
+/// in the box of its radius, but not always in the Euclidean ball.
 detail::Bound boundOf(const SphereTree& tree, int32_t id)
 {
-    return detail::Bound::ofBall(tree.center[id], tree.radius[id] + 1);
+    const auto ball = detail::Bound::ofBall(tree.center[id], tree.radius[id] + 1);
+    return tree.settings.dist.isEuclidean() ? ball : detail::Bound::ofBox(ball.box);
 }
 
 detail::BoundingTree boundsOf(

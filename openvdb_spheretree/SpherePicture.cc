@@ -277,6 +277,11 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
 {
     camera.validate();
     settings.validate();
+    if (!tree.settings.dist.isEuclidean()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "pictures show spheres, and the balls of dist=" << toString(tree.settings.dist)
+                                                            << " are none");
+    }
     const SphereTreeLevel& drawn = levelOf(tree, level);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
     const detail::RayScene<detail::BallShape> scene(ballsOf(tree, drawn), interrupter);

@@ -58,7 +58,8 @@ struct PictureSettings {
 /// @param camera       in world space; viewOf() makes one that suits
 /// @param settings     size, colours, quality
 /// @param interrupter  may be null; asked from many threads
-/// @throw openvdb::ValueError if the tree has no such level, or the camera or a setting is wrong
+/// @throw openvdb::ValueError if the tree has no such level, its balls are not Euclidean, or the
+///        camera or a setting is wrong
 /// @throw Interrupted if the interrupter said so
 Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     const PictureSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);

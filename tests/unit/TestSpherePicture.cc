@@ -273,6 +273,10 @@ TEST(SpherePicture, WhatIsOutOfRangeIsNamed)
     const auto whyNot = [&](int level, const Camera& camera, const PictureSettings& settings) {
         return messageOf<openvdb::ValueError>([&] { renderLevel(tree, level, camera, settings); });
     };
+    SphereTree cubes = tree;
+    cubes.settings.dist = distanceFromString("linf");
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { renderLevel(cubes, 0, Camera(), small()); }), "linf"));
     EXPECT_TRUE(mentions(whyNot(3, Camera(), small()), "no level 3: it has levels 0 to 0"));
     Camera blind;
     blind.eye = blind.lookAt;
