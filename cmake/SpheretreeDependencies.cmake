@@ -3,6 +3,7 @@
 
 spheretree_find_openvdb()
 find_package(ZLIB QUIET)
+find_package(PNG QUIET)
 find_package(hwy CONFIG QUIET)
 
 set(missing "")
@@ -10,6 +11,7 @@ foreach(dependency IN ITEMS
         "OpenVDB::openvdb|OpenVDB|libopenvdb-dev libboost-iostreams-dev libblosc-dev"
         "TBB::tbb|oneTBB|libtbb-dev"
         "ZLIB::ZLIB|zlib|zlib1g-dev"
+        "PNG::PNG|libpng|libpng-dev"
         "hwy::hwy|Highway|libhwy-dev")
     string(REPLACE "|" ";" dependency "${dependency}")
     list(GET dependency 0 target)

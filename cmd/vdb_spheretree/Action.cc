@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 namespace command {
 
@@ -52,6 +51,7 @@ std::string allowedText(const OptionSpec& option)
     case OptionKind::Flag: return "1 or 0";
     case OptionKind::Integer: return "a whole number" + (bounded ? ", " + rangeText(option) : "");
     case OptionKind::Real: return "a number" + (bounded ? ", " + rangeText(option) : "");
+    case OptionKind::Vector: return "three numbers, a comma between";
     default: break;
     }
     std::string allowed;
@@ -74,6 +74,7 @@ bool isAllowed(const OptionSpec& option, const std::string& value)
         const auto number = parseNumber<double>(value);
         return number && inRange(*number);
     }
+    case OptionKind::Vector: return parseVector(value).has_value();
     case OptionKind::Choice:
         return std::find(option.choices.begin(), option.choices.end(), value)
             != option.choices.end();
@@ -108,6 +109,11 @@ OptionSpec real(const std::string& name, const std::string& fallback, double low
     const std::string& doc)
 {
     return {name, OptionKind::Real, fallback, doc, lowest, highest};
+}
+
+OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc)
+{
+    return {name, OptionKind::Vector, fallback, doc};
 }
 
 OptionSpec choice(
@@ -199,6 +205,27 @@ int64_t ActionCall::integer(const std::string& option) const
 double ActionCall::real(const std::string& option) const
 {
     return *parseNumber<double>(text(option));
+}
+
+std::array<double, 3> ActionCall::vector(const std::string& option) const
+{
+    return *parseVector(text(option));
+}
+
+std::optional<std::array<double, 3>> parseVector(const std::string& text)
+{
+    std::array<double, 3> numbers;
+    size_t begin = 0;
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        const bool last = i + 1 == numbers.size();
+        const size_t end = last ? text.size() : text.find(',', begin);
+        if (end == std::string::npos) return {};
+        const auto number = parseNumber<double>(text.substr(begin, end - begin));
+        if (!number || !std::isfinite(*number)) return {};
+        numbers[i] = *number;
+        begin = end + 1;
+    }
+    return numbers;
 }
 
 void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value)

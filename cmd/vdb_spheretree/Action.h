@@ -7,10 +7,12 @@
 
 #include "Errors.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ enum class OptionKind {
     Flag,    ///< 1|0|true|false|yes|no|on|off
     Integer, ///< within [lowest, highest]
     Real,    ///< within [lowest, highest]
+    Vector,  ///< three numbers, a comma between
     Choice,  ///< one of `choices`
     Later    ///< reserved: has a meaning in a later version only
 };
@@ -50,6 +53,7 @@ OptionSpec integer(const std::string& name, const std::string& fallback, int64_t
     int64_t highest, const std::string& doc);
 OptionSpec real(const std::string& name, const std::string& fallback, double lowest, double highest,
     const std::string& doc);
+OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc);
 OptionSpec choice(const std::string& name, const std::vector<std::string>& choices,
     const std::string& doc); ///< the first choice is the default
 OptionSpec later(const std::string& name);
@@ -101,12 +105,16 @@ public:
     bool flag(const std::string& option) const;
     int64_t integer(const std::string& option) const;
     double real(const std::string& option) const;
+    std::array<double, 3> vector(const std::string& option) const;
     /// @}
 
 private:
     const ActionSpec* mSpec;
     std::map<std::string, std::vector<std::string>> mValues; ///< one, or the items of a list
 };
+
+/// @return the three numbers of a text such as `1,0.5,-2`, or nothing if it is none.
+std::optional<std::array<double, 3>> parseVector(const std::string& text);
 
 /// @brief Check one value against its option.
 /// @throw CommandError (usage) naming the action, the option, the value and what is allowed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WriteAction.cc
-/// @brief -write: grids and sphere-trees to files. All files of one -write are complete before the
+/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are complete before the
 /// first takes its place.
 
 #include "Actions.h"
@@ -8,9 +8,11 @@
 #include "FdBuffer.h"
 #include "Session.h"
 #include "VdbStream.h"
+#include "WritePicture.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
+#include <openvdb_spheretree/Picture.h>
 #include <openvdb_spheretree/SphereTreeCsv.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
 
@@ -27,7 +29,7 @@ namespace {
 bool isLaterFormat(const std::string& path)
 {
     const std::string extension = extensionOf(path);
-    for (const char* known : {".json", ".ply", ".usda", ".sph", ".html", ".png"}) {
+    for (const char* known : {".json", ".ply", ".usda", ".sph", ".html"}) {
         if (extension == known) return true;
     }
     return false;
@@ -55,13 +57,14 @@ void check(const ActionCall& call, Plan& plan)
             throwUsage(path + ": files of this kind are not available in this version");
         }
         const FileKind kind = fileKind(path);
-        if (kind != FileKind::Vdb && kind != FileKind::Csv) {
+        if (kind != FileKind::Vdb && kind != FileKind::Csv && kind != FileKind::Png) {
             throwUsage(path
-                + ": files of this kind are not written; it writes .vdb (or stdout.vdb) "
-                  "and .csv");
+                + ": files of this kind are not written; it writes .vdb (or stdout.vdb), "
+                  ".csv and .png");
         }
         plan.addOutput(path);
     }
+    checkPictureOptions(call);
 }
 
 openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items)
@@ -117,8 +120,8 @@ void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
 
 class Writer {
 public:
-    Writer(const ActionCall& call, const std::vector<StackItem*>& items)
-        : mItems(items), mCompression(compressionOf(call))
+    Writer(const ActionCall& call, const std::vector<StackItem*>& items, Session& session)
+        : mCall(call), mItems(items), mSession(session), mCompression(compressionOf(call))
     {}
 
     void write(const std::string& path)
@@ -130,11 +133,7 @@ public:
         mFiles.push_back(std::make_unique<AtomicFile>(path));
         AtomicFile& file = *mFiles.back();
         try {
-            if (fileKind(path) == FileKind::Csv) {
-                openvdb_spheretree::writeCsv(onlyTree(mItems, path), file.stream());
-            } else {
-                writeVdb(file.stream(), grids(), mCompression, /*seekable=*/true);
-            }
+            writeTo(file.stream(), path);
             file.finish();
         } catch (const std::ios_base::failure&) {
             throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
@@ -148,6 +147,17 @@ public:
     }
 
 private:
+    void writeTo(std::iostream& stream, const std::string& path)
+    {
+        switch (fileKind(path)) {
+        case FileKind::Csv: openvdb_spheretree::writeCsv(onlyTree(mItems, path), stream); break;
+        case FileKind::Png:
+            openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), stream);
+            break;
+        default: writeVdb(stream, grids(), mCompression, /*seekable=*/true);
+        }
+    }
+
     const openvdb::GridCPtrVec& grids()
     {
         if (!mGrids.empty()) return mGrids;
@@ -155,7 +165,9 @@ private:
         return mGrids = gridsOf(mItems);
     }
 
+    const ActionCall& mCall;
     const std::vector<StackItem*>& mItems;
+    Session& mSession;
     const uint32_t mCompression;
     openvdb::GridCPtrVec mGrids;
     std::vector<std::unique_ptr<AtomicFile>> mFiles;
@@ -166,7 +178,7 @@ void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
     const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
-    Writer writer(call, items);
+    Writer writer(call, items, session);
     for (const std::string& path : call.list("files")) writer.write(path);
     writer.commit();
     for (StackItem* item : items) item->written = !call.flag("keep");
@@ -178,11 +190,13 @@ void run(const ActionCall& call, Session& session)
 ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
-        "write grids and sphere-trees (.vdb, stdout.vdb), or one sphere-tree as a table (.csv)"};
+        "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as a table (.csv), or a "
+        "picture of a level of it or of an object (.png)"};
     action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};
+    for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
     action.failure = kOutput;
     action.check = check;
     action.run = run;

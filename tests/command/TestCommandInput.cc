@@ -265,6 +265,34 @@ TEST_F(CommandInput, ALevelThatTheTreeDoesNotHave)
     expectInputError("-read a.vol -spheretree -spheres2mask 77 -write t.vdb", "77");
 }
 
+TEST_F(CommandInput, APictureOfALevelThatTheTreeDoesNotHave)
+{
+    writeBlock("a.vol");
+    expectInputError("-read a.vol -spheretree -write t.vdb t.png level=77", "no level 77");
+}
+
+TEST_F(CommandInput, APictureOfBallsThatAreNoSpheres)
+{
+    writeBlock("a.vol");
+    expectInputError("-read a.vol -spheretree dist=l1 -write t.vdb t.png", "dist=l1");
+}
+
+TEST_F(CommandInput, APictureIsOfOneTreeOrGrid)
+{
+    writeGrids("two.vdb", {sphereGrid("a"), sphereGrid("b")});
+    expectInputError("-read two.vdb -write t.vdb t.png", "choose with vdb=");
+    expectInputError("-read two.vdb -spheretree vdb=a name=c -spheretree vdb=b name=d "
+                     "-write t.vdb t.png",
+        "choose with vdb=");
+}
+
+TEST_F(CommandInput, APictureOptionThatSaysNothingAboutAGrid)
+{
+    writeBlock("a.vol");
+    expectInputError("-read a.vol -write t.vdb t.png level=1", "level is for sphere-trees");
+    expectInputError("-read a.vol -write t.vdb t.png color=id", "is for sphere-trees");
+}
+
 TEST_F(CommandInput, AMaskOptionThatSaysNothingAboutTheGrid)
 {
     writeGrids("ls.vdb", {sphereGrid("ball")});

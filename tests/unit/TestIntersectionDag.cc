@@ -77,6 +77,19 @@ TEST(IntersectionDag, IsExactAtTheLargestCoordinates)
         intersectionDag(starOf({{a, diameter * diameter}, {b, diameter * diameter - 1}})).empty());
 }
 
+TEST(IntersectionDag, CubesMeetAtTheirCorners)
+{
+    for (const double apart : {4.0, 4.5}) {
+        SphereTree tree = starOf({{{0, 0, 0}, 16}, {{4, apart, 4}, 16}});
+        tree.settings.dist = distanceFromString("linf");
+        EXPECT_EQ(intersectionDag(tree).size(), apart == 4 ? 1u : 0u);
+    }
+    const openvdb::Vec3d far(1000, 1000, 1000);
+    SphereTree tree = starOf({{{0, 0, 0}, 4000000}, {far, 0}}); // far outside the Euclidean ball
+    tree.settings.dist = distanceFromString("linf");
+    EXPECT_EQ(intersectionDag(tree).size(), 1u);
+}
+
 TEST(IntersectionDag, IsEveryPairThatMeets)
 {
     for (uint32_t seed = 0; seed < 20; ++seed) {

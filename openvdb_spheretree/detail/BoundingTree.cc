@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BoundingTree.h"
+
+#include "Parallel.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+using openvdb::Vec3d;
+
+constexpr int32_t kLeafSize = 6;
+constexpr int kBins = 16;
+constexpr int kAxes = 4; ///< the centre's three, and the radius
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double coordinate(const Bound& bound, int axis)
+{
+    return axis < 3 ? bound.center[axis] : bound.radius;
+}
+
+/// Around some bodies: their box, and the range of their centres and radii.
+struct Extent {
+    Box box;
+    std::array<double, kAxes> lo{kInfinity, kInfinity, kInfinity, kInfinity};
+    std::array<double, kAxes> hi{-kInfinity, -kInfinity, -kInfinity, -kInfinity};
+
+    void add(const Bound& bound)
+    {
+        box.expand(bound.box);
+        for (int axis = 0; axis < kAxes; ++axis) {
+            lo[axis] = std::min(lo[axis], coordinate(bound, axis));
+            hi[axis] = std::max(hi[axis], coordinate(bound, axis));
+        }
+    }
+    void add(const Extent& o)
+    {
+        if (o.box.empty()) return;
+        box.expand(o.box);
+        for (int axis = 0; axis < kAxes; ++axis) {
+            lo[axis] = std::min(lo[axis], o.lo[axis]);
+            hi[axis] = std::max(hi[axis], o.hi[axis]);
+        }
+    }
+    Vec3d center() const { return (Vec3d(lo[0], lo[1], lo[2]) + Vec3d(hi[0], hi[1], hi[2])) / 2; }
+    int widest() const
+    {
+        int widest = 0;
+        for (int axis = 1; axis < kAxes; ++axis) {
+            if (hi[axis] - lo[axis] > hi[widest] - lo[widest]) widest = axis;
+        }
+        return widest;
+    }
+    /// Half the surface of the box or of a ball around everything, whichever is less: what the
+    /// number of rays through both grows with.
+    double halfArea() const
+    {
+        const Vec3d side = box.max() - box.min();
+        const double ofBox = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+        const Vec3d spread(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
+        const double radius = spread.length() / 2 + hi[3];
+        return std::min(ofBox, 2 * M_PI * radius * radius);
+    }
+};
+
+/// The slices that bodies fall into along the axis on which they spread most.
+struct Bins {
+    explicit Bins(const Extent& all) : axis(all.widest()), lowest(all.lo[axis])
+    {
+        const double width = all.hi[axis] - lowest;
+        scale = width > 0 ? kBins / width : 0;
+    }
+    int binOf(const Bound& bound) const
+    {
+        return std::min(int((coordinate(bound, axis) - lowest) * scale), kBins - 1);
+    }
+    void add(const Bound& bound)
+    {
+        const int bin = binOf(bound);
+        ++count[bin];
+        extent[bin].add(bound);
+    }
+    /// @return the bin that the second half is to start with for the least cost; 0 if all are in
+    ///         one bin.
+    int cheapestSplit() const
+    {
+        std::array<double, kBins> costOfFirst;
+        Extent first, second;
+        int32_t before = 0, after = 0;
+        for (int i = 0; i + 1 < kBins; ++i) {
+            first.add(extent[i]);
+            before += count[i];
+            costOfFirst[i + 1] = before ? before * first.halfArea() : kInfinity;
+        }
+        double cheapest = kInfinity;
+        int best = 0;
+        for (int i = kBins - 1; i > 0; --i) {
+            second.add(extent[i]);
+            after += count[i];
+            const double cost = after ? costOfFirst[i] + after * second.halfArea() : kInfinity;
+            if (cost < cheapest) cheapest = cost, best = i;
+        }
+        return best;
+    }
+
+    int axis;
+    double lowest, scale;
+    std::array<int32_t, kBins> count = {};
+    std::array<Extent, kBins> extent = {};
+};
+
+} // namespace
+
+struct BoundingTree::Builder {
+    const std::vector<Bound>& bounds;
+    openvdb::util::NullInterrupter* interrupter;
+    std::vector<Node>& nodes;
+    std::vector<int32_t>& order;
+
+    /// Fills in node @a index, of the bodies in [begin, end) of the order. Recursion is kDeepest
+    /// deep at most: by cost down to kCostDepth, and halving 2^31 bodies takes 31 steps.
+    void build(int32_t index, int32_t begin, int32_t end, int depth)
+    {
+        constexpr int32_t kCheckFrom = 4096; // asking costs more than a small node
+        if (end - begin > kCheckFrom) checkInterrupt(interrupter);
+        Extent extent;
+        for (int32_t i = begin; i < end; ++i) extent.add(bounds[order[i]]);
+        setBound(nodes[index], extent, begin, end);
+        if (end - begin <= kLeafSize) {
+            nodes[index].first = begin;
+            nodes[index].count = end - begin;
+            return;
+        }
+        const int32_t middle = split(begin, end, extent, depth);
+        const auto child = int32_t(nodes.size());
+        nodes[index].first = child;
+        nodes.resize(nodes.size() + 2);
+        build(child, begin, middle, depth + 1);
+        build(child + 1, middle, end, depth + 1);
+    }
+
+    void setBound(Node& node, const Extent& extent, int32_t begin, int32_t end) const
+    {
+        constexpr float kUp = std::numeric_limits<float>::infinity();
+        const Vec3d center = extent.center();
+        for (int axis = 0; axis < 3; ++axis) {
+            node.lo[axis] = std::nextafter(float(extent.box.min()[axis]), -kUp);
+            node.hi[axis] = std::nextafter(float(extent.box.max()[axis]), kUp);
+            node.center[axis] = float(center[axis]);
+        }
+        const Vec3d rounded(node.center[0], node.center[1], node.center[2]);
+        double radius = 0;
+        for (int32_t i = begin; i < end; ++i) {
+            const Bound& bound = bounds[order[i]];
+            radius = std::max(radius, (bound.center - rounded).length() + bound.radius);
+        }
+        node.radius = float(radius * (1 + 1e-6)); // more than all rounding here and in queries
+    }
+
+    int32_t split(int32_t begin, int32_t end, const Extent& extent, int depth)
+    {
+        Bins bins(extent);
+        int bin = 0;
+        if (depth < kCostDepth && bins.scale > 0) {
+            for (int32_t i = begin; i < end; ++i) bins.add(bounds[order[i]]);
+            bin = bins.cheapestSplit();
+        }
+        if (bin == 0) return halve(begin, end, bins.axis);
+        const auto first = order.begin() + begin;
+        const auto isFirst = [&](int32_t body) { return bins.binOf(bounds[body]) < bin; };
+        return begin + int32_t(std::stable_partition(first, order.begin() + end, isFirst) - first);
+    }
+
+    int32_t halve(int32_t begin, int32_t end, int axis)
+    {
+        const int32_t middle = begin + (end - begin) / 2;
+        std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+            [&](int32_t a, int32_t b) {
+                const double ca = coordinate(bounds[a], axis), cb = coordinate(bounds[b], axis);
+                return ca != cb ? ca < cb : a < b;
+            });
+        return middle;
+    }
+};
+
+BoundingTree::BoundingTree(
+    const std::vector<Bound>& bounds, openvdb::util::NullInterrupter* interrupter)
+    : mOrder(bounds.size())
+{
+    if (bounds.empty()) return;
+    std::iota(mOrder.begin(), mOrder.end(), 0);
+    mNodes.reserve(bounds.size());
+    mNodes.resize(1);
+    Builder{bounds, interrupter, mNodes, mOrder}.build(0, 0, int32_t(bounds.size()), 0);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

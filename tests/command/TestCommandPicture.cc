@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// -write picture.png: what is drawn, how large, and from where.
+
+#include "CommandRunner.h"
+
+namespace {
+
+using command_test::CommandTest;
+using command_test::readText;
+using command_test::Result;
+
+class CommandPicture : public CommandTest {
+protected:
+    void SetUp() override
+    {
+        CommandTest::SetUp();
+        writeBlock("a.vol");
+        ASSERT_EQ(run("-read a.vol -mask -spheretree keep=1 name=tree -write t.vdb").exitCode, 0);
+    }
+
+    /// The bytes of the picture that a line of actions writes, small unless it says otherwise.
+    std::string draw(const std::string& actions, const std::string& size = "width=80 height=60")
+    {
+        const Result result = run(actions + " " + size);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        const std::string picture = readText(path("p.png"));
+        std::filesystem::remove(path("p.png"));
+        EXPECT_EQ(picture.substr(0, 8), "\x89PNG\r\n\x1a\n");
+        return picture;
+    }
+
+    /// A number of the header, from the byte at which it stands.
+    static int number(const std::string& picture, size_t at)
+    {
+        int value = 0;
+        for (size_t i = at; i < at + 4; ++i) value = 256 * value + uint8_t(picture.at(i));
+        return value;
+    }
+};
+
+TEST_F(CommandPicture, HasTheSizeAskedFor)
+{
+    const std::string picture = draw("-read a.vol -write p.png", "width=90 height=7");
+    EXPECT_EQ(number(picture, 16), 90);
+    EXPECT_EQ(number(picture, 20), 7);
+    const std::string usual = draw("-read a.vol -write p.png", "");
+    EXPECT_EQ(number(usual, 16), 1280);
+    EXPECT_EQ(number(usual, 20), 960);
+}
+
+TEST_F(CommandPicture, ShowsTheTreeRatherThanGridsAndWhatVdbChooses)
+{
+    const std::string tree = draw("-read t.vdb grids=tree -write p.png");
+    const std::string object = draw("-read a.vol -write p.png");
+    EXPECT_NE(tree, object);
+    EXPECT_EQ(draw("-read t.vdb -write p.png"), tree);
+    EXPECT_EQ(draw("-read t.vdb -write p.png vdb=1"), object) << "the mask is the older one";
+    EXPECT_EQ(draw("-read t.vdb -write p.png vdb=tree"), tree);
+}
+
+TEST_F(CommandPicture, EveryOptionMakesADifference)
+{
+    const std::string tree = "-read t.vdb -write p.png vdb=tree ";
+    const std::string usual = draw(tree);
+    EXPECT_EQ(draw(tree + "level=0 color=parent fov=30 up=0,1,0"), usual);
+    for (const char* option : {"level=1", "color=id", "color=1,0.5,0", "color=level", "fov=50",
+             "eye=30,20,9", "lookat=0,0,0", "up=0,0,1"}) {
+        EXPECT_NE(draw(tree + option), usual) << option;
+    }
+}
+
+TEST_F(CommandPicture, IsTheSameForAnyNumberOfThreads)
+{
+    const std::string one = draw("-threads 1 -read t.vdb -write p.png vdb=tree");
+    EXPECT_EQ(draw("-threads 4 -read t.vdb -write p.png vdb=tree"), one);
+}
+
+TEST_F(CommandPicture, ACameraThatOnlyTheObjectProvesWrongWritesNothing)
+{
+    const auto before = files();
+    // The block's voxels are (0,0,0) to (7,5,4).
+    const Result same = run("-read a.vol -write u.vdb p.png eye=3.5,2.5,2");
+    EXPECT_EQ(same.exitCode, 2) << same.err;
+    EXPECT_NE(same.err.find("eye and lookat are the same point"), std::string::npos) << same.err;
+    const Result along = run("-read a.vol -write u.vdb p.png eye=3.5,99,2");
+    EXPECT_EQ(along.exitCode, 2) << along.err;
+    EXPECT_NE(along.err.find("up="), std::string::npos) << along.err;
+    EXPECT_EQ(files(), before);
+}
+
+} // namespace
