@@ -3,6 +3,8 @@
 
 #include "Terminal.h"
 
+#include <openvdb_spheretree/DagAdjacency.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
@@ -46,7 +48,7 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
 
 void printRows(std::ostream& out, const std::vector<Row>& rows)
 {
-    std::vector<size_t> width(kHeader.size(), 0);
+    std::vector<size_t> width(rows.front().size(), 0);
     for (const Row& row : rows) {
         for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
     }
@@ -70,6 +72,27 @@ void printReasons(std::ostream& out, const SphereTree& tree)
         out << "'-' from level " << level.level << " on: " << reason << "\n";
         last = reason;
     }
+}
+
+std::string range(const openvdb_spheretree::Degrees& degrees)
+{
+    return withCommas(degrees.min) + " / " + fixed(degrees.mean, 2) + " / "
+        + withCommas(degrees.max);
+}
+
+void printDag(std::ostream& out, const SphereTree& tree)
+{
+    if (tree.dag.empty()) return;
+    out << "Sphere-DAG: " << withCommas(int64_t(tree.dag.size())) << ' '
+        << toString(tree.settings.edges) << " edges, to each level from the one above\n";
+    std::vector<Row> rows = {{"level", "edges", "children min / mean / max",
+        "parents min / mean / max", "shared", "tree in dag %"}};
+    for (const auto& level : dagStats(tree)) {
+        rows.push_back({std::to_string(level.level), withCommas(level.edges),
+            range(level.childrenPerParent), range(level.parentsPerChild),
+            withCommas(level.sharedChildren), fixed(level.treeEdgesInDagPercent, 1)});
+    }
+    printRows(out, rows);
 }
 
 void printSeconds(std::ostream& out, const Session& session)
@@ -118,6 +141,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
     printRows(out, rows);
     printReasons(out, tree);
+    printDag(out, tree);
     printSeconds(out, session);
     return out.str();
 }

@@ -117,6 +117,29 @@ TEST(SphereDag, PassesOverVoxelsWhoseParentIsOff)
     }
 }
 
+/// Labels of balls of more than 127 voxels radius are kept in wider steps. The reference, one by
+/// one, would take a day: here labels are looked up in the levels themselves.
+TEST(SphereDag, IsThatOfTheLabelsOfLargeBalls)
+{
+    openvdb::MaskTree::Ptr voxels = maskOf(CoordBBox(Coord(-3, 0, 0), Coord(268, 259, 260)));
+    voxels->setValueOff(Coord(3, 4, 5));
+    const PyramidStep step{Coord(-8, 0, 0), 3, 3};
+    const MedialLevel fine(*voxels, 3, nullptr), coarse(*coarsen(*voxels, step), 3, nullptr);
+    ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
+    std::set<std::pair<int32_t, int32_t>> expected;
+    forEachVoxel(fine.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
+        if ((voxel[1] + voxel[2]) % 7 != 0) return; // some of them
+        const PowerMap::Voxel site = fine.labels.label(PowerMap::Voxel{leaf, k});
+        expected.emplace(coarse.labelOf(step.parentVoxel(voxel)),
+            fine.ballAt(fine.layout.voxel(site.leaf, site.offset)));
+    });
+    std::set<std::pair<int32_t, int32_t>> edges;
+    for (const DagEdge& edge : sphereDag(fine, coarse, step)) {
+        edges.emplace(edge.parent, edge.child);
+    }
+    EXPECT_TRUE(std::includes(edges.begin(), edges.end(), expected.begin(), expected.end()));
+}
+
 TEST(SphereDag, IsEmptyWhereNoParentIsOn)
 {
     const MedialLevel fine(*maskOf(shapes::box(Coord(4, 4, 4))), 3, nullptr);
