@@ -120,7 +120,7 @@ struct Levels {
         for (const auto& voxels : pyramid.levels) {
             const openvdb::Coord origin = medial.empty() ? pyramid.origin : openvdb::Coord();
             steps.push_back({origin, 2, 3});
-            medial.push_back(std::make_unique<st::MedialLevel>(*voxels, 3, nullptr));
+            medial.push_back(std::make_unique<st::MedialLevel>(*voxels, 3, st::Distance(), nullptr));
         }
     }
     std::vector<std::unique_ptr<st::MedialLevel>> medial;
