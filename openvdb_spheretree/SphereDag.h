@@ -4,8 +4,18 @@
 ///
 /// t -> s when some voxel v of the finer level has label s and its parent voxel has label t
 /// (Broutta et al. 2009, 3.1, Definition 2 and Algorithm 1): one scan of the voxels. Every edge is
-/// witnessed by a voxel, and every voxel whose parent is on witnesses an edge. Exact. Cost: linear
-/// in the finer level's voxels, and sorting the edges. Tests: TestSphereDag.cc.
+/// witnessed by a voxel, and every voxel whose parent is on witnesses an edge.
+///
+/// 1. The ball that labels each voxel of the coarser level, and where that changes
+///    (detail/ParentLabels.h); which ball is centred at which voxel (detail/BallIndex.h).
+/// 2. `scanRun`: each run of leaves along x of the finer level, in words of 64 voxels. Labels are
+///    looked up where they may differ from those before along x (detail/RunLabels.h); a pair of
+///    labels is looked at where it differs from those before along x, y and z, on word bits alone.
+/// 3. `sortedEdges`: a counting sort by child, then by parent; no comparisons.
+///
+/// Exact, and the same for any number of threads. Cost: linear in the voxels of both levels and in
+/// the edges, about that of the finer level's power labels; 4 bytes a voxel of the coarser level and
+/// 16 an edge while it runs. Tests: TestSphereDag.cc. DagAdjacency.h makes rows of the result.
 
 #pragma once
 

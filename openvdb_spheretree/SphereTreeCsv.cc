@@ -24,13 +24,6 @@ void append(std::string& row, Number value, char separator)
     row += separator;
 }
 
-/// The digital ball's centre as files show it: at level 0 in the index space of the source grid,
-/// which is where the sphere's own centre is, above in the level's own grid.
-openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
-{
-    return level == 0 ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
-}
-
 void appendNode(std::string& text, const SphereTree& tree, int32_t id, int level)
 {
     append(text, level, ',');
@@ -52,7 +45,19 @@ void flush(std::string& text, std::ostream& out)
     text.clear();
 }
 
+void finish(std::string& text, std::ostream& out)
+{
+    flush(text, out);
+    out.flush();
+    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
+}
+
 } // namespace
+
+openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
+{
+    return level == 0 ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
+}
 
 void writeCsv(const SphereTree& tree, std::ostream& out)
 {
@@ -63,9 +68,18 @@ void writeCsv(const SphereTree& tree, std::ostream& out)
             if (text.size() >= kFlushBytes) flush(text, out);
         }
     }
-    flush(text, out);
-    out.flush();
-    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
+    finish(text, out);
+}
+
+void writeDagCsv(const SphereTree& tree, std::ostream& out)
+{
+    std::string text = "parent,child\n";
+    for (const DagEdge& edge : tree.dag) {
+        append(text, edge.parent, ',');
+        append(text, edge.child, '\n');
+        if (text.size() >= kFlushBytes) flush(text, out);
+    }
+    finish(text, out);
 }
 
 } // namespace openvdb_spheretree

@@ -17,4 +17,16 @@ namespace openvdb_spheretree {
 /// @throw openvdb::IoError if the stream fails
 void writeCsv(const SphereTree& tree, std::ostream& out);
 
+/// @brief Write the edges of the Sphere-DAG by node id: one header line `parent,child`, then a row
+/// an edge, sorted.
+/// @throw openvdb::IoError if the stream fails
+void writeDagCsv(const SphereTree& tree, std::ostream& out);
+
+/// @return whether the tree has a DAG to write, be it one without edges.
+inline bool hasDag(const SphereTree& tree) { return tree.settings.dag || !tree.dag.empty(); }
+
+/// @return the digital ball's centre as text files show it: at level 0 in the index space of the
+///         source grid, which is where the sphere's own centre is, above in the level's own grid.
+openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level);
+
 } // namespace openvdb_spheretree

@@ -50,6 +50,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".vdb") return FileKind::Vdb;
     if (extension == ".csv") return FileKind::Csv;
     if (extension == ".png") return FileKind::Png;
+    if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
     return FileKind::Unknown;

@@ -10,7 +10,7 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Mesh, Csv, Png, Unknown };
+enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Unknown };
 
 /// @return `.vdb` of `path/Tree.VDB`.
 std::string extensionOf(const std::string& path);

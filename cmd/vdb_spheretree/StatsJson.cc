@@ -1,68 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StatsReport.h"
 
-#include "JsonWriter.h"
+#include <openvdb_spheretree/DagAdjacency.h>
+#include <openvdb_spheretree/JsonWriter.h>
+#include <openvdb_spheretree/SphereTreeJson.h>
 
 namespace command {
 
+using openvdb_spheretree::Degrees;
+using openvdb_spheretree::JsonWriter;
 using openvdb_spheretree::SphereTree;
 using openvdb_spheretree::SphereTreeLevel;
-using openvdb_spheretree::SphereTreeSettings;
 
 namespace {
-
-void writeCoord(JsonWriter& json, const std::string& key, const openvdb::Coord& ijk)
-{
-    json.beginArray(key, /*onOneLine=*/true);
-    for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
-    json.endArray();
-}
-
-void writeObject(JsonWriter& json, const SphereTree& tree)
-{
-    json.beginObject("object");
-    json.value("name", tree.object.name);
-    json.value("voxels", tree.object.voxels);
-    json.value("leaves", tree.object.leaves);
-    json.value("tiles", tree.object.tiles);
-    writeCoord(json, "bbox_min", tree.object.bbox.min());
-    writeCoord(json, "bbox_max", tree.object.bbox.max());
-    json.value("voxel_size", tree.voxelSize());
-    writeCoord(json, "origin", tree.origin);
-    json.endObject();
-}
-
-void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
-{
-    json.beginObject("settings");
-    json.value("tree", toString(settings.tree));
-    json.value("factor", settings.factor);
-    json.value("dim", settings.dim);
-    json.value("dist", openvdb_spheretree::toString(settings.dist));
-    json.value("parent", toString(settings.parent));
-    json.value("final_fit", settings.finalFit);
-    json.value("reconstruct", toString(settings.reconstruct));
-    json.value("scale", toString(settings.scale));
-    json.value("padding", openvdb_spheretree::paddingToString(settings.padding));
-    json.value("dag", settings.dag);
-    json.value("edges", toString(settings.edges));
-    json.value("topology", settings.topology);
-    json.value("name", settings.name);
-    json.endObject();
-}
-
-void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
-{
-    if (!level.topology) {
-        json.null("topology");
-        return;
-    }
-    json.beginObject("topology");
-    json.value("components", level.topology->components);
-    json.value("tunnels", level.topology->tunnels);
-    json.value("cavities", level.topology->cavities);
-    json.endObject();
-}
 
 void writeError(JsonWriter& json, const SphereTreeLevel& level)
 {
@@ -99,6 +49,39 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
     json.endArray();
 }
 
+void writeDegrees(JsonWriter& json, const char* key, const Degrees& degrees)
+{
+    json.beginObject(key);
+    json.value("min", degrees.min);
+    json.value("mean", degrees.mean);
+    json.value("max", degrees.max);
+    json.endObject();
+}
+
+void writeDag(JsonWriter& json, const SphereTree& tree)
+{
+    if (tree.dag.empty()) {
+        json.null("dag");
+        return;
+    }
+    json.beginObject("dag");
+    json.value("edges", int64_t(tree.dag.size()));
+    json.value("kind", toString(tree.settings.edges));
+    json.beginArray("levels");
+    for (const auto& level : dagStats(tree)) {
+        json.beginObject();
+        json.value("level", level.level);
+        json.value("edges", level.edges);
+        writeDegrees(json, "children_per_parent", level.childrenPerParent);
+        writeDegrees(json, "parents_per_child", level.parentsPerChild);
+        json.value("shared_children", level.sharedChildren);
+        json.value("tree_edges_in_dag_percent", level.treeEdgesInDagPercent);
+        json.endObject();
+    }
+    json.endArray();
+    json.endObject();
+}
+
 void writeSeconds(JsonWriter& json, const Session& session)
 {
     const StageSeconds& seconds = session.seconds;
@@ -127,6 +110,7 @@ std::string statsJson(const SphereTree& tree, const Session& session)
     writeObject(json, tree);
     writeSettings(json, tree.settings);
     writeLevels(json, tree);
+    writeDag(json, tree);
     writeSeconds(json, session);
     json.value("peak_bytes", peakBytes());
     json.endObject();

@@ -3,6 +3,8 @@
 
 #include "Terminal.h"
 
+#include <openvdb_spheretree/DagAdjacency.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
@@ -54,7 +56,7 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
 
 void printRows(std::ostream& out, const std::vector<Row>& rows)
 {
-    std::vector<size_t> width(kHeader.size(), 0);
+    std::vector<size_t> width(rows.front().size(), 0);
     for (const Row& row : rows) {
         for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
     }
@@ -85,6 +87,27 @@ void printTopologyReason(std::ostream& out, const SphereTree& tree)
     const auto counted = [](const SphereTreeLevel& level) { return level.topology.has_value(); };
     if (std::all_of(tree.levels.begin(), tree.levels.end(), counted)) return;
     out << "'-' for parts, tunnels and cavities: these were not counted (topology=0)\n";
+}
+
+std::string range(const openvdb_spheretree::Degrees& degrees)
+{
+    return withCommas(degrees.min) + " / " + fixed(degrees.mean, 2) + " / "
+        + withCommas(degrees.max);
+}
+
+void printDag(std::ostream& out, const SphereTree& tree)
+{
+    if (tree.dag.empty()) return;
+    out << "Sphere-DAG: " << withCommas(int64_t(tree.dag.size())) << ' '
+        << toString(tree.settings.edges) << " edges, to each level from the one above\n";
+    std::vector<Row> rows = {{"level", "edges", "children min / mean / max",
+        "parents min / mean / max", "shared", "tree in dag %"}};
+    for (const auto& level : dagStats(tree)) {
+        rows.push_back({std::to_string(level.level), withCommas(level.edges),
+            range(level.childrenPerParent), range(level.parentsPerChild),
+            withCommas(level.sharedChildren), fixed(level.treeEdgesInDagPercent, 1)});
+    }
+    printRows(out, rows);
 }
 
 void printSeconds(std::ostream& out, const Session& session)
@@ -135,6 +158,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     printRows(out, rows);
     printReasons(out, tree);
     printTopologyReason(out, tree);
+    printDag(out, tree);
     printSeconds(out, session);
     return out.str();
 }

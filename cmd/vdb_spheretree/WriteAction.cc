@@ -14,9 +14,11 @@
 #include <openvdb/io/Compression.h>
 #include <openvdb_spheretree/Picture.h>
 #include <openvdb_spheretree/SphereTreeCsv.h>
+#include <openvdb_spheretree/SphereTreeJson.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -29,7 +31,7 @@ namespace {
 bool isLaterFormat(const std::string& path)
 {
     const std::string extension = extensionOf(path);
-    for (const char* known : {".json", ".ply", ".usda", ".sph", ".html"}) {
+    for (const char* known : {".ply", ".usda", ".sph", ".html"}) {
         if (extension == known) return true;
     }
     return false;
@@ -48,6 +50,14 @@ uint32_t compressionOf(const ActionCall& call)
         | (zip ? openvdb::io::COMPRESS_ZIP : openvdb::io::COMPRESS_BLOSC);
 }
 
+/// Where the edges of the tree in @a csv go: x_dag.csv beside x.csv. Whether there will be any is not
+/// known before the work is done, so the place is always kept free for them.
+std::string dagPath(const std::string& csv)
+{
+    const std::string extension = std::filesystem::path(csv).extension().string();
+    return csv.substr(0, csv.size() - extension.size()) + "_dag" + extension;
+}
+
 void check(const ActionCall& call, Plan& plan)
 {
     if (!call.given("files")) throwUsage("names no file");
@@ -57,12 +67,13 @@ void check(const ActionCall& call, Plan& plan)
             throwUsage(path + ": files of this kind are not available in this version");
         }
         const FileKind kind = fileKind(path);
-        if (kind != FileKind::Vdb && kind != FileKind::Csv && kind != FileKind::Png) {
+        if (kind == FileKind::Vol || kind == FileKind::Mesh || kind == FileKind::Unknown) {
             throwUsage(path
                 + ": files of this kind are not written; it writes .vdb (or stdout.vdb), "
-                  ".csv and .png");
+                  ".csv, .json and .png");
         }
         plan.addOutput(path);
+        if (kind == FileKind::Csv) plan.addOutput(dagPath(path));
     }
     checkPictureOptions(call);
 }
@@ -130,13 +141,20 @@ public:
             mToStdout = true;
             return;
         }
-        mFiles.push_back(std::make_unique<AtomicFile>(path));
-        AtomicFile& file = *mFiles.back();
-        try {
-            writeTo(file.stream(), path);
-            file.finish();
-        } catch (const std::ios_base::failure&) {
-            throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
+        switch (fileKind(path)) {
+        case FileKind::Csv: return writeTables(path);
+        case FileKind::Json:
+            return writeFile(path, [&](std::iostream& out) {
+                openvdb_spheretree::writeJson(onlyTree(mItems, path), out);
+            });
+        case FileKind::Png:
+            return writeFile(path, [&](std::iostream& out) {
+                openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), out);
+            });
+        default:
+            writeFile(path, [&](std::iostream& out) {
+                writeVdb(out, grids(), mCompression, /*seekable=*/true);
+            });
         }
     }
 
@@ -147,15 +165,26 @@ public:
     }
 
 private:
-    void writeTo(std::iostream& stream, const std::string& path)
+    template <typename Write>
+    void writeFile(const std::string& path, const Write& write)
     {
-        switch (fileKind(path)) {
-        case FileKind::Csv: openvdb_spheretree::writeCsv(onlyTree(mItems, path), stream); break;
-        case FileKind::Png:
-            openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), stream);
-            break;
-        default: writeVdb(stream, grids(), mCompression, /*seekable=*/true);
+        mFiles.push_back(std::make_unique<AtomicFile>(path));
+        AtomicFile& file = *mFiles.back();
+        try {
+            write(file.stream());
+            file.finish();
+        } catch (const std::ios_base::failure&) {
+            throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
         }
+    }
+
+    void writeTables(const std::string& path)
+    {
+        const openvdb_spheretree::SphereTree& tree = onlyTree(mItems, path);
+        writeFile(path, [&](std::ostream& out) { openvdb_spheretree::writeCsv(tree, out); });
+        if (!openvdb_spheretree::hasDag(tree)) return;
+        writeFile(
+            dagPath(path), [&](std::ostream& out) { openvdb_spheretree::writeDagCsv(tree, out); });
     }
 
     const openvdb::GridCPtrVec& grids()
@@ -190,8 +219,8 @@ void run(const ActionCall& call, Session& session)
 ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
-        "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as a table (.csv), or a "
-        "picture of a level of it or of an object (.png)"};
+        "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as tables (.csv) or JSON "
+        "(.json), or a picture of a level of it or of an object (.png)"};
     action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),

@@ -14,6 +14,7 @@
 #include <openvdb_spheretree/MedialLevel.h>
 #include <openvdb_spheretree/ObjectMask.h>
 #include <openvdb_spheretree/OrPyramid.h>
+#include <openvdb_spheretree/SphereDag.h>
 #include <openvdb_spheretree/SphereTree.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
 #include <openvdb_spheretree/VolFile.h>
@@ -33,6 +34,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -111,6 +113,48 @@ struct Input {
 
 using Stage = std::function<void(const Input&)>;
 
+/// The levels of the OR pyramid with their medial balls, and the steps between them.
+struct Levels {
+    explicit Levels(const openvdb::BoolGrid& grid)
+    {
+        const st::OrPyramid pyramid = st::buildOrPyramid(grid);
+        for (const auto& voxels : pyramid.levels) {
+            const openvdb::Coord origin = medial.empty() ? pyramid.origin : openvdb::Coord();
+            steps.push_back({origin, 2, 3});
+            medial.push_back(
+                std::make_unique<st::MedialLevel>(*voxels, 3, st::Distance(), nullptr));
+        }
+    }
+    std::vector<std::unique_ptr<st::MedialLevel>> medial;
+    std::vector<st::PyramidStep> steps;
+};
+
+const Levels& levelsOf(const Input& in)
+{
+    static std::map<const openvdb::BoolGrid*, Levels> made;
+    return made.try_emplace(&in.grid, in.grid).first->second;
+}
+
+/// The power labels of the levels below @a count, beside which those of the DAG stand.
+void labelLevels(const Input& in, std::size_t count)
+{
+    const Levels& levels = levelsOf(in);
+    for (std::size_t k = 0; k < std::min(count, levels.medial.size()); ++k) {
+        const st::MedialLevel& level = *levels.medial[k];
+        benchmark::DoNotOptimize(st::powerMap(level.layout, level.distances));
+    }
+}
+
+/// The edges from the levels below @a count to those above them.
+void linkLevels(const Input& in, std::size_t count)
+{
+    const Levels& levels = levelsOf(in);
+    for (std::size_t k = 0; k < std::min(count, levels.medial.size() - 1); ++k) {
+        benchmark::DoNotOptimize(
+            st::sphereDag(*levels.medial[k], *levels.medial[k + 1], levels.steps[k]));
+    }
+}
+
 void buildTree(const Input& in, st::TreeType type)
 {
     st::SphereTreeSettings settings;
@@ -135,6 +179,10 @@ const std::vector<std::pair<std::string, Stage>>& stages()
             }},
         {"topology",
             [](const Input& in) { benchmark::DoNotOptimize(st::levelTopology(in.layout)); }},
+        {"power-level-0", [](const Input& in) { labelLevels(in, 1); }},
+        {"dag-level-0", [](const Input& in) { linkLevels(in, 1); }},
+        {"power-all-levels", [](const Input& in) { labelLevels(in, 99); }},
+        {"dag-all-levels", [](const Input& in) { linkLevels(in, 99); }},
         {"pyramid", [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
         {"reversible", [](const Input& in) { buildTree(in, st::TreeType::Reversible); }},
         {"extended", [](const Input& in) { buildTree(in, st::TreeType::Extended); }},
@@ -156,6 +204,7 @@ void run(benchmark::State& state, const std::string& name, const Stage& stage, i
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const Input input(name);
     const double copy = copySeconds(input.layout.leafCount());
+    stage(input); // what a stage makes once for all of its calls
     double best = 1e9;
     for (auto _ : state) {
         const auto start = Clock::now();

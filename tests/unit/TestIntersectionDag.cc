@@ -105,14 +105,17 @@ TEST(IntersectionDag, IsEveryPairThatMeets)
 
 TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
 {
-    for (uint32_t seed = 100; seed < 110; ++seed) {
+    for (uint32_t seed = 100; seed < 160; ++seed) {
         const RandomObject object = randomObject(seed);
         SphereTreeSettings settings;
         settings.tree = TreeType::Reversible;
         settings.dag = true;
-        const SphereTree shared = buildSphereTree(*gridOf(object.voxels), settings);
+        settings.factor = 2 + int(seed % 2);
+        settings.dim = seed % 3 ? 3 : 2;
+        const Voxels voxels = settings.dim == 3 ? object.voxels : flattened(object.voxels);
+        const SphereTree shared = buildSphereTree(*gridOf(voxels), settings);
         settings.edges = DagEdges::Intersecting;
-        const SphereTree meeting = buildSphereTree(*gridOf(object.voxels), settings);
+        const SphereTree meeting = buildSphereTree(*gridOf(voxels), settings);
         EXPECT_TRUE(meeting.dag == intersectionDag(shared)) << object.name;
         EXPECT_TRUE(std::includes(
             meeting.dag.begin(), meeting.dag.end(), shared.dag.begin(), shared.dag.end()))

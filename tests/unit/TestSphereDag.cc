@@ -51,8 +51,8 @@ Coord originOf(const Voxels& voxels) { return boxOf(voxels).min() & ~7; }
 /// Checks the DAG between the voxels and those of the next level, given by the caller.
 void checkStep(const Voxels& voxels, const Voxels& above, const PyramidStep& step)
 {
-    const MedialLevel fine(*maskOf(voxels), step.dim, nullptr);
-    const MedialLevel coarse(*maskOf(above), step.dim, nullptr);
+    const MedialLevel fine(*maskOf(voxels), step.dim, Distance(), nullptr);
+    const MedialLevel coarse(*maskOf(above), step.dim, Distance(), nullptr);
     const std::vector<DagEdge> edges = sphereDag(fine, coarse, step);
     EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
     EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
@@ -117,17 +117,40 @@ TEST(SphereDag, PassesOverVoxelsWhoseParentIsOff)
     }
 }
 
+/// Labels of balls of more than 127 voxels radius are kept in wider steps. The reference, one by
+/// one, would take a day: here labels are looked up in the levels themselves.
+TEST(SphereDag, IsThatOfTheLabelsOfLargeBalls)
+{
+    openvdb::MaskTree::Ptr voxels = maskOf(CoordBBox(Coord(-3, 0, 0), Coord(268, 259, 260)));
+    voxels->setValueOff(Coord(3, 4, 5));
+    const PyramidStep step{Coord(-8, 0, 0), 3, 3};
+    const MedialLevel fine(*voxels, 3, Distance(), nullptr), coarse(*coarsen(*voxels, step), 3, Distance(), nullptr);
+    ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
+    std::set<std::pair<int32_t, int32_t>> expected;
+    forEachVoxel(fine.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
+        if ((voxel[1] + voxel[2]) % 7 != 0) return; // some of them
+        const PowerMap::Voxel site = fine.labels.label(PowerMap::Voxel{leaf, k});
+        expected.emplace(coarse.labelOf(step.parentVoxel(voxel)),
+            fine.ballAt(fine.layout.voxel(site.leaf, site.offset)));
+    });
+    std::set<std::pair<int32_t, int32_t>> edges;
+    for (const DagEdge& edge : sphereDag(fine, coarse, step)) {
+        edges.emplace(edge.parent, edge.child);
+    }
+    EXPECT_TRUE(std::includes(edges.begin(), edges.end(), expected.begin(), expected.end()));
+}
+
 TEST(SphereDag, IsEmptyWhereNoParentIsOn)
 {
-    const MedialLevel fine(*maskOf(shapes::box(Coord(4, 4, 4))), 3, nullptr);
-    const MedialLevel coarse(*maskOf(Voxels{Coord(100, 0, 0)}), 3, nullptr);
+    const MedialLevel fine(*maskOf(shapes::box(Coord(4, 4, 4))), 3, Distance(), nullptr);
+    const MedialLevel coarse(*maskOf(Voxels{Coord(100, 0, 0)}), 3, Distance(), nullptr);
     EXPECT_TRUE(sphereDag(fine, coarse, {Coord(0, 0, 0), 2, 3}).empty());
 }
 
 TEST(SphereDag, StopsWhenInterrupted)
 {
-    const MedialLevel fine(*maskOf(shapes::box(Coord(9, 9, 9))), 3, nullptr);
-    const MedialLevel coarse(*maskOf(shapes::box(Coord(5, 5, 5))), 3, nullptr);
+    const MedialLevel fine(*maskOf(shapes::box(Coord(9, 9, 9))), 3, Distance(), nullptr);
+    const MedialLevel coarse(*maskOf(shapes::box(Coord(5, 5, 5))), 3, Distance(), nullptr);
     StopAfter now;
     EXPECT_THROW(sphereDag(fine, coarse, {Coord(0, 0, 0), 2, 3}, &now), Interrupted);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file JsonWriter.h
-/// @brief Writes JSON, indented. Numbers read back to the same value; what JSON has no number for
+/// @brief Writes JSON, indented, for the exporters and for -stats. Numbers read back to the same value; what JSON has no number for
 /// (an infinity, say) becomes null; text that is not UTF-8 is repaired.
 
 #pragma once
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace command {
+namespace openvdb_spheretree {
 
 class JsonWriter {
 public:
@@ -31,7 +31,11 @@ public:
     void null(const std::string& key);
     /// @}
 
+    /// What has been written since the last clearText(): whole tokens, but not yet valid JSON
+    /// before the last bracket is closed.
     const std::string& text() const { return mText; }
+    /// Forgets the text, which has gone where it should, and goes on after it.
+    void clearText() { mText.clear(); }
 
 private:
     void item(const std::string& key);
@@ -45,4 +49,4 @@ private:
     bool mFirst = true, mOnOneLine = false;
 };
 
-} // namespace command
+} // namespace openvdb_spheretree

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace command {
+namespace openvdb_spheretree {
 
 namespace {
 
@@ -126,4 +126,4 @@ void JsonWriter::null(const std::string& key)
     mText += "null";
 }
 
-} // namespace command
+} // namespace openvdb_spheretree

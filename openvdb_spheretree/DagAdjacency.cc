@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DagAdjacency.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+[[noreturn]] void refuse(const DagEdge& edge, const char* why)
+{
+    OPENVDB_THROW(openvdb::ValueError,
+        "the edge of the DAG from node " << edge.parent << " to node " << edge.child << ' ' << why);
+}
+
+void checkEdges(const std::vector<DagEdge>& edges, int32_t parentCount, int32_t childCount)
+{
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const DagEdge& e = edges[i];
+        const bool exists =
+            e.parent >= 0 && e.parent < parentCount && e.child >= 0 && e.child < childCount;
+        if (!exists) refuse(e, "is not between nodes that there are");
+        if (i > 0 && !(edges[i - 1] < e)) refuse(e, "is out of order or there twice");
+    }
+}
+
+/// A counting sort by row: targets of a row keep the order they come in, which is ascending.
+template <typename Row, typename Target>
+CompressedRows makeRows(
+    const std::vector<DagEdge>& edges, std::size_t count, const Row& row, const Target& target)
+{
+    CompressedRows rows;
+    rows.offsets.assign(count + 1, 0);
+    for (const DagEdge& edge : edges) ++rows.offsets[std::size_t(row(edge)) + 1];
+    std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+    std::vector<int64_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
+    rows.targets.resize(edges.size());
+    for (const DagEdge& edge : edges) {
+        rows.targets[std::size_t(next[std::size_t(row(edge))]++)] = target(edge);
+    }
+    return rows;
+}
+
+Degrees degreesOf(const CompressedRows& rows, const SphereTreeLevel& level)
+{
+    Degrees degrees;
+    degrees.min = int64_t(rows[level.begin].size());
+    int64_t sum = 0;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const int64_t degree = int64_t(rows[id].size());
+        degrees.min = std::min(degrees.min, degree);
+        degrees.max = std::max(degrees.max, degree);
+        sum += degree;
+    }
+    degrees.mean = double(sum) / level.size();
+    return degrees;
+}
+
+} // namespace
+
+DagAdjacency dagAdjacency(
+    const std::vector<DagEdge>& edges, int32_t parentCount, int32_t childCount)
+{
+    if (parentCount < 0 || childCount < 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "a DAG between " << parentCount << " and " << childCount << " nodes cannot be");
+    }
+    checkEdges(edges, parentCount, childCount);
+    const auto parent = [](const DagEdge& edge) { return edge.parent; };
+    const auto child = [](const DagEdge& edge) { return edge.child; };
+    return {makeRows(edges, std::size_t(parentCount), parent, child),
+        makeRows(edges, std::size_t(childCount), child, parent)};
+}
+
+DagAdjacency dagAdjacency(const SphereTree& tree)
+{
+    DagAdjacency rows = dagAdjacency(tree.dag, tree.size(), tree.size());
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            for (const int32_t parent : rows.parents[id]) {
+                const bool isAbove = k + 1 < tree.levels.size()
+                    && parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
+                if (!isAbove)
+                    refuse({parent, id}, "does not lead to a node of the next level down");
+            }
+        }
+    }
+    return rows;
+}
+
+std::vector<DagLevelStats> dagStats(const SphereTree& tree)
+{
+    std::vector<DagLevelStats> result;
+    if (tree.dag.empty()) return result;
+    const DagAdjacency rows = dagAdjacency(tree);
+    for (std::size_t k = 0; k + 1 < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        DagLevelStats stats;
+        stats.level = level.level;
+        stats.edges = rows.parents.offsets[std::size_t(level.end)]
+            - rows.parents.offsets[std::size_t(level.begin)];
+        stats.childrenPerParent = degreesOf(rows.children, tree.levels[k + 1]);
+        stats.parentsPerChild = degreesOf(rows.parents, level);
+        int64_t both = 0;
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const NodeSpan parents = rows.parents[id];
+            stats.sharedChildren += parents.size() > 1;
+            both += std::binary_search(parents.begin(), parents.end(), tree.parent[id]);
+        }
+        stats.treeEdgesInDagPercent = 100.0 * double(both) / level.size();
+        result.push_back(stats);
+    }
+    return result;
+}
+
+} // namespace openvdb_spheretree
