@@ -4,7 +4,7 @@
 /// contains the leaf balls below it.
 ///
 /// Level 0 is the medial balls of the object. Then, from each level to the one above:
-/// 1. `coarsen` the level's voxels; take their medial balls and labels; every node's parent is the
+/// 1. `nextVoxels`: coarsen the level's voxels by the pyramid model; take their medial balls and labels; every node's parent is the
 ///    label of the parent voxel of its centre (`linkLevels`);
 /// 2. `keepParents`: a ball without children is dropped;
 /// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s
@@ -15,7 +15,10 @@
 ///    12).
 ///
 /// It ends: the clip box of the pyramid's last level is one voxel. Without the clip (`free`), all
-/// nodes left at that level get one parent there. Radii are integers under square roots
+/// nodes left at that level get one parent there. Closings stay in the box; where a custom model
+/// leaves it, the box grows to what the model made, so that kept centres stay on, and a model that
+/// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
+/// alone, so every level covers the object whatever the model. Radii are integers under square roots
 /// (LevelFrame.h). Cost: linear in the voxels of all levels, and leaves x levels for the radii.
 /// Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
@@ -98,20 +101,27 @@ void fitRadii(
     }
 }
 
-/// The box, on the grid of @a level, of the object's own pyramid.
-CoordBBox pyramidBox(int level, const BuildContext& context)
+CoordBBox parentBox(const CoordBBox& box, const PyramidStep& step)
 {
-    CoordBBox box = context.bbox;
-    for (int k = 0; k < level; ++k) {
-        const PyramidStep step = context.stepFrom(k);
-        box = CoordBBox(step.parentVoxel(box.min()), step.parentVoxel(box.max()));
-    }
-    return box;
+    return CoordBBox(step.parentVoxel(box.min()), step.parentVoxel(box.max()));
 }
+
+/// The boxes that bound a level.
+struct Boxes {
+    CoordBBox pyramid; ///< of the object's own OR pyramid
+    CoordBBox clip;    ///< the same, unless a custom model has added voxels outside of it
+
+    void coarsen(const PyramidStep& step)
+    {
+        pyramid = parentBox(pyramid, step);
+        clip = parentBox(clip, step);
+    }
+};
 
 /// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9 of
 /// DESIGN 9 keeps voxels at the very distance in, whatever the rounding of R / f^k.
-MaskTree::Ptr reconstruct(const LevelNodes& nodes, int level, const BuildContext& context)
+MaskTree::Ptr reconstruct(
+    const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
 {
     const double scale = double(context.frame(level).scale());
     const Distance& distance = context.settings.dist;
@@ -123,7 +133,6 @@ MaskTree::Ptr reconstruct(const LevelNodes& nodes, int level, const BuildContext
         spheres.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
             4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)});
     }
-    CoordBBox box = pyramidBox(level, context);
     if (context.settings.reconstruct == Reconstruction::Free) {
         const CoordBBox free = boundingBox(spheres, distance);
         for (int axis = 0; axis < context.settings.dim; ++axis) {
@@ -149,17 +158,25 @@ void useReconstructionRadii(
     }
 }
 
-/// The voxels of the next level, whose medial balls are candidates for its nodes.
-MaskTree::Ptr nextVoxels(const MaskTree& voxels, int level, const BuildContext& context)
+/// The voxels of the next level, whose medial balls are candidates for its nodes. @a boxes becomes
+/// that level's.
+MaskTree::Ptr nextVoxels(
+    const MaskTree& voxels, int level, const BuildContext& context, Boxes& boxes)
 {
-    const CoordBBox box = pyramidBox(level + 1, context);
-    const bool last = box.volume() == 1;
+    boxes.coarsen(context.stepFrom(level));
+    const bool last = boxes.pyramid.volume() == 1;
     if (context.settings.reconstruct == Reconstruction::Free && last) {
         auto single = std::make_shared<MaskTree>(false);
-        single->setValueOn(box.min());
+        single->setValueOn(boxes.pyramid.min());
         return single;
     }
-    return coarsen(voxels, context.stepFrom(level), context.interrupter);
+    MaskTree::Ptr next = context.coarsened(voxels, level);
+    if (context.model) { // kept centres have to be inside, or their parent voxels might be off
+        CoordBBox box;
+        next->evalActiveVoxelBoundingBox(box);
+        boxes.clip.expand(box);
+    }
+    return next;
 }
 
 } // namespace
@@ -169,12 +186,13 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     const SphereTreeSettings& settings = context.settings;
     auto fine = context.medialLevel(*voxels);
     Leaves leaves;
+    Boxes boxes{context.bbox, context.bbox};
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
     levels.back().topology = topologyOf(*fine, context);
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
-            [&] { return nextVoxels(*voxels, level - 1, context); });
+            [&] { return nextVoxels(*voxels, level - 1, context, boxes); });
         auto coarse = context.medialLevel(*voxels);
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
@@ -182,7 +200,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
             for (int32_t& node : leaves.ancestor) node = links.parent[node];
             fitRadii(nodes, leaves, context.frame(level), settings.dist);
             if (settings.reconstruct != Reconstruction::None && nodes.balls.size() > 1) {
-                voxels = reconstruct(nodes, level, context);
+                voxels = reconstruct(nodes, level, boxes.clip, context);
             }
             if (!settings.finalFit) {
                 useReconstructionRadii(nodes, leaves, context.frame(level), settings.dist);

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OrPyramid.h"
 
-#include "LeafLayout.h"
+#include "FlatAxis.h"
+
 #include "SphereTreeSettings.h"
+#include "detail/FloorDiv.h"
+#include "detail/LeafCoarsener.h"
+#include "detail/MaskDifference.h"
+#include "detail/MaskNodes.h"
 #include "detail/Parallel.h"
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/tools/Prune.h>
 
-#include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -18,210 +22,181 @@ namespace openvdb_spheretree {
 
 namespace {
 
+using detail::floorDiv;
+using detail::LeafCoarsener;
+using detail::LeafNode;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
-using MaskLeaf = MaskTree::LeafNodeType;
 
 /// The widest object ends on level 28; an including model may take a few more.
 constexpr std::size_t kMaxLevels = 40;
 
-int floorDiv(int a, int b) { return a >= 0 ? a / b : -((-int64_t(a) + b - 1) / b); }
-
-/// A cube of the finer level: a leaf with its mask, or a tile (mask null).
-struct Cell {
-    Coord parent; ///< origin of the cube of the same size, one level up, that takes it in
-    Coord octant; ///< 0 or 1 per axis: which eighth of that cube it becomes
-    const MaskLeaf* leaf;
+/// Leaves of the finer level, or tiles as large (node null), by the leaf that takes them in: one
+/// entry for each such leaf.
+struct LeafPart {
+    Coord parent; ///< origin of the leaf of the next level
+    Coord origin; ///< of the leaf of this level
+    const LeafNode* node;
 };
 
-/// The cells of one size, by the cube they go into.
-struct Cells {
-    int size;
-    std::vector<Cell> cells;
-    std::vector<std::size_t> groupBegin; ///< where a new parent starts, and the count at the end
+/// A larger tile.
+struct TilePart {
+    CoordBBox parents; ///< its voxels on the next level
+    int size;          ///< of the tile
+    /// Origin of the cube of the tile's size, on the next level, that holds all parents, if nothing
+    /// else has a share in these; otherwise the tile is alone.
+    Coord cube;
+    bool alone;
+
+    bool operator<(const TilePart& other) const
+    {
+        if (alone != other.alone) return alone < other.alone;
+        if (size != other.size) return size < other.size;
+        return cube != other.cube ? cube < other.cube : parents.min() < other.parents.min();
+    }
+    bool sharesCube(const TilePart& other) const
+    {
+        return !alone && !other.alone && size == other.size && cube == other.cube;
+    }
 };
 
-Cell makeCell(const Coord& origin, int size, const Coord& pyramidOrigin, const MaskLeaf* leaf)
-{
-    Cell cell{{}, {}, leaf};
-    for (int axis = 0; axis < 3; ++axis) {
-        // Half the cell's place, as a cube of half its size. That is a multiple of size / 2, unless
-        // the pyramid's origin is no multiple of the tile size (then the caller fills boxes).
-        const int half = (origin[axis] - pyramidOrigin[axis]) / 2;
-        cell.parent[axis] = floorDiv(half, size) * size;
-        cell.octant[axis] = (half - cell.parent[axis]) / (size / 2);
-    }
-    return cell;
-}
+struct Parts {
+    std::vector<LeafPart> leaves;
+    std::vector<TilePart> tiles;
+};
 
-void groupByParent(Cells& cells)
+void addLeafPart(
+    Parts& parts, const LeafCoarsener& coarsener, const Coord& origin, const LeafNode* node)
 {
-    tbb::parallel_sort(cells.cells.begin(), cells.cells.end(), [](const Cell& a, const Cell& b) {
-        return a.parent != b.parent ? a.parent < b.parent : a.octant < b.octant;
-    });
-    for (std::size_t i = 0; i < cells.cells.size(); ++i) {
-        if (i == 0 || cells.cells[i].parent != cells.cells[i - 1].parent) {
-            cells.groupBegin.push_back(i);
+    const CoordBBox range = coarsener.parentLeaves(origin);
+    const Coord first = range.min(), last = range.max();
+    for (int x = first[0]; x <= last[0]; x += 8) {
+        for (int y = first[1]; y <= last[1]; y += 8) {
+            for (int z = first[2]; z <= last[2]; z += 8) {
+                parts.leaves.push_back({Coord(x, y, z), origin, node});
+            }
         }
     }
-    cells.groupBegin.push_back(cells.cells.size());
 }
 
-/// The mask of a leaf at half resolution: bit 8 y + z of word x for x, y, z in [0, 4).
-std::array<uint64_t, 4> halved(const MaskLeaf& leaf)
+TilePart tilePart(const CoordBBox& tile, const PyramidStep& step)
 {
-    std::array<uint64_t, 4> result{};
-    for (uint32_t x = 0; x < 4; ++x) {
-        uint64_t word = leaf.getValueMask().getWord<uint64_t>(2 * x)
-            | leaf.getValueMask().getWord<uint64_t>(2 * x + 1);
-        word |= word >> 8;             // OR of y pairs, in even rows
-        word |= word >> 1;             // OR of z pairs, in even bits
-        word &= 0x0055005500550055ull; // rows 0, 2, 4, 6; bits 0, 2, 4, 6
-        word = (word | word >> 1) & 0x0033003300330033ull;
-        word = (word | word >> 2) & 0x000f000f000f000full; // four bits a row
-        word = (word | word >> 8) & 0x00000f0f00000f0full; // rows to bytes 0 and 1, 4 and 5
-        result[x] = (word | word >> 16) & 0x0f0f0f0full;
+    TilePart part;
+    part.size = tile.max()[0] - tile.min()[0] + 1;
+    part.parents = CoordBBox(step.parentVoxel(tile.min()), step.parentVoxel(tile.max()));
+    part.cube = part.parents.min() & ~(part.size - 1);
+    part.alone = part.cube != (part.parents.max() & ~(part.size - 1));
+    for (int axis = 0; axis < step.dim; ++axis) {
+        const int at = tile.min()[axis] - step.origin[axis];
+        if (at % step.factor != 0 || part.size % step.factor != 0) part.alone = true;
     }
-    return result;
+    return part;
 }
 
-/// The leaf that up to eight leaves or leaf-sized tiles make.
-MaskLeaf::NodeMaskType joinLeaves(const Cell* begin, const Cell* end)
+Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const PyramidStep& step)
 {
-    MaskLeaf::NodeMaskType mask;
-    for (const Cell* cell = begin; cell != end; ++cell) {
-        std::array<uint64_t, 4> half;
-        half.fill(0x0f0f0f0full);
-        if (cell->leaf) half = halved(*cell->leaf);
-        const int shift = 32 * cell->octant[1] + 4 * cell->octant[2];
-        for (uint32_t x = 0; x < 4; ++x) {
-            mask.getWord<uint64_t>(4 * uint32_t(cell->octant[0]) + x) |= half[x] << shift;
+    Parts parts;
+    parts.leaves.reserve(level.leafCount());
+    for (auto it = level.cbeginLeaf(); it; ++it) {
+        if (!it->isEmpty()) addLeafPart(parts, coarsener, it->origin(), &*it);
+    }
+    auto tile = level.cbeginValueOn();
+    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        CoordBBox box;
+        tile.getBoundingBox(box);
+        if (box.max()[0] - box.min()[0] == 7) {
+            addLeafPart(parts, coarsener, box.min(), nullptr);
+        } else {
+            parts.tiles.push_back(tilePart(box, step));
         }
     }
-    return mask;
+    return parts;
 }
 
-void addLeaves(Cells& cells, MaskTree& result, NullInterrupter* interrupter)
+/// The leaf that a group of parts of the same parent makes.
+std::unique_ptr<LeafNode> joinParts(
+    const LeafPart* begin, const LeafPart* end, const LeafCoarsener& coarsener)
 {
-    groupByParent(cells);
-    const std::size_t groups = cells.groupBegin.size() - 1;
-    std::vector<std::unique_ptr<MaskLeaf>> leaves(groups);
-    detail::parallelFor(groups, interrupter, [&](std::size_t i) {
-        const Cell* begin = cells.cells.data() + cells.groupBegin[i];
-        const Cell* end = cells.cells.data() + cells.groupBegin[i + 1];
-        leaves[i] = std::make_unique<MaskLeaf>(begin->parent, false);
-        leaves[i]->setValueMask(joinLeaves(begin, end));
+    LeafMask joined{}, mask;
+    for (const LeafPart* part = begin; part != end; ++part) {
+        for (uint32_t x = 0; x < 8; ++x) {
+            mask[x] = part->node ? part->node->getValueMask().getWord<uint64_t>(x) : ~uint64_t(0);
+        }
+        coarsener.add(mask, part->origin, part->parent, joined);
+    }
+    auto leaf = std::make_unique<LeafNode>(begin->parent, false);
+    LeafNode::NodeMaskType nodeMask;
+    for (uint32_t x = 0; x < 8; ++x) nodeMask.getWord<uint64_t>(x) = joined[x];
+    leaf->setValueMask(nodeMask);
+    return leaf;
+}
+
+void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, MaskTree& result,
+    NullInterrupter* interrupter)
+{
+    tbb::parallel_sort(parts.begin(), parts.end(),
+        [](const LeafPart& a, const LeafPart& b) { return a.parent < b.parent; });
+    std::vector<std::size_t> begins; // of groups with the same parent, and the end of the last
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i == 0 || parts[i].parent != parts[i - 1].parent) begins.push_back(i);
+    }
+    begins.push_back(parts.size());
+    std::vector<std::unique_ptr<LeafNode>> leaves(begins.size() - 1);
+    detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
+        leaves[i] = joinParts(&parts[begins[i]], parts.data() + begins[i + 1], coarsener);
     });
     for (auto& leaf : leaves) {
         if (leaf->isDense()) result.addTile(1, leaf->origin(), true, true);
-        else result.addLeaf(leaf.release());
+        else if (!leaf->isEmpty()) result.addLeaf(leaf.release());
     }
 }
 
-void addTiles(Cells& cells, MaskTree& result)
+/// Tiles that fill a cube of their own size together become a tile at once: one box at a time would
+/// first make small tiles of it, 4096 a cube.
+void joinTiles(std::vector<TilePart>& tiles, MaskTree& result, NullInterrupter* interrupter)
 {
-    groupByParent(cells);
-    const int half = cells.size / 2;
-    for (std::size_t i = 0; i + 1 < cells.groupBegin.size(); ++i) {
-        const Cell* begin = cells.cells.data() + cells.groupBegin[i];
-        const Cell* end = cells.cells.data() + cells.groupBegin[i + 1];
-        if (end - begin == 8) {
-            result.fill(CoordBBox::createCube(begin->parent, cells.size), true, true);
-            continue;
-        }
-        for (const Cell* cell = begin; cell != end; ++cell) {
-            const Coord at = cell->parent
-                + Coord(half * cell->octant[0], half * cell->octant[1], half * cell->octant[2]);
-            result.fill(CoordBBox::createCube(at, half), true, true);
-        }
-    }
-}
-
-/// Factor 2 in three dimensions: whole leaves and tiles at a time.
-MaskTree::Ptr coarsenByLeaves(
-    const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
-{
-    Cells leaves{8, {}, {}};
-    for (auto it = level.cbeginLeaf(); it; ++it) {
-        if (!it->isEmpty()) leaves.cells.push_back(makeCell(it->origin(), 8, step.origin, &*it));
-    }
-    std::vector<Cells> tiles;
-    std::vector<CoordBBox> boxes; // tiles that the pyramid's origin cuts
-    auto tile = level.cbeginValueOn();
-    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        CoordBBox box;
-        tile.getBoundingBox(box);
-        const int size = box.extents()[0];
-        if (size == 8) {
-            leaves.cells.push_back(makeCell(box.min(), 8, step.origin, nullptr));
-        } else if (((step.origin & (size - 1)) != Coord())) {
-            boxes.emplace_back(step.parentVoxel(box.min()), step.parentVoxel(box.max()));
-        } else {
-            auto same = std::find_if(
-                tiles.begin(), tiles.end(), [&](const Cells& c) { return c.size == size; });
-            if (same == tiles.end()) same = tiles.insert(tiles.end(), Cells{size, {}, {}});
-            same->cells.push_back(makeCell(box.min(), size, step.origin, nullptr));
-        }
-    }
-    auto result = std::make_shared<MaskTree>(false);
-    addLeaves(leaves, *result, interrupter);
-    for (Cells& cells : tiles) addTiles(cells, *result);
-    for (const CoordBBox& box : boxes) result->fill(box, true, true);
-    return result;
-}
-
-/// Any factor and dimension: voxel by voxel, tiles as boxes.
-MaskTree::Ptr coarsenByVoxels(
-    const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
-{
-    std::vector<const MaskLeaf*> leaves;
-    for (auto it = level.cbeginLeaf(); it; ++it) leaves.push_back(&*it);
-    using Range = tbb::blocked_range<std::size_t>;
-    const auto addRange = [&](const Range& range, MaskTree::Ptr part) {
+    tbb::parallel_sort(tiles.begin(), tiles.end());
+    for (auto begin = tiles.begin(); begin != tiles.end();) {
         detail::checkInterrupt(interrupter);
-        if (!part) part = std::make_shared<MaskTree>(false);
-        openvdb::tree::ValueAccessor<MaskTree> accessor(*part);
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            for (auto voxel = leaves[i]->cbeginValueOn(); voxel; ++voxel) {
-                accessor.setValueOn(step.parentVoxel(voxel.getCoord()));
-            }
+        auto end = begin + 1;
+        openvdb::Index64 voxels = begin->parents.volume();
+        for (; end != tiles.end() && end->sharesCube(*begin); ++end) {
+            voxels += end->parents.volume();
         }
-        return part;
-    };
-    const auto join = [](MaskTree::Ptr a, const MaskTree::Ptr& b) {
-        if (!a) return b;
-        if (b) a->topologyUnion(*b);
-        return a;
-    };
-    MaskTree::Ptr result =
-        tbb::parallel_reduce(Range(0, leaves.size(), 64), MaskTree::Ptr(), addRange, join);
-    if (!result) result = std::make_shared<MaskTree>(false);
-
-    auto tile = level.cbeginValueOn();
-    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        CoordBBox box;
-        tile.getBoundingBox(box);
-        result->fill({step.parentVoxel(box.min()), step.parentVoxel(box.max())}, true, true);
+        const CoordBBox cube = CoordBBox::createCube(begin->cube, begin->size);
+        if (!begin->alone && voxels == cube.volume()) {
+            result.fill(cube, true, true);
+        } else {
+            for (auto tile = begin; tile != end; ++tile) result.fill(tile->parents, true, true);
+        }
+        begin = end;
     }
-    return result;
 }
 
-/// @throw openvdb::ValueError unless @a result has every voxel of the OR model.
+/// @throw openvdb::ValueError unless @a result has every voxel of the OR model and, with dim = 2,
+///        is no thicker than it.
 void requireIncluding(
     const MaskTree& level, const MaskTree& result, const PyramidStep& step, NullInterrupter* i)
 {
-    MaskTree::Ptr lost = coarsen(level, step, i);
-    lost->topologyDifference(result);
-    if (lost->activeVoxelCount() == 0) return;
-    CoordBBox box;
-    lost->evalActiveVoxelBoundingBox(box);
+    const MaskTree::Ptr needed = coarsen(level, step, i);
+    const detail::MaskDifference lost = detail::maskDifference(*needed, result, i);
+    if (lost.voxels > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the pyramid model is not including: it leaves out "
+                << lost.voxels << (lost.voxels == 1 ? " voxel" : " voxels")
+                << " with a child that is on (first: " << lost.cells.front().first() << ')');
+    }
+    if (step.dim == 3) return;
+    CoordBBox all, most;
+    result.evalActiveVoxelBoundingBox(all);
+    needed->evalActiveVoxelBoundingBox(most);
+    if (all.min()[2] >= most.min()[2] && all.max()[2] <= most.max()[2]) return;
     OPENVDB_THROW(openvdb::ValueError,
-        "the pyramid model is not including: it leaves out "
-            << lost->activeVoxelCount() << " voxels with a child that is on, in the box " << box);
+        "the pyramid model adds voxels along z, which takes no part with dim=2: they lie in "
+            << all << ", the object's in " << most);
 }
 
 } // namespace
@@ -234,10 +209,22 @@ Coord PyramidStep::parentVoxel(const Coord& ijk) const
 
 MaskTree::Ptr coarsen(const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
 {
-    const bool wholeLeaves = step.factor == 2 && step.dim == 3 && (step.origin & 7) == Coord();
-    const MaskTree::Ptr result = wholeLeaves ? coarsenByLeaves(level, step, interrupter)
-                                             : coarsenByVoxels(level, step, interrupter);
+    const LeafCoarsener coarsener(step);
+    Parts parts = collectParts(level, coarsener, step);
+    auto result = std::make_shared<MaskTree>(false);
+    joinLeaves(parts.leaves, coarsener, *result, interrupter);
+    joinTiles(parts.tiles, *result, interrupter);
     openvdb::tools::prune(*result); // boxes may have filled leaves, leaves internal nodes
+    return result;
+}
+
+MaskTree::Ptr nextLevel(const MaskTree& level, const PyramidStep& step, const PyramidModel& model,
+    NullInterrupter* interrupter)
+{
+    if (!model) return coarsen(level, step, interrupter);
+    const MaskTree::Ptr result = model(level, step);
+    if (!result) OPENVDB_THROW(openvdb::ValueError, "the pyramid model gave no voxels: null");
+    requireIncluding(level, *result, step, interrupter);
     return result;
 }
 
@@ -258,9 +245,10 @@ Coord pyramidOrigin(const CoordBBox& bbox)
 OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
     NullInterrupter* interrupter, const PyramidModel& model)
 {
+    const FlatAxis flat = flatAxisOf(object, dim);
     OrPyramid pyramid;
     pyramid.levels.push_back(
-        std::make_shared<MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+        flat.toZ(std::make_shared<MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
     CoordBBox bbox;
     if (!pyramid.levels[0]->evalActiveVoxelBoundingBox(bbox)) {
         OPENVDB_THROW(openvdb::ValueError, "the object has no voxels");
@@ -273,14 +261,14 @@ OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
         if (pyramid.levels.size() > kMaxLevels) {
             OPENVDB_THROW(openvdb::ValueError,
                 "the pyramid does not end at one voxel: the model grows levels as fast as they "
-                "shrink, or the object is more than one voxel thick along z with dim=2");
+                "shrink, or the object is more than one voxel thick along every axis with dim=2");
         }
         const MaskTree& level = *pyramid.levels.back();
-        MaskTree::Ptr next = model ? model(level, step) : coarsen(level, step, interrupter);
-        if (model) requireIncluding(level, *next, step, interrupter);
-        pyramid.levels.push_back(next);
+        pyramid.levels.push_back(nextLevel(level, step, model, interrupter));
         step.origin = Coord();
     }
+    pyramid.origin = flat.fromZ(pyramid.origin);
+    for (MaskTree::Ptr& level : pyramid.levels) level = flat.fromZ(level);
     return pyramid;
 }
 

@@ -5,12 +5,18 @@
 ///
 /// Level 0 lives in index space. Levels above have grids of their own, counted from `origin`, the
 /// object's box minimum rounded down to a leaf corner: an object that straddles (0,0,0) then still
-/// ends as one voxel. With factor 2 eight leaves make one leaf, on mask words alone; a tile stays a
-/// tile, and eight tiles make one.
+/// ends as one voxel.
+///
+/// From level to level, for any factor (`coarsen`):
+/// 1. `collectParts`: each leaf, and each tile as large as a leaf, with the leaf of the next level
+///    that it goes into, or the few that share it where the factor or the origin cuts leaves;
+/// 2. `joinLeaves`: these by parent leaf, in parallel, on mask words (detail/LeafCoarsener.h);
+/// 3. `joinTiles`: larger tiles as boxes; a cube that tiles of its size fill is a tile again.
 ///
 /// Other *including* models (a parent of an on voxel is always on) plug in as a function; this is
-/// verified at every level. Exact. Cost: linear in leaves and tiles, whatever the bounding box.
-/// Source: Broutta et al. 2009, section 2.3. Tests: TestOrPyramid.cc.
+/// verified at every level. Exact. Cost: linear in leaves and tiles, whatever the bounding box; no
+/// voxel and no tile is looked at by itself. Source: Broutta et al. 2009, section 2.3. Tests:
+/// TestOrPyramid.cc, TestPyramidFactors.cc.
 
 #pragma once
 
@@ -29,6 +35,12 @@ constexpr int64_t kMaxExtent = int64_t(1) << 28;
 /// @brief The OR model. Parallel; the result has no full node that could be a tile.
 openvdb::MaskTree::Ptr coarsen(const openvdb::MaskTree& level, const PyramidStep& step,
     openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @brief The level above @a level by @a model; empty: the OR model.
+/// @throw openvdb::ValueError naming the number of lost voxels and the first, if the model is not
+///        including; or if it adds voxels along z with dim = 2
+openvdb::MaskTree::Ptr nextLevel(const openvdb::MaskTree& level, const PyramidStep& step,
+    const PyramidModel& model, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return a box's minimum rounded down to a multiple of 8 per axis.
 /// @throw openvdb::ValueError if a side of the box exceeds kMaxExtent

@@ -3,7 +3,12 @@
 /// @brief How the voxels of a level become those of the next one: the step, and models of it.
 ///
 /// The OR model (OrPyramid.h) is the default. Any other one must be *including* (Broutta et al.
-/// 2009, section 2.3): a parent of an on voxel is always on. Whoever uses a model verifies that.
+/// 2009, section 2.3): a parent of an on voxel is always on. Whoever uses a model verifies that
+/// (nextLevel() in OrPyramid.h). There are three ways to have another one:
+///
+/// - OR after a closing, which ships: `closing` in SphereTreeSettings.h, closingModel() in Closing.h;
+/// - a function of the children of a voxel and of those around them: blockModel() in BlockModel.h;
+/// - a whole step of one's own, from mask to mask: any PyramidModel.
 
 #pragma once
 
@@ -22,7 +27,9 @@ struct PyramidStep {
     openvdb::Coord parentVoxel(const openvdb::Coord& ijk) const;
 };
 
-/// Makes level k+1 of level k. Must be including: it has the OR model's voxels, maybe more.
+/// Makes level k+1 of level k. Must be including: it has the OR model's voxels, maybe more. With
+/// dim = 2 the others lie in the same planes. It should shrink what it is given: a tree's levels
+/// end where one ball is left, and a model that keeps adding voxels is stopped by an error.
 using PyramidModel =
     std::function<openvdb::MaskTree::Ptr(const openvdb::MaskTree& level, const PyramidStep& step)>;
 

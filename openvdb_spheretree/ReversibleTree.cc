@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ReversibleTree.cc
 /// @brief The reversible tree (Broutta et al. 2009, 3.2): all medial balls of every level of the OR
-/// pyramid, so that each level rebuilds its own pyramid level, and level 0 the object.
+/// pyramid (or that of another model), so that each level rebuilds its own pyramid level, and level
+/// 0 the object.
 ///
 /// For each level from the finest up: its medial balls become nodes, with the spheres of
 /// LevelFrame.h (`allBalls`); then each node of the level below gets its parent (`linkLevels`,
 /// detail/TreeLevels.h: the label of the parent voxel of its centre, or the best parent in the
-/// Sphere-DAG). It ends: the pyramid ends with one voxel. Exact. Cost: linear in active voxels of
+/// Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after
+/// closings, which stay in the object's box; a custom model that adds voxels for ever is an error. Exact. Cost: linear in active voxels of
 /// all levels. Tests: TestReversibleTree.cc.
 
 #include "detail/StageTimer.h"
@@ -41,7 +43,7 @@ std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const Bu
     levels.back().topology = topologyOf(*fine, context);
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
-            [&] { return coarsen(*voxels, context.stepFrom(level), context.interrupter); });
+            [&] { return context.coarsened(*voxels, level); });
         auto coarse = context.medialLevel(*voxels);
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             LevelNodes& nodes = levels.back();

@@ -141,6 +141,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     requireUniformVoxels(object);
     SphereTree tree;
     tree.settings = settings;
+    tree.settings.hadCustomModel = bool(settings.customModel);
     tree.object = describe(object);
     requireValidObject(tree.object, settings);
     tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
@@ -152,7 +153,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     SphereTreeSettings turned = settings;
     turned.flatAxis = 2;
     const detail::BuildContext context{turned, flat.toZ(tree.origin), flat.toZ(tree.object.bbox),
-        interrupter, seconds ? seconds : &ownSeconds};
+        interrupter, seconds ? seconds : &ownSeconds, detail::modelOf(settings, interrupter)};
     auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
     appendNodes(tree,

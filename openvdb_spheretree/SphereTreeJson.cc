@@ -149,6 +149,7 @@ void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
     json.value("tree", toString(settings.tree));
     json.value("factor", settings.factor);
     json.value("dim", settings.dim);
+    json.value("model", modelToString(settings));
     json.value("dist", toString(settings.dist));
     json.value("parent", toString(settings.parent));
     json.value("final_fit", settings.finalFit);

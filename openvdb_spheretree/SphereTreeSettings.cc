@@ -68,6 +68,8 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
         setting << "=" << quoted(text) << " is unknown: choose " << list(names));
 }
 
+const std::string kClosing = "closing:";
+
 } // namespace
 
 double SphereTreeSettings::paddingVoxels() const
@@ -83,6 +85,7 @@ void SphereTreeSettings::validate() const
         OPENVDB_THROW(openvdb::ValueError,
             "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
     }
+    requireClosing(closing);
     if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding
@@ -106,6 +109,14 @@ void requireDim(int dim)
     OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
 }
 
+void requireClosing(int radius)
+{
+    if (radius >= 0 && radius <= SphereTreeSettings::kMaxClosing) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "closing=" << radius << " is out of range: it must be 0 to "
+                   << SphereTreeSettings::kMaxClosing);
+}
+
 const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
 const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
 const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
@@ -119,6 +130,12 @@ std::string paddingToString(double padding)
     std::array<char, 32> text; // the shortest text of a double is at most 24 characters
     const auto end = std::to_chars(text.data(), text.data() + text.size(), padding).ptr;
     return std::string(text.data(), end);
+}
+
+std::string modelToString(const SphereTreeSettings& settings)
+{
+    if (settings.customModel || settings.hadCustomModel) return "custom";
+    return settings.closing == 0 ? "or" : kClosing + std::to_string(settings.closing);
 }
 
 TreeType treeTypeFromString(const std::string& text)
@@ -161,6 +178,23 @@ double paddingFromString(const std::string& text)
                        << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
     }
     return std::abs(value); // -0 is 0
+}
+
+int closingFromString(const std::string& text)
+{
+    if (text == "or") return 0;
+    int radius = 0;
+    const char* const end = text.data() + text.size();
+    const bool named = text.compare(0, kClosing.size(), kClosing) == 0;
+    const auto parsed = std::from_chars(text.data() + (named ? kClosing.size() : 0), end, radius);
+    if (!named || parsed.ec != std::errc() || parsed.ptr != end || radius < 1
+        || radius > SphereTreeSettings::kMaxClosing) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "model=" << quoted(text)
+                     << " is unknown: choose or, or closing:R with a radius R of 1 to "
+                     << SphereTreeSettings::kMaxClosing << " voxels");
+    }
+    return radius;
 }
 
 } // namespace openvdb_spheretree

@@ -53,6 +53,8 @@ struct SphereTreeSettings {
     /// An including model of one's own, in place of the above. It sees an object with dim = 2 turned
     /// so that it is flat along z. Files record that there was one, not which.
     PyramidModel customModel;
+    /// Set by the builder, and on a tree read back, whose customModel is then empty.
+    bool hadCustomModel = false;
     ParentRule parent = ParentRule::Centre;
     /// Extended tree: store the smallest sphere around its own centre that contains the leaf balls
     /// below it (Section 4.2 of the paper), rather than the one that the reconstruction used.
@@ -73,6 +75,7 @@ struct SphereTreeSettings {
     static constexpr double kPadCubes = -1.0;
     static constexpr double kMaxPadding = 1e9;
     static constexpr int kMaxFactor = 1 << 15;
+    static constexpr int kMaxClosing = 64;
     /// @return the padding in voxels of level 0.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
@@ -84,6 +87,9 @@ void requireFactor(int factor);
 /// @throw openvdb::ValueError unless @a dim is 2 or 3
 void requireDim(int dim);
 
+/// @throw openvdb::ValueError unless @a radius is 0 to SphereTreeSettings::kMaxClosing
+void requireClosing(int radius);
+
 /// @name The names that the command line and the metadata of files use
 /// @{
 const char* toString(TreeType);
@@ -93,6 +99,8 @@ const char* toString(RadiusScale);
 const char* toString(DagEdges);
 /// @return "cubes", "voxels", or the number as text.
 std::string paddingToString(double padding);
+/// @return "or", "closing:2" and so on, or "custom".
+std::string modelToString(const SphereTreeSettings&);
 /// @throw openvdb::ValueError naming the value and the values there are.
 TreeType treeTypeFromString(const std::string&);
 ParentRule parentRuleFromString(const std::string&);
@@ -100,6 +108,8 @@ Reconstruction reconstructionFromString(const std::string&);
 RadiusScale radiusScaleFromString(const std::string&);
 DagEdges dagEdgesFromString(const std::string&);
 double paddingFromString(const std::string&);
+/// @return the radius of "closing:R", 0 for "or".
+int closingFromString(const std::string&);
 /// @}
 
 } // namespace openvdb_spheretree

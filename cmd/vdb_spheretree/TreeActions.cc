@@ -24,6 +24,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     settings.factor = int(call.integer("factor"));
     settings.dim = int(call.integer("dim"));
     settings.dist = spheretree::distanceFromString(call.text("dist"));
+    settings.closing = spheretree::closingFromString(call.text("model"));
     settings.parent = spheretree::parentRuleFromString(call.text("parent"));
     settings.finalFit = call.flag("final_fit");
     settings.reconstruct = spheretree::reconstructionFromString(call.text("reconstruct"));
@@ -137,6 +138,9 @@ std::vector<OptionSpec> spheretreeOptions()
             "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of "
             "a "
             "step across a face, an edge and a corner, such as chamfer:3,4,5"),
+        text("model", "or",
+            "what becomes of 2x2x2 voxels (or factor per axis): or, one voxel if any is on; or "
+            "closing:R, the same after a closing by a ball of radius R, 1 to 64 voxels"),
         choice("parent", {"centre", "dag"},
             "which ball a ball hangs below: by its centre, or by its edges in the Sphere-DAG"),
         flag("final_fit", true, "store the smallest radius around the leaf balls (extended)"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeLevels.h"
 
+#include "../Closing.h"
 #include "../SphereDag.h"
 #include "Parallel.h"
 #include "StageTimer.h"
@@ -65,6 +66,23 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
     }
 }
 
+/// Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
+void requireRoom(const openvdb::CoordBBox& box, int level, const BuildContext& context)
+{
+    const int64_t scale = context.frame(level).scale();
+    for (int axis = 0; axis < context.settings.dim; ++axis) {
+        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
+        const int64_t extent = int64_t(context.bbox.max()[axis]) - context.bbox.min()[axis] + 1;
+        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
+        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
+        OPENVDB_THROW(openvdb::ValueError,
+            "the pyramid model grows level "
+                << level << " to " << side << " voxels of " << scale << " along "
+                << "xyz"[axis] << ", too far from an object of " << extent
+                << ": let it add fewer voxels");
+    }
+}
+
 } // namespace
 
 std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context)
@@ -72,6 +90,35 @@ std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildCon
     if (!context.settings.topology) return std::nullopt;
     return timed("topology", context.interrupter, &context.seconds->topology,
         [&] { return levelTopology(level.layout, context.interrupter); });
+}
+
+PyramidModel modelOf(
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    if (settings.customModel) return settings.customModel;
+    if (settings.hadCustomModel) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree was built with a custom pyramid model, which no file holds: set customModel");
+    }
+    return settings.closing > 0 ? closingModel(settings.closing, interrupter) : PyramidModel();
+}
+
+openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
+{
+    if (!model) return coarsen(voxels, stepFrom(level), interrupter);
+    const int64_t scale = frame(level).scale() * settings.factor;
+    if (settings.customModel && scale > LevelFrame::kMaxScale) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree does not end: level "
+                << level
+                << " still has several spheres, since the "
+                   "pyramid model adds voxels as fast as levels shrink");
+    }
+    const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
+    openvdb::CoordBBox box;
+    result->evalActiveVoxelBoundingBox(box);
+    requireRoom(box, level + 1, *this);
+    return result;
 }
 
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,

@@ -26,6 +26,7 @@ struct BuildContext {
     openvdb::CoordBBox bbox; ///< of the object
     openvdb::util::NullInterrupter* interrupter;
     BuildSeconds* seconds;
+    PyramidModel model; ///< empty: OR
 
     /// The step from @a level to the one above it.
     PyramidStep stepFrom(int level) const
@@ -37,8 +38,18 @@ struct BuildContext {
         return std::make_unique<MedialLevel>(
             voxels, settings.dim, settings.dist, interrupter, seconds);
     }
+    /// @return the level above @a level, whose voxels are @a voxels.
+    /// @throw openvdb::ValueError if the model is not including, or does not come to an end
+    openvdb::MaskTree::Ptr coarsened(const openvdb::MaskTree& voxels, int level) const;
     LevelFrame frame(int level) const { return LevelFrame(level, origin, settings); }
 };
+
+/// @brief The one place that decides which model settings ask for: customModel, else a closing,
+/// else OR (empty).
+/// @throw openvdb::ValueError if the settings are those of a tree read back, whose custom model no
+///        file holds
+PyramidModel modelOf(
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
 
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {

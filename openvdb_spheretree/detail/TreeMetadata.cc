@@ -108,6 +108,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<int32_t>(grid, "spheretree_factor", settings.factor);
     setMeta<int32_t>(grid, "spheretree_dim", settings.dim);
     if (settings.dim == 2) setMeta<int32_t>(grid, "spheretree_flat_axis", settings.flatAxis);
+    setMeta<std::string>(grid, "spheretree_model", modelToString(settings));
     setMeta<std::string>(grid, "spheretree_parent", toString(settings.parent));
     setMeta<bool>(grid, "spheretree_final_fit", settings.finalFit);
     setMeta<std::string>(grid, "spheretree_reconstruct", toString(settings.reconstruct));
@@ -128,6 +129,9 @@ SphereTreeSettings readSettings(const GridBase& grid)
     if (grid["spheretree_flat_axis"]) {
         settings.flatAxis = getMeta<int32_t>(grid, "spheretree_flat_axis");
     }
+    const std::string model = getMeta<std::string>(grid, "spheretree_model");
+    settings.hadCustomModel = model == "custom";
+    if (!settings.hadCustomModel) settings.closing = closingFromString(model);
     settings.parent = parentRuleFromString(getMeta<std::string>(grid, "spheretree_parent"));
     settings.finalFit = getMeta<bool>(grid, "spheretree_final_fit");
     settings.reconstruct =

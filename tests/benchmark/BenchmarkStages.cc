@@ -162,6 +162,11 @@ void buildTree(const Input& in, st::TreeType type)
     benchmark::DoNotOptimize(st::buildSphereTree(in.grid, settings));
 }
 
+void buildPyramid(const Input& in, int factor)
+{
+    benchmark::DoNotOptimize(st::buildOrPyramid(in.grid, factor));
+}
+
 const std::vector<std::pair<std::string, Stage>>& stages()
 {
     static const std::vector<std::pair<std::string, Stage>> all{
@@ -183,7 +188,11 @@ const std::vector<std::pair<std::string, Stage>>& stages()
         {"dag-level-0", [](const Input& in) { linkLevels(in, 1); }},
         {"power-all-levels", [](const Input& in) { labelLevels(in, 99); }},
         {"dag-all-levels", [](const Input& in) { linkLevels(in, 99); }},
-        {"pyramid", [](const Input& in) { benchmark::DoNotOptimize(st::buildOrPyramid(in.grid)); }},
+        {"pyramid", [](const Input& in) { buildPyramid(in, 2); }},
+        {"pyramid-factor3", [](const Input& in) { buildPyramid(in, 3); }},
+        {"pyramid-factor4", [](const Input& in) { buildPyramid(in, 4); }},
+        {"pyramid-factor5", [](const Input& in) { buildPyramid(in, 5); }},
+        {"pyramid-factor8", [](const Input& in) { buildPyramid(in, 8); }},
         {"reversible", [](const Input& in) { buildTree(in, st::TreeType::Reversible); }},
         {"extended", [](const Input& in) { buildTree(in, st::TreeType::Extended); }},
         {"errors",

@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/FlatAxis.h>
 #include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/OrPyramid.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
 #include <openvdb_spheretree/TreeCheck.h>
 
@@ -100,6 +101,7 @@ TEST(FlatObjects, HaveTheirStagesTurnedToo)
     const auto upright = gridOf(flat);
     const auto expectedDistances = openvdb_spheretree::distanceTransform(*upright, 2);
     const auto expectedBalls = openvdb_spheretree::medialBalls(*upright, 2);
+    const auto expectedPyramid = openvdb_spheretree::buildOrPyramid(*upright, 3, 2);
     for (int axis = 0; axis < 2; ++axis) {
         const FlatAxis turn(axis);
         const auto grid = gridOf(turnedFromZ(flat, axis));
@@ -111,6 +113,14 @@ TEST(FlatObjects, HaveTheirStagesTurnedToo)
         auto balls = openvdb_spheretree::medialBalls(*grid, 2);
         for (auto& ball : balls) ball.center = turn.toZ(ball.center);
         EXPECT_EQ(balls, expectedBalls);
+        const auto pyramid = openvdb_spheretree::buildOrPyramid(*grid, 3, 2);
+        ASSERT_EQ(pyramid.levels.size(), expectedPyramid.levels.size());
+        EXPECT_EQ(turn.toZ(pyramid.origin), expectedPyramid.origin);
+        for (std::size_t k = 0; k < pyramid.levels.size(); ++k) {
+            Voxels voxels = voxelsOf(*pyramid.levels[k]);
+            for (Coord& voxel : voxels) voxel = turn.toZ(voxel);
+            EXPECT_EQ(voxels, voxelsOf(*expectedPyramid.levels[k]));
+        }
     }
 }
 

@@ -67,6 +67,7 @@ inline void fillDescription(SphereTree& tree)
     tree.origin = {-16, 8, -1024};
     tree.settings.tree = TreeType::Reversible;
     tree.settings.factor = 3;
+    tree.settings.closing = 5;
     tree.settings.parent = ParentRule::Dag;
     tree.settings.finalFit = false;
     tree.settings.reconstruct = Reconstruction::Free;
@@ -162,6 +163,7 @@ inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
     EXPECT_EQ(a.settings.tree, b.settings.tree);
     EXPECT_EQ(a.settings.factor, b.settings.factor);
     EXPECT_EQ(a.settings.dim, b.settings.dim);
+    EXPECT_EQ(modelToString(a.settings), modelToString(b.settings));
     EXPECT_EQ(a.settings.parent, b.settings.parent);
     EXPECT_EQ(a.settings.finalFit, b.settings.finalFit);
     EXPECT_EQ(a.settings.reconstruct, b.settings.reconstruct);

@@ -20,7 +20,7 @@ TEST(MedialLevel, HasTheDistancesAndBallsOfTheReference)
         for (int dim : {2, 3}) {
             SCOPED_TRACE(object.name + (dim == 2 ? ", dim 2" : ""));
             const NaiveReference naive(object.voxels, dim);
-            const MedialLevel level(*maskOf(object.voxels), dim, nullptr);
+            const MedialLevel level(*maskOf(object.voxels), dim, {}, nullptr);
             EXPECT_EQ(level.layout.voxelCount(), int64_t(naive.voxels().size()));
             EXPECT_TRUE(agreeOnBalls(naive.balls(), level.balls));
             for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
@@ -34,7 +34,7 @@ TEST(MedialLevel, HasTheDistancesAndBallsOfTheReference)
 
 TEST(MedialLevel, FindsEveryBallByItsCentre)
 {
-    const MedialLevel level(*maskOf(randomObject(8).voxels), 3, nullptr);
+    const MedialLevel level(*maskOf(randomObject(8).voxels), 3, {}, nullptr);
     ASSERT_GT(level.balls.size(), 10u);
     for (std::size_t i = 0; i < level.balls.size(); ++i) {
         EXPECT_EQ(level.ballAt(level.balls[i].center), int32_t(i));
@@ -45,7 +45,7 @@ TEST(MedialLevel, FindsTheLabelOfEveryVoxel)
 {
     const Voxels voxels = randomObject(20).voxels;
     const NaiveReference naive(voxels);
-    const MedialLevel level(*maskOf(voxels), 3, nullptr);
+    const MedialLevel level(*maskOf(voxels), 3, {}, nullptr);
     for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
         EXPECT_EQ(level.balls.at(level.labelOf(naive.voxels()[i])).center, naive.label(i));
     }
@@ -53,7 +53,7 @@ TEST(MedialLevel, FindsTheLabelOfEveryVoxel)
 
 TEST(MedialLevel, RejectsAVoxelThatIsOff)
 {
-    const MedialLevel level(*maskOf(Voxels{Coord(1, 2, 3)}), 3, nullptr);
+    const MedialLevel level(*maskOf(Voxels{Coord(1, 2, 3)}), 3, {}, nullptr);
     EXPECT_THROW(level.labelOf(Coord(1, 2, 4)), openvdb::LookupError);
     EXPECT_THROW(level.labelOf(Coord(100, 2, 3)), openvdb::LookupError);
 }

@@ -24,6 +24,34 @@ std::string whyInvalid(const SphereTreeSettings& settings)
 
 TEST(SphereTreeSettings, DefaultsAreValid) { EXPECT_NO_THROW(SphereTreeSettings().validate()); }
 
+TEST(SphereTreeSettings, ModelsHaveNamesThatReadBack)
+{
+    SphereTreeSettings settings;
+    EXPECT_EQ(modelToString(settings), "or");
+    for (const int radius : {1, 2, 17, SphereTreeSettings::kMaxClosing}) {
+        settings.closing = radius;
+        EXPECT_EQ(modelToString(settings), "closing:" + std::to_string(radius));
+        EXPECT_EQ(closingFromString(modelToString(settings)), radius);
+    }
+    EXPECT_EQ(closingFromString("or"), 0);
+    settings.hadCustomModel = true;
+    EXPECT_EQ(modelToString(settings), "custom");
+    for (const char* text : {"", "OR", "closing", "closing:", "closing:0", "closing:-1",
+             "closing:65", "closing:2x", "closing: 2", "closing:+2", "custom", "2"}) {
+        EXPECT_THROW(closingFromString(text), openvdb::ValueError) << text;
+    }
+}
+
+TEST(SphereTreeSettings, ClosingsHaveALimit)
+{
+    for (const int radius : {-1, 65}) {
+        SphereTreeSettings settings;
+        settings.closing = radius;
+        const std::string why = whyInvalid(settings);
+        EXPECT_TRUE(mentions(why, "closing=" + std::to_string(radius) + " is out of range"));
+    }
+}
+
 TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
 {
     EXPECT_EQ(treeTypeFromString("reversible"), TreeType::Reversible);

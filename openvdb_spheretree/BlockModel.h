@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BlockModel.h
+/// @brief Pyramid models as a function of the children: from a block of child voxels and the blocks
+/// around it to on or off.
+///
+/// A model of one's own in a line, here "OR, and across gaps of one parent voxel":
+///
+///     settings.customModel = blockModel([](const ChildBlock& block) {
+///         return block.any() || (block.any(-1, 0, 0) && block.any(1, 0, 0));
+///     });
+///
+/// An including model that saw no more than its own block would be OR: with a child on it has to
+/// say yes, without one nobody would ask. That is why the function sees the neighbours too.
+///
+/// It stays sparse: the function is asked only about parent voxels of which a child, or a child of
+/// one of the 3^dim - 1 blocks around, is on. A voxel farther from everything stays off. Nor is it
+/// asked about voxels within tiles of the OR model's level (8^3 voxels or more, all on): these have
+/// to be on. Cost: a call for every other such voxel, in parallel. Tests: TestBlockModel.cc.
+
+#pragma once
+
+#include "PyramidModel.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace openvdb_spheretree {
+
+/// The children of a parent voxel, and those of the blocks around it. Valid during the call only.
+class ChildBlock {
+public:
+    /// The parent voxel, on the coarser level.
+    const openvdb::Coord& parent() const { return mParent; }
+    int factor() const { return mStep->factor; }
+    int dim() const { return mStep->dim; }
+
+    /// @return whether a child is on. Each of i, j, k is 0 to factor - 1 within the block, and may be
+    /// -factor to 2 factor - 1, in the blocks around it; k is 0 if dim is 2.
+    bool isOn(int i, int j, int k) const { return mChildren->isValueOn(mFirst.offsetBy(i, j, k)); }
+
+    /// @return how many of the factor^dim children are on. Cost: the nodes of the block, at most
+    /// one for every 8^3 children.
+    int64_t count() const;
+
+    /// @return whether a child of the block that is @a x, @a y, @a z blocks away is on; each of them
+    /// -1, 0 or 1.
+    bool any(int x = 0, int y = 0, int z = 0) const;
+
+private:
+    friend class BlockEvaluator;
+    using Accessor = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
+
+    openvdb::Coord mParent, mFirst; ///< mFirst: the child of lowest coordinates
+    const PyramidStep* mStep = nullptr;
+    const Accessor* mChildren = nullptr; ///< of the finer level
+    const Accessor* mOr = nullptr;       ///< of the OR model's level
+};
+
+/// @param isOn  says whether a parent voxel is on; called from several threads at once
+/// @param interrupter  may be null; must live as long as the model
+PyramidModel blockModel(std::function<bool(const ChildBlock&)> isOn,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

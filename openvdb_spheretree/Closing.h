@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Closing.h
+/// @brief Morphological closing of a set of voxels by a Euclidean ball, and the pyramid model that
+/// closes a level before the OR.
+///
+/// The structuring element is the digital ball { q : |q|^2 <= r^2 } (with dim = 2 the disc in the
+/// plane of x and y). Dilation takes every voxel within r of the set; erosion then takes those away
+/// that have a voxel not taken within r. Voxels outside of everything are off, so a border has no
+/// say: closing adds voxels (it is extensive), never takes one, and never leaves the set's box,
+/// since a ball that touches a side of the box from outside holds no voxel of the set.
+///
+/// Both steps ask the same: which voxels lie within r of another set? The distance transform of a
+/// band of voxels along it answers, exactly, so closing has no kernel of its own:
+/// 1. `cellsOf`, `grown`: the 8^3 cells within reach of the set;
+/// 2. dilation: off voxels there whose distance to the set is r at most;
+/// 3. erosion: of these, those go whose distance to the rest is r at most.
+///
+/// Cost: linear in the voxels of a band around the surface, of 2 r and 16 voxels or less to each
+/// side; tiles are cut up only within it. Parallel. Source: J. Serra, "Image Analysis and
+/// Mathematical Morphology", 1982; Broutta et al. 2009, section 5, name such models as future work.
+/// Tests: TestClosing.cc, against closing voxel by voxel.
+
+#pragma once
+
+#include "PyramidModel.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+namespace openvdb_spheretree {
+
+/// @param radius  of the ball, in voxels: 0 (changes nothing) to SphereTreeSettings::kMaxClosing
+/// @param dim     3, or 2 to close every plane of equal z by itself
+/// @throw openvdb::ValueError if radius or dim is out of range
+/// @throw Interrupted if the interrupter (may be null) said so
+openvdb::MaskTree::Ptr closing(const openvdb::MaskTree& voxels, int radius, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @brief OR after a closing at the child level: gaps narrower than the ball vanish earlier.
+/// The interrupter (may be null) must live as long as the model.
+PyramidModel closingModel(int radius, openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file detail/FloorDiv.h
+/// @brief Division rounded down, also below zero.
+
+#pragma once
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @param b  1 or more
+inline int floorDiv(int a, int b) { return a >= 0 ? a / b : int(-((-int64_t(a) + b - 1) / b)); }
+
+} // namespace detail
+} // namespace openvdb_spheretree
