@@ -29,7 +29,7 @@ struct PyramidStep {
 
 /// Makes level k+1 of level k. Must be including: it has the OR model's voxels, maybe more. With
 /// dim = 2 the others lie in the same planes. It should shrink what it is given: a tree's levels
-/// end where one ball is left (voxels -1 and 0 of an axis never merge), and a model that keeps adding voxels is stopped by an error.
+/// end where one ball is left, and a model that keeps adding voxels is stopped by an error.
 using PyramidModel =
     std::function<openvdb::MaskTree::Ptr(const openvdb::MaskTree& level, const PyramidStep& step)>;
 

@@ -129,9 +129,6 @@ SphereTreeSettings readSettings(const GridBase& grid)
     if (grid["spheretree_flat_axis"]) {
         settings.flatAxis = getMeta<int32_t>(grid, "spheretree_flat_axis");
     }
-    const std::string model = getMeta<std::string>(grid, "spheretree_model");
-    settings.hadCustomModel = model == "custom";
-    if (!settings.hadCustomModel) settings.closing = closingFromString(model);
     settings.parent = parentRuleFromString(getMeta<std::string>(grid, "spheretree_parent"));
     settings.finalFit = getMeta<bool>(grid, "spheretree_final_fit");
     settings.reconstruct =
@@ -139,6 +136,11 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.scale = radiusScaleFromString(getMeta<std::string>(grid, "spheretree_scale"));
     if (grid["spheretree_dist"]) { // files of the first version have none
         settings.dist = distanceFromString(getMeta<std::string>(grid, "spheretree_dist"));
+    }
+    if (grid["spheretree_model"]) { // nor that
+        const std::string model = getMeta<std::string>(grid, "spheretree_model");
+        settings.hadCustomModel = model == "custom";
+        if (!settings.hadCustomModel) settings.closing = closingFromString(model);
     }
     settings.padding = paddingFromString(getMeta<std::string>(grid, "spheretree_padding"));
     settings.dag = getMeta<bool>(grid, "spheretree_dag");
