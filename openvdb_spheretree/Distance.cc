@@ -60,15 +60,12 @@ int64_t Distance::normReach(int64_t x, int64_t y, int64_t limitSq) const
     const int64_t most = std::max(std::abs(x), std::abs(y)),
                   least = std::abs(x) + std::abs(y) - most;
     const int64_t a = mFace, b = mEdge - mFace, c = mCorner - mEdge;
-    // What z costs is c a step while it is the smallest coordinate, b as the middle one, then a.
-    const int64_t asLargest = (limit - b * most - c * least) / a;
-    if (asLargest >= most) return asLargest;
-    const int64_t left = limit - a * most; // not negative: lengthSq(x, y, 0) fits
-    if (b == 0) return most;               // the middle coordinate costs nothing
-    const int64_t asMiddle = (left - c * least) / b;
-    if (left >= c * least && asMiddle >= least) return std::min(asMiddle, most);
-    if (c == 0) return least;
-    return std::min((left - b * least) / c, least);
+    // The norm is the largest sum over all orders of the coordinates: none may exceed the limit. A
+    // coordinate of no weight is bounded by the others.
+    int64_t reach = (limit - b * most - c * least) / a;
+    if (b > 0) reach = std::min(reach, (limit - a * most - c * least) / b);
+    if (c > 0) reach = std::min(reach, (limit - a * most - b * least) / c);
+    return reach;
 }
 
 int64_t Distance::closedSq(int64_t radiusSq) const

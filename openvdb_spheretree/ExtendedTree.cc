@@ -4,8 +4,8 @@
 /// contains the leaf balls below it.
 ///
 /// Level 0 is the medial balls of the object. Then, from each level to the one above:
-/// 1. `nextVoxels`: coarsen the level's voxels by the pyramid model; take their medial balls and labels; every node's parent is the
-///    label of the parent voxel of its centre (`linkLevels`);
+/// 1. `nextVoxels`: coarsen the level's voxels by the pyramid model; take their medial balls and
+///    labels; every node's parent is the label of the parent voxel of its centre (`linkLevels`);
 /// 2. `keepParents`: a ball without children is dropped;
 /// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s
 ///    below it; it may be smaller than the medial ball it came from;

@@ -276,16 +276,17 @@ void checkDag(Check& check)
 }
 
 /// The edges are those of the object, none more and none less. What a voxel witnesses is found by
-/// building the tree again; which spheres meet is seen from the stored ones.
-/// A tree whose custom model is not at hand (files hold none) cannot be built again: it is left at
-/// what checkDag sees.
+/// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom model
+/// is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
 void checkDagEdges(Check& check)
 {
     const SphereTree& tree = check.tree;
     const bool shared = tree.settings.edges == DagEdges::Shared;
     if (shared && tree.settings.hadCustomModel && !tree.settings.customModel) return;
+    SphereTreeSettings settings = tree.settings;
+    settings.topology = false;
     const std::vector<DagEdge> expected = shared
-        ? buildSphereTree(check.object, tree.settings, check.interrupter).dag
+        ? buildSphereTree(check.object, settings, check.interrupter).dag
         : intersectionDag(tree, check.interrupter);
     std::vector<DagEdge> lost, wrong;
     std::set_difference(expected.begin(), expected.end(), tree.dag.begin(), tree.dag.end(),

@@ -22,8 +22,9 @@ class BlockCanvas {
 public:
     static constexpr int kLog2 = 7; ///< a block is OpenVDB's lower internal node
 
-    /// Balls too small to hold a leaf, whose farthest corner is at least 3.5 sqrt(3) away.
-    static constexpr int64_t kSmallCoverSq = 147;
+    /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or more
+    /// away along each axis.
+    static bool isSmall(const Ball& ball) { return ball.coverSq < ball.distance.lengthSq(7, 7, 7); }
 
     BlockCanvas() : mWords(64 * 64 * 8, 0) {}
 
@@ -35,7 +36,7 @@ public:
 
     void draw(const Ball& ball)
     {
-        if (ball.coverSq < kSmallCoverSq) {
+        if (isSmall(ball)) {
             drawRows(ball, mOrigin, 1 << kLog2);
             return;
         }
@@ -127,17 +128,19 @@ private:
 
     void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
     {
-        int64_t center2[3];
-        bool fits = ball.distance.isEuclidean() && !ball.clipped
-            && ball.coverSq <= kLeafBallReach2 * kLeafBallReach2;
+        int64_t center2[3], farthest = 0;
         for (int a = 0; a < 3; ++a) {
             center2[a] = ball.center2[a] - 2 * int64_t(origin[a]);
-            fits = fits && std::abs(center2[a] - 7) + 7 <= kLeafBallReach2;
+            farthest = std::max(farthest, std::abs(center2[a] - 7) + 7);
         }
-        if (fits) {
+        const bool euclidean = ball.distance.isEuclidean();
+        const int64_t most = euclidean ? kLeafBallReach2 : kLeafNormReach2;
+        if (ball.clipped || farthest > most || ball.coverSq > most * most) {
+            drawRows(ball, origin, 1 << kLeafLog2);
+        } else if (euclidean) {
             orBallIntoLeaf(center2, ball.coverSq, words);
         } else {
-            drawRows(ball, origin, 1 << kLeafLog2);
+            orNormBallIntoLeaf(center2, ball.distance, floorSqrt(ball.coverSq), words);
         }
     }
 

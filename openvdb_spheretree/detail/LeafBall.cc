@@ -16,6 +16,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
@@ -61,6 +62,40 @@ void orBall(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
 #endif
 }
 
+/// The largest, middle and smallest of three coordinates take the three weights: for each of the 64
+/// (y, z) of a leaf the larger and the smaller one are known, and x falls in somewhere.
+void orNormBall(const int64_t center2[3], const Distance& norm, int64_t limit, uint64_t words[8])
+{
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<int32_t, 8> d32;
+    int32_t apart[3][8];
+    for (int a = 0; a < 3; ++a) {
+        for (int i = 0; i < 8; ++i) apart[a][i] = int32_t(std::abs(2 * i - center2[a]));
+    }
+    HWY_ALIGN int32_t larger[64], smaller[64];
+    for (int i = 0; i < 64; ++i) {
+        larger[i] = std::max(apart[1][i >> 3], apart[2][i & 7]);
+        smaller[i] = std::min(apart[1][i >> 3], apart[2][i & 7]);
+    }
+    const auto w1 = hn::Set(d32, norm.face()), w2 = hn::Set(d32, norm.edge() - norm.face()),
+               w3 = hn::Set(d32, norm.corner() - norm.edge()),
+               beyond = hn::Set(d32, int32_t(limit + 1));
+    for (int x = 0; x < 8; ++x) {
+        const auto dx = hn::Set(d32, apart[0][x]);
+        uint64_t word = 0;
+        for (std::size_t i = 0; i < 64; i += hn::Lanes(d32)) {
+            const auto high = hn::Load(d32, larger + i), low = hn::Load(d32, smaller + i);
+            const auto middle = hn::Max(low, hn::Min(high, dx));
+            const auto value = hn::Add(hn::Mul(w1, hn::Max(high, dx)),
+                hn::Add(hn::Mul(w2, middle), hn::Mul(w3, hn::Min(low, dx))));
+            uint8_t bits[8] = {};
+            hn::StoreMaskBits(d32, hn::Lt(value, beyond), bits);
+            word |= uint64_t(bits[0]) << i;
+        }
+        words[x] |= word;
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace detail
 } // namespace openvdb_spheretree
@@ -72,6 +107,7 @@ namespace openvdb_spheretree {
 namespace detail {
 
 HWY_EXPORT(orBall);
+HWY_EXPORT(orNormBall);
 
 namespace {
 
@@ -127,6 +163,12 @@ void orBallIntoLeafPortable(const int64_t center2[3], int64_t coverSq, uint64_t 
 void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
 {
     HWY_DYNAMIC_DISPATCH(orBall)(center2, coverSq, words);
+}
+
+void orNormBallIntoLeaf(
+    const int64_t center2[3], const Distance& norm, int64_t limit, uint64_t words[8])
+{
+    HWY_DYNAMIC_DISPATCH(orNormBall)(center2, norm, limit, words);
 }
 
 } // namespace detail

@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "../Distance.h"
+
 #include <cstdint>
 
 namespace openvdb_spheretree {
@@ -21,6 +23,15 @@ void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8]
 
 /// @brief The same without vector instructions, for processors whose are not known.
 void orBallIntoLeafPortable(const int64_t center2[3], int64_t coverSq, uint64_t words[8]);
+
+/// Of a norm: doubled coordinates up to this keep its values within 31 bits.
+constexpr int64_t kLeafNormReach2 = int64_t(1) << 20;
+
+/// @brief The same for the ball { q : N(2 q - center2) <= limit } of a norm.
+/// @param center2  |2 q - center2| <= kLeafNormReach2 on each axis
+/// @param limit    below 2^31
+void orNormBallIntoLeaf(
+    const int64_t center2[3], const Distance& norm, int64_t limit, uint64_t words[8]);
 
 } // namespace detail
 } // namespace openvdb_spheretree

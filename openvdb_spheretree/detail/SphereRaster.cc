@@ -87,8 +87,8 @@ std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const Dis
 /// ones keep their order, which is mostly that of their centres, and so kind to caches.
 void sortLargerFirst(std::vector<Ball>& balls)
 {
-    const auto small = std::partition(balls.begin(), balls.end(),
-        [](const Ball& ball) { return ball.coverSq >= BlockCanvas::kSmallCoverSq; });
+    const auto small = std::partition(
+        balls.begin(), balls.end(), [](const Ball& ball) { return !BlockCanvas::isSmall(ball); });
     tbb::parallel_sort(
         balls.begin(), small, [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; });
 }

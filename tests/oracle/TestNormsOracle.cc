@@ -7,7 +7,10 @@
 
 #include <openvdb_spheretree/LevelErrors.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/SphereUnion.h>
 #include <openvdb_spheretree/TreeCheck.h>
+
+#include <random>
 
 namespace {
 
@@ -169,6 +172,47 @@ void expectErrorsAgree(int dim, uint32_t firstSeed)
 
 TEST(NormsOracle, ErrorsMatchBruteForce) { expectErrorsAgree(3, 400); }
 TEST(NormsOracle, ErrorsMatchBruteForceInTwoDimensions) { expectErrorsAgree(2, 500); }
+
+TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
+{
+    using openvdb_spheretree::ExactSphere;
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> center(-60, 60), count(1, 4), corner(-30, 30);
+    int64_t voxels = 0;
+    for (int round = 0; round < 48; ++round) {
+        const Weights& weights = kWeights[round % std::size(kWeights)];
+        const Length length = normOf(weights);
+        std::uniform_int_distribution<int64_t> limit(
+            0, 70 * weights[0]); // diameters of up to 35 voxels
+        std::vector<ExactSphere> balls;
+        for (int i = count(random); i > 0; --i) {
+            const int64_t x = center(random), y = center(random), z = center(random),
+                          r = limit(random);
+            balls.push_back({{x, y, z}, r * r + (i % 2)});
+        }
+        const CoordBBox all(Coord(-70), Coord(70));
+        CoordBBox clip = all;
+        if (round % 3 == 0) clip.min() = Coord(corner(random), corner(random), corner(random));
+        const auto tree =
+            openvdb_spheretree::sphereUnion(balls, clip, nullptr, distanceOf(weights));
+        openvdb::tree::ValueAccessor<const openvdb::MaskTree> on(*tree);
+        int64_t expected = 0;
+        for (const Coord& q : voxelsOfBox(all)) {
+            bool inside = false;
+            for (const ExactSphere& ball : balls) {
+                const Coord c(int(ball.center2[0]), int(ball.center2[1]), int(ball.center2[2]));
+                const int64_t d = length(Coord(2 * q[0], 2 * q[1], 2 * q[2]), c);
+                inside = inside || d * d <= ball.coverSq;
+            }
+            inside = inside && clip.isInside(q);
+            ASSERT_EQ(on.isValueOn(q), inside) << q << " round " << round;
+            expected += inside;
+        }
+        ASSERT_EQ(int64_t(tree->activeVoxelCount()), expected);
+        voxels += expected;
+    }
+    EXPECT_GT(voxels, 1000000) << "the balls have become too small to show anything";
+}
 
 TEST(NormsOracle, StoredTreesHoldWhatTheyPromiseAlsoInATurnedWorld)
 {

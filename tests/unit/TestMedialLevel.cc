@@ -63,7 +63,7 @@ TEST(MedialLevel, AddsTheTimesOfItsStages)
     BuildSeconds seconds;
     seconds.distance = seconds.power = seconds.medial = 1000;
     seconds.pyramid = seconds.tree = 7;
-    const MedialLevel level(*maskOf(shapes::box(Coord(20, 20, 20))), 3, nullptr, &seconds);
+    const MedialLevel level(*maskOf(shapes::box(Coord(20, 20, 20))), 3, {}, nullptr, &seconds);
     EXPECT_GT(seconds.distance, 1000);
     EXPECT_GT(seconds.power, 1000);
     EXPECT_GT(seconds.medial, 1000);
@@ -79,7 +79,7 @@ TEST(MedialLevel, StopsWhenInterruptedAtAnyStage)
         ASSERT_LT(questions, 10000);
         StopAfter stop(questions);
         try {
-            const MedialLevel level(*mask, 3, &stop);
+            const MedialLevel level(*mask, 3, {}, &stop);
             finished = true;
         } catch (const Interrupted&) {}
     }
