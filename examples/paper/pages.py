@@ -23,13 +23,15 @@ h3 { margin-top: 2rem; }
 a { color: var(--link); }
 p, li { max-width: 46rem; }
 figure { margin: 1.5rem 0; }
-figure img { display: block; width: 100%; height: auto; background: #fff; border-radius: 8px;
+figure a:has(img) { display: block; overflow-x: auto; }
+figure img { display: block; width: 100%; min-width: 40rem; height: auto; background: #fff; border-radius: 8px;
   border: 1px solid var(--line); padding: .4rem; }
 figcaption { color: var(--faint); font-size: .9rem; margin-top: .4rem; max-width: 46rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .3rem .8rem; border-bottom: 1px solid var(--line); text-align: right;
   vertical-align: bottom; }
+.verdicts td { vertical-align: top; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 th { font-weight: 600; }
 table.verdicts td, table.verdicts th { text-align: left; }
@@ -101,7 +103,7 @@ def pictures(folder, count):
     for level in range(count):
         for kind in ("reversible", "extended"):
             if (folder / f"{kind}-level{level}.png").exists():
-                found.append((f"{kind} {level}", f"{kind}-level{level}.png"))
+                found.append((f"level {level} {kind}", f"{kind}-level{level}.png"))
     return found
 
 
@@ -151,7 +153,9 @@ class Html:
         self.parts.append("<dl>")
         for v in verdicts:
             self.parts.append(f'<dt>{html.escape(v.claim)}: <span class="{v.kind}">{mark(v)}</span>'
-                              f"</dt><dd>{html.escape(v.numbers)}</dd>")
+                              f"</dt>")
+            if v.numbers:
+                self.parts.append(f"<dd>{html.escape(v.numbers)}</dd>")
         self.parts.append("</dl>")
 
     def finish(self):
@@ -187,7 +191,7 @@ class Markdown:
         self.parts.append("\n".join("| " + " | ".join(line) + " |" for line in lines))
 
     def evidence(self, verdicts):
-        self.parts.append("\n".join(f"- {v.claim}: **{mark(v)}**. {v.numbers}" for v in verdicts))
+        self.parts.append("\n".join(f"- {v.claim}: **{mark(v)}**. {v.numbers}".rstrip() for v in verdicts))
 
     def finish(self):
         return "\n\n".join(self.parts) + "\n"

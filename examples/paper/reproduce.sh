@@ -73,8 +73,8 @@ check_output() {
         ! grep -qs 'name="generator" content="reproduce.sh"' "$output/index.html"; then
         fail "'$output' holds something else: name another folder, or empty it"
     fi
+    output="$(realpath -m -- "$output")"
     mkdir -p "$(dirname "$output")"
-    output="$(cd "$(dirname "$output")" && pwd)/$(basename "$output")"
 }
 
 prepare_programs() {
@@ -125,8 +125,12 @@ build_trees() {
             rc=0
             run -read "$1" -spheretree "${settings[@]}" "factor=$factor" padding=voxels topology=0 \
                 -check -stats "json=$2/$kind-$factor.json" -write "$tree.vdb" "$tree.csv" || rc=$?
-            if [ "$rc" -eq 6 ]; then fail "$kind tree, factor $factor: the tree is wrong"; fi
-            if [ "$rc" -ne 0 ]; then return "$rc"; fi
+            case "$rc" in
+                0) ;;
+                3 | 137) return "$rc" ;; # refused: damaged, or too large for this machine
+                6) fail "$1: the $kind tree with f = $factor is wrong; please report it" ;;
+                *) fail "$1: the $kind tree with f = $factor could not be made" ;;
+            esac
         done
     done
 }
@@ -175,8 +179,11 @@ process() {
 
 publish() {
     chmod "$(printf '%o' $((0777 & ~$(umask))))" "$work/page"
+    trap '' INT TERM
     if [ -d "$output" ]; then mv "$output" "$work/old"; fi
-    mv "$work/page" "$output"
+    if mv "$work/page" "$output"; then return; fi
+    if [ -d "$work/old" ]; then mv "$work/old" "$output"; fi
+    fail "cannot write '$output'"
 }
 
 parse_arguments "$@"

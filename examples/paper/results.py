@@ -89,7 +89,7 @@ class Verdict:
             self.status = "fails"
         else:
             self.status = f"at {len(won)} of {len(decisive)} levels"
-        self.kind = "partly" if self.status.startswith("at ") else self.status.split()[0]
+        self.kind = "partly" if self.status.startswith("at ") else self.status.split(maxsplit=1)[0]
         self.numbers = "; ".join(
             f"level {level}: {shown(a)} {'<' if a < b else '=' if a == b else '>'} {shown(b)}{unit}"
             for level, a, b in known)
@@ -97,8 +97,8 @@ class Verdict:
 
 def fewer_levels(extended, reversible):
     verdict = Verdict("fewer levels", [(0, len(extended), len(reversible))], "", str)
-    verdict.numbers = f"{len(extended)} against {len(reversible)}"
-    verdict.status += f", {verdict.numbers}"
+    verdict.status += f", {len(extended)} against {len(reversible)}"
+    verdict.numbers = ""
     return verdict
 
 
