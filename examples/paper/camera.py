@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the pictures of Figure 6 are taken from.
 
-    camera.py REVERSIBLE.csv EXTENDED.csv UP
+    camera.py REVERSIBLE.csv EXTENDED.csv STATS.json UP
 
 One line a level: the level, how many times as far away the camera stands as for level 0, eye, and
 the point it looks at. All cameras look in one direction: along the shorter horizontal side of the
@@ -9,6 +9,7 @@ object, a little from the side and from above. A level whose spheres would not f
 farther away, in both trees alike.
 """
 import csv
+import json
 import math
 import sys
 
@@ -19,11 +20,13 @@ AZIMUTH, ELEVATION = math.radians(-25), math.radians(12)
 STEPS = (1, 1.5, 2, 3, 4, 6, 8, 12, 16)
 
 
-def spheres_by_level(path):
+def spheres_by_level(path, smallest):
+    """Rows x, y, z, radius; pictures show no radius below the smallest."""
     levels = {}
     with open(path, newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):
             sphere = [float(row[c]) for c in ("x", "y", "z", "radius")]
+            sphere[3] = max(sphere[3], smallest)
             levels.setdefault(int(row["level"]), []).append(sphere)
     return {level: np.array(rows) for level, rows in levels.items()}
 
@@ -51,11 +54,14 @@ def fits(spheres, eye, toward):
     return (off_axis + np.arcsin(spheres[:, 3] / distance) <= HALF_ANGLE).all()
 
 
-def main(reversible, extended, up):
-    trees = [spheres_by_level(reversible), spheres_by_level(extended)]
+def main(reversible, extended, stats, up):
+    with open(stats, encoding="utf-8") as file:
+        half_voxel = json.load(file)["object"]["voxel_size"] / 2
+    trees = [spheres_by_level(path, half_voxel) for path in (reversible, extended)]
     leaves = trees[0][0]
-    low = (leaves[:, :3] - leaves[:, 3:]).min(axis=0)
-    high = (leaves[:, :3] + leaves[:, 3:]).max(axis=0)
+    reach = leaves[:, 3:] + half_voxel  # radii reach the centres of voxels
+    low = (leaves[:, :3] - reach).min(axis=0)
+    high = (leaves[:, :3] + reach).max(axis=0)
     middle, extent = (low + high) / 2, high - low
     direction = view_direction(extent, np.array([float(u) for u in up.split(",")]))
     distance = np.linalg.norm(extent) / 2 / math.sin(HALF_ANGLE)

@@ -140,7 +140,7 @@ draw_pictures() {
     local kind level eye lookat pictures
     local common=("up=$up" "width=$size" "height=$size" keep=1)
     "${python[@]}" "$here/camera.py" "$work/trees/reversible-2.csv" "$work/trees/extended-2.csv" \
-        "$up" >"$3/cameras.txt"
+        "$3/reversible-2.json" "$up" >"$3/cameras.txt"
     while read -r level _ eye lookat; do
         if [ "$level" -eq 0 ]; then
             run -read "$1" -write "$2/object.png" "eye=$eye" "lookat=$lookat" "${common[@]}"
