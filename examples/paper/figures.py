@@ -48,7 +48,8 @@ def draw(axes, x, y, kind):
 
 
 def plain_numbers(axis, unit=""):
-    axis.set_major_formatter(FuncFormatter(lambda v, _: (f"{v:,.0f}" if v >= 1 else f"{v:g}") + unit))
+    axis.set_major_formatter(
+        FuncFormatter(lambda v, _: (f"{v:,.0f}" if v >= 1 else f"{v:g}") + unit))
 
 
 def legend_below(figure, axes):

@@ -24,8 +24,8 @@ a { color: var(--link); }
 p, li { max-width: 46rem; }
 figure { margin: 1.5rem 0; }
 figure a:has(img) { display: block; overflow-x: auto; }
-figure img { display: block; width: 100%; min-width: 40rem; height: auto; background: #fff; border-radius: 8px;
-  border: 1px solid var(--line); padding: .4rem; }
+figure img { display: block; width: 100%; min-width: 40rem; height: auto; background: #fff;
+  border-radius: 8px; border: 1px solid var(--line); padding: .4rem; }
 figcaption { color: var(--faint); font-size: .9rem; margin-top: .4rem; max-width: 46rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums; }
@@ -47,15 +47,15 @@ INTRODUCTION = [
     "brought to the object's resolution in one of two ways, and extended trees. Level 0 is the "
     "finest, and the same in all of them; the paper counts from the coarsest. Every tree was "
     "checked against its object.",
-    "Tight scale: a sphere covers the centres of the voxels that its ball stands for, and reaches no "
-    "farther than it must. Paper's scale: radii are multiplied as they are, so that they cover more; "
-    "the paper's figures seem to do so. Both have the same spheres but for their radii; extended "
+    "Tight scale: a sphere covers the centres of the voxels that its ball stands for, and reaches "
+    "no farther than it must. Paper's scale: radii are multiplied as they are, so that they cover "
+    "more; the paper's figures seem to do so. Both have the same spheres but for their radii; extended "
     "trees know no such choice.",
     "Errors are Hamming distances in percent of the object's voxels, counted at the object's "
-    "resolution. The claims are about the extended tree, compared with the reversible one. At equal "
-    "level the two have different numbers of spheres; so errors are compared at equal number of "
-    "spheres as well, where that of the reversible tree is interpolated between its levels (linearly "
-    "in the logarithms of both). Level 0 has no error, and takes no part.",
+    "resolution. The claims are about the extended tree, compared with the reversible one. At "
+    "equal level the two have different numbers of spheres; so errors are compared at equal number "
+    "of spheres as well, where that of the reversible tree is interpolated between its levels "
+    "(linearly in the logarithms of both). Level 0 has no error, and takes no part.",
 ]
 MARKS = {"holds": "✓", "fails": "✗", "partly": "◐"}
 HEAD = ["level", "spheres, reversible", "spheres, extended", "error % reversible, tight",
@@ -191,7 +191,8 @@ class Markdown:
         self.parts.append("\n".join("| " + " | ".join(line) + " |" for line in lines))
 
     def evidence(self, verdicts):
-        self.parts.append("\n".join(f"- {v.claim}: **{mark(v)}**. {v.numbers}".rstrip() for v in verdicts))
+        lines = [f"- {v.claim}: **{mark(v)}**. {v.numbers}".rstrip() for v in verdicts]
+        self.parts.append("\n".join(lines))
 
     def finish(self):
         return "\n\n".join(self.parts) + "\n"

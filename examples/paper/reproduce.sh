@@ -135,7 +135,8 @@ build_trees() {
     done
 }
 
-# draw_pictures VOLUME FOLDER STATS: the object, and every level of two trees, from the same direction.
+# draw_pictures VOLUME FOLDER STATS: the object, and every level of two trees, from the same
+# direction.
 draw_pictures() {
     local kind level eye lookat pictures
     local common=("up=$up" "width=$size" "height=$size" keep=1)

@@ -19,7 +19,7 @@ LABELS = {
 
 
 class Tree:
-    """Spheres and Hamming error (percent; None where not counted) of each level, the finest first."""
+    """Spheres and Hamming error (percent; None where not counted) of each level, from 0 on."""
 
     def __init__(self, stats):
         self.spheres = [level["spheres"] for level in stats["levels"]]
@@ -29,7 +29,10 @@ class Tree:
         return len(self.spheres)
 
     def hamming_at(self, count):
-        """The error at a number of spheres; None beyond the levels above 0 (0 % has no logarithm)."""
+        """The error at a number of spheres; None where no two levels above 0 enclose it.
+
+        Level 0 is no end: 0 % has no logarithm. Of levels with as many spheres, the best counts.
+        """
         best = {}
         for spheres, hamming in list(zip(self.spheres, self.hamming))[1:]:
             if hamming:

@@ -36,7 +36,8 @@ open(sys.argv[1], "wb").write(head.encode() + data)
 END
 
 expect 0 'The figures' --size 24 volumes page
-for file in index.html summary.md a__b_c/{figure5,tradeoff}.{svg,png} a__b_c/{figure6,object}.png; do
+for file in index.html summary.md a__b_c/{figure5,tradeoff}.{svg,png} \
+    a__b_c/{figure6,object}.png; do
     [ -s "page/$file" ] || wrong "$file is missing"
 done
 /usr/bin/python3 - page/index.html page/summary.md <<'END'
