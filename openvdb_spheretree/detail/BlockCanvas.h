@@ -2,10 +2,8 @@
 /// @file detail/BlockCanvas.h
 /// @brief The 128^3 voxels of a block as mask words, to draw balls into.
 ///
-/// A ball larger than a leaf descends: cells of 32, then leaves of 8, of which those wholly inside
-/// are marked full and the others drawn row by row. What is full already, by whichever balls, is
-/// not entered again; so with the largest balls first, overlapping balls cost little more than
-/// their union. A smaller ball is drawn at once, over the rows of its box.
+/// Words are kept by cells of 32^3 and leaves of 8^3, with a bit for leaves that are full: nothing is
+/// drawn to these.
 
 #pragma once
 
@@ -21,6 +19,7 @@ namespace detail {
 class BlockCanvas {
 public:
     static constexpr int kLog2 = 7; ///< a block is OpenVDB's lower internal node
+    static constexpr int kCellLog2 = 5, kLeafLog2 = 3;
 
     /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or more
     /// away along each axis.
@@ -34,23 +33,27 @@ public:
     /// Has balls pass over a leaf, as if it were full.
     void exclude(int cell, int leaf) { mFull[cell] |= bit(leaf); }
 
-    void draw(const Ball& ball)
+    /// @return the block's origin
+    const openvdb::Coord& origin() const { return mOrigin; }
+
+    void fillCell(int cell) { mFull[cell] = kAllOn; }
+    void fillLeaf(int cell, int leaf) { mFull[cell] |= bit(leaf); }
+    bool isFull(int cell) const { return mFull[cell] == kAllOn; }
+    bool isFull(int cell, int leaf) const { return mFull[cell] & bit(leaf); }
+
+    /// Draws a ball, wherever it is in the block, by rows.
+    void drawSmall(const Ball& ball) { drawRows(ball, mOrigin, 1 << kLog2); }
+
+    /// Draws the part of a ball that is in a leaf; @a origin is the leaf's.
+    void drawLeaf(const Ball& ball, int cell, int leaf, const openvdb::Coord& origin)
     {
-        if (isSmall(ball)) {
-            drawRows(ball, mOrigin, 1 << kLog2);
-            return;
+        if (isFull(cell, leaf)) return;
+        uint64_t* word = &mWords[(64 * cell + leaf) * 8];
+        mDrawn[cell] |= bit(leaf);
+        drawLeaf(ball, origin, word);
+        if (std::all_of(word, word + 8, [](uint64_t w) { return w == kAllOn; })) {
+            fillLeaf(cell, leaf);
         }
-        const Range cells(ball, mOrigin, 1 << kLog2, kCellLog2);
-        cells.forEach([&](int x, int y, int z) {
-            const int cell = inFours(x, y, z);
-            const openvdb::Coord origin = at(mOrigin, x, y, z, kCellLog2);
-            if (mFull[cell] == kAllOn || !ball.touches(origin.data(), 1 << kCellLog2)) return;
-            if (ball.contains(origin.data(), 1 << kCellLog2)) {
-                mFull[cell] = kAllOn;
-            } else {
-                drawCell(ball, cell, origin);
-            }
-        });
     }
 
     /// @return a bit for each leaf of a cell that is full, of the others for those drawn to.
@@ -75,7 +78,6 @@ public:
     }
 
 private:
-    static constexpr int kCellLog2 = 5, kLeafLog2 = 3;
     static constexpr uint64_t kAllOn = ~uint64_t(0);
 
     static uint64_t bit(int leaf) { return uint64_t(1) << leaf; }
@@ -105,26 +107,6 @@ private:
             }
         }
     };
-
-    void drawCell(const Ball& ball, int cell, const openvdb::Coord& cellOrigin)
-    {
-        const Range leaves(ball, cellOrigin, 1 << kCellLog2, kLeafLog2);
-        leaves.forEach([&](int x, int y, int z) {
-            const int leaf = inFours(x, y, z);
-            const openvdb::Coord origin = at(cellOrigin, x, y, z, kLeafLog2);
-            if (mFull[cell] & bit(leaf) || !ball.touches(origin.data(), 1 << kLeafLog2)) return;
-            if (ball.contains(origin.data(), 1 << kLeafLog2)) {
-                mFull[cell] |= bit(leaf);
-                return;
-            }
-            uint64_t* word = &mWords[(64 * cell + leaf) * 8];
-            mDrawn[cell] |= bit(leaf);
-            drawLeaf(ball, origin, word);
-            if (std::all_of(word, word + 8, [](uint64_t w) { return w == kAllOn; })) {
-                mFull[cell] |= bit(leaf);
-            }
-        });
-    }
 
     void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
     {

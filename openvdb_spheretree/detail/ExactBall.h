@@ -40,6 +40,18 @@ struct Ball {
     Distance distance;
     int32_t lo[3], hi[3]; ///< inclusive
     bool clipped;         ///< the box is smaller than the sphere's own
+    bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
+
+    /// Balls of this size and less are plain: 2^29 and a cube of 4096 voxels, doubled, squared.
+    static constexpr int64_t kMaxPlainCoverSq = int64_t(1) << 58;
+
+    /// @return whether the ball holds what is so far from its centre; the most that is asked are the
+    /// corners of a cube that meets its box.
+    bool holds(const int64_t d[3]) const
+    {
+        if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= coverSq;
+        return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
+    }
 
     /// @return whether the box meets the cube of @a size voxels at @a origin and the sphere comes
     /// as near as one of its voxels, the clip aside.
@@ -50,7 +62,7 @@ struct Ball {
             const int64_t first = 2 * int64_t(origin[a]), last = first + 2 * (int64_t(size) - 1);
             d[a] = std::max(first, std::min(center2[a], last)) - center2[a];
         }
-        return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
+        return holds(d);
     }
 
     /// @return whether every voxel of the cube is in the sphere and in the clip.
@@ -63,7 +75,7 @@ struct Ball {
             const int64_t below = center2[a] - 2 * int64_t(origin[a]);
             d[a] = std::max(below, 2 * last - center2[a]);
         }
-        return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
+        return holds(d);
     }
 };
 
@@ -83,6 +95,7 @@ inline bool clippedBall(
         ball.center2[a] = s.center2[a];
         ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
+    ball.plain = distance.isEuclidean() && s.coverSq <= Ball::kMaxPlainCoverSq;
     ball.coverSq = std::min(s.coverSq, INT64_MAX - 1); // lengths that do not fit are beyond it
     return true;
 }

@@ -4,7 +4,7 @@
 ///
 /// 1. clipSpheres, sortLargerFirst: the spheres' boxes, clipped; empty ones dropped
 /// 2. sortIntoRootCells, sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
-/// 3. drawBlock, in parallel over 128^3 cells: see BlockCanvas.h
+/// 3. drawBlock, in parallel over 128^3 cells: see BlockPainter.h
 ///
 /// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
 /// descended; a leaf does when it is full. Clipping needs no step of its own, since every sphere's
@@ -14,7 +14,7 @@
 #include "SphereRaster.h"
 
 #include "BallLists.h"
-#include "BlockCanvas.h"
+#include "BlockPainter.h"
 #include "MaskNodes.h"
 #include "Parallel.h"
 
@@ -198,11 +198,12 @@ std::unique_ptr<BlockNode> toNode(
 }
 
 void drawBlock(
-    Block& block, const std::vector<Ball>& balls, const Wanted& wanted, BlockCanvas& canvas)
+    Block& block, const std::vector<Ball>& balls, const Wanted& wanted, BlockPainter& painter)
 {
+    BlockCanvas& canvas = painter.canvas;
     canvas.begin(block.origin);
     excludeUnwanted(canvas, wanted);
-    for (int32_t i : block.balls) canvas.draw(balls[i]);
+    painter.draw(balls, block.balls);
     block.node = toNode(canvas, block.origin, wanted);
     for (int cell = 0; cell < 64; ++cell) canvas.clean(cell);
     block.balls = {}; // no longer needed, and there may be many
@@ -242,9 +243,9 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Dista
     sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);
-    parallelForWithScratch<BlockCanvas>(
-        blocks.size(), interrupter, [&](std::size_t i, BlockCanvas& canvas) {
-            if (!blocks[i].full) drawBlock(blocks[i], balls, wanted, canvas);
+    parallelForWithScratch<BlockPainter>(
+        blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
+            if (!blocks[i].full) drawBlock(blocks[i], balls, wanted, painter);
         });
     return assemble(cells, blocks);
 }
