@@ -59,7 +59,7 @@ private:
 using ThreadEdges = tbb::enumerable_thread_specific<FoundEdges>;
 
 /// Adds the pair of labels of every voxel of a run, but for those that are the pair of the voxel
-/// before along x or z.
+/// before along x, y or z.
 void scanRun(detail::RunLabels& labels, uint32_t leaves, const detail::VoxelBalls& parentBalls,
     const PyramidStep& step, FoundEdges& found)
 {

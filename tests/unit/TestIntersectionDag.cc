@@ -125,8 +125,8 @@ TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
     }
 }
 
-/// The example of docs/algorithm.md: a sphere that was fitted to its leaf balls no longer holds all
-/// of its cell.
+/// A small case of what docs/algorithm.md explains: a sphere that was fitted to its leaf balls need
+/// not hold all of its cell.
 TEST(IntersectionDag, LacksAnEdgeOfSharedVoxelsOfAnExtendedTree)
 {
     const RandomObject object = randomObject(70);
