@@ -2,6 +2,7 @@
 #include "SphereDag.h"
 
 #include "detail/BallIndex.h"
+#include "detail/LargeArray.h"
 #include "detail/Parallel.h"
 #include "detail/ParentLabels.h"
 #include "detail/RunLabels.h"
@@ -17,32 +18,40 @@ namespace {
 
 using openvdb::util::NullInterrupter;
 
+/// Pairs of ranks (detail/BallIndex.h) in pieces, so that none of them moves as they become more.
+struct FoundPiece {
+    static constexpr std::size_t kSize = std::size_t(1) << 16;
+    detail::LargeArray<DagEdge> edges = detail::makeLargeArray<DagEdge>(kSize);
+    std::size_t count = 0;
+};
+
 /// What a thread has found. Most pairs that come again are dropped by a small table of the last
-/// ones; without a branch, because which ones is hard to predict (15 -> 6 ns a pair).
+/// ones; without a branch, because which ones is hard to predict.
 class FoundEdges {
 public:
     /// Makes room for the pairs of a word.
     void reserveWord()
     {
-        if (mCount + 64 > mEdges.size()) mEdges.resize(2 * mEdges.size() + 1024);
+        if (mPieces.empty() || mPieces.back().count + 64 > FoundPiece::kSize) {
+            mPieces.emplace_back();
+        }
     }
     void add(int32_t parent, int32_t child)
     {
         const uint64_t edge = uint64_t(uint32_t(parent)) << 32 | uint32_t(child);
         uint64_t& recent = mRecent[edge * kGoldenRatio >> (64 - kRecentBits)];
-        mEdges[mCount] = {parent, child};
-        mCount += recent != edge;
+        FoundPiece& piece = mPieces.back();
+        piece.edges[piece.count] = {parent, child};
+        piece.count += recent != edge;
         recent = edge;
     }
-    const DagEdge* begin() const { return mEdges.data(); }
-    const DagEdge* end() const { return mEdges.data() + mCount; }
+    const std::vector<FoundPiece>& pieces() const { return mPieces; }
 
 private:
     static constexpr uint64_t kGoldenRatio = 0x9e3779b97f4a7c15; ///< spreads keys over the table
     static constexpr int kRecentBits = 12;                       ///< 32 KiB
-    std::vector<DagEdge> mEdges;
-    std::size_t mCount = 0;
-    /// No edge has all bits on: indices are not negative.
+    std::vector<FoundPiece> mPieces;
+    /// No edge has all bits on: ranks are not negative.
     std::vector<uint64_t> mRecent =
         std::vector<uint64_t>(std::size_t(1) << kRecentBits, ~uint64_t(0));
 };
@@ -50,7 +59,7 @@ private:
 using ThreadEdges = tbb::enumerable_thread_specific<FoundEdges>;
 
 /// Adds the pair of labels of every voxel of a run, but for those that are the pair of the voxel
-/// before along x or z.
+/// before along x, y or z.
 void scanRun(detail::RunLabels& labels, uint32_t leaves, const detail::VoxelBalls& parentBalls,
     const PyramidStep& step, FoundEdges& found)
 {
@@ -63,53 +72,66 @@ void scanRun(detail::RunLabels& labels, uint32_t leaves, const detail::VoxelBall
             parents.moveTo(cells.parent[cells.cellOf[x]]);
             const uint64_t fresh = labels.enterWord(x);
             uint64_t bits = (fresh | (labels.on() & parents.changed())) & parents.on();
-            bits &= ~(labels.likeBeforeY() & parents.likeBeforeY());
-            bits &= ~(labels.likeBeforeZ() & parents.likeBeforeZ());
+            if (!bits) continue;
+            const detail::LikeBefore like = labels.likeBefore();
+            bits &= ~(like.alongY & parents.likeBeforeY());
+            bits &= ~(like.alongZ & parents.likeBeforeZ());
             found.reserveWord();
             for (; bits; bits &= bits - 1) {
                 const uint32_t lane = openvdb::util::FindLowestOn(bits);
-                found.add(parents.ball(lane), labels.ball(lane));
+                found.add(parents.rank(lane), labels.rank(lane));
             }
         }
     }
 }
 
-using EdgeRange = std::pair<const DagEdge*, const DagEdge*>;
-
-/// A stable sort of all edges of @a ranges by key(edge), which is less than @a keys.
+/// A stable sort of edges by key(edge), which is less than @a keys.
 template <typename Key>
 void countingSort(
-    const std::vector<EdgeRange>& ranges, std::size_t keys, const Key& key, DagEdge* sorted)
+    const DagEdge* begin, const DagEdge* end, std::size_t keys, const Key& key, DagEdge* sorted)
 {
     std::vector<std::size_t> place(keys + 1, 0);
-    for (const EdgeRange& range : ranges) {
-        for (auto edge = range.first; edge != range.second; ++edge) ++place[key(*edge) + 1];
-    }
+    for (auto edge = begin; edge != end; ++edge) ++place[std::size_t(key(*edge)) + 1];
     std::partial_sum(place.begin(), place.end(), place.begin());
-    for (const EdgeRange& range : ranges) {
-        for (auto edge = range.first; edge != range.second; ++edge) {
-            sorted[place[key(*edge)]++] = *edge;
-        }
-    }
+    for (auto edge = begin; edge != end; ++edge) sorted[place[std::size_t(key(*edge))]++] = *edge;
 }
 
-/// By child, then by parent: both are small numbers, so that no two edges are ever compared.
-std::vector<DagEdge> sortedEdges(
-    const ThreadEdges& found, std::size_t parentCount, std::size_t childCount)
-{
-    std::vector<EdgeRange> ranges;
-    std::size_t count = 0;
-    for (const FoundEdges& some : found) {
-        ranges.emplace_back(some.begin(), some.end());
-        count += std::size_t(some.end() - some.begin());
+/// All that was found in one array, ranks made indices of balls.
+struct AllFound {
+    AllFound(const ThreadEdges& found, const detail::BallIndex& parents,
+        const detail::BallIndex& children, NullInterrupter* interrupter)
+    {
+        std::vector<std::pair<const FoundPiece*, std::size_t>> places;
+        for (const FoundEdges& some : found) {
+            for (const FoundPiece& piece : some.pieces()) {
+                places.emplace_back(&piece, count);
+                count += piece.count;
+            }
+        }
+        edges = detail::makeLargeArray<DagEdge>(count);
+        detail::parallelFor(places.size(), interrupter, [&](std::size_t i) {
+            const auto& [piece, place] = places[i];
+            for (std::size_t k = 0; k < piece->count; ++k) {
+                const DagEdge& edge = piece->edges[k];
+                edges[place + k] = {parents.ballOf(edge.parent), children.ballOf(edge.child)};
+            }
+        });
     }
-    std::vector<DagEdge> byChild(count), edges(count);
-    const auto child = [](const DagEdge& edge) { return std::size_t(edge.child); };
-    const auto parent = [](const DagEdge& edge) { return std::size_t(edge.parent); };
-    countingSort(ranges, childCount, child, byChild.data());
-    countingSort({{byChild.data(), byChild.data() + count}}, parentCount, parent, edges.data());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+
+    std::size_t count = 0;
+    detail::LargeArray<DagEdge> edges;
+};
+
+/// By child, then by parent: both are small numbers, so that no two edges are ever compared.
+std::vector<DagEdge> sortedEdges(AllFound all, std::size_t parentCount, std::size_t childCount)
+{
+    const auto byChild = detail::makeLargeArray<DagEdge>(all.count);
+    DagEdge *const found = all.edges.get(), *const middle = byChild.get();
+    countingSort(
+        found, found + all.count, childCount, [](auto& e) { return e.child; }, middle);
+    countingSort(
+        middle, middle + all.count, parentCount, [](auto& e) { return e.parent; }, found);
+    return std::vector<DagEdge>(found, std::unique(found, found + all.count));
 }
 
 } // namespace
@@ -125,7 +147,8 @@ std::vector<DagEdge> sphereDag(const MedialLevel& fine, const MedialLevel& coars
         detail::RunLabels labels(fine.labels, index, run);
         scanRun(labels, run.count, parents, step, found.local());
     });
-    return sortedEdges(found, coarse.balls.size(), fine.balls.size());
+    return sortedEdges(AllFound(found, parents.index(), index, interrupter), coarse.balls.size(),
+        fine.balls.size());
 }
 
 } // namespace openvdb_spheretree

@@ -11,11 +11,12 @@
 /// 2. `scanRun`: each run of leaves along x of the finer level, in words of 64 voxels. Labels are
 ///    looked up where they may differ from those before along x (detail/RunLabels.h); a pair of
 ///    labels is looked at where it differs from those before along x, y and z, on word bits alone.
-/// 3. `sortedEdges`: a counting sort by child, then by parent; no comparisons.
+/// 3. `AllFound`, `sortedEdges`: ranks become indices; a counting sort by child, then by parent.
 ///
 /// Exact, and the same for any number of threads. Cost: linear in the voxels of both levels and in
-/// the edges, about that of the finer level's power labels; 4 bytes a voxel of the coarser level and
-/// 16 an edge while it runs. Tests: TestSphereDag.cc. DagAdjacency.h makes rows of the result.
+/// the edges; for all levels of dragon-512 0.9 times that of their power labels (64 against 72 ms on
+/// one thread). While it runs, 4 bytes a voxel of the coarser level and 24 a pair found. Tests:
+/// TestSphereDag.cc. DagAdjacency.h makes rows of the result.
 
 #pragma once
 

@@ -9,7 +9,7 @@ build_packages=(
     g++ cmake ninja-build ccache git
     libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
     zlib1g-dev libpng-dev libhwy-dev libassimp-dev)
-test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib)
+test_packages=(libgtest-dev libbenchmark-dev nlohmann-json3-dev python3-matplotlib)
 
 say() { printf '%s\n' "== $*" >&2; }
 fail() { printf '%s\n' "${0##*/}: $*" >&2; exit 1; }

@@ -65,7 +65,7 @@ std::vector<std::size_t> slabBegins(const std::vector<MedialBall>& balls)
 
 BallIndex::BallIndex(const LeafLayout& layout, const std::vector<MedialBall>& balls,
     openvdb::util::NullInterrupter* interrupter)
-    : mCentres(layout.leafCount()), mBallOfRank(balls.size())
+    : mCentres(std::size_t(layout.leafCount()) * kLeafDim), mBallOfRank(balls.size())
 {
     const std::vector<std::size_t> begins = slabBegins(balls);
     // No two slabs share a leaf: their leaves differ in x.
@@ -75,28 +75,24 @@ BallIndex::BallIndex(const LeafLayout& layout, const std::vector<MedialBall>& ba
         for (std::size_t i = begins[slab]; i < begins[slab + 1]; ++i) {
             const uint32_t leaf = leafOfBall[i] = finder.leafOf(balls[i].center);
             const uint32_t offset = leafOffset(balls[i].center);
-            mCentres[leaf].mask[offset >> 6] |= uint64_t(1) << (offset & 63);
+            mCentres[wordOf(leaf, offset)].mask |= uint64_t(1) << (offset & 63);
         }
     });
     countRanks();
     parallelFor(begins.size() - 1, interrupter, [&](std::size_t slab) {
         for (std::size_t i = begins[slab]; i < begins[slab + 1]; ++i) {
-            mBallOfRank[rankOf({leafOfBall[i], leafOffset(balls[i].center)})] = int32_t(i);
+            const int32_t rank = rankAt({leafOfBall[i], leafOffset(balls[i].center)});
+            mBallOfRank[std::size_t(rank)] = int32_t(i);
         }
     });
 }
 
 void BallIndex::countRanks()
 {
-    uint32_t rank = 0;
+    int32_t rank = 0;
     for (Centres& centres : mCentres) {
         centres.rank = rank;
-        uint32_t count = 0;
-        for (uint32_t x = 0; x < 8; ++x) {
-            centres.before[x] = uint16_t(count);
-            count += openvdb::util::CountOn(centres.mask[x]);
-        }
-        rank += count;
+        rank += int32_t(hwy::PopCount(centres.mask));
     }
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/BallIndex.h
-/// @brief Which medial ball is centred at a voxel, and which one a voxel's label is, without a
-/// search.
+/// @brief Which medial ball is centred at a voxel, without a search.
 ///
 /// Balls are ordered by centre, voxels by leaf. A leaf's centres are bits of a mask; the bits before
-/// a centre, counted, are its rank in the order of leaves; one table takes ranks to balls. 88 bytes
-/// a leaf, 4 a ball. (A binary search over all balls took five times as long as all else that a
-/// voxel of the Sphere-DAG costs.)
+/// a centre, counted, are its rank in the order of leaves, which is as good a name for a ball as its
+/// index and is found in one cache line. One table takes ranks to balls, for the few that are asked
+/// for. 128 bytes a leaf, 4 a ball.
 
 #pragma once
 
@@ -14,10 +13,9 @@
 #include "../MedialAxis.h"
 #include "../PowerMap.h"
 
-#include <openvdb/util/NodeMasks.h>
+#include <hwy/base.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,27 +28,30 @@ public:
     BallIndex(const LeafLayout& layout, const std::vector<MedialBall>& balls,
         openvdb::util::NullInterrupter* interrupter);
 
-    /// @return the index of the ball that is centred at @a center; there must be one.
-    int32_t at(PowerMap::Voxel center) const { return mBallOfRank[rankOf(center)]; }
+    /// @return the rank of the ball that is centred at @a center; there must be one.
+    int32_t rankAt(PowerMap::Voxel center) const
+    {
+        const Centres& centres = mCentres[wordOf(center.leaf, center.offset)];
+        const uint64_t before = (uint64_t(1) << (center.offset & 63)) - 1;
+        return centres.rank + int32_t(hwy::PopCount(centres.mask & before));
+    }
+    /// @return the index of the ball of that rank.
+    int32_t ballOf(int32_t rank) const { return mBallOfRank[std::size_t(rank)]; }
 
 private:
+    /// A word of a leaf's mask.
     struct Centres {
-        LeafMask mask{};
-        std::array<uint16_t, 8> before{}; ///< centres of the leaf in the words before each
-        uint32_t rank = 0;                ///< of the leaf's first centre
+        uint64_t mask = 0;
+        int32_t rank = 0; ///< of the word's first centre
     };
 
-    std::size_t rankOf(PowerMap::Voxel center) const
+    static std::size_t wordOf(uint32_t leaf, uint32_t offset)
     {
-        const Centres& centres = mCentres[center.leaf];
-        const uint32_t x = center.offset >> 6;
-        const uint64_t before = (uint64_t(1) << (center.offset & 63)) - 1;
-        return std::size_t(centres.rank) + centres.before[x]
-            + openvdb::util::CountOn(centres.mask[x] & before);
+        return std::size_t(leaf) * kLeafDim + (offset >> 6);
     }
     void countRanks();
 
-    std::vector<Centres> mCentres; ///< one a leaf
+    std::vector<Centres> mCentres; ///< eight a leaf
     std::vector<int32_t> mBallOfRank;
 };
 

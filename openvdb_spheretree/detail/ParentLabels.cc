@@ -12,18 +12,17 @@ namespace detail {
 using openvdb::Coord;
 
 VoxelBalls::VoxelBalls(const MedialLevel& level, openvdb::util::NullInterrupter* interrupter)
-    : mLayout(level.layout),
-      mBalls(makeLargeArray<int32_t>(std::size_t(mLayout.leafCount()) * kLeafVoxels)),
+    : mLayout(level.layout), mIndex(mLayout, level.balls, interrupter),
+      mRanks(makeLargeArray<int32_t>(std::size_t(mLayout.leafCount()) * kLeafVoxels)),
       mChanged(mLayout.leafCount()), mLikeBeforeY(mLayout.leafCount()),
       mLikeBeforeZ(mLayout.leafCount())
 {
-    const BallIndex index(mLayout, level.balls, interrupter);
     parallelFor(mLayout.runCount(Axis::X), interrupter, [&](std::size_t i) {
         const LeafLayout::Run run = mLayout.run(Axis::X, uint32_t(i));
-        RunLabels labels(level.labels, index, run);
+        RunLabels labels(level.labels, mIndex, run);
         for (uint32_t place = 0; place < run.count; ++place) {
             labels.enterLeaf(place);
-            fillLeaf(labels, place == 0 ? nullptr : balls(run.leaves[place - 1]));
+            fillLeaf(labels, place == 0 ? nullptr : ranks(run.leaves[place - 1]));
         }
     });
 }
@@ -31,19 +30,20 @@ VoxelBalls::VoxelBalls(const MedialLevel& level, openvdb::util::NullInterrupter*
 void VoxelBalls::fillLeaf(RunLabels& labels, const int32_t* before)
 {
     const uint32_t leaf = labels.leaf();
-    int32_t* here = mBalls.get() + std::size_t(leaf) * kLeafVoxels;
+    int32_t* here = mRanks.get() + std::size_t(leaf) * kLeafVoxels;
     std::fill_n(here, kLeafVoxels, -1);
     for (uint32_t x = 0; x < 8; ++x) {
         labels.enterWord(x);
         int32_t* row = here + 64 * x;
         for (uint64_t bits = labels.on(); bits; bits &= bits - 1) {
             const uint32_t lane = openvdb::util::FindLowestOn(bits);
-            row[lane] = labels.ball(lane);
+            row[lane] = labels.rank(lane);
         }
         const int32_t* last = x > 0 ? row - 64 : before ? before + 7 * 64 : nullptr;
         mChanged[leaf][x] = last ? ~equalLanes(row, last) : ~uint64_t(0);
-        mLikeBeforeY[leaf][x] = labels.likeBeforeY();
-        mLikeBeforeZ[leaf][x] = labels.likeBeforeZ();
+        const LikeBefore like = labels.likeBefore();
+        mLikeBeforeY[leaf][x] = like.alongY;
+        mLikeBeforeZ[leaf][x] = like.alongZ;
     }
 }
 

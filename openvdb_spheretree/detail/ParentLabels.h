@@ -10,6 +10,7 @@
 
 #include "../MedialLevel.h"
 #include "../PyramidModel.h"
+#include "BallIndex.h"
 #include "LargeArray.h"
 
 #include <openvdb/openvdb.h>
@@ -25,17 +26,18 @@ namespace detail {
 
 class RunLabels;
 
-/// The ball that labels each voxel of a level, 4 bytes a voxel.
+/// The ball that labels each voxel of a level, by rank (BallIndex.h), 4 bytes a voxel.
 class VoxelBalls {
 public:
     /// @param level  kept by reference
     VoxelBalls(const MedialLevel& level, openvdb::util::NullInterrupter* interrupter);
 
     const LeafLayout& layout() const { return mLayout; }
-    /// The 512 balls of a leaf, by index; -1 where a voxel is off.
-    const int32_t* balls(uint32_t leaf) const
+    const BallIndex& index() const { return mIndex; }
+    /// The 512 ranks of a leaf; -1 where a voxel is off.
+    const int32_t* ranks(uint32_t leaf) const
     {
-        return mBalls.get() + std::size_t(leaf) * kLeafVoxels;
+        return mRanks.get() + std::size_t(leaf) * kLeafVoxels;
     }
     /// Voxels whose ball is not known to be that of the voxel before along x.
     const LeafMask& changed(uint32_t leaf) const { return mChanged[leaf]; }
@@ -47,7 +49,8 @@ private:
     void fillLeaf(RunLabels& labels, const int32_t* before);
 
     const LeafLayout& mLayout;
-    LargeArray<int32_t> mBalls;
+    const BallIndex mIndex;
+    LargeArray<int32_t> mRanks;
     std::vector<LeafMask> mChanged, mLikeBeforeY, mLikeBeforeZ;
 };
 
@@ -78,10 +81,10 @@ public:
     /// Voxels whose parents have the ball of the parent of the voxel before along y, or z.
     uint64_t likeBeforeY() const { return mLikeBeforeY; }
     uint64_t likeBeforeZ() const { return mLikeBeforeZ; }
-    /// The ball that labels the parent of the voxel at bit @a lane, where that is on.
-    int32_t ball(uint32_t lane) const
+    /// The rank of the ball that labels the parent of the voxel at bit @a lane, where that is on.
+    int32_t rank(uint32_t lane) const
     {
-        return mBalls.balls(*mLeaves[mLeafOf[lane]])[64 * uint32_t(*mX & 7) + mOffsetOf[lane]];
+        return mBalls.ranks(*mLeaves[mLeafOf[lane]])[64 * uint32_t(*mX & 7) + mOffsetOf[lane]];
     }
 
 private:

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace {
 
@@ -122,6 +123,26 @@ TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
             << object.name;
         EXPECT_EQ(meeting.parent, shared.parent) << object.name;
     }
+}
+
+/// A small case of what docs/algorithm.md explains: a sphere that was fitted to its leaf balls need
+/// not hold all of its cell.
+TEST(IntersectionDag, LacksAnEdgeOfSharedVoxelsOfAnExtendedTree)
+{
+    const RandomObject object = randomObject(70);
+    SphereTreeSettings settings;
+    settings.dag = true;
+    const auto lacking = [&] {
+        const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+        const std::vector<DagEdge> meeting = intersectionDag(tree);
+        std::vector<DagEdge> lacks;
+        std::set_difference(tree.dag.begin(), tree.dag.end(), meeting.begin(), meeting.end(),
+            std::back_inserter(lacks));
+        return lacks.size();
+    };
+    EXPECT_EQ(lacking(), 1u) << object.name;
+    settings.finalFit = false;
+    EXPECT_EQ(lacking(), 0u) << "the whole cell lies in the sphere";
 }
 
 TEST(IntersectionDag, IsCheckedWithTheTree)
