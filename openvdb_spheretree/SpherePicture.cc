@@ -215,17 +215,27 @@ const SphereTreeLevel& levelOf(const SphereTree& tree, int level)
                                  << (tree.levels.empty() ? -1 : tree.root().level));
 }
 
-std::vector<detail::BallShape> ballsOf(const SphereTree& tree, const SphereTreeLevel& level)
+/// @return makeBall(center, radius) of every sphere, in index space about the object's middle.
+template <typename MakeBall>
+auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBall& makeBall)
 {
     constexpr double kSmallest = 0.5;
     const Vec3d middle = middleOf(tree.object.bbox).asVec3d();
-    std::vector<detail::BallShape> balls;
+    std::vector<decltype(makeBall(middle, kSmallest))> balls;
     balls.reserve(level.size());
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius = tree.radiusWorld[id] / tree.voxelSize();
-        balls.push_back({tree.center[id] - middle, std::max(radius, kSmallest)});
+        balls.push_back(makeBall(tree.center[id] - middle, std::max(radius, kSmallest)));
     }
     return balls;
+}
+
+template <typename Shape>
+Picture painted(const std::vector<Shape>& shapes, const std::vector<Vec3f>& colors,
+    const View& view, openvdb::util::NullInterrupter* interrupter)
+{
+    const detail::RayScene<Shape> scene(shapes, interrupter);
+    return Painter<Shape>(scene, colors, view).paint(interrupter);
 }
 
 /// The leaf nodes and tiles of an object that have voxels.
@@ -277,16 +287,16 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
 {
     camera.validate();
     settings.validate();
-    if (!tree.settings.dist.isEuclidean()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "pictures show spheres, and the balls of dist=" << toString(tree.settings.dist)
-                                                            << " are none");
-    }
     const SphereTreeLevel& drawn = levelOf(tree, level);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
-    const detail::RayScene<detail::BallShape> scene(ballsOf(tree, drawn), interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
-    return Painter<detail::BallShape>(scene, colors, view).paint(interrupter);
+    if (tree.settings.dist.isEuclidean()) {
+        const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
+        return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+    }
+    const detail::NormFaces faces(tree.settings.dist);
+    const auto ball = [&](const Vec3d& c, double r) { return detail::NormBallShape{c, r, &faces}; };
+    return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
 }
 
 Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
@@ -301,9 +311,8 @@ Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
     const Vec3d color =
         settings.color == PictureColor::Fixed ? settings.fixed : PictureSettings().fixed;
     const std::vector<Vec3f> colors(shapes.size(), Vec3f(detail::linearOf(color)));
-    const detail::RayScene<detail::VoxelShape> scene(shapes, interrupter);
     const View view(camera, settings, object.transform(), box);
-    return Painter<detail::VoxelShape>(scene, colors, view).paint(interrupter);
+    return painted(shapes, colors, view, interrupter);
 }
 
 } // namespace openvdb_spheretree

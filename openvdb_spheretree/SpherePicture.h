@@ -2,16 +2,17 @@
 /// @file SpherePicture.h
 /// @brief A ray-cast picture of a level of a sphere-tree, or of an object, for slides and papers.
 ///
-/// 1. *Shapes*: the level's spheres as stored, or a box for every leaf node and tile of the object,
-///    in index space about the middle of the object, where doubles are finest.
+/// 1. *Shapes*: the level's spheres as stored, or the polyhedra that they are in the norms l1,
+///    l-infinity and chamfer, or a box for every leaf node and tile of the object; in index space
+///    about the middle of the object, where doubles are finest.
 /// 2. *Colours*, one a sphere: siblings share one, and differ from the siblings beside them.
-/// 3. *Rays*: every pixel is the mean of a square of samples, more where shapes meet. A sample is the shape that its ray
-///    hits first, in closed form, lit by a lamp with soft shadow, by a sky with ambient occlusion
-///    and by a little light from behind.
+/// 3. *Rays*: every pixel is the mean of a square of samples, more where shapes meet. A sample is the
+///    shape that its ray hits first, in closed form, lit by a lamp with soft shadow, by a sky with
+///    ambient occlusion and by a little light from behind.
 ///
 /// What is random about a sample depends on its pixel alone: the same input gives the same picture,
-/// for any number of threads. Cost: O(pixels log shapes), whatever the bounding box; a picture of
-/// 1280 x 960 pixels of 140,000 spheres takes seconds. Tests: TestSpherePicture.cc.
+/// for any number of threads. Cost: O(pixels log shapes), whatever the bounding box. Tests:
+/// TestSpherePicture.cc.
 
 #pragma once
 
@@ -58,8 +59,7 @@ struct PictureSettings {
 /// @param camera       in world space; viewOf() makes one that suits
 /// @param settings     size, colours, quality
 /// @param interrupter  may be null; asked from many threads
-/// @throw openvdb::ValueError if the tree has no such level, its balls are not Euclidean, or the
-///        camera or a setting is wrong
+/// @throw openvdb::ValueError if the tree has no such level, or the camera or a setting is wrong
 /// @throw Interrupted if the interrupter said so
 Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     const PictureSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);

@@ -154,12 +154,16 @@ struct BoundingTree::Builder {
             node.center[axis] = float(center[axis]);
         }
         const Vec3d rounded(node.center[0], node.center[1], node.center[2]);
-        double radius = 0;
+        double radius = 0, behind = 0;
         for (int32_t i = begin; i < end; ++i) {
             const Bound& bound = bounds[order[i]];
-            radius = std::max(radius, (bound.center - rounded).length() + bound.radius);
+            const double apart = (bound.center - rounded).length();
+            radius = std::max(radius, apart + bound.radius);
+            behind = std::max(behind, apart + bound.behind);
         }
-        node.radius = float(radius * (1 + 1e-6)); // more than all rounding here and in queries
+        constexpr double kMore = 1e-6; // more than all rounding here and in queries
+        node.radius = float(radius * (1 + kMore));
+        node.behind = float(behind + radius * kMore);
     }
 
     int32_t split(int32_t begin, int32_t end, const Extent& extent, int depth)
