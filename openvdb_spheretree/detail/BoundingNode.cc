@@ -54,7 +54,8 @@ uint32_t entries(
         }
         const auto radius = loadFloats(node.radius, i);
         const auto halfSq = hn::Sub(hn::Mul(radius, radius), apartSq);
-        const auto begin = hn::Max(in, hn::Sub(nearest, radius));
+        const auto half = hn::Sqrt(hn::Max(halfSq, hn::Zero(d)));
+        const auto begin = hn::Max(in, hn::Sub(nearest, half));
         const auto isBox = hn::Le(in, hn::Mul(out, hn::Set(d, 1 + 1e-15)));
         const auto isBall = hn::And(hn::Ge(halfSq, hn::Zero(d)),
             hn::Ge(hn::Add(nearest, loadFloats(node.behind, i)), hn::Zero(d)));

@@ -28,11 +28,10 @@ struct BoundingNode {
     BoundingNode() { behind.fill(-std::numeric_limits<float>::infinity()); }
 };
 
-/// @brief Where a ray may enter both ball and box of each child: not before the box (0 if it starts
-/// inside), nor before the plane that touches the ball in front. The root of where it does enter the
-/// ball would cost more than it saves.
+/// @brief Where a ray enters both ball and box of each child, 0 if it starts inside. (Without the
+/// root, with the plane that touches the ball in front instead, a picture takes half as long again.)
 /// @param entry  receives that, for the children of the answer
-/// @return a bit for each child whose ball and box the ray enters, and may no further than @a far
+/// @return a bit for each child that the ray enters no further away than @a far
 uint32_t entriesOf(
     const BoundingNode& node, const Ray& ray, double far, BoundingNode::Each<double>& entry);
 
