@@ -94,10 +94,9 @@ public:
     }
 
 private:
-    static constexpr int kTile = 64;        ///< pixels a side
-    static constexpr int kBlur = 2;         ///< light is the mean of that many pixels to each side
-    static constexpr int kProbes = 2;       ///< samples a side of a pixel that every pixel has
-    static constexpr double kSmooth = 0.97; ///< cosine of some 14 degrees
+    static constexpr int kTile = 64;  ///< pixels a side
+    static constexpr int kBlur = 2;   ///< light is the mean of that many pixels to each side
+    static constexpr int kProbes = 2; ///< samples a side of a pixel that every pixel has
 
     struct Sample {
         Ray ray;
@@ -157,7 +156,6 @@ private:
     /// nearly: a few rays a pixel then leave no grain, and edges stay sharp.
     Vec3d blurred(Patch& patch, int x, int y) const
     {
-        constexpr double kOffPlane = 0.3; // sine of the angle to another point of the surface
         const Surface& here = *patch.at(x, y).surface;
         double lamp = 0;
         Vec3d ambient(0.0);
@@ -167,9 +165,8 @@ private:
             for (int u = std::max(patch.left, x - kBlur); u < std::min(patch.right, x + kBlur + 1);
                  ++u) {
                 const auto& other = patch.at(u, v).surface;
-                if (!other || other->normal.dot(here.normal) < kSmooth) continue;
-                const Vec3d apart = other->point - here.point;
-                if (std::abs(apart.dot(here.normal)) > kOffPlane * apart.length()) continue;
+                if (!other) continue;
+                if (!isSmooth(here.point, here.normal, other->point, other->normal)) continue;
                 lamp += other->lamp;
                 ambient += other->ambient;
                 ++count;
@@ -228,13 +225,25 @@ private:
         return {ray, v, mScene.nearest(ray)};
     }
 
-    static bool areAlike(const Probes& samples)
+    /// Whether one plane shows both points, nearly.
+    static bool isSmooth(const Vec3d& p, const Vec3d& normalP, const Vec3d& q, const Vec3d& normalQ)
+    {
+        constexpr double kCosine = 0.97;  // of some 14 degrees
+        constexpr double kOffPlane = 0.3; // sine of the angle from the plane to the other point
+        const Vec3d apart = q - p;
+        return normalP.dot(normalQ) > kCosine
+            && std::abs(apart.dot(normalP)) <= kOffPlane * apart.length();
+    }
+
+    /// Spheres of one colour that merge are one surface.
+    bool areAlike(const Probes& samples) const
     {
         const auto& first = samples.front().hit;
-        return std::all_of(samples.begin(), samples.end(), [&](const Sample& other) {
+        return std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& other) {
             if (!first || !other.hit) return !first && !other.hit;
-            return first->shape == other.hit->shape
-                && first->normal.dot(other.hit->normal) > kSmooth;
+            return mColors[first->shape] == mColors[other.hit->shape]
+                && isSmooth(
+                    startOf(samples.front()), first->normal, startOf(other), other.hit->normal);
         });
     }
 

@@ -176,6 +176,31 @@ TEST(SpherePicture, BallsOfNormsAreThePolyhedraThatTheyAre)
     EXPECT_NEAR(areaOf("l1"), 72 / std::sqrt(2), 2);
 }
 
+TEST(SpherePicture, WhatStandsBeforeTheLampCastsASoftShadowWithoutGrain)
+{
+    PictureSettings settings = small(PictureColor::Fixed);
+    Camera camera;
+    camera.eye = Vec3d(0, 0, 30);
+    camera.fovDegrees = 4;
+    // The lamp is to the left, above and behind the viewer; the second ball is out of sight.
+    const Vec3d towardsLamp = Vec3d(-0.55, 0.8, 0.6).unit();
+    const Vec3d front(0, 0, 6);
+    const auto facing = [&](const std::vector<std::pair<Vec3d, double>>& balls) {
+        return renderLevel(treeOf(balls), 0, camera, settings);
+    };
+    const std::pair<Vec3d, double> lit(Vec3d(0.0), 6), before(front + 10 * towardsLamp, 2);
+    const Picture open = facing({lit}), dark = facing({lit, before});
+    const std::size_t middle = 3 * (60 * 160 + 80);
+    EXPECT_LT(linear(dark.rgb[middle]), 0.75 * linear(open.rgb[middle]));
+    EXPECT_GT(linear(dark.rgb[middle]), 0.3 * linear(open.rgb[middle]));
+    const Picture edge = facing({lit, {before.first, 0.8}}); // smaller than the lamp seems
+    double steps = 0;
+    for (std::size_t i = 3; i < edge.rgb.size(); ++i) {
+        steps += std::abs(edge.rgb[i] - edge.rgb[i - 3]);
+    }
+    EXPECT_LT(steps / double(edge.rgb.size()), 1.2) << "of 256";
+}
+
 TEST(SpherePicture, TheNumberOfThreadsMakesNoDifference)
 {
     const auto object = gridOf(shapes::ball(60));
