@@ -2,10 +2,10 @@
 /// @file detail/RayShapes.h
 /// @brief What a ray can hit: balls, those of norms too, and the voxels of a leaf node or a tile.
 ///
-/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters it, negative
-/// where it does not, or where it starts inside: what holds the eye is looked out of; and normal(),
-/// the unit normal, outwards, where a ray enters. A shape with these three can be put in a RayScene,
-/// and no other file need know it. Coordinates are doubles, in voxels.
+/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters
+/// it, negative where it does not, or where it starts inside: what holds the eye is looked out of;
+/// and normal(), the unit normal, outwards, where a ray enters. A shape with these three can be put
+/// in a RayScene, and no other file need know it. Coordinates are doubles, in voxels.
 
 #pragma once
 
@@ -51,8 +51,9 @@ struct BallShape {
 };
 
 /// The faces of the unit ball of a norm: |normal . x| <= 1 for all of them. The norm is the largest
-/// of these products over the orders and signs of three weights (Distance.h), so there are at most 6
-/// orders with 8 signs, in pairs of opposite faces: 3 for l-infinity, 4 for l1, 12 for chamfer:3,4,5.
+/// of these products over the orders and signs of three weights (Distance.h), so there are at most
+/// 6 orders with 8 signs, in pairs of opposite faces: 3 for l-infinity, 4 for l1, 12 for
+/// chamfer:3,4,5.
 struct NormFaces {
     explicit NormFaces(const Distance& norm);
 

@@ -9,6 +9,7 @@
 
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/SpherePicture.h>
+#include <openvdb_spheretree/detail/PictureColors.h>
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -279,6 +280,16 @@ TEST(SpherePicture, SiblingsShareAColorAndNeighboursDiffer)
     EXPECT_EQ(colorsOf(tree, 0, PictureColor::Level).size(), 1u);
     EXPECT_GE(colorsOf(tree, 0, PictureColor::Id).size(), 4u);
     EXPECT_NE(colorsOf(tree, 0, PictureColor::Level), colorsOf(tree, 0, PictureColor::Fixed));
+}
+
+TEST(SpherePicture, SpheresSideBySideNeverHaveOneColor)
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(1);
+    addLevel(tree, 300, 1);
+    for (int i = 0; i < 300; ++i) addNode(tree, Vec3d(2 * i, 0, 0), Coord(i, 0, 0), 2, -1);
+    const auto colors = detail::levelColors(tree, tree.levels[0], small(PictureColor::Id), nullptr);
+    for (int i = 1; i < 300; ++i) ASSERT_NE(colors[i - 1], colors[i]) << i;
 }
 
 TEST(SpherePicture, APngReadsBackToTheSamePixels)
