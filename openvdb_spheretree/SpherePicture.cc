@@ -81,7 +81,6 @@ public:
     /// Tiles rather than rows, as neighbouring rays ask for the same shapes.
     Picture paint(openvdb::util::NullInterrupter* interrupter) const
     {
-        constexpr int kTile = 16;
         Picture picture;
         picture.width = mView.settings.width;
         picture.height = mView.settings.height;
@@ -89,51 +88,131 @@ public:
         const std::size_t across = (picture.width + kTile - 1) / kTile;
         const std::size_t tiles = across * ((picture.height + kTile - 1) / kTile);
         detail::parallelFor(tiles, interrupter, [&](std::size_t tile) {
-            const int left = int(tile % across) * kTile, top = int(tile / across) * kTile;
-            for (int y = top; y < std::min(top + kTile, picture.height); ++y) {
-                for (int x = left; x < std::min(left + kTile, picture.width); ++x) {
-                    const Vec3d light = pixel(x, y);
-                    uint8_t* const rgb = &picture.rgb[3 * (std::size_t(y) * picture.width + x)];
-                    for (int c = 0; c < 3; ++c) rgb[c] = detail::srgbByte(light[c]);
-                }
-            }
+            paintTile(int(tile % across) * kTile, int(tile / across) * kTile, picture);
         });
         return picture;
     }
 
 private:
+    static constexpr int kTile = 64;  ///< pixels a side
+    static constexpr int kBlur = 2;   ///< light is the mean of that many pixels to each side
+    static constexpr int kProbes = 2; ///< samples a side of a pixel that every pixel has
+
     struct Sample {
         Ray ray;
         double y; ///< in pixels
         std::optional<detail::Hit> hit;
     };
+    using Probes = std::array<Sample, kProbes * kProbes>;
 
-    /// A pixel in which four samples see one smooth surface, or nothing, is left at these, with the
-    /// rays to the light that it would have had anyway.
-    Vec3d pixel(int x, int y) const
+    /// A pixel that shows one smooth surface, and what light falls on it.
+    struct Surface {
+        int32_t shape;
+        Vec3d point, normal, toEye;
+        double lamp;
+        Vec3d ambient;
+    };
+    struct Pixel {
+        Vec3d color{0.0}; ///< linear; of a surface unused
+        std::optional<Surface> surface;
+    };
+
+    /// The pixels of a tile and kBlur more around it, which other tiles compute once more.
+    struct Patch {
+        int left, top, right, bottom; ///< the last two exclusive
+        std::vector<Pixel> pixels;
+
+        Patch(int x, int y, const Picture& picture)
+            : left(std::max(0, x - kBlur)), top(std::max(0, y - kBlur)),
+              right(std::min(picture.width, x + kTile + kBlur)),
+              bottom(std::min(picture.height, y + kTile + kBlur)),
+              pixels(std::size_t(right - left) * std::size_t(bottom - top))
+        {}
+        Pixel& at(int x, int y) { return pixels[std::size_t(y - top) * (right - left) + x - left]; }
+    };
+
+    void paintTile(int left, int top, Picture& picture) const
     {
-        constexpr int kProbes = 2;
-        const uint64_t seed = detail::hash(uint64_t(y) << 32 | uint64_t(x));
-        std::array<Sample, kProbes* kProbes> probes = {trace(x, y, 0, kProbes, seed),
-            trace(x, y, 1, kProbes, seed), trace(x, y, 2, kProbes, seed),
-            trace(x, y, 3, kProbes, seed)};
-        const int side = mView.settings.samples;
-        if (side <= kProbes || areAlike(probes)) return meanOf(probes, seed);
-        Vec3d sum(0.0);
-        for (int s = 0; s < side * side; ++s) {
-            sum += lightOf(trace(x, y, s, side, seed), s, side * side, seed);
+        Patch patch(left, top, picture);
+        const int right = std::min(left + kTile, picture.width);
+        const int bottom = std::min(top + kTile, picture.height);
+        for (int y = patch.top; y < patch.bottom; ++y) {
+            for (int x = patch.left; x < patch.right; ++x) {
+                const bool isInTile = x >= left && x < right && y >= top && y < bottom;
+                patch.at(x, y) = pixel(x, y, isInTile);
+            }
         }
-        return sum / (side * side);
+        for (int y = top; y < bottom; ++y) {
+            for (int x = left; x < right; ++x) {
+                const Pixel& pixel = patch.at(x, y);
+                const Vec3d light = pixel.surface ? blurred(patch, x, y) : pixel.color;
+                uint8_t* const rgb = &picture.rgb[3 * (std::size_t(y) * picture.width + x)];
+                for (int c = 0; c < 3; ++c) rgb[c] = detail::srgbByte(light[c]);
+            }
+        }
     }
 
-    template <typename Samples>
-    Vec3d meanOf(const Samples& samples, uint64_t seed) const
+    /// What a surface looks like in the mean light of the pixels around that show the same plane,
+    /// nearly: a few rays a pixel then leave no grain, and edges stay sharp.
+    Vec3d blurred(Patch& patch, int x, int y) const
     {
-        Vec3d sum(0.0);
-        for (int s = 0; s < int(samples.size()); ++s) {
-            sum += lightOf(samples[s], s, int(samples.size()), seed);
+        const Surface& here = *patch.at(x, y).surface;
+        double lamp = 0;
+        Vec3d ambient(0.0);
+        int count = 0;
+        for (int v = std::max(patch.top, y - kBlur); v < std::min(patch.bottom, y + kBlur + 1);
+             ++v) {
+            for (int u = std::max(patch.left, x - kBlur); u < std::min(patch.right, x + kBlur + 1);
+                 ++u) {
+                const auto& other = patch.at(u, v).surface;
+                if (!other) continue;
+                if (!isSmooth(here.point, here.normal, other->point, other->normal)) continue;
+                lamp += other->lamp;
+                ambient += other->ambient;
+                ++count;
+            }
         }
-        return sum / double(samples.size());
+        return mView.light.reflected(
+            Vec3d(mColors[here.shape]), here.normal, here.toEye, lamp / count, ambient / count);
+    }
+
+    /// Where four samples see one smooth surface, or nothing, they are enough.
+    /// @param isInTile  if not, it is only asked for a surface
+    Pixel pixel(int x, int y, bool isInTile) const
+    {
+        const uint64_t seed = detail::hash(uint64_t(y) << 32 | uint64_t(x));
+        const Probes probes = {trace(x, y, 0, kProbes, seed), trace(x, y, 1, kProbes, seed),
+            trace(x, y, 2, kProbes, seed), trace(x, y, 3, kProbes, seed)};
+        Pixel result;
+        const bool alike = areAlike(probes);
+        if (alike && probes[0].hit) {
+            result.surface = surfaceOf(probes, seed);
+        } else if (isInTile) {
+            const int side = alike ? kProbes : mView.settings.samples;
+            for (int s = 0; s < side * side; ++s) {
+                result.color += lightOf(
+                    side == kProbes ? probes[s] : trace(x, y, s, side, seed), s, side * side, seed);
+            }
+            result.color /= side * side;
+        }
+        return result;
+    }
+
+    Surface surfaceOf(const Probes& probes, uint64_t seed) const
+    {
+        Surface mean{probes[0].hit->shape, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), 0, Vec3d(0.0)};
+        const auto count = int(probes.size());
+        for (int s = 0; s < count; ++s) {
+            const Vec3d normal = probes[s].hit->normal, from = startOf(probes[s]);
+            mean.point += from / count;
+            mean.normal += normal;
+            mean.toEye -= probes[s].ray.direction;
+            mean.lamp += lampShare(from, normal, s, count, seed) / count;
+            mean.ambient += ambient(from, normal, s, count, seed) / count;
+        }
+        mean.normal.normalize();
+        mean.toEye.normalize();
+        return mean;
     }
 
     /// Sample @a s of @a side x @a side, somewhere in its part of the pixel.
@@ -146,26 +225,40 @@ private:
         return {ray, v, mScene.nearest(ray)};
     }
 
-    template <typename Samples>
-    static bool areAlike(const Samples& samples)
+    /// Whether one plane shows both points, nearly.
+    static bool isSmooth(const Vec3d& p, const Vec3d& normalP, const Vec3d& q, const Vec3d& normalQ)
     {
-        constexpr double kSmooth = 0.97; // cosine of some 14 degrees
+        constexpr double kCosine = 0.97;  // of some 14 degrees
+        constexpr double kOffPlane = 0.3; // sine of the angle from the plane to the other point
+        const Vec3d apart = q - p;
+        return normalP.dot(normalQ) > kCosine
+            && std::abs(apart.dot(normalP)) <= kOffPlane * apart.length();
+    }
+
+    /// Spheres of one colour that merge are one surface.
+    bool areAlike(const Probes& samples) const
+    {
         const auto& first = samples.front().hit;
-        return std::all_of(samples.begin(), samples.end(), [&](const Sample& other) {
+        return std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& other) {
             if (!first || !other.hit) return !first && !other.hit;
-            return first->shape == other.hit->shape
-                && first->normal.dot(other.hit->normal) > kSmooth;
+            return mColors[first->shape] == mColors[other.hit->shape]
+                && isSmooth(
+                    startOf(samples.front()), first->normal, startOf(other), other.hit->normal);
         });
+    }
+
+    /// Off the surface, so that rays from there do not find it; no shape is as small as that.
+    static Vec3d startOf(const Sample& sample)
+    {
+        constexpr double kClear = 1e-4;
+        return sample.ray.at(sample.hit->distance) + kClear * sample.hit->normal;
     }
 
     /// @param s, count  this is sample s of that many of its pixel
     Vec3d lightOf(const Sample& sample, int s, int count, uint64_t seed) const
     {
         if (!sample.hit) return Light::background(sample.y / mView.settings.height);
-        // Off the surface, so that rays from there do not find it; no shape is as small as that.
-        constexpr double kClear = 1e-4;
-        const Vec3d normal = sample.hit->normal;
-        const Vec3d from = sample.ray.at(sample.hit->distance) + kClear * normal;
+        const Vec3d normal = sample.hit->normal, from = startOf(sample);
         const double lamp = lampShare(from, normal, s, count, seed);
         return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), normal,
             -sample.ray.direction, lamp, ambient(from, normal, s, count, seed));
@@ -215,17 +308,27 @@ const SphereTreeLevel& levelOf(const SphereTree& tree, int level)
                                  << (tree.levels.empty() ? -1 : tree.root().level));
 }
 
-std::vector<detail::BallShape> ballsOf(const SphereTree& tree, const SphereTreeLevel& level)
+/// @return makeBall(center, radius) of every sphere, in index space about the object's middle.
+template <typename MakeBall>
+auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBall& makeBall)
 {
     constexpr double kSmallest = 0.5;
     const Vec3d middle = middleOf(tree.object.bbox).asVec3d();
-    std::vector<detail::BallShape> balls;
+    std::vector<decltype(makeBall(middle, kSmallest))> balls;
     balls.reserve(level.size());
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius = tree.radiusWorld[id] / tree.voxelSize();
-        balls.push_back({tree.center[id] - middle, std::max(radius, kSmallest)});
+        balls.push_back(makeBall(tree.center[id] - middle, std::max(radius, kSmallest)));
     }
     return balls;
+}
+
+template <typename Shape>
+Picture painted(const std::vector<Shape>& shapes, const std::vector<Vec3f>& colors,
+    const View& view, openvdb::util::NullInterrupter* interrupter)
+{
+    const detail::RayScene<Shape> scene(shapes, interrupter);
+    return Painter<Shape>(scene, colors, view).paint(interrupter);
 }
 
 /// The leaf nodes and tiles of an object that have voxels.
@@ -277,16 +380,16 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
 {
     camera.validate();
     settings.validate();
-    if (!tree.settings.dist.isEuclidean()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "pictures show spheres, and the balls of dist=" << toString(tree.settings.dist)
-                                                            << " are none");
-    }
     const SphereTreeLevel& drawn = levelOf(tree, level);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
-    const detail::RayScene<detail::BallShape> scene(ballsOf(tree, drawn), interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
-    return Painter<detail::BallShape>(scene, colors, view).paint(interrupter);
+    if (tree.settings.dist.isEuclidean()) {
+        const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
+        return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+    }
+    const detail::NormFaces faces(tree.settings.dist);
+    const auto ball = [&](const Vec3d& c, double r) { return detail::NormBallShape{c, r, &faces}; };
+    return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
 }
 
 Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
@@ -301,9 +404,8 @@ Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
     const Vec3d color =
         settings.color == PictureColor::Fixed ? settings.fixed : PictureSettings().fixed;
     const std::vector<Vec3f> colors(shapes.size(), Vec3f(detail::linearOf(color)));
-    const detail::RayScene<detail::VoxelShape> scene(shapes, interrupter);
     const View view(camera, settings, object.transform(), box);
-    return Painter<detail::VoxelShape>(scene, colors, view).paint(interrupter);
+    return painted(shapes, colors, view, interrupter);
 }
 
 } // namespace openvdb_spheretree

@@ -86,10 +86,6 @@ StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& p
 
 Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& session)
 {
-    if (!tree.settings.dist.isEuclidean()) {
-        throwInput("a picture shows spheres, and the balls of dist="
-            + spheretree::toString(tree.settings.dist) + " are none: use -spheres2mask");
-    }
     const auto level = int(call.integer("level"));
     const auto has = [level](const auto& l) { return l.level == level; };
     if (std::none_of(tree.levels.begin(), tree.levels.end(), has)) {

@@ -14,7 +14,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-constexpr int32_t kLeafSize = 6;
+constexpr int32_t kLeafSize = 1; ///< eight of them are tested at once
 constexpr int kBins = 16;
 constexpr int kAxes = 4; ///< the centre's three, and the radius
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -116,11 +116,19 @@ struct Bins {
 
 } // namespace
 
+/// A binary tree first; then nodes of it are joined, until a node has kWidth children.
 struct BoundingTree::Builder {
+    struct Node {
+        std::array<float, 3> lo, hi, center;
+        float radius = 0, behind = 0;
+        int32_t first = 0; ///< of its bodies, or of its two children
+        int32_t count = 0; ///< of its bodies; 0 in an inner node
+    };
+
     const std::vector<Bound>& bounds;
     openvdb::util::NullInterrupter* interrupter;
-    std::vector<Node>& nodes;
     std::vector<int32_t>& order;
+    std::vector<Node> nodes{};
 
     /// Fills in node @a index, of the bodies in [begin, end) of the order. Recursion is kDeepest
     /// deep at most: by cost down to kCostDepth, and halving 2^31 bodies takes 31 steps.
@@ -154,12 +162,16 @@ struct BoundingTree::Builder {
             node.center[axis] = float(center[axis]);
         }
         const Vec3d rounded(node.center[0], node.center[1], node.center[2]);
-        double radius = 0;
+        double radius = 0, behind = 0;
         for (int32_t i = begin; i < end; ++i) {
             const Bound& bound = bounds[order[i]];
-            radius = std::max(radius, (bound.center - rounded).length() + bound.radius);
+            const double apart = (bound.center - rounded).length();
+            radius = std::max(radius, apart + bound.radius);
+            behind = std::max(behind, apart + bound.behind);
         }
-        node.radius = float(radius * (1 + 1e-6)); // more than all rounding here and in queries
+        constexpr double kMore = 1e-6; // more than all rounding here and in queries
+        node.radius = float(radius * (1 + kMore));
+        node.behind = float(behind + radius * kMore);
     }
 
     int32_t split(int32_t begin, int32_t end, const Extent& extent, int depth)
@@ -186,6 +198,47 @@ struct BoundingTree::Builder {
             });
         return middle;
     }
+
+    /// @return the children of a wide node that stands for node @a index: it is opened, then the
+    ///         largest of those that can be, as long as there is room.
+    std::vector<int32_t> childrenOf(int32_t index) const
+    {
+        std::vector<int32_t> children{index};
+        while (int(children.size()) < BoundingNode::kWidth) {
+            const auto less = [&](int32_t a, int32_t b) {
+                const bool innerA = nodes[a].count == 0, innerB = nodes[b].count == 0;
+                return innerA != innerB ? innerB : nodes[a].radius < nodes[b].radius;
+            };
+            const auto largest = std::max_element(children.begin(), children.end(), less);
+            if (nodes[*largest].count > 0) break;
+            const int32_t first = nodes[*largest].first;
+            *largest = first;
+            children.push_back(first + 1);
+        }
+        return children;
+    }
+
+    /// Fills in @a wide[at] for node @a index. As deep as the binary tree at most.
+    void join(int32_t index, std::size_t at, std::vector<BoundingNode>& wide) const
+    {
+        const std::vector<int32_t> children = childrenOf(index);
+        for (int i = 0; i < int(children.size()); ++i) {
+            const Node& child = nodes[children[i]];
+            BoundingNode& node = wide[at];
+            for (int axis = 0; axis < 3; ++axis) {
+                node.lo[axis][i] = child.lo[axis];
+                node.hi[axis][i] = child.hi[axis];
+                node.center[axis][i] = child.center[axis];
+            }
+            node.radius[i] = child.radius;
+            node.behind[i] = child.behind;
+            node.count[i] = child.count;
+            node.first[i] = child.count > 0 ? child.first : int32_t(wide.size());
+            if (child.count > 0) continue;
+            wide.emplace_back();
+            join(children[i], wide.size() - 1, wide);
+        }
+    }
 };
 
 BoundingTree::BoundingTree(
@@ -194,9 +247,12 @@ BoundingTree::BoundingTree(
 {
     if (bounds.empty()) return;
     std::iota(mOrder.begin(), mOrder.end(), 0);
-    mNodes.reserve(bounds.size());
+    Builder builder{bounds, interrupter, mOrder};
+    builder.nodes.reserve(2 * bounds.size());
+    builder.nodes.resize(1);
+    builder.build(0, 0, int32_t(bounds.size()), 0);
     mNodes.resize(1);
-    Builder{bounds, interrupter, mNodes, mOrder}.build(0, 0, int32_t(bounds.size()), 0);
+    builder.join(0, 0, mNodes);
 }
 
 } // namespace detail

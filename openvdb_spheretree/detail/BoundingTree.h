@@ -2,29 +2,31 @@
 /// @file detail/BoundingTree.h
 /// @brief A bounding volume hierarchy: which of many bodies may a ball meet, or a ray.
 ///
-/// A binary tree, top down. Every node has a box and a ball around all that is below it. Balls along
-/// a medial axis overlap so much that a point of their surface lies in the boxes of hundreds; the
-/// bounding ball of balls of about one centre and radius is tight where their box is not. (Measured
-/// on the 138,157 leaf balls of dragon-512: a ray to the sky tests 82 balls and 262 nodes, with
-/// boxes alone 680 and 708.) So nodes are split by centre or by radius, whichever spreads most,
-/// where the surface area heuristic (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the
-/// cheapest place, and deep down at the median.
+/// A binary tree, top down, of which nodes are then joined until a node has eight children. Each has
+/// a box and a ball around all that is below it. Balls along a medial axis overlap so much that a
+/// point of their surface lies in the boxes of hundreds; the bounding ball of balls of about one
+/// centre and radius is tight where their box is not. (On the 138,157 leaf balls of dragon-512, a
+/// ray to the sky tested 82 balls and 262 nodes of a binary tree, with boxes alone 680 and 708.) So
+/// nodes are split by centre or by radius, whichever spreads most, where the surface area heuristic
+/// (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the cheapest place, and deep down at the
+/// median.
 ///
-/// Bounds are floats rounded outwards: a query may be told of a body that it misses by a hair, and is
-/// told of every one that it meets. The same bodies give the same tree. Cost: O(n log n) to build,
-/// 48 bytes a node. Tests: TestRayScene.cc, TestIntersectionDag.cc.
+/// Bounds are floats rounded outwards: a query may be told of a body that it misses by a hair, and
+/// is told of every one that it meets. The same bodies give the same tree. Cost: O(n log n) to
+/// build, 416 bytes a node. Tests: TestRayScene.cc, TestIntersectionDag.cc.
 
 #pragma once
 
+#include "BoundingNode.h"
 #include "Ray.h"
 
 #include <openvdb/math/BBox.h>
+#include <openvdb/util/NodeMasks.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -37,15 +39,21 @@ struct Bound {
     openvdb::Vec3d center;
     double radius;
     Box box;
+    /// No ray enters the body that starts with its centre further behind it than this. A ball is
+    /// entered from before its centre alone, so that is 0, and of the crowd that a ray leaves when
+    /// it starts on a surface, nearly all is behind it.
+    double behind;
 
+    /// Of a body, whatever it is, within this ball.
     static Bound ofBall(const openvdb::Vec3d& center, double radius)
     {
         const openvdb::Vec3d reach(radius);
-        return {center, radius, Box(center - reach, center + reach)};
+        return {center, radius, Box(center - reach, center + reach), radius};
     }
     static Bound ofBox(const Box& box)
     {
-        return {box.getCenter(), (box.max() - box.min()).length() / 2, box};
+        const double radius = (box.max() - box.min()).length() / 2;
+        return {box.getCenter(), radius, box, radius};
     }
 };
 
@@ -67,94 +75,90 @@ public:
             visit(place);
             return far;
         };
-        walk([&](const Node& node) { return node.meets(bound) ? 0.0 : kMiss; }, callVisit, 0.0);
+        const auto meeting = [&](const BoundingNode& node, double, Entries& entry) {
+            return meets(node, bound, entry);
+        };
+        walk(meeting, callVisit, 0.0);
     }
 
-    /// Calls visit(place, far) for every body whose bound the ray meets no further away than @a far,
-    /// in about the order in which it meets them. The visit returns the new `far`: that of the hit
-    /// found, say, or a negative number to end.
+    /// Calls visit(place, far) for every body whose bound the ray meets no further away than @a
+    /// far, in about the order in which it meets them. The visit returns the new `far`: that of the
+    /// hit found, say, or a negative number to end.
     template <typename Visit>
     void visitAlong(const Ray& ray, double far, const Visit& visit) const
     {
-        walk([&](const Node& node) { return node.entry(ray); }, visit, far);
+        const auto entered = [&](const BoundingNode& node, double reach, Entries& entry) {
+            return entriesOf(node, ray, reach, entry);
+        };
+        walk(entered, visit, far);
     }
 
 private:
-    static constexpr double kMiss = 1e300;
-    /// Splits by cost down to this depth, then halves: at most 31 levels more.
+    using Entries = BoundingNode::Each<double>;
+    /// Splits by cost down to this depth, then halves: at most 31 levels more. A node of eight
+    /// children stands for one of two children, and is no deeper.
     static constexpr int kCostDepth = 48;
     static constexpr int kDeepest = kCostDepth + 31;
+    /// Each step down takes one of those that wait, and leaves kWidth of them.
+    static constexpr int kMostWaiting = kDeepest * (BoundingNode::kWidth - 1) + 1;
 
-    struct Node {
-        std::array<float, 3> lo, hi, center;
-        float radius = 0;
-        int32_t first =
-            0; ///< of its bodies, in order(); of an inner node the first of two children
-        int32_t count = 0; ///< of its bodies; 0 in an inner node
-
-        bool meets(const Bound& bound) const;
-        /// Where the ray enters both box and ball, or kMiss.
-        double entry(const Ray& ray) const;
+    struct Waiting {
+        double distance;
+        int32_t first, count; ///< as in BoundingNode
     };
     struct Builder;
 
-    /// Nearer child first. Each step down leaves one child waiting: kDeepest of them at most.
-    template <typename Entry, typename Visit>
-    void walk(const Entry& entry, const Visit& visit, double far) const
+    /// @return a bit for each child that meets @a bound; @a entry of these is 0.
+    static uint32_t meets(const BoundingNode& node, const Bound& bound, Entries& entry);
+
+    /// Nearer child first.
+    template <typename EntriesOf, typename Visit>
+    void walk(const EntriesOf& entriesOf, const Visit& visit, double far) const
     {
-        std::array<std::pair<double, int32_t>, kDeepest + 1> waiting;
+        std::array<Waiting, kMostWaiting> waiting; // left as it is: filling it takes too long
         int size = 0;
-        if (!mNodes.empty()) waiting[size++] = {entry(mNodes[0]), 0};
+        if (!mNodes.empty()) waiting[size++] = {0, 0, 0};
         while (size > 0) {
-            const auto [distance, index] = waiting[--size];
-            if (distance > far) continue;
-            const Node& node = mNodes[index];
-            for (int32_t i = 0; i < node.count; ++i) far = visit(node.first + i, far);
-            if (node.count > 0) continue;
-            std::pair<double, int32_t> a(entry(mNodes[node.first]), node.first);
-            std::pair<double, int32_t> b(entry(mNodes[node.first + 1]), node.first + 1);
-            if (a.first < b.first) std::swap(a, b);
-            if (a.first <= far) waiting[size++] = a;
-            if (b.first <= far) waiting[size++] = b;
+            const Waiting next = waiting[--size];
+            if (next.distance > far) continue;
+            for (int32_t i = 0; i < next.count; ++i) far = visit(next.first + i, far);
+            if (next.count > 0) continue;
+            const BoundingNode& node = mNodes[next.first];
+            Entries entry;
+            const int bottom = size;
+            for (uint32_t left = entriesOf(node, far, entry); left != 0; left &= left - 1) {
+                const auto child = openvdb::util::FindLowestOn(left);
+                int at = size++;
+                for (; at > bottom && waiting[at - 1].distance < entry[child]; --at) {
+                    waiting[at] = waiting[at - 1];
+                }
+                waiting[at] = {entry[child], node.first[child], node.count[child]};
+            }
         }
     }
 
-    std::vector<Node> mNodes;
+    std::vector<BoundingNode> mNodes;
     std::vector<int32_t> mOrder;
 };
 
-inline bool BoundingTree::Node::meets(const Bound& bound) const
+inline uint32_t BoundingTree::meets(const BoundingNode& node, const Bound& bound, Entries& entry)
 {
-    double apartSq = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (double(hi[axis]) < bound.box.min()[axis]) return false;
-        if (bound.box.max()[axis] < double(lo[axis])) return false;
-        const double apart = double(center[axis]) - bound.center[axis];
-        apartSq += apart * apart;
+    uint32_t met = 0;
+    for (int child = 0; child < BoundingNode::kWidth; ++child) {
+        double apartSq = 0;
+        bool isApart = node.first[child] == 0 && node.count[child] == 0; // no child
+        for (int axis = 0; axis < 3; ++axis) {
+            isApart |= double(node.hi[axis][child]) < bound.box.min()[axis];
+            isApart |= bound.box.max()[axis] < double(node.lo[axis][child]);
+            const double apart = double(node.center[axis][child]) - bound.center[axis];
+            apartSq += apart * apart;
+        }
+        const double reach = double(node.radius[child]) + bound.radius;
+        if (isApart || apartSq > reach * reach) continue;
+        met |= 1u << child;
+        entry[child] = 0;
     }
-    const double reach = double(radius) + bound.radius;
-    return apartSq <= reach * reach;
-}
-
-/// The last factor is for the rounding of the box test (Ize, Robust BVH Ray Traversal, 2013).
-inline double BoundingTree::Node::entry(const Ray& ray) const
-{
-    double near = 0, far = kMiss / 2;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double a = (double(lo[axis]) - ray.origin[axis]) * ray.inverse[axis];
-        const double b = (double(hi[axis]) - ray.origin[axis]) * ray.inverse[axis];
-        near = std::max(near, std::min(a, b));
-        far = std::min(far, std::max(a, b));
-    }
-    if (near > far * (1 + 1e-15)) return kMiss;
-    const openvdb::Vec3d toCenter(double(center[0]) - ray.origin[0],
-        double(center[1]) - ray.origin[1], double(center[2]) - ray.origin[2]);
-    const double nearest = toCenter.dot(ray.direction);
-    const double asideSq = (toCenter - nearest * ray.direction).lengthSqr();
-    const double halfSq = double(radius) * double(radius) - asideSq;
-    if (halfSq < 0) return kMiss;
-    const double half = std::sqrt(halfSq);
-    return nearest + half < 0 ? kMiss : std::max(near, nearest - half);
+    return met;
 }
 
 } // namespace detail

@@ -93,6 +93,8 @@ private:
             if (other >= i) return; // has no colour yet
             const Vec3d apart = mTree.center[mBegin + other] - mTree.center[mBegin + i];
             const Neighbour neighbour{apart.lengthSqr(), other};
+            const double reach = boundOf(mBegin + other).radius + boundOf(mBegin + i).radius;
+            if (neighbour.distanceSq > reach * reach) return; // bounds are not exact
             if (count == kHues - 1 && !(neighbour < nearest[count - 1])) return;
             const int last = count < kHues - 1 ? count++ : count - 1;
             nearest[last] = neighbour;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/RayShapes.h
-/// @brief What a ray can hit: balls, and the voxels of a leaf node or a tile.
+/// @brief What a ray can hit: balls, those of norms too, and the voxels of a leaf node or a tile.
 ///
-/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters it, negative
-/// where it does not, or where it starts inside: what holds the eye is looked out of; and normal(),
-/// the unit normal, outwards, where a ray enters. A shape with these three can be put in a RayScene,
-/// and no other file need know it. Coordinates are doubles, in voxels.
+/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters
+/// it, negative where it does not, or where it starts inside: what holds the eye is looked out of;
+/// and normal(), the unit normal, outwards, where a ray enters. A shape with these three can be put
+/// in a RayScene, and no other file need know it. Coordinates are doubles, in voxels.
 
 #pragma once
 
+#include "../Distance.h"
 #include "BoundingTree.h"
 #include "Ray.h"
 
@@ -16,7 +17,10 @@
 #include <openvdb/math/Ray.h>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -27,7 +31,12 @@ struct BallShape {
     openvdb::Vec3d center;
     double radius;
 
-    Bound bound() const { return Bound::ofBall(center, radius); }
+    Bound bound() const
+    {
+        Bound bound = Bound::ofBall(center, radius);
+        bound.behind = 0; // entry() is none where the centre is behind
+        return bound;
+    }
     /// The discriminant comes from the distance of centre and line, which does not cancel for balls
     /// far away (Haines et al., Precision improvements for ray/sphere intersection, 2019).
     double entry(const Ray& ray) const
@@ -40,6 +49,87 @@ struct BallShape {
     }
     openvdb::Vec3d normal(const Ray& ray, double t) const { return (ray.at(t) - center).unit(); }
 };
+
+/// The faces of the unit ball of a norm: |normal . x| <= 1 for all of them. The norm is the largest
+/// of these products over the orders and signs of three weights (Distance.h), so there are at most
+/// 6 orders with 8 signs, in pairs of opposite faces: 3 for l-infinity, 4 for l1, 12 for
+/// chamfer:3,4,5.
+struct NormFaces {
+    explicit NormFaces(const Distance& norm);
+
+    std::vector<openvdb::Vec3d> normals; ///< one a pair of faces; not of length 1
+    double reach;                        ///< Euclidean, of the corner furthest from the middle
+};
+
+/// A ball of a norm: a convex polyhedron, which is where the slabs between opposite faces meet.
+struct NormBallShape {
+    openvdb::Vec3d center;
+    double radius;          ///< where an axis leaves it, so half the width of its box
+    const NormFaces* faces; ///< not null; owned by who made the shape
+
+    Bound bound() const
+    {
+        const openvdb::Vec3d reach(radius);
+        const double around = radius * faces->reach;
+        return {center, around, Box(center - reach, center + reach), around};
+    }
+    double entry(const Ray& ray) const
+    {
+        const double around = radius * faces->reach;
+        const openvdb::Vec3d toCenter = center - ray.origin;
+        const double nearest = toCenter.dot(ray.direction);
+        const double asideSq = (toCenter - nearest * ray.direction).lengthSqr();
+        if (nearest < -around || asideSq > around * around) return kNoEntry;
+        return crossing(ray).begin;
+    }
+    openvdb::Vec3d normal(const Ray& ray, double) const { return crossing(ray).normal.unit(); }
+
+private:
+    struct Crossing {
+        double begin = kNoEntry;
+        openvdb::Vec3d normal{0, 0, 1}; ///< of the face that is entered by
+    };
+    /// The latest entry into a slab is the polyhedron's, if it comes before the first exit.
+    Crossing crossing(const Ray& ray) const
+    {
+        const openvdb::Vec3d toCenter = center - ray.origin;
+        double begin = -1e300, end = 1e300;
+        openvdb::Vec3d entered(0, 0, 1);
+        for (const openvdb::Vec3d& face : faces->normals) {
+            const double middle = face.dot(toCenter), speed = face.dot(ray.direction);
+            constexpr double kParallel = 1e-150; // keeps quotients finite
+            if (std::abs(speed) < kParallel) {
+                if (std::abs(middle) > radius) return {};
+                continue;
+            }
+            const double in = (middle - std::copysign(radius, speed)) / speed;
+            end = std::min(end, (middle + std::copysign(radius, speed)) / speed);
+            if (in > begin) begin = in, entered = speed > 0 ? -face : face;
+        }
+        return begin > end || begin < 0 ? Crossing() : Crossing{begin, entered};
+    }
+};
+
+inline NormFaces::NormFaces(const Distance& norm)
+{
+    const double unit = norm.unit();
+    reach = std::max(
+        1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
+    std::array<int, 3> weights{
+        norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            openvdb::Vec3d normal;
+            for (int axis = 0; axis < 3; ++axis) {
+                normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
+            }
+            const auto isSame = [&](const openvdb::Vec3d& o) {
+                return o == normal || o == -normal;
+            };
+            if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
+        }
+    } while (std::next_permutation(weights.begin(), weights.end()));
+}
 
 /// The active voxels of a leaf node, or a tile, as cubes between half-integers. What is hit does not
 /// depend on whether a cube of voxels is a tile or written out.

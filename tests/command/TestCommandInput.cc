@@ -271,12 +271,6 @@ TEST_F(CommandInput, APictureOfALevelThatTheTreeDoesNotHave)
     expectInputError("-read a.vol -spheretree -write t.vdb t.png level=77", "no level 77");
 }
 
-TEST_F(CommandInput, APictureOfBallsThatAreNoSpheres)
-{
-    writeBlock("a.vol");
-    expectInputError("-read a.vol -spheretree dist=l1 -write t.vdb t.png", "dist=l1");
-}
-
 TEST_F(CommandInput, APictureIsOfOneTreeOrGrid)
 {
     writeGrids("two.vdb", {sphereGrid("a"), sphereGrid("b")});

@@ -3,6 +3,8 @@
 
 #include "CommandRunner.h"
 
+#include <set>
+
 namespace {
 
 using command_test::CommandTest;
@@ -67,6 +69,16 @@ TEST_F(CommandPicture, EveryOptionMakesADifference)
              "eye=30,20,9", "lookat=0,0,0", "up=0,0,1"}) {
         EXPECT_NE(draw(tree + option), usual) << option;
     }
+}
+
+TEST_F(CommandPicture, ShowsTheBallsOfEveryDistance)
+{
+    std::set<std::string> pictures;
+    for (const char* dist : {"l2", "l1", "linf", "chamfer:3,4,5"}) {
+        pictures.insert(draw("-read a.vol -spheretree dist=" + std::string(dist)
+            + " errors=0 topology=0 -write p.png"));
+    }
+    EXPECT_EQ(pictures.size(), 4u);
 }
 
 TEST_F(CommandPicture, IsTheSameForAnyNumberOfThreads)

@@ -19,6 +19,7 @@ namespace {
 using namespace openvdb_spheretree::detail;
 using openvdb::Coord;
 using openvdb::Vec3d;
+using openvdb_spheretree::Distance;
 using spheretree_test::Random;
 
 Vec3d randomPoint(Random& random, int reach)
@@ -45,15 +46,13 @@ double entryOfBall(const Ray& ray, const BallShape& ball)
     return d < 0 ? -1 : (-b - std::sqrt(d)) / 2;
 }
 
-void expectNearestOf(
-    const std::vector<BallShape>& balls, const Ray& ray, const RayScene<BallShape>& scene)
+template <typename Shape>
+void expectAsLoop(const std::vector<Shape>& shapes, const Ray& ray, const RayScene<Shape>& scene)
 {
     double nearest = -1;
     int32_t shape = -1;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const double t = balls[i].entry(ray);
-        EXPECT_NEAR(t < 0 ? -1 : t,
-            std::max(-1.0, entryOfBall(ray, balls[i]) < 0 ? -1 : entryOfBall(ray, balls[i])), 1e-6);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const double t = shapes[i].entry(ray);
         if (t < 0 || (shape >= 0 && t >= nearest)) continue;
         nearest = t;
         shape = int32_t(i);
@@ -68,6 +67,51 @@ void expectNearestOf(
     EXPECT_TRUE(scene.isBlocked(ray, nearest * (1 + 1e-12) + 1e-12));
     EXPECT_FALSE(scene.isBlocked(ray, nearest));
 }
+
+void expectNearestOf(
+    const std::vector<BallShape>& balls, const Ray& ray, const RayScene<BallShape>& scene)
+{
+    for (const BallShape& ball : balls) {
+        const double t = ball.entry(ray), expected = entryOfBall(ray, ball);
+        EXPECT_NEAR(t < 0 ? -1 : t, expected < 0 ? -1 : expected, 1e-6);
+    }
+    expectAsLoop(balls, ray, scene);
+}
+
+/// N(x) - radius along a ray falls, then rises: the entry is found by bisection before its lowest
+/// point, which is found by thirds. Nothing where the ray starts inside or passes by a hair.
+struct NormOracle {
+    NormOracle(const Distance& distance, const NormBallShape& shape, const Ray& ray)
+        : norm(distance), ball(shape), line(ray)
+    {
+        double lo = 0, hi = 1e4;
+        for (int i = 0; i < 300; ++i) {
+            const double third = (hi - lo) / 3;
+            if (beyond(lo + third) < beyond(hi - third)) hi -= third;
+            else lo += third;
+        }
+        const double lowest = beyond(lo);
+        isClear = std::abs(lowest) > 1e-6 && std::abs(beyond(0)) > 1e-6;
+        if (lowest > 0 || beyond(0) < 0) return;
+        double outside = 0, inside = lo;
+        for (int i = 0; i < 100; ++i) {
+            const double middle = (outside + inside) / 2;
+            (beyond(middle) > 0 ? outside : inside) = middle;
+        }
+        entry = inside;
+    }
+    double beyond(double t) const { return length(line.at(t) - ball.center) - ball.radius; }
+    double length(const Vec3d& x) const { return norm.length(x[0], x[1], x[2]) / norm.unit(); }
+
+    Distance norm;
+    NormBallShape ball;
+    Ray line;
+    bool isClear = false;
+    double entry = kNoEntry;
+};
+
+const std::vector<Distance> kNorms = {Distance::l1(), Distance::linf(), Distance::chamfer(3, 4, 5),
+    Distance::chamfer(5, 7, 9), Distance::chamfer(10, 14, 17), Distance::chamfer(2, 3, 3)};
 
 } // namespace
 
@@ -124,6 +168,71 @@ TEST(RayScene, ManyBallsInOnePlaceAndOthersFarOffAreFound)
         const auto hit = scene.nearest(Ray(center + Vec3d(0, 1, 0), Vec3d(0, -1, 0)));
         ASSERT_TRUE(hit);
         EXPECT_EQ(balls[hit->shape].center, center);
+    }
+}
+
+TEST(NormBallShape, IsEnteredWhereBisectionFindsItsRadius)
+{
+    Random random(7);
+    int hits = 0;
+    for (const Distance& norm : kNorms) {
+        const NormFaces faces(norm);
+        for (int i = 0; i < 3000; ++i) {
+            const double radius = random.between(512, 9 * 1024) / 1024.0;
+            const NormBallShape ball{randomPoint(random, 6), radius, &faces};
+            const Ray ray = randomRay(random, 20);
+            const NormOracle oracle(norm, ball, ray);
+            if (!oracle.isClear) continue;
+            ASSERT_NEAR(ball.entry(ray), oracle.entry, 1e-9) << toString(norm) << ", ray " << i;
+            hits += oracle.entry >= 0;
+        }
+    }
+    EXPECT_GT(hits, 1500);
+}
+
+TEST(NormBallShape, TheWholeBallIsBehindTheFaceThatIsHit)
+{
+    Random random(8);
+    for (const Distance& norm : kNorms) {
+        const NormFaces faces(norm);
+        const NormBallShape ball{randomPoint(random, 6), 5, &faces};
+        for (int i = 0; i < 2000; ++i) {
+            const Ray ray = randomRay(random, 20);
+            const double t = ball.entry(ray);
+            if (t < 0) continue;
+            const Vec3d normal = ball.normal(ray, t), point = ray.at(t);
+            ASSERT_NEAR(normal.length(), 1, 1e-12);
+            ASSERT_LT(normal.dot(ray.direction), 0);
+            for (int k = 0; k < 20; ++k) {
+                Vec3d inside = randomPoint(random, 3);
+                if (k % 4 == 0) inside[k / 4 % 3] = 0;
+                inside *= 5 * norm.unit() / norm.length(inside[0], inside[1], inside[2]);
+                ASSERT_LE(normal.dot(ball.center + inside - point), 1e-9) << toString(norm);
+            }
+        }
+    }
+}
+
+TEST(NormBallShape, HasAsManyFacesAsItsNorm)
+{
+    std::vector<std::size_t> pairs;
+    for (const Distance& norm : kNorms) pairs.push_back(NormFaces(norm).normals.size());
+    EXPECT_EQ(pairs, (std::vector<std::size_t>{4, 3, 12, 12, 24, 12}));
+}
+
+TEST(NormBallShape, TheNearestOfManyIsThatOfALoopOverAll)
+{
+    for (uint32_t seed = 1; seed <= 12; ++seed) {
+        Random random(seed);
+        const NormFaces faces(kNorms[seed % kNorms.size()]);
+        std::vector<NormBallShape> balls;
+        const int largest = seed % 3 == 0 ? 40 * 1024 : 3 * 1024; // crowded, or with gaps
+        for (int count = 1 << (seed + 1) / 2; count > 0; --count) {
+            const Vec3d center = randomPoint(random, 100);
+            balls.push_back({center, random.between(100, largest) / 1024.0, &faces});
+        }
+        const RayScene<NormBallShape> scene(balls, nullptr);
+        for (int i = 0; i < 1000; ++i) expectAsLoop(balls, randomRay(random, 130), scene);
     }
 }
 
