@@ -9,16 +9,20 @@ namespace openvdb_spheretree {
 
 namespace {
 
-/// @return whether some way from voxel to voxel costs just @a value. More than face - 1 steps of
-/// another kind are never needed: that many of them cost as much as steps across faces do.
-bool isCostOfAWay(int64_t value, int face, int edge, int corner)
+/// @return the largest cost of any way from voxel to voxel that is at most @a limit. More than
+/// face - 1 steps of another kind are never needed: that many of them cost as much as steps across
+/// faces do.
+int64_t largestCost(int64_t limit, int64_t face, int64_t edge, int64_t corner)
 {
-    for (int64_t k = 0; k < face && corner * k <= value; ++k) {
-        for (int64_t j = 0; j < face && corner * k + edge * j <= value; ++j) {
-            if ((value - corner * k - edge * j) % face == 0) return true;
+    int64_t best = 0;
+    for (int64_t k = 0; k < face && corner * k <= limit; ++k) {
+        for (int64_t j = 0; j < face && corner * k + edge * j <= limit; ++j) {
+            const int64_t left = limit - corner * k - edge * j;
+            best = std::max(best, limit - left % face);
+            if (best == limit) return best;
         }
     }
-    return false;
+    return best;
 }
 
 std::string chamferText(int face, int edge, int corner)
@@ -71,8 +75,7 @@ int64_t Distance::normReach(int64_t x, int64_t y, int64_t limitSq) const
 int64_t Distance::closedSq(int64_t radiusSq) const
 {
     if (isEuclidean()) return radiusSq - 1;
-    int64_t radius = detail::floorSqrt(radiusSq) - 1;
-    while (radius > 0 && !isCostOfAWay(radius, mFace, mEdge, mCorner)) --radius;
+    const int64_t radius = largestCost(detail::floorSqrt(radiusSq) - 1, mFace, mEdge, mCorner);
     return radius * radius;
 }
 

@@ -91,6 +91,21 @@ TEST_F(SphereUnion, MatchesBruteForceOnRandomSpheresAcrossNodeBorders)
     }
 }
 
+/// So many that most add nothing to the others, in a cell or a leaf; some stand twice.
+TEST_F(SphereUnion, MatchesBruteForceOnManyBallsThatOverlap)
+{
+    for (unsigned seed = 100; seed < 112; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const Coord middle = seed % 2 ? Coord(3) : Coord(-128, 4096, 16);
+        Spheres spheres = randomSpheres(random, 120, middle, 24, 5 + int(seed % 4) * 4);
+        spheres.insert(spheres.end(), spheres.begin(), spheres.begin() + 40);
+        CoordBBox all(middle, middle);
+        all.expand(32);
+        expectLikeBruteForce(spheres, kWide, all);
+    }
+}
+
 TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
 {
     const Spheres spheres{ball(1, -3, 5, 4 * 41 * 41), ball(90, 10, -7, 4 * 25 * 25 + 3)};
