@@ -37,7 +37,8 @@ public:
     int factor() const { return mStep->factor; }
     int dim() const { return mStep->dim; }
 
-    /// @return whether a child is on. Each of i, j, k is 0 to factor - 1 within the block, and may be
+    /// @return whether a child is on. Each of i, j, k is 0 to factor - 1 within the block, and may
+    /// be
     /// -factor to 2 factor - 1, in the blocks around it; k is 0 if dim is 2.
     bool isOn(int i, int j, int k) const { return mChildren->isValueOn(mFirst.offsetBy(i, j, k)); }
 
@@ -45,7 +46,8 @@ public:
     /// one for every 8^3 children.
     int64_t count() const;
 
-    /// @return whether a child of the block that is @a x, @a y, @a z blocks away is on; each of them
+    /// @return whether a child of the block that is @a x, @a y, @a z blocks away is on; each of
+    /// them
     /// -1, 0 or 1.
     bool any(int x = 0, int y = 0, int z = 0) const;
 

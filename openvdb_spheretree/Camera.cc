@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Camera.h"
 
+#include "FlatAxis.h"
+
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -63,12 +65,19 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
     const double half = std::tan(fovDegrees * M_PI / 360);
     const double narrower = std::atan(half * std::min(aspect, 1.0));
     const double distance = (hi - lo).length() / 2 / std::sin(narrower);
-    if (box.min()[2] == box.max()[2]) {
-        const Vec3d flatAxis = transform.baseMap()->applyJacobian(Vec3d(0, 0, 1)).unit();
-        camera.eye = camera.lookAt + distance * flatAxis;
-    } else {
+    const int flat = flatAxisOf(box);
+    if (flat < 0) {
         camera.eye = camera.lookAt + distance * frontRightAbove(up);
+        return camera;
     }
+    const auto worldAxis = [&](int axis) {
+        Vec3d index(0, 0, 0);
+        index[axis] = 1;
+        return transform.baseMap()->applyJacobian(index).unit();
+    };
+    camera.eye = camera.lookAt + distance * worldAxis(flat);
+    const bool upright = worldAxis(flat).cross(up.unit()).length() > 1e-3;
+    if (!upright) camera.up = worldAxis(flat == 2 ? 1 : 2); // it cannot be
     return camera;
 }
 

@@ -16,8 +16,8 @@ struct Camera {
     openvdb::Vec3d up{0, 1, 0};     ///< shown upright; any length
     double fovDegrees = 30; ///< the vertical angle of view, in degrees, above 0 and below 180
 
-    /// @throw openvdb::ValueError naming what is wrong: a number that is not finite, an angle of view
-    ///        out of range, eye and lookAt in one place, or up along the view
+    /// @throw openvdb::ValueError naming what is wrong: a number that is not finite, an angle of
+    ///        view out of range, eye and lookAt in one place, or up along the view
     void validate() const;
 };
 
@@ -25,8 +25,8 @@ struct Camera {
 /// stand side by side: the sphere around the object's box fills the picture's shorter side. That
 /// holds the spheres of every level but, often, a margin of the topmost one.
 ///
-/// Seen from the front, the right and above; an object one voxel thick along z, as those of trees
-/// with dim=2 are, from straight ahead.
+/// Seen from the front, the right and above; an object one voxel thick along an axis, as those of
+/// trees with dim=2 are, along that axis, with another direction upright where `up` is that axis.
 /// @param box         of the active voxels, index space, inclusive, not empty
 /// @param transform   index space to world, with uniform voxels
 /// @param up          shown upright, not zero

@@ -3,8 +3,8 @@
 /// @brief The edges of a Sphere-DAG for walking it: the children of every node, and its parents, as
 /// compressed sparse rows (CSR), and counts of them by level.
 ///
-/// A direction is two arrays: the neighbours of node i are `targets[offsets[i] ... offsets[i + 1])`.
-/// Edges come sorted by parent, so the children's array is there already; the parents' is one
+/// A direction is two arrays: the neighbours of node i are `targets[offsets[i] ... offsets[i +
+/// 1])`. Edges come sorted by parent, so the children's array is there already; the parents' is one
 /// counting sort of it. 4 bytes an edge and direction, 8 a node. Cost: O(nodes + edges). Tests:
 /// TestDagAdjacency.cc.
 

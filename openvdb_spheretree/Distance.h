@@ -8,8 +8,8 @@
 /// images", CVGIP 1986). With the coordinates of a difference sorted by size, x >= y >= z >= 0,
 ///     N(x, y, z) = a (x - y) + b (y - z) + c z = a x + (b - a) y + (c - b) z
 /// which is a norm just when a >= b - a >= c - b >= 0: then it is the largest of these sums over
-/// all orders of the coordinates. l1 is (1, 2, 3), l-infinity (1, 1, 1). In two dimensions c takes no
-/// part.
+/// all orders of the coordinates. l1 is (1, 2, 3), l-infinity (1, 1, 1). In two dimensions c takes
+/// no part.
 ///
 /// All distances here are handled as squares, so that one geometry serves them: |d|^2 for the
 /// Euclidean one, N(d)^2 for the others. A norm is measured in steps of `unit()` = a: a voxel is a
@@ -62,7 +62,8 @@ public:
     {
         return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
     }
-    /// @return the squared length of an integer vector, exactly; or INT64_MAX, where it does not fit
+    /// @return the squared length of an integer vector, exactly; or INT64_MAX, where it does not
+    /// fit
     ///         63 bits.
     int64_t lengthSq(int64_t x, int64_t y, int64_t z) const
     {
@@ -85,8 +86,10 @@ public:
         return isEuclidean() ? detail::floorSqrt(limitSq - soFar) : normReach(x, y, limitSq);
     }
 
-    /// @return the largest closed radius, squared, that holds no more voxels than the open ball
-    ///         { q : lengthSq(q) < radiusSq }; for a norm, radiusSq is a square.
+    /// @return a closed radius, squared, whose ball holds just the voxels of the open ball
+    ///         { q : lengthSq(q) < radiusSq }: radiusSq - 1 if Euclidean; of a norm, where radiusSq
+    ///         is a square, the square of the largest cost of any way in space that is below its
+    ///         root.
     int64_t closedSq(int64_t radiusSq) const;
 
     bool operator==(const Distance& o) const

@@ -4,6 +4,7 @@
 #include "FlatAxis.h"
 #include "SphereTreeSettings.h"
 #include "detail/LeafRows.h"
+#include "detail/Memory.h"
 #include "detail/MinPlus.h"
 #include "detail/NormSweep.h"
 #include "detail/Parallel.h"
@@ -126,6 +127,7 @@ DistanceMap distanceTransform(
     DistanceMap map;
     map.mDistance = distance;
     if (!distance.isEuclidean()) {
+        detail::requireMemory(layout.leafCount(), kLeafVoxels * 2 * sizeof(uint32_t) + 128);
         map.mWide = detail::makeLargeArray<uint32_t>(size);
         detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
         map.mMaxDistSq = largest(map.mWide.get(), layout.leafCount(), interrupter);

@@ -28,8 +28,8 @@
 
 namespace openvdb_spheretree {
 
-/// Distances of the voxels of a level, 0 for background; 512 a leaf, in leaf order. Euclidean ones are
-/// squared, in voxels^2; those of a norm are not, and in its units (Distance::unit() a voxel).
+/// Distances of the voxels of a level, 0 for background; 512 a leaf, in leaf order. Euclidean ones
+/// are squared, in voxels^2; those of a norm are not, and in its units (Distance::unit() a voxel).
 class DistanceMap {
 public:
     /// @return the distance at a voxel of a leaf, by leafOffset().

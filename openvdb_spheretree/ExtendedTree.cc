@@ -18,9 +18,9 @@
 /// nodes left at that level get one parent there. Closings stay in the box; where a custom model
 /// leaves it, the box grows to what the model made, so that kept centres stay on, and a model that
 /// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
-/// alone, so every level covers the object whatever the model. Radii are integers under square roots
-/// (LevelFrame.h). Cost: linear in the voxels of all levels, and leaves x levels for the radii.
-/// Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
+/// alone, so every level covers the object whatever the model. Radii are integers under square
+/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and leaves x levels for the
+/// radii. Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
 #include "detail/StageTimer.h"

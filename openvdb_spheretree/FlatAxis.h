@@ -12,7 +12,8 @@
 
 namespace openvdb_spheretree {
 
-/// @return the axis along which a box is one voxel thick: z if it is, or else y or x; -1 if none is.
+/// @return the axis along which a box is one voxel thick: z if it is, or else y or x; -1 if none
+/// is.
 int flatAxisOf(const openvdb::CoordBBox& box);
 
 class FlatAxis {

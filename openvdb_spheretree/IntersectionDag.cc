@@ -31,8 +31,8 @@ bool meet(const SphereTree& tree, int32_t s, int32_t t)
     return beyond <= reach && beyond * beyond <= 4 * Wide(tree.coverSq[s]) * tree.coverSq[t];
 }
 
-/// Around a sphere, a voxel wider than needed so that rounding is no matter. The ball of a norm lies
-/// in the box of its radius, but not always in the Euclidean ball.
+/// Around a sphere, a voxel wider than needed so that rounding is no matter. The ball of a norm
+/// lies in the box of its radius, but not always in the Euclidean ball.
 detail::Bound boundOf(const SphereTree& tree, int32_t id)
 {
     const auto ball = detail::Bound::ofBall(tree.center[id], tree.radius[id] + 1);
@@ -61,6 +61,8 @@ void addEdges(const SphereTree& tree, const SphereTreeLevel& above, const Sphere
         if (found > kMaxEdges) return; // reported below
         const int32_t first = below.begin + int32_t(chunk) * kChunk;
         for (int32_t s = first; s < std::min(first + kChunk, below.end); ++s) {
+            if (found + int64_t(ofChunk[chunk].size()) > kMaxEdges) break;
+            if (s % 16 == 0) detail::checkInterrupt(interrupter);
             bounds.visitMeeting(boundOf(tree, s), [&](int32_t place) {
                 const int32_t t = above.begin + bounds.order()[place];
                 if (meet(tree, s, t)) ofChunk[chunk].push_back({t, s});

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file JsonWriter.h
-/// @brief Writes JSON, indented, for the exporters and for -stats. Numbers read back to the same value; what JSON has no number for
-/// (an infinity, say) becomes null; text that is not UTF-8 is repaired.
+/// @brief Writes JSON, indented, for the exporters and for -stats. Numbers read back to the same
+/// value; what JSON has no number for (an infinity, say) becomes null; text that is not UTF-8 is
+/// repaired.
 
 #pragma once
 

@@ -50,7 +50,8 @@ public:
         uint32_t count;
     };
 
-    /// @throw openvdb::ValueError if there are more than 2^31 leaves, or more than there is memory for
+    /// @throw openvdb::ValueError if there are more than 2^31 leaves, or more than there is memory
+    /// for
     explicit LeafLayout(const openvdb::MaskTree& level);
 
     uint32_t leafCount() const { return uint32_t(mOrigins.size()); }

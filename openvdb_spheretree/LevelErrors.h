@@ -10,9 +10,9 @@
 
 namespace openvdb_spheretree {
 
-/// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree. A level whose spheres cross
-/// more than kMaxUnionRows rows of voxels is not counted (two voxels a million apart have a root
-/// sphere of 10^12): its error stays empty, with the reason.
+/// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree. A level whose spheres
+/// cross more than kMaxUnionRows rows of voxels is not counted (two voxels a million apart have a
+/// root sphere of 10^12): its error stays empty, with the reason.
 /// @param object  what the tree was built from
 /// @throw Interrupted if the interrupter said so; @a tree is then unchanged
 /// @note Exact. Cost grows with the surface of the level's spheres and of the object.

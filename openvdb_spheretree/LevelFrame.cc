@@ -63,12 +63,7 @@ LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTree
     }
     const int64_t grown = mScale - 1;
     mGrowthSq = mDistance.lengthSq(grown, grown, mDim == 3 ? grown : 0);
-    if (mGrowthSq == INT64_MAX) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the object is too wide for dist=" << toString(mDistance)
-                                               << " and factor=" << settings.factor
-                                               << ": use smaller weights, or larger voxels");
-    }
+    if (mGrowthSq == INT64_MAX) throwTooWide();
 }
 
 Doubled LevelFrame::center(const openvdb::Coord& ijk) const
@@ -81,10 +76,22 @@ Doubled LevelFrame::center(const openvdb::Coord& ijk) const
     return {along(0), along(1), along(2)};
 }
 
+void LevelFrame::throwTooWide() const
+{
+    OPENVDB_THROW(openvdb::ValueError,
+        "the balls of level " << mLevel << ", with voxels of " << mScale
+                              << ", are too wide for dist=" << toString(mDistance)
+                              << ": use smaller weights, a smaller factor, or larger voxels");
+}
+
 RootSum LevelFrame::radius(int32_t radiusSq) const
 {
     const int64_t covered = mTight ? mDistance.closedSq(radiusSq) : int64_t(radiusSq);
-    return {4 * mScale * mScale * covered, mGrowthSq};
+    const Wide scaled = 4 * Wide(mScale) * Wide(mScale) * Wide(covered);
+    // The square of the sum of both roots has to fit 63 bits.
+    const long double sum = std::sqrt((long double)(scaled)) + std::sqrt((long double)(mGrowthSq));
+    if (sum >= (long double)(Distance::kFar)) throwTooWide();
+    return {int64_t(scaled), mGrowthSq};
 }
 
 } // namespace openvdb_spheretree

@@ -78,13 +78,17 @@ public:
     /// @return twice the centre of a voxel of the level.
     Doubled center(const openvdb::Coord& ijk) const;
     /// @return the radius of a ball of the level, by the formula above.
+    /// @throw openvdb::ValueError if its square does not fit 63 bits
     RootSum radius(int32_t radiusSq) const;
-    /// @return sqrt(dim) (f^k - 1) / 2, or the like of a norm: what a level-k radius in level-0 voxels grows by.
+    /// @return sqrt(dim) (f^k - 1) / 2, or the like of a norm: what a level-k radius in level-0
+    /// voxels grows by.
     RootSum growth() const { return {0, mGrowthSq}; }
     /// @return f^k.
     int64_t scale() const { return mScale; }
 
 private:
+    [[noreturn]] void throwTooWide() const;
+
     int mLevel;
     int mDim, mFlatAxis;
     bool mTight;

@@ -10,10 +10,10 @@
 /// 1. `LevelParts`: cut object and background into their parts within each leaf, by flooding mask
 ///    words (detail/LeafParts.h). Background outside the leaves is *gaps*: where a column of leaves
 ///    along z has a hole, the places in the hole are one part. All other places, before, behind and
-///    beside the columns, are open to infinity along z or in the column they are in, so they are one
-///    part as well, whatever the bounding box.
-/// 2. `PartJoiner`: join parts that touch across the borders of leaves, in two union-finds. A gap is
-///    joined with what lies beside it by walking the four columns around it.
+///    beside the columns, are open to infinity along z or in the column they are in, so they are
+///    one part as well, whatever the bounding box.
+/// 2. `PartJoiner`: join parts that touch across the borders of leaves, in two union-finds. A gap
+///    is joined with what lies beside it by walking the four columns around it.
 /// 3. Count the sets.
 ///
 /// The alternative, counting the components of the surface between the two, needs a node for every

@@ -37,8 +37,8 @@ bool isMeshFileName(const std::string& path);
 ///        is read as the smaller mesh that it is.)
 TriangleMesh readMeshFile(const std::string& path);
 
-/// @return edges that belong to an odd number of triangles. Where there are any, the mesh has a hole
-/// or a fin, and its inside is a matter of luck. Cost: sorting the edges.
+/// @return edges that belong to an odd number of triangles. Where there are any, the mesh has a
+/// hole or a fin, and its inside is a matter of luck. Cost: sorting the edges.
 int64_t openEdges(const TriangleMesh& mesh);
 
 /// @brief Narrow-band level set of @a mesh.

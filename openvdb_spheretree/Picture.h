@@ -17,7 +17,8 @@ struct Picture {
 
 /// @brief Write a .png of 8 bits a channel, marked as sRGB. The same picture gives the same bytes
 /// (for one version of libpng and zlib).
-/// @throw openvdb::ValueError if the picture is empty, or its pixels are not width x height x 3 bytes
+/// @throw openvdb::ValueError if the picture is empty, or its pixels are not width x height x 3
+/// bytes
 /// @throw openvdb::IoError if the stream fails
 void writePng(const Picture& picture, std::ostream& out);
 

@@ -6,7 +6,8 @@
 /// 2009, section 2.3): a parent of an on voxel is always on. Whoever uses a model verifies that
 /// (nextLevel() in OrPyramid.h). There are three ways to have another one:
 ///
-/// - OR after a closing, which ships: `closing` in SphereTreeSettings.h, closingModel() in Closing.h;
+/// - OR after a closing, which ships: `closing` in SphereTreeSettings.h, closingModel() in
+/// Closing.h;
 /// - a function of the children of a voxel and of those around them: blockModel() in BlockModel.h;
 /// - a whole step of one's own, from mask to mask: any PyramidModel.
 

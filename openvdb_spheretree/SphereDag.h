@@ -14,8 +14,8 @@
 /// 3. `AllFound`, `sortedEdges`: ranks become indices; a counting sort by child, then by parent.
 ///
 /// Exact, and the same for any number of threads. Cost: linear in the voxels of both levels and in
-/// the edges; for all levels of dragon-512 0.9 times that of their power labels (64 against 72 ms on
-/// one thread). While it runs, 4 bytes a voxel of the coarser level and 24 a pair found. Tests:
+/// the edges; for all levels of dragon-512 0.9 times that of their power labels (64 against 72 ms
+/// on one thread). While it runs, 4 bytes a voxel of the coarser level and 24 a pair found. Tests:
 /// TestSphereDag.cc. DagAdjacency.h makes rows of the result.
 
 #pragma once

@@ -53,7 +53,8 @@ struct View {
     double occlusionReach; ///< in voxels; what is further away takes no light from the sky
 };
 
-/// Point @a i of @a count of a set that fills the unit square evenly (Hammersley's), moved around by
+/// Point @a i of @a count of a set that fills the unit square evenly (Hammersley's), moved around
+/// by
 /// @a seed with wrapping.
 struct PlanePoint {
     double u, v;

@@ -73,7 +73,9 @@ struct SphereTree {
     /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq, the
     /// length being that of settings.dist, in its units.
     std::vector<int64_t> coverSq;
-    std::vector<float> radiusWorld;  ///< world units, padded, rounded up
+    /// World units, padded, rounded up. Of a norm: how far the ball reaches along an axis of index
+    /// space; a sphere of this radius holds more than it (l1), or less (linf).
+    std::vector<float> radiusWorld;
     std::vector<int32_t> parent;     ///< id on the next level up; -1 where there is none
     std::vector<openvdb::Coord> ijk; ///< the digital ball's centre in its level's own grid
     std::vector<int32_t> radiusSq;   ///< the digital ball {q : |q - ijk|^2 < radiusSq}: MedialBall

@@ -47,12 +47,15 @@ void writeTransform(JsonWriter& json, const SphereTree& tree)
     json.endArray();
 }
 
-void writeError(JsonWriter& json, const std::optional<LevelError>& error)
+void writeError(JsonWriter& json, const SphereTreeLevel& level)
 {
+    const std::optional<LevelError>& error = level.error;
     if (!error) {
         for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
             json.null(key);
         }
+        const bool tried = !level.errorUnknown.empty();
+        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
         return;
     }
     json.value("covered", error->covered);
@@ -72,7 +75,7 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         json.value("end", level.end);
         json.value("pyramid_voxels", level.pyramidVoxels);
         writeTopology(json, level);
-        writeError(json, level.error);
+        writeError(json, level);
         json.endObject();
     }
     json.endArray();

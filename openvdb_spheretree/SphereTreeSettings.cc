@@ -86,6 +86,10 @@ void SphereTreeSettings::validate() const
             "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
     }
     requireClosing(closing);
+    if (customModel && closing > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "closing and customModel are both set: choose one of these pyramid models");
+    }
     if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding

@@ -50,8 +50,8 @@ struct SphereTreeSettings {
     Distance dist; ///< what the balls are balls of
     /// Pyramid model: 0 for OR, else OR after a closing of this radius (voxels of the child level).
     int closing = 0;
-    /// An including model of one's own, in place of the above. It sees an object with dim = 2 turned
-    /// so that it is flat along z. Files record that there was one, not which.
+    /// An including model of one's own, in place of the above. It sees an object with dim = 2
+    /// turned so that it is flat along z. Files record that there was one, not which.
     PyramidModel customModel;
     /// Set by the builder, and on a tree read back, whose customModel is then empty.
     bool hadCustomModel = false;

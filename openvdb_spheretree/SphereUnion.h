@@ -15,8 +15,8 @@
 
 namespace openvdb_spheretree {
 
-/// The closed sphere { q : |2 q - center2|^2 <= coverSq }, in voxels of the grid it is drawn on; with
-/// the length of a norm where one is given beside it.
+/// The closed sphere { q : |2 q - center2|^2 <= coverSq }, in voxels of the grid it is drawn on;
+/// with the length of a norm where one is given beside it.
 /// Twice the centre, so that centres between voxels stay integers.
 struct ExactSphere {
     int64_t center2[3];

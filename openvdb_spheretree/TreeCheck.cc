@@ -276,8 +276,8 @@ void checkDag(Check& check)
 }
 
 /// The edges are those of the object, none more and none less. What a voxel witnesses is found by
-/// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom model
-/// is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
+/// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom
+/// model is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
 void checkDagEdges(Check& check)
 {
     const SphereTree& tree = check.tree;

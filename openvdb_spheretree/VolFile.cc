@@ -3,8 +3,8 @@
 /// @brief Reader of `.vol` and `.longvol` files that never holds the whole volume.
 ///
 /// 1. readVolHeader(): detail/VolHeader.h.
-/// 2. VolStream:       the values in file order, inflated as they are asked for; knows exactly where
-///                     they must end.
+/// 2. VolStream:       the values in file order, inflated as they are asked for; knows exactly
+///                     where they must end.
 /// 3. SlabToLeaves:    eight z-slices make one layer of leaves: each leaf is built from its 64 rows
 ///                     of eight voxels; rows are tested as words, so empty space costs one read.
 /// The next slab is inflated while the leaves of this one are built.

@@ -54,10 +54,10 @@ public:
     /// @brief The grid or tree that an action is to work on.
     /// @param what      what the action needs, for messages: "a sphere-tree"
     /// @param suits     whether an item is that
-    /// @param ageOrName the user's choice; empty: the only item that suits among those of the newest
-    ///                  action that made one
-    /// @throw CommandError (input), with a list of the stack, if there is no such item, or more than
-    ///        one
+    /// @param ageOrName the user's choice; empty: the only item that suits among those of the
+    ///                  newest action that made one
+    /// @throw CommandError (input), with a list of the stack, if there is no such item, or more
+    ///        than one
     StackItem& select(const std::string& what, const Suits& suits, const std::string& ageOrName);
     StackItem& selectTree(const std::string& ageOrName);
     StackItem& selectMesh(const std::string& ageOrName);

@@ -141,6 +141,22 @@ int64_t peakBytes()
     return int64_t(usage.ru_maxrss) * 1024;
 }
 
+namespace {
+
+/// What else shapes the numbers, where it is not the default.
+std::string unusualSettings(const openvdb_spheretree::SphereTreeSettings& settings)
+{
+    std::string text;
+    if (settings.dim == 2) text += ", dim 2";
+    if (!settings.dist.isEuclidean()) text += ", dist " + toString(settings.dist);
+    const std::string model = modelToString(settings);
+    if (model != "or") text += ", model " + model;
+    if (settings.scale == openvdb_spheretree::RadiusScale::Paper) text += ", scale paper";
+    return text;
+}
+
+} // namespace
+
 std::string statsTable(const SphereTree& tree, const Session& session)
 {
     std::ostringstream out;
@@ -151,8 +167,8 @@ std::string statsTable(const SphereTree& tree, const Session& session)
         << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
         << size[2] << "\n";
     out << "tree '" << oneLine(tree.settings.name, 60) << "': " << toString(tree.settings.tree)
-        << ", factor " << tree.settings.factor << ", " << withCommas(tree.size())
-        << " spheres; radii and distances in voxels of level 0\n";
+        << ", factor " << tree.settings.factor << unusualSettings(tree.settings) << ", "
+        << withCommas(tree.size()) << " spheres; radii and distances in voxels of level 0\n";
     std::vector<Row> rows = {kHeader};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
     printRows(out, rows);

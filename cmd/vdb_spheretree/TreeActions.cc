@@ -146,7 +146,8 @@ std::vector<OptionSpec> spheretreeOptions()
         flag("final_fit", true, "store the smallest radius around the leaf balls (extended)"),
         choice("reconstruct", {"clip", "free", "none"},
             "how a level is rebuilt before it is coarsened (extended)"),
-        choice("scale", {"tight", "paper"}, "how a level's radii become those of level 0"),
+        choice("scale", {"tight", "paper"},
+            "how the radii of a level's balls become those of level 0 (reversible)"),
         text("padding", "cubes",
             "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
             "of voxels"),

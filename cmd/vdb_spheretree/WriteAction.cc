@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WriteAction.cc
-/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are complete before the
-/// first takes its place.
+/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are
+/// complete before the first takes its place.
 
 #include "Actions.h"
 #include "AtomicFile.h"
@@ -50,8 +50,8 @@ uint32_t compressionOf(const ActionCall& call)
         | (zip ? openvdb::io::COMPRESS_ZIP : openvdb::io::COMPRESS_BLOSC);
 }
 
-/// Where the edges of the tree in @a csv go: x_dag.csv beside x.csv. Whether there will be any is not
-/// known before the work is done, so the place is always kept free for them.
+/// Where the edges of the tree in @a csv go: x_dag.csv beside x.csv. Whether there will be any is
+/// not known before the work is done, so the place is always kept free for them.
 std::string dagPath(const std::string& csv)
 {
     const std::string extension = std::filesystem::path(csv).extension().string();
@@ -105,8 +105,8 @@ const openvdb_spheretree::SphereTree& onlyTree(
     return *tree->tree;
 }
 
-/// Two trees of one name could not be told apart when the file is read, nor a tree from the edges of
-/// another.
+/// Two trees of one name could not be told apart when the file is read, nor a tree from the edges
+/// of another.
 void requireDistinctTrees(const std::vector<StackItem*>& items)
 {
     std::set<std::string> names;

@@ -86,7 +86,7 @@ StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& p
 
 Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& session)
 {
-    const auto level = int(call.integer("level"));
+    const int level = call.given("level") ? int(call.integer("level")) : tree.levels.front().level;
     const auto has = [level](const auto& l) { return l.level == level; };
     if (std::none_of(tree.levels.begin(), tree.levels.end(), has)) {
         throwInput("the tree has no level " + call.text("level") + ": it has levels "
@@ -129,7 +129,8 @@ std::vector<OptionSpec> pictureOptions()
         real("fov", "30", 0, 180, ".png: vertical angle of view in degrees, below 180"),
         integer("width", "1280", 1, kMaxSide, ".png: pixels, at most 16384"),
         integer("height", "960", 1, kMaxSide, ".png: pixels, at most 16384"),
-        integer("level", "0", 0, 1000, ".png: the level that is drawn; 0 is the finest"),
+        integer(
+            "level", "0", 0, 1000, ".png: the level that is drawn; by default the finest there is"),
         text("color", "parent",
             ".png: parent (siblings share a colour), level, id, or red,green,blue of 0 to 1")};
 }

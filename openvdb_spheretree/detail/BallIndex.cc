@@ -11,8 +11,8 @@ namespace detail {
 
 namespace {
 
-/// Finds the leaves of balls of one slab: leaves of equal x, which stand together. Most balls lie in
-/// the leaf of the one before, or close behind it.
+/// Finds the leaves of balls of one slab: leaves of equal x, which stand together. Most balls lie
+/// in the leaf of the one before, or close behind it.
 class LeafFinder {
 public:
     LeafFinder(const LeafLayout& layout, int32_t x)

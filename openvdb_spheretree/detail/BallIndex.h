@@ -2,10 +2,10 @@
 /// @file detail/BallIndex.h
 /// @brief Which medial ball is centred at a voxel, without a search.
 ///
-/// Balls are ordered by centre, voxels by leaf. A leaf's centres are bits of a mask; the bits before
-/// a centre, counted, are its rank in the order of leaves, which is as good a name for a ball as its
-/// index and is found in one cache line. One table takes ranks to balls, for the few that are asked
-/// for. 128 bytes a leaf, 4 a ball.
+/// Balls are ordered by centre, voxels by leaf. A leaf's centres are bits of a mask; the bits
+/// before a centre, counted, are its rank in the order of leaves, which is as good a name for a
+/// ball as its index and is found in one cache line. One table takes ranks to balls, for the few
+/// that are asked for. 128 bytes a leaf, 4 a ball.
 
 #pragma once
 

@@ -2,8 +2,8 @@
 /// @file detail/BlockCanvas.h
 /// @brief The 128^3 voxels of a block as mask words, to draw balls into.
 ///
-/// Words are kept by cells of 32^3 and leaves of 8^3, with a bit for leaves that are full: nothing is
-/// drawn to these.
+/// Words are kept by cells of 32^3 and leaves of 8^3, with a bit for leaves that are full: nothing
+/// is drawn to these.
 
 #pragma once
 
@@ -21,8 +21,8 @@ public:
     static constexpr int kLog2 = 7; ///< a block is OpenVDB's lower internal node
     static constexpr int kCellLog2 = 5, kLeafLog2 = 3;
 
-    /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or more
-    /// away along each axis.
+    /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or
+    /// more away along each axis.
     static bool isSmall(const Ball& ball) { return ball.coverSq < ball.distance.lengthSq(7, 7, 7); }
 
     BlockCanvas() : mWords(64 * 64 * 8, 0) {}

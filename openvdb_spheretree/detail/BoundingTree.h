@@ -2,14 +2,14 @@
 /// @file detail/BoundingTree.h
 /// @brief A bounding volume hierarchy: which of many bodies may a ball meet, or a ray.
 ///
-/// A binary tree, top down, of which nodes are then joined until a node has eight children. Each has
-/// a box and a ball around all that is below it. Balls along a medial axis overlap so much that a
-/// point of their surface lies in the boxes of hundreds; the bounding ball of balls of about one
+/// A binary tree, top down, of which nodes are then joined until a node has eight children. Each
+/// has a box and a ball around all that is below it. Balls along a medial axis overlap so much that
+/// a point of their surface lies in the boxes of hundreds; the bounding ball of balls of about one
 /// centre and radius is tight where their box is not. (On the 138,157 leaf balls of dragon-512, a
 /// ray to the sky tested 82 balls and 262 nodes of a binary tree, with boxes alone 680 and 708.) So
 /// nodes are split by centre or by radius, whichever spreads most, where the surface area heuristic
-/// (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the cheapest place, and deep down at the
-/// median.
+/// (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the cheapest place, and deep down at
+/// the median.
 ///
 /// Bounds are floats rounded outwards: a query may be told of a body that it misses by a hair, and
 /// is told of every one that it meets. The same bodies give the same tree. Cost: O(n log n) to

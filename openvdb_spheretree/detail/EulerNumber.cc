@@ -4,9 +4,9 @@
 /// cube, 6 faces, 12 edges, 8 vertices) that no voxel before it has.
 ///
 /// A cell lies in direction d of the cube's centre, with components -1, 0, 1; its voxels are v + e
-/// where each component of e is 0 or that of d. For d with dx = 1 and for the same d with dx = 0, the
-/// voxels *before* v are the same ones, and the two cells count with opposite signs: they cancel
-/// out. The 9 directions with dx = -1 remain, 9 bit counts for a word of 64 voxels.
+/// where each component of e is 0 or that of d. For d with dx = 1 and for the same d with dx = 0,
+/// the voxels *before* v are the same ones, and the two cells count with opposite signs: they
+/// cancel out. The 9 directions with dx = -1 remain, 9 bit counts for a word of 64 voxels.
 
 #include "EulerNumber.h"
 

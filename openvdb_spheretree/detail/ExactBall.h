@@ -2,9 +2,9 @@
 /// @file detail/ExactBall.h
 /// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
 ///
-/// Everything is in doubled coordinates, so that centres between voxels stay integers. A sphere may be
-/// one of a norm. All that is used of a distance is that it grows with each coordinate: the nearest
-/// and the farthest voxel of a box are so along every axis.
+/// Everything is in doubled coordinates, so that centres between voxels stay integers. A sphere may
+/// be one of a norm. All that is used of a distance is that it grows with each coordinate: the
+/// nearest and the farthest voxel of a box are so along every axis.
 
 #pragma once
 
@@ -45,8 +45,8 @@ struct Ball {
     /// Balls of this size and less are plain: 2^29 and a cube of 4096 voxels, doubled, squared.
     static constexpr int64_t kMaxPlainCoverSq = int64_t(1) << 58;
 
-    /// @return whether the ball holds what is so far from its centre; the most that is asked are the
-    /// corners of a cube that meets its box.
+    /// @return whether the ball holds what is so far from its centre; the most that is asked are
+    /// the corners of a cube that meets its box.
     bool holds(const int64_t d[3]) const
     {
         if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= coverSq;

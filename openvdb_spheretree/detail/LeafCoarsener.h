@@ -2,9 +2,10 @@
 /// @file detail/LeafCoarsener.h
 /// @brief What a leaf's mask leaves on the next level, for any factor, on whole words.
 ///
-/// Parents differ by axis only, so the 512 bits are folded one axis at a time: words of equal parent
-/// are ORed (x), rows of eight bits move to their parent's row (y), and the bits within a row come
-/// from a table of 256 entries (z). Along an axis that takes no part (z with dim = 2) the factor is
+/// Parents differ by axis only, so the 512 bits are folded one axis at a time: words of equal
+/// parent are ORed (x), rows of eight bits move to their parent's row (y), and the bits within a
+/// row come from a table of 256 entries (z). Along an axis that takes no part (z with dim = 2) the
+/// factor is
 /// 1 and the same code copies.
 ///
 /// How the eight coordinates of a leaf fall to parents depends only on how many of them the first

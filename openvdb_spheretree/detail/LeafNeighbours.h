@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/LeafNeighbours.h
-/// @brief The 26 leaves around each leaf of a layout, as a table: what LeafWalk.h finds for one leaf
-/// after the other. Cost: linear in leaves, 108 bytes a leaf.
+/// @brief The 26 leaves around each leaf of a layout, as a table: what LeafWalk.h finds for one
+/// leaf after the other. Cost: linear in leaves, 108 bytes a leaf.
 
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/LeafParts.h
-/// @brief The connected parts of the voxels of a leaf, and of the background in it, within the leaf.
+/// @brief The connected parts of the voxels of a leaf, and of the background in it, within the
+/// leaf.
 
 #pragma once
 

@@ -9,8 +9,8 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this machine's
-///        physical memory (where that can be told)
+/// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this
+///        machine's physical memory (where that can be told)
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
 
 } // namespace detail

@@ -9,8 +9,9 @@
 /// Within a leaf, rows are searched by bits.
 ///
 /// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
-/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centres. Between them a tile counts as the continuous
-/// box of its voxel centres, so that the answer may be too small, by half a voxel an axis at most.
+/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centres. Between
+/// them a tile counts as the continuous box of its voxel centres, so that the answer may be too
+/// small, by half a voxel an axis at most.
 
 #pragma once
 

@@ -3,7 +3,8 @@
 /// @brief The labels of the parents of a run of voxels, 64 voxels at a time.
 ///
 /// The coarser level has a factor^dim-th of the voxels: all of its labels are found first
-/// (VoxelBalls), and where they change. For each word of a run of the finer level, the bits of up to
+/// (VoxelBalls), and where they change. For each word of a run of the finer level, the bits of up
+/// to
 /// 64 parents are then spread over their children (RunParents).
 
 #pragma once

@@ -58,7 +58,8 @@ struct Light {
     /// @param ambient  mean light from above the surface
     openvdb::Vec3d reflected(const openvdb::Vec3d& albedo, const openvdb::Vec3d& normal,
         const openvdb::Vec3d& toEye, double lampShare, const openvdb::Vec3d& ambient) const;
-    /// @return linear light behind everything; @a y is 0 at the picture's upper edge, 1 at the lower.
+    /// @return linear light behind everything; @a y is 0 at the picture's upper edge, 1 at the
+    /// lower.
     static openvdb::Vec3d background(double y);
 };
 

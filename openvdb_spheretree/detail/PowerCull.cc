@@ -61,8 +61,8 @@ PowerCull::Champions PowerCull::champions(int64_t reach) const
     return result;
 }
 
-/// Whether a champion has at least the entry's power in all of the cube. Champions stay, or two that
-/// are alike would drop each other.
+/// Whether a champion has at least the entry's power in all of the cube. Champions stay, or two
+/// that are alike would drop each other.
 bool PowerCull::exceeded(std::size_t entry, const Champions& champions, int64_t reach) const
 {
     const Entry& own = mEntries[entry];

@@ -8,8 +8,8 @@
 /// (Thousands of medial balls reach into a leaf on the surface of a solid, and a few dozen shape
 /// what is there.)
 ///
-/// Balls are held against those of largest power at the cube's centre and corners only: what is left
-/// may have some more that add nothing. Exact. Cost: linear in the balls.
+/// Balls are held against those of largest power at the cube's centre and corners only: what is
+/// left may have some more that add nothing. Exact. Cost: linear in the balls.
 
 #pragma once
 
@@ -24,8 +24,8 @@ namespace detail {
 
 class PowerCull {
 public:
-    /// @param list    balls, by index, that reach into the cube; those that add nothing are taken off
-    ///                and the others keep their order. All of them must have the same clip.
+    /// @param list    balls, by index, that reach into the cube; those that add nothing are taken
+    ///                off and the others keep their order. All of them must have the same clip.
     /// @param origin  of the cube, whose side has @a size voxels
     void cull(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
         std::vector<int32_t>& list);

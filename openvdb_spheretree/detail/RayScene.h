@@ -3,8 +3,8 @@
 /// @brief Many shapes of one kind, and the two questions a ray-cast picture asks of them: what does
 /// a ray hit first, and does anything stand in its way.
 ///
-/// Shapes are stored in the order of the leaves of a BoundingTree. The answer does not depend on that
-/// tree: of shapes hit at the same distance the first is taken. Tests: TestRayScene.cc.
+/// Shapes are stored in the order of the leaves of a BoundingTree. The answer does not depend on
+/// that tree: of shapes hit at the same distance the first is taken. Tests: TestRayScene.cc.
 
 #pragma once
 

@@ -131,8 +131,8 @@ inline NormFaces::NormFaces(const Distance& norm)
     } while (std::next_permutation(weights.begin(), weights.end()));
 }
 
-/// The active voxels of a leaf node, or a tile, as cubes between half-integers. What is hit does not
-/// depend on whether a cube of voxels is a tile or written out.
+/// The active voxels of a leaf node, or a tile, as cubes between half-integers. What is hit does
+/// not depend on whether a cube of voxels is a tile or written out.
 struct VoxelShape {
     using LeafNode = openvdb::BoolTree::LeafNodeType;
 

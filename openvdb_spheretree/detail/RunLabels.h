@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/RunLabels.h
-/// @brief The power labels of a run of leaves along x, as ranks of balls (BallIndex.h), 64 voxels at
-/// a time.
+/// @brief The power labels of a run of leaves along x, as ranks of balls (BallIndex.h), 64 voxels
+/// at a time.
 ///
 /// A label is found by a step along x, and what follows depends on where that leads. Where two
 /// neighbours along x step to the same end they have one label: it is looked up once. Exact for any

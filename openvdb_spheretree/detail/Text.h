@@ -20,7 +20,8 @@ inline std::string lowerExtension(const std::string& path)
     return text;
 }
 
-/// @return text of a file for use in a message: in quotes, short, and nothing a terminal would obey.
+/// @return text of a file for use in a message: in quotes, short, and nothing a terminal would
+/// obey.
 inline std::string shown(std::string_view text)
 {
     constexpr std::size_t kLongest = 40;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestModelledTrees.cc
-/// @brief What holds for every sphere-tree, with other pyramid models than OR: ones that stay in the
-/// object's box, ones that leave it, and ones that no tree can be made with.
+/// @brief What holds for every sphere-tree, with other pyramid models than OR: ones that stay in
+/// the object's box, ones that leave it, and ones that no tree can be made with.
 
 #include "../support/BuiltTrees.h"
 #include "../support/Messages.h"

@@ -51,7 +51,8 @@ inline testing::AssertionResult agreeOnNode(
     if (std::abs(tree.radius[id] - expected.radius) > kDenseTolerance * (1 + expected.radius)) {
         return fail("radius") << tree.radius[id] << ", not " << expected.radius;
     }
-    // coverSq is (2 radius)^2, in units of the distance, rounded down, but for what doubles cannot tell.
+    // coverSq is (2 radius)^2, in units of the distance, rounded down, but for what doubles cannot
+    // tell.
     const double unit = tree.settings.dist.unit();
     const double fourRSq = 4 * unit * unit * expected.radius * expected.radius;
     if (std::abs(double(tree.coverSq[id]) + 0.5 - fourRSq)

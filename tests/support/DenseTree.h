@@ -10,8 +10,8 @@
 /// balls without children go; the radius is what the leaf balls below need; the level's voxels
 /// become those within that radius of a centre, inside the pyramid's box.
 ///
-/// With a norm, lengths are the norm's, in voxels: divided by the cost of a face step. A ball of less
-/// than the radius r holds what is within the largest cost below r that steps can add up to.
+/// With a norm, lengths are the norm's, in voxels: divided by the cost of a face step. A ball of
+/// less than the radius r holds what is within the largest cost below r that steps can add up to.
 ///
 /// For objects of some thousand voxels. Doubles do for these: where a choice could hang on the last
 /// digits (see `preferDagParent`), it is made with a margin.

@@ -77,8 +77,8 @@ using Length = std::function<int64_t(const Coord&, const Coord&)>;
 /// Costs of a step across a face, an edge, a corner.
 using Weights = std::array<int, 3>;
 
-/// The norm with these costs: corner steps until the smallest coordinate is 0, then edge steps, then
-/// face steps.
+/// The norm with these costs: corner steps until the smallest coordinate is 0, then edge steps,
+/// then face steps.
 inline Length normOf(const Weights& weights)
 {
     return [weights](const Coord& p, const Coord& q) {

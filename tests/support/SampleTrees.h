@@ -85,7 +85,8 @@ inline void fillDescription(SphereTree& tree)
 }
 
 /// Three levels of 1, 2 and 5 nodes: negative and half-voxel centres, one centre on all levels, an
-/// error known, one unknown, one never asked for, one topology, a DAG, and no setting at its default.
+/// error known, one unknown, one never asked for, one topology, a DAG, and no setting at its
+/// default.
 inline SphereTree sampleTree()
 {
     SphereTree tree;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestBlockModel.cc
-/// @brief Pyramid models given as a function of child blocks: what the function sees, and when it is
-/// asked.
+/// @brief Pyramid models given as a function of child blocks: what the function sees, and when it
+/// is asked.
 
 #include "../support/CoreStages.h"
 #include "../support/Messages.h"

@@ -259,4 +259,17 @@ TEST(LevelFrame, RejectsALevelWhoseVoxelsAreTooWide)
     EXPECT_NEAR(double(widest.radius(1).coverSq()), fourRSq, 1e-9 * fourRSq);
 }
 
+TEST(LevelFrame, RejectsBallsOfANormWhoseSquareDoesNotFit)
+{
+    using openvdb_spheretree::Distance;
+    SphereTreeSettings settings;
+    settings.factor = 2900;
+    settings.dist = Distance::chamfer(255, 255, 255);
+    settings.scale = RadiusScale::Paper;
+    EXPECT_NO_THROW(LevelFrame(1, kOrigin, settings).radius(255 * 255));
+    EXPECT_THROW(LevelFrame(2, kOrigin, settings).radius(255 * 255), openvdb::ValueError);
+    settings.scale = RadiusScale::Tight; // a single voxel has no width
+    EXPECT_NO_THROW(LevelFrame(2, kOrigin, settings).radius(255 * 255));
+}
+
 } // namespace

@@ -57,8 +57,8 @@ TEST(MedialAxis, AnOddBarHasABallAtEachVoxelOfItsCore)
     EXPECT_EQ(ballsOf(shapes::box(Coord(5, 3, 3))), expected);
 }
 
-/// Two dimensions for every other kind of object, but for those that would be turned: TestFlatObjects
-/// has these.
+/// Two dimensions for every other kind of object, but for those that would be turned:
+/// TestFlatObjects has these.
 int dimFor(const RandomObject& object, uint32_t seed)
 {
     const CoordBBox box = boxOf(object.voxels);

@@ -75,8 +75,8 @@ std::vector<int32_t> ballsOfLabels(const MedialLevel& level)
     return balls;
 }
 
-/// The pair of labels of every voxel, one by one. Labels are the levels' own: NaiveReference.h, which
-/// is used above, has none for norms and takes days where balls are large.
+/// The pair of labels of every voxel, one by one. Labels are the levels' own: NaiveReference.h,
+/// which is used above, has none for norms and takes days where balls are large.
 std::vector<DagEdge> edgesOfLabels(
     const MedialLevel& fine, const MedialLevel& coarse, const PyramidStep& step)
 {

@@ -73,6 +73,8 @@ json levelOf(const SphereTreeLevel& level)
         result["missing"] = level.error->missing;
         result["hamming_percent"] = level.error->hammingPercent;
         result["hausdorff"] = level.error->hausdorff;
+    } else {
+        result["error_unknown"] = level.errorUnknown.empty() ? "not computed" : level.errorUnknown;
     }
     return result;
 }
