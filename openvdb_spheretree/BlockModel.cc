@@ -73,13 +73,9 @@ MaskTree::Ptr candidatesOf(const MaskTree& orLevel)
     using namespace openvdb::tools;
     auto result = std::make_shared<MaskTree>(orLevel);
     dilateActiveValues(*result, 1, NN_FACE_EDGE_VERTEX, IGNORE_TILES);
-    auto tile = orLevel.cbeginValueOn();
-    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        CoordBBox box;
-        tile.getBoundingBox(box);
+    detail::forEachTile(orLevel, [&](const CoordBBox& box) {
         result->sparseFill(CoordBBox(box.min() - Coord(1), box.max() + Coord(1)), true);
-    }
+    });
     return result;
 }
 

@@ -25,19 +25,6 @@ using openvdb::CoordBBox;
 using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
 
-/// Visits the active tiles of a tree as boxes.
-template <typename F>
-void forEachTile(const MaskTree& tree, const F& f)
-{
-    auto tile = tree.cbeginValueOn();
-    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        CoordBBox box;
-        tile.getBoundingBox(box);
-        f(box);
-    }
-}
-
 /// The 8^3 cells that hold a voxel, one voxel for each.
 MaskTree::Ptr cellsOf(const MaskTree& voxels, NullInterrupter* interrupter)
 {
@@ -50,7 +37,7 @@ MaskTree::Ptr grown(const MaskTree& cells, int steps)
     using namespace openvdb::tools;
     auto result = std::make_shared<MaskTree>(cells);
     dilateActiveValues(*result, steps, NN_FACE_EDGE_VERTEX, IGNORE_TILES);
-    forEachTile(cells, [&](const CoordBBox& tile) {
+    detail::forEachTile(cells, [&](const CoordBBox& tile) {
         result->sparseFill(CoordBBox(tile.min() - Coord(steps), tile.max() + Coord(steps)), true);
     });
     prune(*result);
@@ -77,7 +64,7 @@ MaskTree::Ptr voxelsOfCells(const MaskTree& cells, const CoordBBox& box, int dim
             add(CoordBBox(cell.getCoord(), cell.getCoord()));
         }
     }
-    forEachTile(cells, add);
+    detail::forEachTile(cells, add);
     return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafLayout.h"
 
+#include "detail/MaskNodes.h"
 #include "detail/Memory.h"
 
 #include <tbb/parallel_invoke.h>
@@ -38,9 +39,8 @@ void appendTile(const openvdb::CoordBBox& tile, std::vector<Leaf>& leaves)
 int64_t countLeaves(const openvdb::MaskTree& level)
 {
     int64_t count = int64_t(level.leafCount());
-    auto tile = level.cbeginValueOn();
-    tile.setMaxDepth(openvdb::MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) count += int64_t(tile.getVoxelCount() / kLeafVoxels);
+    detail::forEachTile(level,
+        [&](const openvdb::CoordBBox& box) { count += int64_t(box.volume() / kLeafVoxels); });
     return count;
 }
 
@@ -79,13 +79,7 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
         for (uint32_t x = 0; x < 8; ++x) leaf.mask[x] = it->getValueMask().getWord<uint64_t>(x);
         leaves.push_back(leaf);
     }
-    auto tile = level.cbeginValueOn();
-    tile.setMaxDepth(openvdb::MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        openvdb::CoordBBox box;
-        tile.getBoundingBox(box);
-        appendTile(box, leaves);
-    }
+    detail::forEachTile(level, [&](const openvdb::CoordBBox& box) { appendTile(box, leaves); });
     tbb::parallel_sort(leaves.begin(), leaves.end(),
         [](const Leaf& a, const Leaf& b) { return a.origin < b.origin; });
 

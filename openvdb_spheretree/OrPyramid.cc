@@ -102,17 +102,13 @@ Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const 
     for (auto it = level.cbeginLeaf(); it; ++it) {
         if (!it->isEmpty()) addLeafPart(parts, coarsener, it->origin(), &*it);
     }
-    auto tile = level.cbeginValueOn();
-    tile.setMaxDepth(MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        CoordBBox box;
-        tile.getBoundingBox(box);
+    detail::forEachTile(level, [&](const CoordBBox& box) {
         if (box.max()[0] - box.min()[0] == 7) {
             addLeafPart(parts, coarsener, box.min(), nullptr);
         } else {
             parts.tiles.push_back(tilePart(box, step));
         }
-    }
+    });
     return parts;
 }
 

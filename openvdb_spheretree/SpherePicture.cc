@@ -2,6 +2,7 @@
 #include "SpherePicture.h"
 
 #include "UniformVoxels.h"
+#include "detail/MaskNodes.h"
 #include "detail/Hash.h"
 #include "detail/Parallel.h"
 #include "detail/PictureColors.h"
@@ -352,12 +353,7 @@ std::vector<detail::VoxelShape> voxelShapesOf(
         leaf->evalActiveBoundingBox(box);
         if (!box.empty()) add(box, leaf->isDense() ? nullptr : leaf.getLeaf());
     }
-    auto tile = tree.cbeginValueOn();
-    tile.setMaxDepth(openvdb::BoolTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        openvdb::CoordBBox box;
-        if (tile.getBoundingBox(box)) add(box, nullptr);
-    }
+    detail::forEachTile(tree, [&](const openvdb::CoordBBox& box) { add(box, nullptr); });
     return shapes;
 }
 

@@ -47,24 +47,6 @@ void writeTransform(JsonWriter& json, const SphereTree& tree)
     json.endArray();
 }
 
-void writeError(JsonWriter& json, const SphereTreeLevel& level)
-{
-    const std::optional<LevelError>& error = level.error;
-    if (!error) {
-        for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
-            json.null(key);
-        }
-        const bool tried = !level.errorUnknown.empty();
-        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
-        return;
-    }
-    json.value("covered", error->covered);
-    json.value("excess", error->excess);
-    json.value("missing", error->missing);
-    json.value("hamming_percent", error->hammingPercent);
-    json.value("hausdorff", error->hausdorff);
-}
-
 void writeLevels(JsonWriter& json, const SphereTree& tree)
 {
     json.beginArray("levels");
@@ -177,6 +159,24 @@ void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
     json.value("tunnels", level.topology->tunnels);
     json.value("cavities", level.topology->cavities);
     json.endObject();
+}
+
+void writeError(JsonWriter& json, const SphereTreeLevel& level)
+{
+    const std::optional<LevelError>& error = level.error;
+    if (!error) {
+        for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
+            json.null(key);
+        }
+        const bool tried = !level.errorUnknown.empty();
+        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
+        return;
+    }
+    json.value("covered", error->covered);
+    json.value("excess", error->excess);
+    json.value("missing", error->missing);
+    json.value("hamming_percent", error->hammingPercent);
+    json.value("hausdorff", error->hausdorff);
 }
 
 void writeJson(const SphereTree& tree, std::ostream& out)

@@ -37,11 +37,12 @@ namespace openvdb_spheretree {
 /// @throw openvdb::IoError if the stream fails
 void writeJson(const SphereTree& tree, std::ostream& out);
 
-/// @name Members which -stats has as well: "object", "settings", and a level's "topology"
+/// @name Members which -stats has as well: "object", "settings", and a level's topology and error
 /// @{
 void writeObject(JsonWriter& json, const SphereTree& tree);
 void writeSettings(JsonWriter& json, const SphereTreeSettings& settings);
 void writeTopology(JsonWriter& json, const SphereTreeLevel& level);
+void writeError(JsonWriter& json, const SphereTreeLevel& level);
 /// @}
 
 } // namespace openvdb_spheretree

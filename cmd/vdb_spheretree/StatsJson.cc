@@ -14,23 +14,6 @@ using openvdb_spheretree::SphereTreeLevel;
 
 namespace {
 
-void writeError(JsonWriter& json, const SphereTreeLevel& level)
-{
-    if (!level.error) {
-        for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
-            json.null(key);
-        }
-        const bool tried = !level.errorUnknown.empty();
-        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
-        return;
-    }
-    json.value("covered", level.error->covered);
-    json.value("excess", level.error->excess);
-    json.value("missing", level.error->missing);
-    json.value("hamming_percent", level.error->hammingPercent);
-    json.value("hausdorff", level.error->hausdorff);
-}
-
 void writeLevels(JsonWriter& json, const SphereTree& tree)
 {
     json.beginArray("levels");

@@ -5,6 +5,8 @@
 
 #include "NearestVoxel.h"
 
+#include "MaskNodes.h"
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -63,12 +65,7 @@ NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask, const Distance& distan
     : mDistance(distance)
 {
     for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) addLeaf(*leaf);
-    auto tile = mask.cbeginValueOn();
-    tile.setMaxDepth(openvdb::MaskTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        const openvdb::CoordBBox box = tile.getBoundingBox();
-        addTile(box.min(), box.dim().x());
-    }
+    forEachTile(mask, [&](const openvdb::CoordBBox& box) { addTile(box.min(), box.dim().x()); });
     group();
 }
 
