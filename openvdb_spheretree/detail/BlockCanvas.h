@@ -87,23 +87,14 @@ private:
         return origin.offsetBy(x << log2, y << log2, z << log2);
     }
 
-    /// The part of a ball's box in a cube, counted from its corner in units of 2^unitLog2.
+    /// The part of a ball's box in a cube, counted from its corner.
     struct Range {
         int32_t lo[3], hi[3]; // inclusive
-        Range(const Ball& ball, const openvdb::Coord& origin, int32_t size, int unitLog2)
+        Range(const Ball& ball, const openvdb::Coord& origin, int32_t size)
         {
             for (int a = 0; a < 3; ++a) {
-                lo[a] = (std::max(ball.lo[a], origin[a]) - origin[a]) >> unitLog2;
-                hi[a] = (std::min(ball.hi[a], origin[a] + (size - 1)) - origin[a]) >> unitLog2;
-            }
-        }
-        template <typename Body>
-        void forEach(const Body& body) const
-        {
-            for (int x = lo[0]; x <= hi[0]; ++x) {
-                for (int y = lo[1]; y <= hi[1]; ++y) {
-                    for (int z = lo[2]; z <= hi[2]; ++z) body(x, y, z);
-                }
+                lo[a] = std::max(ball.lo[a], origin[a]) - origin[a];
+                hi[a] = std::min(ball.hi[a], origin[a] + (size - 1)) - origin[a];
             }
         }
     };
@@ -129,7 +120,7 @@ private:
     /// Draws the rows of the ball in a cube of the block.
     void drawRows(const Ball& ball, const openvdb::Coord& origin, int32_t size)
     {
-        const Range box(ball, origin, size, 0);
+        const Range box(ball, origin, size);
         const openvdb::Coord corner = origin - mOrigin;
         const int64_t center2[3] = {ball.center2[0] - 2 * int64_t(origin[0]),
             ball.center2[1] - 2 * int64_t(origin[1]), ball.center2[2] - 2 * int64_t(origin[2])};
