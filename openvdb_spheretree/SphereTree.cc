@@ -138,6 +138,9 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
     settings.validate();
+    if (settings.tree == TreeType::Tight) {
+        OPENVDB_THROW(openvdb::NotImplementedError, "tree=tight is not available yet");
+    }
     requireUniformVoxels(object);
     SphereTree tree;
     tree.settings = settings;

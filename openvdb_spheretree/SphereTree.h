@@ -15,6 +15,7 @@
 #pragma once
 
 #include "LevelTopology.h"
+#include "SphereCuts.h"
 #include "SphereTreeSettings.h"
 
 #include <openvdb/openvdb.h>
@@ -68,20 +69,27 @@ struct DagEdge {
 struct SphereTree {
     /// @name One entry a node
     /// @{
-    std::vector<openvdb::Vec3d> center; ///< index space of the source grid; multiples of 1/2
-    std::vector<double> radius;         ///< voxels of level 0, covers voxel centres, no padding
-    /// The exact form of `radius`: voxel centre q is inside when |2 (q - center)|^2 <= coverSq, the
-    /// length being that of settings.dist, in its units.
+    /// Index space of the source grid; multiples of 1 / subdivision.
+    std::vector<openvdb::Vec3d> center;
+    std::vector<double> radius; ///< voxels of level 0, covers voxel centres, no padding
+    /// The exact form of `radius`: voxel centre q is inside when
+    /// |subdivision (q - center)|^2 <= coverSq, the length being that of settings.dist, in its units.
     std::vector<int64_t> coverSq;
     /// World units, padded, rounded up. Of a norm: how far the ball reaches along an axis of index
     /// space; a sphere of this radius holds more than it (l1), or less (linf).
     std::vector<float> radiusWorld;
-    std::vector<int32_t> parent;     ///< id on the next level up; -1 where there is none
-    std::vector<openvdb::Coord> ijk; ///< the digital ball's centre in its level's own grid
-    std::vector<int32_t> radiusSq;   ///< the digital ball {q : |q - ijk|^2 < radiusSq}: MedialBall
+    std::vector<int32_t> parent; ///< id on the next level up; -1 where there is none
+    /// The digital ball's centre in its level's own grid; for a sphere that is none, the voxel
+    /// nearest to its centre.
+    std::vector<openvdb::Coord> ijk;
+    /// The digital ball {q : |q - ijk|^2 < radiusSq}: MedialBall; -1 for a sphere that is none.
+    std::vector<int32_t> radiusSq;
     /// @}
+    /// Units of centres and coverSq in a voxel: 2 or 16.
+    int subdivision = 2;
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
+    SphereCuts cuts;                     ///< empty unless asked for
 
     SphereTreeSettings settings;
     ObjectInfo object;

@@ -19,8 +19,16 @@ struct Named {
     const char* name;
 };
 
-constexpr std::array<Named<TreeType>, 2> kTreeTypes{
-    {{TreeType::Reversible, "reversible"}, {TreeType::Extended, "extended"}}};
+constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Reversible, "reversible"},
+    {TreeType::Extended, "extended"}, {TreeType::Tight, "tight"}}};
+constexpr std::array<Named<Quality>, 3> kQualities{
+    {{Quality::Fast, "fast"}, {Quality::Normal, "normal"}, {Quality::Best, "best"}}};
+constexpr std::array<Named<Cover>, 2> kCovers{{{Cover::Voxels, "voxels"}, {Cover::Balls, "balls"}}};
+constexpr std::array<Named<Center>, 2> kCenters{
+    {{Center::Medial, "medial"}, {Center::Miniball, "miniball"}}};
+constexpr std::array<Named<Leaves>, 2> kLeaves{
+    {{Leaves::Pruned, "pruned"}, {Leaves::Medial, "medial"}}};
+constexpr std::array<Named<Side>, 2> kSides{{{Side::Outer, "outer"}, {Side::Inner, "inner"}}};
 constexpr std::array<Named<ParentRule>, 2> kParentRules{
     {{ParentRule::Centre, "centre"}, {ParentRule::Dag, "dag"}}};
 constexpr std::array<Named<Reconstruction>, 3> kReconstructions{{{Reconstruction::Clip, "clip"},
@@ -70,6 +78,25 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
 
 const std::string kClosing = "closing:";
 
+/// What only the trees of the pyramid know.
+void requireTightSettings(const SphereTreeSettings& settings)
+{
+    if (!settings.dist.isEuclidean()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "tree=tight is for dist=l2, not for dist=" << toString(settings.dist)
+                                                       << ": use tree=extended or tree=reversible");
+    }
+    if (settings.center == Center::Miniball) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "center=miniball is for reversible and extended trees: the centres of tree=tight are "
+            "better than that already");
+    }
+    if (settings.dag) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "tree=tight has no Sphere-DAG: use tree=extended or tree=reversible with dag=1");
+    }
+}
+
 } // namespace
 
 double SphereTreeSettings::paddingVoxels() const
@@ -86,6 +113,15 @@ void SphereTreeSettings::validate() const
             "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
     }
     requireClosing(closing);
+    budget.validate();
+    if (tree == TreeType::Tight) {
+        requireTightSettings(*this);
+    } else if (!budget.empty() || cuts || side == Side::Inner) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "spheres, branching, error, distance, cuts and side=inner are for tree=tight, not for "
+            "tree="
+                << toString(tree));
+    }
     if (customModel && closing > 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "closing and customModel are both set: choose one of these pyramid models");
@@ -126,6 +162,11 @@ const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
 const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
 const char* toString(RadiusScale value) { return nameOf(kRadiusScales, value); }
 const char* toString(DagEdges value) { return nameOf(kDagEdges, value); }
+const char* toString(Quality value) { return nameOf(kQualities, value); }
+const char* toString(Cover value) { return nameOf(kCovers, value); }
+const char* toString(Center value) { return nameOf(kCenters, value); }
+const char* toString(Leaves value) { return nameOf(kLeaves, value); }
+const char* toString(Side value) { return nameOf(kSides, value); }
 
 std::string paddingToString(double padding)
 {
@@ -142,14 +183,7 @@ std::string modelToString(const SphereTreeSettings& settings)
     return settings.closing == 0 ? "or" : kClosing + std::to_string(settings.closing);
 }
 
-TreeType treeTypeFromString(const std::string& text)
-{
-    if (text == "tight") {
-        OPENVDB_THROW(
-            openvdb::ValueError, "tree='tight' is not available yet: choose " << list(kTreeTypes));
-    }
-    return fromName(kTreeTypes, "tree", text);
-}
+TreeType treeTypeFromString(const std::string& text) { return fromName(kTreeTypes, "tree", text); }
 
 ParentRule parentRuleFromString(const std::string& text)
 {
@@ -167,6 +201,16 @@ RadiusScale radiusScaleFromString(const std::string& text)
 }
 
 DagEdges dagEdgesFromString(const std::string& text) { return fromName(kDagEdges, "edges", text); }
+
+Quality qualityFromString(const std::string& text) { return fromName(kQualities, "quality", text); }
+
+Cover coverFromString(const std::string& text) { return fromName(kCovers, "cover", text); }
+
+Center centerFromString(const std::string& text) { return fromName(kCenters, "center", text); }
+
+Leaves leavesFromString(const std::string& text) { return fromName(kLeaves, "leaves", text); }
+
+Side sideFromString(const std::string& text) { return fromName(kSides, "side", text); }
 
 double paddingFromString(const std::string& text)
 {

@@ -7,6 +7,7 @@
 
 #include "Distance.h"
 #include "PyramidModel.h"
+#include "SphereBudget.h"
 
 #include <string>
 
@@ -14,7 +15,8 @@ namespace openvdb_spheretree {
 
 enum class TreeType {
     Reversible, ///< every level rebuilds its own pyramid level (Broutta et al. 2009, 3.2)
-    Extended    ///< every sphere contains the leaf balls below it (Algorithm 2)
+    Extended,   ///< every sphere contains the leaf balls below it (Algorithm 2)
+    Tight       ///< the least error at a number of spheres that we know how to reach: TightTree.h
 };
 
 enum class ParentRule {
@@ -38,11 +40,53 @@ enum class RadiusScale {
     Paper  ///< f^k sqrt(radiusSq) in place of the first term, on the levels above 0
 };
 
+/// How much work goes into a tight tree.
+enum class Quality {
+    Fast,   ///< merge the cheapest pair of neighbours, each ball around its own cells
+    Normal, ///< a ball owes only what no other ball covers, and is placed to 1/16 voxel
+    Best    ///< the same, and a search from there
+};
+
+/// What a sphere contains for certain.
+enum class Cover {
+    Voxels, ///< tight trees: every object voxel has a chain of spheres from top to bottom
+    Balls   ///< every leaf ball below it
+};
+
+/// Where reversible and extended trees have their spheres' centres.
+enum class Center {
+    Medial,  ///< the centre of the medial ball
+    Miniball ///< that of the smallest sphere around the leaf balls below
+};
+
+/// What level 0 of a tight tree is made of.
+enum class Leaves {
+    Pruned, ///< the medial balls that are left when those go whose voxels all lie in others
+    Medial  ///< all medial balls
+};
+
+enum class Side {
+    Outer, ///< spheres cover the object
+    Inner  ///< spheres lie inside the object, and cover as much of it as they can
+};
+
 struct SphereTreeSettings {
     TreeType tree = TreeType::Extended;
+    /// @name Tight trees
+    /// @{
+    Quality quality = Quality::Normal;
+    SphereBudget budget; ///< which levels there are
+    Cover cover = Cover::Voxels;
+    Leaves leaves = Leaves::Pruned;
+    Side side = Side::Outer;
+    bool cuts = false; ///< also keep the tree for every number of spheres: SphereCuts.h
+    /// @}
+    Center center = Center::Medial; ///< reversible and extended trees
+    /// @name Reversible and extended trees, unless it says otherwise
+    /// @{
     /// Voxels of a level merged per axis into one voxel of the next level: 2 to kMaxFactor.
     int factor = 2;
-    /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
+    /// All trees: 3, or 2 for an object one voxel thick along an axis, which then takes no part.
     int dim = 3;
     /// With dim = 2, the axis along which the object is one voxel thick (0, 1 or 2 for x, y, z).
     /// Found by the builder, whatever stands here.
@@ -61,6 +105,7 @@ struct SphereTreeSettings {
     bool finalFit = true;
     Reconstruction reconstruct = Reconstruction::Clip; ///< extended tree only
     RadiusScale scale = RadiusScale::Tight;
+    /// @}
     /// Added to every radius that is stored, in voxels of level 0: 0 covers voxel centres, and
     /// kPadCubes (the only negative value) stands for sqrt(dim) / 2, which covers whole cubes.
     double padding = kPadCubes;
@@ -97,6 +142,11 @@ const char* toString(ParentRule);
 const char* toString(Reconstruction);
 const char* toString(RadiusScale);
 const char* toString(DagEdges);
+const char* toString(Side);
+const char* toString(Leaves);
+const char* toString(Center);
+const char* toString(Cover);
+const char* toString(Quality);
 /// @return "cubes", "voxels", or the number as text.
 std::string paddingToString(double padding);
 /// @return "or", "closing:2" and so on, or "custom".
@@ -107,6 +157,11 @@ ParentRule parentRuleFromString(const std::string&);
 Reconstruction reconstructionFromString(const std::string&);
 RadiusScale radiusScaleFromString(const std::string&);
 DagEdges dagEdgesFromString(const std::string&);
+Side sideFromString(const std::string&);
+Leaves leavesFromString(const std::string&);
+Center centerFromString(const std::string&);
+Cover coverFromString(const std::string&);
+Quality qualityFromString(const std::string&);
 double paddingFromString(const std::string&);
 /// @return the radius of "closing:R", 0 for "or".
 int closingFromString(const std::string&);
