@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TightTree.h"
+
+#include "FlatAxis.h"
+#include "LevelErrors.h"
+#include "MedialLevel.h"
+#include "detail/RoundUp.h"
+#include "detail/StageTimer.h"
+#include "tight/LeafPruning.h"
+#include "tight/LevelCounts.h"
+#include "tight/MergeForest.h"
+#include "tight/PowerCells.h"
+#include "tight/SlackMerging.h"
+#include "tight/StrictMerging.h"
+#include "tight/TightLevels.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+using namespace tight;
+
+/// How much a quality looks at.
+struct Effort {
+    FitEffort fit;
+    int neighbours;
+};
+
+Effort effortOf(Quality quality)
+{
+    if (quality == Quality::Fast) return {{false, 4, 1, false}, 6};
+    return {{true, 12, 1, true}, 8};
+}
+
+/// The leaves of the tree, as medial balls and as the balls they are.
+struct TreeLeaves {
+    std::vector<MedialBall> medial;
+    std::vector<FineBall> balls;
+};
+
+TreeLeaves leavesOf(const MedialLevel& level, const SampledObject& object, Leaves which,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> kept(level.balls.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    if (which == Leaves::Pruned) kept = prunedLeaves(level.balls, object.level(0), interrupter);
+    TreeLeaves leaves;
+    for (const int32_t i : kept) {
+        leaves.medial.push_back(level.balls[i]);
+        leaves.balls.push_back(fineBall(level.balls[i]));
+    }
+    return leaves;
+}
+
+std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
+    const SampledObject& object, const std::vector<FineBall>& leaves,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const FitEffort fit = effortOf(settings.quality).fit;
+    const bool flat = settings.dim == 2;
+    if (settings.cover == Cover::Balls) {
+        return std::make_unique<StrictMerging>(
+            object, leaves, heldBalls(leaves), fit, flat, interrupter);
+    }
+    if (settings.quality == Quality::Fast) {
+        return std::make_unique<StrictMerging>(object, leaves,
+            heldVoxels(cellPoints(leaves, object.level(0), interrupter)), fit, flat, interrupter);
+    }
+    return std::make_unique<SlackMerging>(object, leaves, fit, flat, interrupter);
+}
+
+/// @param tree  with settings, object and transform
+LevelError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
+    const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
+{
+    appendLevels(level, tree);
+    computeLevelErrors(tree, object, interrupter);
+    const SphereTreeLevel& only = tree.levels.front();
+    if (only.error) return *only.error;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the error of " << only.size() << " spheres is not known, so no bound on it can be kept: "
+                        << only.errorUnknown << "; ask for spheres= instead");
+}
+
+} // namespace
+
+void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
+{
+    const SphereTreeSettings& settings = tree.settings;
+    const FlatAxis flat(settings.flatAxis);
+    const auto voxels = flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    const MedialLevel level(*voxels, settings.dim, settings.dist, interrupter, seconds);
+    const SampledObject samples(level.layout);
+    const TreeLeaves leaves = timed("leaves", interrupter, &seconds->tree,
+        [&] { return leavesOf(level, samples, settings.leaves, interrupter); });
+    const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
+        const auto model = modelFor(settings, samples, leaves.balls, interrupter);
+        return mergeToRoot(*model, effortOf(settings.quality).neighbours, interrupter);
+    });
+    const auto counts = levelCounts(
+        settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
+            return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);
+        });
+    appendLevels(levelsOf(forest, counts, leaves.medial), tree);
+    if (settings.cuts) tree.cuts = cutsOf(forest, settings);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

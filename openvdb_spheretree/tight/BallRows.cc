@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file tight/BallRows.cc
+/// @brief A ball of squared radius r (in 1/16 sample) meets row (x, y) in the samples z with
+/// (16 z - cz)^2 <= r - dx^2 - dy^2: floor of a square root, exact in floats since r <= 2^20.
+
+#include "BallRows.h"
+
+#include "CostWindow.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/tight/BallRows.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree {
+namespace tight {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kMostRows = 1024; // of a slice
+
+/// Where the rows of one slice enter and leave the ball.
+struct Slice {
+    int32_t y0, y1; ///< inclusive; none where y0 > y1
+    HWY_ALIGN int32_t z0[kMostRows + 32];
+    HWY_ALIGN int32_t z1[kMostRows + 32];
+};
+
+/// No window is as large; keeps ends of rows of far and huge balls in range.
+constexpr float kFar = float(1 << 26);
+
+float clamped(float value) { return std::max(-kFar, std::min(kFar, value)); }
+
+/// @return the first and the last sample in the ball along an axis, where its half chord is @a half.
+int32_t firstSample(float center, float half)
+{
+    return (int32_t(clamped(center - std::floor(half))) + 15) >> 4;
+}
+int32_t lastSample(float center, float half)
+{
+    return int32_t(clamped(center + std::floor(half))) >> 4;
+}
+
+/// @param sizeY  rows there are: the slice is clipped to [0, sizeY)
+void sliceOf(const LocalBall& ball, int32_t x, int32_t sizeY, Slice& slice)
+{
+    const hn::CappedTag<int32_t, 16> di;
+    const hn::RebindToFloat<decltype(di)> df;
+    const float dx = float(16 * x) - ball.x, rest = ball.radiusSq - dx * dx;
+    slice.y0 = 0;
+    slice.y1 = -1;
+    if (rest < 0) return;
+    const float reach = std::sqrt(rest);
+    slice.y0 = std::max(0, firstSample(ball.y, reach));
+    slice.y1 = std::min(sizeY - 1, lastSample(ball.y, reach));
+    const auto far = hn::Set(df, kFar), low = hn::Set(df, -kFar), z = hn::Set(df, ball.z);
+    const int lanes = int(hn::Lanes(di));
+    for (int32_t y = slice.y0; y <= slice.y1; y += lanes) {
+        const auto at = hn::ConvertTo(df, hn::ShiftLeft<4>(hn::Iota(di, y)));
+        const auto apart = hn::Sub(at, hn::Set(df, ball.y));
+        const auto left = hn::Sub(hn::Set(df, rest), hn::Mul(apart, apart));
+        const auto half = hn::Floor(hn::Sqrt(hn::Max(left, hn::Zero(df))));
+        const auto z0 = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Sub(z, half))));
+        const auto z1 = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Add(z, half))));
+        const auto i = y - slice.y0;
+        hn::StoreU(hn::ShiftRight<4>(hn::Add(z0, hn::Set(di, 15))), di, slice.z0 + i);
+        hn::StoreU(hn::ShiftRight<4>(z1), di, slice.z1 + i);
+    }
+}
+
+/// @return the bits first to last of word @a word of a row, which must meet it.
+HWY_INLINE uint64_t wordMask(int32_t word, int32_t first, int32_t last)
+{
+    uint64_t mask = ~uint64_t(0);
+    if (first > 64 * word) mask &= ~uint64_t(0) << (first & 63);
+    if (last < 64 * word + 63) mask &= ~uint64_t(0) >> (63 - (last & 63));
+    return mask;
+}
+
+/// Calls body(x, y, row, z0, z1) for the rows of a window in a ball; z0 to z1 are in the window.
+template <typename Body>
+HWY_INLINE void forEachRow(const BitRows& rows, const LocalBall& ball, const Body& body)
+{
+    if (ball.radiusSq < 0) return;
+    Slice slice;
+    const float reach = std::sqrt(ball.radiusSq);
+    const int32_t x0 = std::max(0, firstSample(ball.x, reach));
+    const int32_t x1 = std::min(rows.size[0] - 1, lastSample(ball.x, reach));
+    for (int32_t x = x0; x <= x1; ++x) {
+        sliceOf(ball, x, rows.size[1], slice);
+        std::size_t row = std::size_t(x) * std::size_t(rows.size[1]) + std::size_t(slice.y0);
+        for (int32_t y = slice.y0; y <= slice.y1; ++y, ++row) {
+            const int32_t z0 = std::max(0, slice.z0[y - slice.y0]);
+            const int32_t z1 = std::min(rows.size[2] - 1, slice.z1[y - slice.y0]);
+            if (z0 <= z1) body(x, y, row * std::size_t(rows.words), z0, z1);
+        }
+    }
+}
+
+int64_t countBits(const BitRows& rows, const LocalBall& ball)
+{
+    int64_t sum = 0;
+    forEachRow(rows, ball, [&](int32_t, int32_t, std::size_t row, int32_t z0, int32_t z1) {
+        for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
+            sum += __builtin_popcountll(rows.bits[row + std::size_t(w)] & wordMask(w, z0, z1));
+        }
+    });
+    return sum;
+}
+
+void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>& found)
+{
+    forEachRow(rows, ball, [&](int32_t x, int32_t y, std::size_t row, int32_t z0, int32_t z1) {
+        const float dx = float(16 * x) - ball.x, dy = float(16 * y) - ball.y;
+        const float rowSq = dx * dx + dy * dy;
+        for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
+            uint64_t word = rows.bits[row + std::size_t(w)] & wordMask(w, z0, z1);
+            while (word) {
+                const int32_t shift = __builtin_ctzll(word) & 56;
+                const auto z = float(16 * (64 * w + shift));
+                const float dz = std::max(0.0f, std::max(z - ball.z, ball.z - (z + 112)));
+                found.push_back({float(16 * x), float(16 * y), z, int32_t(word >> shift & 0xff),
+                    rowSq + dz * dz});
+                word &= ~(uint64_t(0xff) << shift);
+            }
+        }
+    });
+}
+
+void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball)
+{
+    const BitRows rows{bits, {size[0], size[1], size[2]}, words};
+    forEachRow(rows, ball, [&](int32_t, int32_t, std::size_t row, int32_t z0, int32_t z1) {
+        for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
+            bits[row + std::size_t(w)] &= ~wordMask(w, z0, z1);
+        }
+    });
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace tight
+} // namespace openvdb_spheretree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace openvdb_spheretree {
+namespace tight {
+
+HWY_EXPORT(countBits);
+HWY_EXPORT(collectBits);
+HWY_EXPORT(clearBits);
+
+int64_t countBits(const BitRows& rows, const LocalBall& ball)
+{
+    return HWY_DYNAMIC_DISPATCH(countBits)(rows, ball);
+}
+
+void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>& found)
+{
+    HWY_DYNAMIC_DISPATCH(collectBits)(rows, ball, found);
+}
+
+void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball)
+{
+    HWY_DYNAMIC_DISPATCH(clearBits)(bits, size, words, ball);
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree
+
+#endif // HWY_ONCE

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CostWindow.h"
+
+#include "BallRows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+void FineBox::expand(const FineBall& ball, double margin)
+{
+    const auto reach = int64_t(std::ceil(ball.radius() + margin));
+    for (int a = 0; a < 3; ++a) {
+        lo[a] = std::min(lo[a], ball.center[a] - reach);
+        hi[a] = std::max(hi[a], ball.center[a] + reach);
+    }
+}
+
+int CostWindow::levelFor(double radius)
+{
+    int level = 0;
+    while (radius > double(int64_t(kFine * kWishedRadius) << level)) ++level;
+    return level;
+}
+
+void CostWindow::reset(const SampledObject& object, const FineBox& box, int level)
+{
+    mLevel = level;
+    mToLocal = std::ldexp(1.0, -level);
+    const int shift = level + 4; // 16 = 2^4 units a voxel
+    int64_t origin[3];
+    for (int a = 0; a < 3; ++a) {
+        origin[a] = box.lo[a] >> shift;
+        if (a == 2) origin[a] &= ~int64_t(7); // bytes of leaves are bytes of rows
+        mSize[a] = int32_t((box.hi[a] >> shift) + 2 - origin[a]);
+        mFineOrigin[a] = origin[a] * (int64_t(1) << shift);
+    }
+    mWords = (mSize[2] + 63) / 64;
+    mSize[2] = 64 * mWords;
+    mBits.assign(std::size_t(mSize[0]) * mSize[1] * mWords, ~uint64_t(0));
+    openvdb::Coord first;
+    for (int a = 0; a < 3; ++a) first[a] = int32_t(origin[a]);
+    const openvdb::Coord last = first.offsetBy(mSize[0] - 1, mSize[1] - 1, mSize[2] - 1);
+    const SampleLevel& samples = object.level(level);
+    samples.forEachLeaf({first, last}, [&](std::size_t leaf) {
+        const openvdb::Coord at = samples.origin(leaf) - first;
+        const LeafMask& mask = samples.mask(leaf);
+        const int x0 = std::max(0, at[0]), x1 = std::min(mSize[0], at[0] + 8);
+        const int y0 = std::max(0, at[1]), y1 = std::min(mSize[1], at[1] + 8);
+        for (int x = x0; x < x1; ++x) {
+            uint64_t* row = &mBits[(std::size_t(x) * mSize[1] + y0) * mWords + (at[2] >> 6)];
+            uint64_t rows = mask[x - at[0]] >> (8 * (y0 - at[1]));
+            for (int y = y0; y < y1; ++y, row += mWords, rows >>= 8) {
+                *row &= ~((rows & 0xff) << (at[2] & 63));
+            }
+        }
+    });
+}
+
+LocalBall CostWindow::toLocal(const FineBall& ball) const
+{
+    const auto rounded = [&](int axis) { return std::rint(local(ball.center[axis], axis)); };
+    const double radiusSq = std::floor(double(ball.radiusSq) * mToLocal * mToLocal);
+    return {rounded(0), rounded(1), rounded(2), float(radiusSq)};
+}
+
+FineBall CostWindow::centerOf(const LocalBall& ball) const
+{
+    const float center[3] = {ball.x, ball.y, ball.z};
+    FineBall fine;
+    for (int a = 0; a < 3; ++a) {
+        fine.center[a] = mFineOrigin[a] + int64_t(center[a]) * (int64_t(1) << mLevel);
+    }
+    return fine;
+}
+
+int64_t CostWindow::count(const LocalBall& ball) const
+{
+    return countBits({mBits.data(), {mSize[0], mSize[1], mSize[2]}, mWords}, ball);
+}
+
+void CostWindow::collect(const LocalBall& ball, std::vector<Octet>& found) const
+{
+    collectBits({mBits.data(), {mSize[0], mSize[1], mSize[2]}, mWords}, ball, found);
+}
+
+void CostWindow::cover(const LocalBall& ball) { clearBits(mBits.data(), mSize, mWords, ball); }
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LeafPruning.h"
+
+#include "../detail/Parallel.h"
+#include "BallMask.h"
+#include "CoverCounts.h"
+#include "LeafBalls.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+/// Calls body(leaf, mask) for the leaves that a ball reaches into, until it returns false.
+template <typename Body>
+void forEachMask(const FineBall& ball, const SampleLevel& object, const Body& body)
+{
+    openvdb::CoordBBox box;
+    if (!ballBox(ball, box)) return;
+    bool go = true;
+    object.forEachLeaf(box, [&](std::size_t leaf) {
+        if (go) go = body(leaf, ballMask(ball, object.origin(leaf)));
+    });
+}
+
+/// @return whether some voxel of the ball is in no other one.
+bool isNeeded(const FineBall& ball, const SampleLevel& object, const CoverCounts& counts)
+{
+    bool needed = false;
+    forEachMask(ball, object, [&](std::size_t leaf, const LeafMask& mask) {
+        const LeafMask shared = counts.moreThanOnce(leaf);
+        for (int word = 0; word < 8; ++word) needed = needed || (mask[word] & ~shared[word]);
+        return !needed;
+    });
+    return needed;
+}
+
+CoverCounts countBalls(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const LeafBalls lists(balls, object, interrupter);
+    CoverCounts counts(object.leafCount(), lists.most());
+    detail::parallelFor(object.leafCount(), interrupter, [&](std::size_t leaf) {
+        for (const int32_t ball : lists.of(leaf)) {
+            counts.add(leaf, ballMask(balls[ball], object.origin(leaf)));
+        }
+    });
+    return counts;
+}
+
+} // namespace
+
+FineBall fineBall(const MedialBall& ball)
+{
+    const openvdb::Coord& c = ball.center;
+    return {{kFine * int64_t(c[0]), kFine * int64_t(c[1]), kFine * int64_t(c[2])},
+        kFine * kFine * (int64_t(ball.radiusSq) - 1)};
+}
+
+std::vector<int32_t> prunedLeaves(const std::vector<MedialBall>& medial, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<FineBall> balls;
+    for (const MedialBall& ball : medial) balls.push_back(fineBall(ball));
+    CoverCounts counts = countBalls(balls, object, interrupter);
+
+    std::vector<int32_t> order(balls.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+        [&](int32_t a, int32_t b) { return balls[a].radiusSq < balls[b].radiusSq; });
+
+    // Counts only fall: a ball needed now is needed later. The rest has to be asked one by one.
+    std::vector<int32_t> kept;
+    std::vector<char> needed;
+    constexpr std::size_t kChunk = 2048;
+    for (std::size_t begin = 0; begin < order.size(); begin += kChunk) {
+        const std::size_t size = std::min(kChunk, order.size() - begin);
+        needed.assign(size, 0);
+        detail::parallelFor(size, interrupter,
+            [&](std::size_t i) { needed[i] = isNeeded(balls[order[begin + i]], object, counts); });
+        for (std::size_t i = 0; i < size; ++i) {
+            const int32_t id = order[begin + i];
+            if (needed[i] || isNeeded(balls[id], object, counts)) {
+                kept.push_back(id);
+                continue;
+            }
+            forEachMask(balls[id], object, [&](std::size_t leaf, const LeafMask& mask) {
+                counts.remove(leaf, mask);
+                return true;
+            });
+        }
+    }
+    std::sort(kept.begin(), kept.end());
+    return kept;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

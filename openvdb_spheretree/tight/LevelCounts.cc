@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LevelCounts.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error)
+{
+    return (!budget.error || error.hammingPercent <= *budget.error)
+        && (!budget.distance || error.hausdorff * voxelSize <= *budget.distance);
+}
+
+std::string boundsOf(const SphereBudget& budget)
+{
+    std::ostringstream text;
+    if (budget.error) text << "error=" << *budget.error;
+    if (budget.error && budget.distance) text << " and ";
+    if (budget.distance) text << "distance=" << *budget.distance;
+    return text.str();
+}
+
+/// @return the fewest balls within the bounds; leaves are the object itself, without any error.
+template <typename Within>
+int64_t fewest(int64_t leaves, const Within& within)
+{
+    int64_t low = 1, high = leaves; // high is within, and nothing below low is known to be
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (within(middle)) high = middle;
+        else low = middle + 1;
+    }
+    constexpr int kMoreTries = 8;
+    for (int64_t count = high - 2, tries = 0; count > 0 && tries < kMoreTries; --count, ++tries) {
+        if (!within(count)) continue;
+        high = count;
+        tries = 0;
+    }
+    return high;
+}
+
+} // namespace
+
+std::vector<int64_t> levelCounts(
+    const SphereBudget& budget, int64_t leaves, double voxelSize, const ErrorOfCut& errorOf)
+{
+    if (!budget.hasBound()) return budget.counts(leaves);
+    const int64_t count =
+        fewest(leaves, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
+    if (!budget.spheres.empty() && count > budget.spheres.front()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            boundsOf(budget) << " cannot be reached with spheres=" << budget.spheres.front()
+                             << ": it takes " << count
+                             << " spheres; allow more of them, or a larger error");
+    }
+    if (budget.branching == 0) return {count};
+    std::vector<int64_t> counts{count};
+    SphereBudget ladder;
+    ladder.branching = budget.branching;
+    for (const int64_t n : ladder.counts(leaves)) {
+        if (n < count) counts.push_back(n);
+    }
+    return counts;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file tight/PowerCells.h
+/// @brief The object cut into cells, one for each leaf ball: the voxels it covers best.
+///
+/// The cell of a voxel is that of the ball with the largest power, radiusSq - distance^2; of equals,
+/// the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
+
+#pragma once
+
+#include "FineBall.h"
+#include "SampledObject.h"
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// @param balls  whose union is @a object
+/// @return for each ball the extreme points of its cell: ExtremePoints.h; none for an empty cell.
+std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SampledObject.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+/// The bits 0, 2, 4, 6 of the bytes 0, 2, 4, 6, as the bits 0 to 3 of bytes 0 to 3.
+uint64_t everySecond(uint64_t word)
+{
+    uint64_t bits = 0;
+    for (int y = 0; y < 4; ++y) {
+        const uint64_t row = word >> (16 * y);
+        bits |= ((row & 1) | (row >> 1 & 2) | (row >> 2 & 4) | (row >> 3 & 8)) << (8 * y);
+    }
+    return bits;
+}
+
+/// The leaf of the next level that takes the samples of a leaf at @a origin.
+Coord parentOrigin(const Coord& origin)
+{
+    return Coord((origin[0] >> 1) & ~7, (origin[1] >> 1) & ~7, (origin[2] >> 1) & ~7);
+}
+
+/// Adds every second sample of a child to one of the eight corners of its parent.
+void addSamples(const LeafMask& child, const Coord& origin, LeafMask& parent)
+{
+    const int x = (origin[0] >> 1) & 4, y = (origin[1] >> 1) & 4, z = (origin[2] >> 1) & 4;
+    for (int i = 0; i < 4; ++i) parent[x + i] |= everySecond(child[2 * i]) << (8 * y + z);
+}
+
+SampleLevel coarser(const SampleLevel& fine)
+{
+    std::vector<std::pair<Coord, uint32_t>> order;
+    for (uint32_t leaf = 0; leaf < fine.leafCount(); ++leaf) {
+        order.emplace_back(parentOrigin(fine.origin(leaf)), leaf);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    for (const auto& [origin, leaf] : order) {
+        if (origins.empty() || origins.back() != origin) {
+            if (!masks.empty() && masks.back() == LeafMask{}) {
+                origins.pop_back();
+                masks.pop_back();
+            }
+            origins.push_back(origin);
+            masks.push_back({});
+        }
+        addSamples(fine.mask(leaf), fine.origin(leaf), masks.back());
+    }
+    return SampleLevel(std::move(origins), std::move(masks));
+}
+
+} // namespace
+
+SampleLevel::SampleLevel(std::vector<Coord> origins, std::vector<LeafMask> masks)
+    : mOrigins(std::move(origins)), mMasks(std::move(masks))
+{
+    mColumnBegin.clear();
+    for (uint32_t leaf = 0; leaf < mOrigins.size(); ++leaf) {
+        const bool first = leaf == 0 || mOrigins[leaf][0] != mOrigins[leaf - 1][0]
+            || mOrigins[leaf][1] != mOrigins[leaf - 1][1];
+        if (first) mColumnBegin.push_back(leaf);
+    }
+    mColumnBegin.push_back(uint32_t(mOrigins.size()));
+}
+
+std::size_t SampleLevel::firstColumn(int32_t x, int32_t y) const
+{
+    const auto before = [&](uint32_t begin, int) {
+        const Coord& at = mOrigins[begin];
+        return at[0] != x ? at[0] < x : at[1] < y;
+    };
+    return std::size_t(std::lower_bound(mColumnBegin.begin(), mColumnBegin.end() - 1, 0, before)
+        - mColumnBegin.begin());
+}
+
+std::size_t SampleLevel::firstLeaf(std::size_t column, int32_t z) const
+{
+    const auto begin = mOrigins.begin() + mColumnBegin[column];
+    const auto end = mOrigins.begin() + mColumnBegin[column + 1];
+    const auto below = [](const Coord& at, int32_t limit) { return at[2] < limit; };
+    return std::size_t(std::lower_bound(begin, end, z, below) - mOrigins.begin());
+}
+
+SampledObject::SampledObject(const LeafLayout& object)
+{
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    for (uint32_t leaf = 0; leaf < object.leafCount(); ++leaf) {
+        origins.push_back(object.origin(leaf));
+        masks.push_back(object.mask(leaf));
+    }
+    mLevels.emplace_back(std::move(origins), std::move(masks));
+    constexpr int kMaxLevels = 32; // coordinates have 32 bits
+    while (mLevels.back().leafCount() > 0 && levels() < kMaxLevels) {
+        mLevels.push_back(coarser(mLevels.back()));
+    }
+}
+
+const SampleLevel& SampledObject::level(int k) const
+{
+    return mLevels[std::min(std::size_t(k), mLevels.size() - 1)];
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file tight/TightLevels.h
+/// @brief From lists of balls to the nodes of a SphereTree.
+
+#pragma once
+
+#include "../MedialAxis.h"
+#include "../SphereTree.h"
+#include "FineBall.h"
+#include "MergeForest.h"
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// The balls of one level.
+struct TightLevel {
+    std::vector<FineBall> balls;
+    std::vector<int32_t> parent; ///< in the next coarser level; empty for the coarsest
+    /// Per ball, the digital ball that it is; empty where they are none.
+    std::vector<MedialBall> digital;
+};
+
+/// @return the nodes of the cut with @a count balls, ascending.
+std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
+
+/// @param counts  finest first, falling, none above the number of leaves
+/// @param leaves  the first nodes of the forest, as medial balls
+/// @return a level for each count. A node's parent is its ancestor in the coarser cut; a ball that
+/// ended owing nothing hangs below the one it sticks out of least.
+std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves);
+
+/// @brief Make the levels those of @a tree, which has none: all but its stored radii.
+/// @param levels  finest first; flat objects are flat along z
+void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
+
+/// @return the forest in the form of SphereTree, without stored radii.
+SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSettings& settings);
+
+} // namespace tight
+} // namespace openvdb_spheretree
