@@ -54,12 +54,12 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     }
     const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     const openvdb::CoordBBox box = levelBox(tree, spheres);
-    const Distance& distance = tree.settings.dist;
-    if (crossedRows(spheres, box, distance) > double(kMaxUnionRows)) {
+    const SphereMetric metric = metricOf(tree);
+    if (crossedRows(spheres, box, metric) > double(kMaxUnionRows)) {
         level.errorUnknown = tooManyRows();
         return;
     }
-    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, distance);
+    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, metric);
     const detail::MaskDifference excess =
         detail::maskDifference(*covered, object.mask, interrupter);
     const int64_t distSq = detail::farthestDistSq(excess.cells, object.nearest, interrupter);
@@ -72,7 +72,7 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     error.excess = excess.voxels;
     error.missing = object.voxels - (error.covered - error.excess);
     error.hammingPercent = 100.0 * double(error.excess + error.missing) / double(object.voxels);
-    error.hausdorff = std::sqrt(double(distSq)) / distance.unit();
+    error.hausdorff = std::sqrt(double(distSq)) / metric.distance.unit();
     level.error = error;
 }
 

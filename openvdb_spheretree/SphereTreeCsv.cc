@@ -56,7 +56,8 @@ void finish(std::string& text, std::ostream& out)
 
 openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
 {
-    return level == 0 ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
+    const bool inIndexSpace = level == 0 || tree.radiusSq[id] == -1;
+    return inIndexSpace ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
 }
 
 void writeCsv(const SphereTree& tree, std::ostream& out)

@@ -5,7 +5,9 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <cstddef>
 #include <ostream>
+#include <utility>
 
 namespace openvdb_spheretree {
 
@@ -80,11 +82,17 @@ void writeNode(JsonWriter& json, const SphereTree& tree, int32_t id, int level)
     json.endArray();
 }
 
-void writeNodes(JsonWriter& json, const SphereTree& tree, std::ostream& out)
+template <std::size_t N>
+void writeColumns(JsonWriter& json, const char* const (&columns)[N])
 {
     json.beginArray("columns", /*onOneLine=*/true);
-    for (const char* column : kColumns) json.value("", column);
+    for (const char* column : columns) json.value("", column);
     json.endArray();
+}
+
+void writeNodes(JsonWriter& json, const SphereTree& tree, std::ostream& out)
+{
+    writeColumns(json, kColumns);
     json.beginArray("nodes");
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
@@ -110,6 +118,53 @@ void writeDag(JsonWriter& json, const SphereTree& tree, std::ostream& out)
         flushOften(json, out);
     }
     json.endArray();
+}
+
+constexpr const char* kCutsColumns[] = {"id", "parent", "first", "last", "x", "y", "z", "radius",
+    "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
+
+void writeCutsNode(JsonWriter& json, const SphereTree& tree, int32_t id)
+{
+    const SphereCuts& cuts = tree.cuts;
+    json.beginArray("", /*onOneLine=*/true);
+    for (int32_t value : {id, cuts.parent[id], cuts.first[id], cuts.last[id]})
+        json.value("", value);
+    writeVec(json, tree.transform->indexToWorld(cuts.center[id]));
+    json.value("", double(cuts.radiusWorld[id]));
+    writeVec(json, cuts.center[id]);
+    json.value("", cuts.radius[id]);
+    json.value("", cuts.coverSq[id]);
+    json.endArray();
+}
+
+void writeCuts(JsonWriter& json, const SphereTree& tree, std::ostream& out)
+{
+    if (tree.cuts.empty()) {
+        json.null("cuts");
+        return;
+    }
+    json.beginObject("cuts");
+    writeColumns(json, kCutsColumns);
+    json.beginArray("nodes");
+    for (int32_t id = 0; id < tree.cuts.size(); ++id) {
+        writeCutsNode(json, tree, id);
+        flushOften(json, out);
+    }
+    json.endArray();
+    json.endObject();
+}
+
+void writeBudget(JsonWriter& json, const SphereBudget& budget)
+{
+    json.beginArray("spheres", /*onOneLine=*/true);
+    for (const int64_t count : budget.spheres) json.value("", count);
+    json.endArray();
+    json.value("branching", budget.branching);
+    for (const auto& [key, bound] :
+        {std::pair("error", budget.error), std::pair("distance", budget.distance)}) {
+        if (bound) json.value(key, *bound);
+        else json.null(key);
+    }
 }
 
 } // namespace
@@ -144,6 +199,13 @@ void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
     json.value("dag", settings.dag);
     json.value("edges", toString(settings.edges));
     json.value("topology", settings.topology);
+    json.value("center", toString(settings.center));
+    json.value("quality", toString(settings.quality));
+    writeBudget(json, settings.budget);
+    json.value("cover", toString(settings.cover));
+    json.value("leaves", toString(settings.leaves));
+    json.value("side", toString(settings.side));
+    json.value("cuts", settings.cuts);
     json.value("name", settings.name);
     json.endObject();
 }
@@ -187,9 +249,11 @@ void writeJson(const SphereTree& tree, std::ostream& out)
     writeObject(json, tree);
     writeSettings(json, tree.settings);
     writeTransform(json, tree);
+    json.value("subdivision", tree.subdivision);
     writeLevels(json, tree);
     writeNodes(json, tree, out);
     writeDag(json, tree, out);
+    writeCuts(json, tree, out);
     json.endObject();
     flush(json, out);
     out.flush();

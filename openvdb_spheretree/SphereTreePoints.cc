@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreePoints.h"
 
+#include "detail/CutsLayout.h"
 #include "detail/PointLeaves.h"
 #include "detail/TreeMetadata.h"
 
@@ -19,35 +20,71 @@ using openvdb::Vec3d;
 using openvdb::Vec3i;
 using openvdb::points::PointDataGrid;
 
-constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG";
+constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG", kCutsKind[] = "list of cuts";
 
 // ---- What a tree must be, on its way out and on its way in
 
-/// Beyond these, squares of doubled coordinates would not fit 64 bits.
+/// Coordinates of voxels are of 32 bits; squares beyond would not fit 63.
 constexpr double kMaxCoordinate = 2147483648.0;
 constexpr int64_t kMaxCoverSq = int64_t(1) << 62;
 
-/// @throw openvdb::ValueError, naming the first node that is no sphere
-void checkSpheres(const SphereTree& tree)
+template <typename Value>
+void requireOfSphere(bool right, int32_t id, const char* attribute, const Value& value)
 {
-    const auto check = [](bool right, int32_t id, const char* attribute, auto value) {
-        if (right) return;
+    if (right) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
+}
+
+void checkUnits(int subdivision)
+{
+    if (subdivision == 2 || subdivision == 16) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "its centres are in units of 1/" << subdivision << " voxel, but there are 1/2 and 1/16");
+}
+
+void checkPosition(const Vec3d& center, int subdivision, int32_t id)
+{
+    const double farthest =
+        std::max({std::abs(center[0]), std::abs(center[1]), std::abs(center[2])});
+    requireOfSphere(center.isFinite() && farthest <= kMaxCoordinate, id, "position", center);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double units = subdivision * center[axis];
+        if (units == std::floor(units)) continue;
         OPENVDB_THROW(openvdb::ValueError,
-            "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
-    };
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const openvdb::Vec3d& c = tree.center[id];
-        const double farthest = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
-        check(c.isFinite() && farthest <= kMaxCoordinate, id, "position", c);
-        check(std::isfinite(tree.radiusWorld[id]) && tree.radiusWorld[id] >= 0, id, "pscale",
-            tree.radiusWorld[id]);
-        check(tree.radius[id] >= 0 && tree.radius[id] <= kMaxCoordinate, id, "radius",
-            tree.radius[id]);
-        check(tree.coverSq[id] >= 0 && tree.coverSq[id] <= kMaxCoverSq, id, "cover_sq",
-            tree.coverSq[id]);
-        // -1 marks a sphere that is no digital ball
-        check(tree.radiusSq[id] > 0 || tree.radiusSq[id] == -1, id, "radius_sq", tree.radiusSq[id]);
+            "node " << id << " has the position " << center << ", which is no multiple of 1/"
+                    << subdivision << " voxel");
     }
+}
+
+/// The attributes that nodes of trees and of cuts have in common.
+/// @throw openvdb::ValueError, naming the first node that is no sphere
+template <typename Nodes>
+void checkSpheres(const Nodes& nodes, int subdivision)
+{
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        checkPosition(nodes.center[id], subdivision, id);
+        const double radius = nodes.radius[id], stored = nodes.radiusWorld[id];
+        const int64_t coverSq = nodes.coverSq[id];
+        requireOfSphere(std::isfinite(stored) && stored >= 0, id, "pscale", stored);
+        requireOfSphere(radius >= 0 && radius <= kMaxCoordinate, id, "radius", radius);
+        requireOfSphere(coverSq >= 0 && coverSq <= kMaxCoverSq, id, "cover_sq", coverSq);
+    }
+}
+
+void checkDigitalBalls(const SphereTree& tree)
+{
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t radiusSq = tree.radiusSq[id]; // -1 marks a sphere that is none
+        requireOfSphere(radiusSq > 0 || radiusSq == -1, id, "radius_sq", radiusSq);
+    }
+}
+
+void checkCuts(const SphereCuts& cuts, int subdivision)
+{
+    const std::string damage = detail::cutsDamage(cuts);
+    if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage);
+    checkSpheres(cuts, subdivision);
 }
 
 /// A parent on the next level up leaves no room for a cycle.
@@ -130,7 +167,9 @@ void checkLayout(const SphereTree& tree)
         end = level.begin;
     }
     if (end != 0) inconsistent("its levels do not divide its nodes");
-    checkSpheres(tree);
+    checkUnits(tree.subdivision);
+    checkSpheres(tree, tree.subdivision);
+    checkDigitalBalls(tree);
     const std::vector<int32_t> levels = levelNumbers(tree);
     checkParents(tree, levels);
     checkEdges(tree.dag, levels);
@@ -157,6 +196,16 @@ std::string describe(const GridBase& grid)
     return "point grid '" + name + "'";
 }
 
+/// @return the text of an error of OpenVDB, without its type and on one short line.
+std::string messageOf(const openvdb::Exception& error)
+{
+    const char* text = error.what();
+    if (const char* colon = std::strstr(text, "Error: ")) text = colon + std::strlen("Error: ");
+    constexpr std::size_t kLongest = 400;
+    const std::string line(text, strnlen(text, kLongest));
+    return line.substr(0, line.find('\n'));
+}
+
 /// Runs @a read; whatever is wrong with the grid is reported as its damage.
 template <typename Read>
 auto blaming(const GridBase& grid, const char* kind, const Read& read)
@@ -164,12 +213,8 @@ auto blaming(const GridBase& grid, const char* kind, const Read& read)
     try {
         return read();
     } catch (const openvdb::Exception& error) {
-        const char* text = error.what();
-        if (const char* colon = std::strstr(text, "Error: ")) text = colon + std::strlen("Error: ");
-        constexpr std::size_t kLongest = 400;
-        const std::string why(text, strnlen(text, kLongest));
         OPENVDB_THROW(openvdb::ValueError,
-            describe(grid) << " is a damaged " << kind << ": " << why.substr(0, why.find('\n')));
+            describe(grid) << " is a damaged " << kind << ": " << messageOf(error));
     }
 }
 
@@ -265,8 +310,10 @@ SphereTree readTree(const PointDataGrid& points)
             "it has " << reader.size() << " points, by its metadata " << expected
                       << ": was it cut short, or are points deleted?");
     }
+    checkUnits(tree.subdivision);
     const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
-    checkSpheres(tree);
+    checkSpheres(tree, tree.subdivision);
+    checkDigitalBalls(tree);
     checkLevels(tree, levels);
     checkParents(tree, levels);
     return tree;
@@ -291,6 +338,40 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     return edges;
 }
 
+SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
+{
+    const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
+    const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_cuts_nodes");
+    const detail::PointReader reader(grid);
+    if (nodes != tree.size() || reader.size() != std::size_t(count)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " spheres beside a tree of " << nodes << " nodes, "
+                      << count << " spheres beside " << tree.size() << " nodes are expected");
+    }
+    SphereCuts cuts;
+    const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
+    gather(reader.positions(detail::readPointScale(grid)), order, cuts.center);
+    gather(reader.attribute<double>("radius"), order, cuts.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, cuts.coverSq);
+    gather(reader.attribute<float>("pscale"), order, cuts.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, cuts.parent);
+    gather(reader.attribute<int32_t>("first"), order, cuts.first);
+    gather(reader.attribute<int32_t>("last"), order, cuts.last);
+    checkCuts(cuts, tree.subdivision);
+    return cuts;
+}
+
+/// Attributes that nodes of trees and of cuts have in common.
+template <typename Nodes>
+void addSpheres(detail::PointWriter& writer, const Nodes& nodes)
+{
+    writer.addAttribute<float>("pscale", [&](uint32_t id) { return nodes.radiusWorld[id]; });
+    writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
+    writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return nodes.parent[id]; });
+    writer.addAttribute<double>("radius", [&](uint32_t id) { return nodes.radius[id]; });
+    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return nodes.coverSq[id]; });
+}
+
 } // namespace
 
 PointDataGrid::Ptr toPoints(const SphereTree& tree)
@@ -301,14 +382,10 @@ PointDataGrid::Ptr toPoints(const SphereTree& tree)
     const int lowest = tree.levels.front().level;
 
     detail::PointWriter writer(tree.center);
-    writer.addAttribute<float>("pscale", [&](uint32_t id) { return tree.radiusWorld[id]; });
-    writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
-    writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return tree.parent[id]; });
+    addSpheres(writer, tree);
     writer.addAttribute<int32_t>("level", [&](uint32_t id) { return levels[id]; });
     writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
-    writer.addAttribute<double>("radius", [&](uint32_t id) { return tree.radius[id]; });
-    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return tree.coverSq[id]; });
     writer.addGroups(groupNames(tree), [&](uint32_t id) { return levels[id] - lowest; });
 
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
@@ -336,6 +413,29 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
     return grid;
 }
 
+PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
+{
+    if (tree.cuts.empty()) return nullptr;
+    checkLayout(tree);
+    try {
+        checkCuts(tree.cuts, tree.subdivision);
+    } catch (const openvdb::ValueError& error) {
+        inconsistent(std::string("in its cuts, ") + messageOf(error));
+    }
+    detail::PointWriter writer(tree.cuts.center);
+    addSpheres(writer, tree.cuts);
+    writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
+    writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    grid->setName(tree.settings.name + "_cuts");
+    detail::setMeta<int32_t>(*grid, detail::kCutsFormatKey, kPointsFormat);
+    detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
+    detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
+    detail::setMeta<int32_t>(*grid, "spheretree_cuts_nodes", tree.cuts.size());
+    return grid;
+}
+
 bool isSphereTree(const GridBase& grid)
 {
     return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
@@ -347,7 +447,14 @@ bool isDagOf(const GridBase& grid, const std::string& treeName)
         && grid.getName() == treeName + "_dag";
 }
 
-SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
+bool isCutsOf(const GridBase& grid, const std::string& treeName)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kCutsFormatKey]
+        && grid.getName() == treeName + "_cuts";
+}
+
+SphereTree fromPoints(
+    const PointDataGrid& points, const PointDataGrid* dag, const PointDataGrid* cuts)
 {
     if (!isSphereTree(points)) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -357,12 +464,16 @@ SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag)
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
-    if (!dag) {
-        tree.settings.dag = false;
-        return tree;
+    tree.settings.dag = tree.settings.dag && dag;
+    tree.settings.cuts = tree.settings.cuts && cuts;
+    if (dag) {
+        checkFormat(*dag, kDagKind, detail::kDagFormatKey);
+        tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
     }
-    checkFormat(*dag, kDagKind, detail::kDagFormatKey);
-    tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
+    if (cuts) {
+        checkFormat(*cuts, kCutsKind, detail::kCutsFormatKey);
+        tree.cuts = blaming(*cuts, kCutsKind, [&] { return readCuts(*cuts, tree); });
+    }
     return tree;
 }
 

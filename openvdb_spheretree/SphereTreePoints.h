@@ -8,7 +8,9 @@
 /// (int64), and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys
 /// that start with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where
 /// there are any, travel as a second point grid named `<name>_dag`: one point an edge, at its
-/// parent's centre, with int32 attributes `parent`, `child`.
+/// parent's centre, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
+/// grid named `<name>_cuts`: one point a node, with `pscale`, `id`, `parent`, `radius`, `cover_sq`
+/// as above and int32 attributes `first`, `last`.
 
 #pragma once
 
@@ -23,11 +25,16 @@ constexpr int kPointsFormat = 1;
 
 /// @brief The tree as a point grid, named settings.name. The grid is the same for any number of
 /// threads.
-/// @throw openvdb::ValueError if the tree is inconsistent, or a centre is no multiple of 1/16 voxel
+/// @throw openvdb::ValueError if the tree is inconsistent, or a centre is no multiple of the
+///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 
 /// @brief The tree's DAG edges as a point grid; null if it has none.
 openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);
+
+/// @brief The tree's cuts as a point grid; null if it has none.
+/// @throw openvdb::ValueError if the tree or its cuts are inconsistent
+openvdb::points::PointDataGrid::Ptr cutsToPoints(const SphereTree& tree);
 
 /// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
 bool isSphereTree(const openvdb::GridBase& grid);
@@ -35,14 +42,19 @@ bool isSphereTree(const openvdb::GridBase& grid);
 /// @return whether a grid claims to be what dagToPoints() makes of a tree of that name.
 bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
 
+/// @return whether a grid claims to be what cutsToPoints() makes of a tree of that name.
+bool isCutsOf(const openvdb::GridBase& grid, const std::string& treeName);
+
 /// @brief The tree that toPoints() was given, identical in every field.
 /// @param points  a grid written by toPoints(), also after a round trip through a file
 /// @param dag     the grid of dagToPoints(), or null: the tree read then has no edges, and its
 ///                settings say that it has none
+/// @param cuts    the grid of cutsToPoints(), or null: likewise
 /// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
 ///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
 ///        level missing, a radius that is no number or negative ...); the message names the damage
 SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
-    const openvdb::points::PointDataGrid* dag = nullptr);
+    const openvdb::points::PointDataGrid* dag = nullptr,
+    const openvdb::points::PointDataGrid* cuts = nullptr);
 
 } // namespace openvdb_spheretree

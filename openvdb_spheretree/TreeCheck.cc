@@ -52,6 +52,9 @@ void checkShape(Check& check)
 {
     const SphereTree& tree = check.tree;
     checkArrayLengths(check);
+    if (tree.subdivision != 2 && tree.subdivision != 16) {
+        check.fail("centres are in units of 1/", tree.subdivision, " of a voxel, not 1/2 or 1/16");
+    }
     if (!tree.transform) check.fail("the tree has no transform");
     if (tree.levels.empty()) check.fail("the tree has no levels");
     int32_t next = 0;
@@ -71,12 +74,13 @@ void checkShape(Check& check)
     }
 }
 
-bool isHalfInteger(const openvdb::Vec3d& center)
+/// @return whether the centre is a whole number of the tree's units, not beyond any coordinate.
+bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
 {
-    constexpr double kLargest = 4294967296.0; // 2^32: twice any coordinate, and then some
+    constexpr double kLargest = 2147483648.0; // 2^31
     for (int a = 0; a < 3; ++a) {
-        const double doubled = 2 * center[a];
-        if (!(std::abs(doubled) <= kLargest) || doubled != std::floor(doubled)) return false;
+        const double units = subdivision * center[a];
+        if (!(std::abs(center[a]) <= kLargest) || units != std::floor(units)) return false;
     }
     return true;
 }
@@ -93,7 +97,7 @@ void checkNodes(Check& check)
     const bool norm = !tree.settings.dist.isEuclidean();
     Offenders centers, radii, stored, balls, roots;
     for (int32_t id = 0; id < tree.size(); ++id) {
-        if (!isHalfInteger(tree.center[id])) centers.add(id);
+        if (!isOfUnits(tree.center[id], tree.subdivision)) centers.add(id);
         const bool valid = std::isfinite(tree.radius[id]) && tree.radius[id] >= 0;
         if (!valid || tree.coverSq[id] < 0) radii.add(id);
         if (!std::isfinite(tree.radiusWorld[id]) || tree.radiusWorld[id] < 0) stored.add(id);
@@ -101,7 +105,10 @@ void checkNodes(Check& check)
         else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
     }
     if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
-    if (centers) check.fail("the centre is not a multiple of half a voxel in range for ", centers);
+    if (centers) {
+        check.fail("the centre is not a multiple of 1/", tree.subdivision,
+            " of a voxel in range for ", centers);
+    }
     if (radii) check.fail("the radius is negative or not a number for ", radii);
     if (stored) check.fail("the stored radius is negative or not a number for ", stored);
     if (balls) check.fail("radius_sq is less than 1 for ", balls);
@@ -202,16 +209,17 @@ void checkErrors(Check& check)
     }
 }
 
-/// The three radii of a node agree: coverSq is floor((2 radius)^2), or the floor of two such terms'
-/// sum; the stored one is no less than radius and padding.
+/// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
+/// units, or of two such terms' sum; the stored one is no less than radius and padding.
 void checkRadii(Check& check)
 {
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
+    const double unit = double(tree.subdivision) * tree.settings.dist.unit();
     Offenders apart, small;
     for (int32_t id = 0; id < tree.size(); ++id) {
-        const double exact = std::sqrt(double(tree.coverSq[id])) / (2 * tree.settings.dist.unit());
+        const double exact = std::sqrt(double(tree.coverSq[id])) / unit;
         const double over = tree.radius[id] - exact, rounding = kRounding * tree.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
         const double padded = (tree.radius[id] + padding) * voxel;

@@ -51,21 +51,28 @@ private:
     std::set<std::string> mSeen;
 };
 
-PointDataGrid::Ptr findDag(const openvdb::GridPtrVec& grids, const std::string& treeName)
-{
-    for (const GridBase::Ptr& grid : grids) {
-        if (!openvdb_spheretree::isDagOf(*grid, treeName)) continue;
-        return openvdb::gridPtrCast<PointDataGrid>(grid);
-    }
-    return nullptr;
-}
+/// The grids that travel with a sphere-tree; null where there is none.
+struct Companions {
+    PointDataGrid::Ptr dag, cuts;
 
-StackItem treeItem(const PointDataGrid& points, const PointDataGrid* dag, const std::string& path)
+    Companions(const openvdb::GridPtrVec& grids, const std::string& treeName)
+    {
+        for (const GridBase::Ptr& grid : grids) {
+            const bool isDag = !dag && openvdb_spheretree::isDagOf(*grid, treeName);
+            const bool isCuts = !cuts && openvdb_spheretree::isCutsOf(*grid, treeName);
+            if (isDag) dag = openvdb::gridPtrCast<PointDataGrid>(grid);
+            if (isCuts) cuts = openvdb::gridPtrCast<PointDataGrid>(grid);
+        }
+    }
+};
+
+StackItem treeItem(
+    const PointDataGrid& points, const Companions& companions, const std::string& path)
 {
     StackItem item;
     try {
         item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
-            openvdb_spheretree::fromPoints(points, dag));
+            openvdb_spheretree::fromPoints(points, companions.dag.get(), companions.cuts.get()));
     } catch (...) {
         rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
     }
@@ -75,13 +82,15 @@ StackItem treeItem(const PointDataGrid& points, const PointDataGrid* dag, const 
 void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
 {
     openvdb::GridPtrVec grids = readVdb(path);
-    std::set<GridBase::Ptr> edges;
+    std::set<GridBase::Ptr> ofTrees;
     for (const GridBase::Ptr& grid : grids) {
         if (!openvdb_spheretree::isSphereTree(*grid)) continue;
-        if (auto dag = findDag(grids, grid->getName())) edges.insert(dag);
+        const Companions companions(grids, grid->getName());
+        ofTrees.insert(companions.dag);
+        ofTrees.insert(companions.cuts);
     }
     for (const GridBase::Ptr& grid : grids) {
-        if (edges.count(grid) || !filter.accepts(grid->getName())) continue;
+        if (ofTrees.count(grid) || !filter.accepts(grid->getName())) continue;
         if (!openvdb_spheretree::isSphereTree(*grid)) {
             StackItem item;
             item.grid = grid;
@@ -89,8 +98,7 @@ void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
-        const auto dag = findDag(grids, grid->getName());
-        session.stack.push(treeItem(*points, dag.get(), path));
+        session.stack.push(treeItem(*points, Companions(grids, grid->getName()), path));
     }
 }
 

@@ -88,6 +88,7 @@ openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items)
         }
         grids.push_back(openvdb_spheretree::toPoints(*item->tree));
         if (const auto dag = openvdb_spheretree::dagToPoints(*item->tree)) grids.push_back(dag);
+        if (const auto cuts = openvdb_spheretree::cutsToPoints(*item->tree)) grids.push_back(cuts);
     }
     return grids;
 }
@@ -106,18 +107,21 @@ const openvdb_spheretree::SphereTree& onlyTree(
 }
 
 /// Two trees of one name could not be told apart when the file is read, nor a tree from the edges
-/// of another.
+/// or cuts of another.
 void requireDistinctTrees(const std::vector<StackItem*>& items)
 {
     std::set<std::string> names;
     for (const StackItem* item : items) {
         if (!item->tree) continue;
         const std::string name = item->name();
-        const bool edges = !item->tree->dag.empty();
-        if (names.insert(name).second && (!edges || names.insert(name + "_dag").second)) continue;
+        const auto taken = [&](bool written, const char* suffix) {
+            return written && !names.insert(name + suffix).second;
+        };
+        const bool edges = !item->tree->dag.empty(), cuts = !item->tree->cuts.empty();
+        if (!taken(true, "") && !taken(edges, "_dag") && !taken(cuts, "_cuts")) continue;
         throwInput("two sphere-trees are named '" + oneLine(name, 60)
-            + "', or one as the edges of the other: give them different names with name= of "
-              "-spheretree");
+            + "', or one as the edges or cuts of the other: give them different names with name= "
+              "of -spheretree");
     }
 }
 

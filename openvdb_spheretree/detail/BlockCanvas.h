@@ -23,7 +23,11 @@ public:
 
     /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or
     /// more away along each axis.
-    static bool isSmall(const Ball& ball) { return ball.coverSq < ball.distance.lengthSq(7, 7, 7); }
+    static bool isSmall(const Ball& ball)
+    {
+        const int64_t corner = inUnits(7, ball.shift - 1);
+        return ball.coverSq < ball.distance.lengthSq(corner, corner, corner);
+    }
 
     BlockCanvas() : mWords(64 * 64 * 8, 0) {}
 
@@ -101,19 +105,20 @@ private:
 
     void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
     {
-        int64_t center2[3], farthest = 0;
+        int64_t center[3], farthest = 0;
+        const int64_t middle = inUnits(7, ball.shift - 1);
         for (int a = 0; a < 3; ++a) {
-            center2[a] = ball.center2[a] - 2 * int64_t(origin[a]);
-            farthest = std::max(farthest, std::abs(center2[a] - 7) + 7);
+            center[a] = ball.center[a] - inUnits(origin[a], ball.shift);
+            farthest = std::max(farthest, std::abs(center[a] - middle) + middle);
         }
         const bool euclidean = ball.distance.isEuclidean();
-        const int64_t most = euclidean ? kLeafBallReach2 : kLeafNormReach2;
+        const int64_t most = euclidean ? kLeafBallReach : kLeafNormReach;
         if (ball.clipped || farthest > most || ball.coverSq > most * most) {
             drawRows(ball, origin, 1 << kLeafLog2);
         } else if (euclidean) {
-            orBallIntoLeaf(center2, ball.coverSq, words);
+            orBallIntoLeaf(center, ball.coverSq, ball.shift, words);
         } else {
-            orNormBallIntoLeaf(center2, ball.distance, floorSqrt(ball.coverSq), words);
+            orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.coverSq), ball.shift, words);
         }
     }
 
@@ -122,14 +127,14 @@ private:
     {
         const Range box(ball, origin, size);
         const openvdb::Coord corner = origin - mOrigin;
-        const int64_t center2[3] = {ball.center2[0] - 2 * int64_t(origin[0]),
-            ball.center2[1] - 2 * int64_t(origin[1]), ball.center2[2] - 2 * int64_t(origin[2])};
+        int64_t center[3];
+        for (int a = 0; a < 3; ++a) center[a] = ball.center[a] - inUnits(origin[a], ball.shift);
         for (int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
             for (int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-                const int64_t reach =
-                    ball.distance.reach(2 * x - center2[0], 2 * y - center2[1], ball.coverSq);
+                const int64_t reach = ball.distance.reach(inUnits(x, ball.shift) - center[0],
+                    inUnits(y, ball.shift) - center[1], ball.coverSq);
                 if (reach < 0) continue;
-                const Interval run(center2[2], reach);
+                const Interval run(center[2], reach, ball.shift);
                 const int64_t lo = std::max<int64_t>(run.lo, box.lo[2]);
                 const int64_t hi = std::min<int64_t>(run.hi, box.hi[2]);
                 drawRow(

@@ -116,9 +116,9 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius =
             double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
-        const double diameter = 2 * radius * tree.settings.dist.unit() * (1 + 1e-12);
+        const double reach = tree.subdivision * radius * tree.settings.dist.unit() * (1 + 1e-12);
         spheres[id - level.begin].coverSq =
-            radius < 0 ? -1 : int64_t(std::min(diameter * diameter, 9e18));
+            radius < 0 ? -1 : int64_t(std::min(reach * reach, 9e18));
     }
     return spheres;
 }
@@ -127,7 +127,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
 MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
 {
     const MaskTree::Ptr covered =
-        rasterSpheres(spheres, check.tree.settings.dist, check.box, &check.mask, check.interrupter);
+        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
     return maskDifference(check.mask, *covered, check.interrupter);
 }
 

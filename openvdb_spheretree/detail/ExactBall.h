@@ -2,9 +2,10 @@
 /// @file detail/ExactBall.h
 /// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
 ///
-/// Everything is in doubled coordinates, so that centres between voxels stay integers. A sphere may
-/// be one of a norm. All that is used of a distance is that it grows with each coordinate: the
-/// nearest and the farthest voxel of a box are so along every axis.
+/// Everything is in units of a half or less of a voxel, so that centres between voxels stay
+/// integers: 2^shift units are a voxel. A sphere may be one of a norm. All that is used of a
+/// distance is that it grows with each coordinate: the nearest and the farthest voxel of a box are
+/// so along every axis.
 
 #pragma once
 
@@ -16,33 +17,59 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Integers q with |2 q - center2| <= reach2, as a closed interval (empty: lo > hi).
+/// @return the shift of a metric: its subdivision's logarithm.
+/// @throw openvdb::ValueError if the subdivision is no power of two in range
+inline int shiftOf(const SphereMetric& metric)
+{
+    for (int shift = 1; 1 << shift <= SphereMetric::kMaxSubdivision; ++shift) {
+        if (metric.subdivision == 1 << shift) return shift;
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "spheres in units of 1/" << metric.subdivision
+                                 << " voxel: the subdivision must be a power of two from 2 to "
+                                 << SphereMetric::kMaxSubdivision);
+}
+
+/// @return a coordinate of voxels in units.
+inline int64_t inUnits(int64_t voxels, int shift) { return voxels * (int64_t(1) << shift); }
+
+/// Integers q with |2^shift q - center| <= reach, as a closed interval (empty: lo > hi).
 struct Interval {
     int64_t lo, hi;
-    Interval(int64_t center2, int64_t reach2)
-        : lo((center2 - reach2 + 1) >> 1), hi((center2 + reach2) >> 1)
+    Interval(int64_t center, int64_t reach, int shift)
+        : lo((center - reach + inUnits(1, shift) - 1) >> shift), hi((center + reach) >> shift)
     {}
 };
 
-/// @return the voxels along @a axis between the first and the last that the sphere holds, exactly:
-/// the other two axes owe half a voxel where the centre is between voxels. Empty with the sphere.
-inline Interval extent(const ExactSphere& s, int axis, const Distance& distance)
+/// @return how far @a center is from the nearest voxel.
+inline int64_t offVoxel(int64_t center, int shift)
 {
-    const int64_t reach =
-        distance.reach(s.center2[(axis + 1) % 3] & 1, s.center2[(axis + 2) % 3] & 1, s.coverSq);
-    return reach < 0 ? Interval(1, 0) : Interval(s.center2[axis], reach);
+    const int64_t above = center & (inUnits(1, shift) - 1);
+    return std::min(above, inUnits(1, shift) - above);
+}
+
+/// @return the voxels along @a axis between the first and the last that the sphere holds, exactly:
+/// the other two axes owe the way to the nearest voxel, where the centre is between voxels. Empty
+/// with the sphere.
+inline Interval extent(const ExactSphere& s, int axis, const Distance& distance, int shift)
+{
+    const int64_t reach = distance.reach(offVoxel(s.center[(axis + 1) % 3], shift),
+        offVoxel(s.center[(axis + 2) % 3], shift), s.coverSq);
+    return Interval(reach < 0 ? 1 : s.center[axis], reach, reach < 0 ? 1 : shift);
 }
 
 /// A sphere to be drawn: with the box of its voxels, already clipped.
 struct Ball {
-    int64_t center2[3];
+    int64_t center[3];
     int64_t coverSq;
     Distance distance;
     int32_t lo[3], hi[3]; ///< inclusive
     bool clipped;         ///< the box is smaller than the sphere's own
     bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
+    int8_t shift;         ///< 2^shift units of centre and coverSq are a voxel
 
-    /// Balls of this size and less are plain: 2^29 and a cube of 4096 voxels, doubled, squared.
+    /// Balls of this size and less are plain: what is asked is within 2^29 units and a cube of 4096
+    /// voxels, 2^16 units, of the centre; three such squares are below 2^60.
     static constexpr int64_t kMaxPlainCoverSq = int64_t(1) << 58;
 
     /// @return whether the ball holds what is so far from its centre; the most that is asked are
@@ -59,8 +86,9 @@ struct Ball {
     {
         int64_t d[3];
         for (int a = 0; a < 3; ++a) {
-            const int64_t first = 2 * int64_t(origin[a]), last = first + 2 * (int64_t(size) - 1);
-            d[a] = std::max(first, std::min(center2[a], last)) - center2[a];
+            const int64_t first = inUnits(origin[a], shift);
+            const int64_t last = first + inUnits(int64_t(size) - 1, shift);
+            d[a] = std::max(first, std::min(center[a], last)) - center[a];
         }
         return holds(d);
     }
@@ -72,27 +100,29 @@ struct Ball {
         for (int a = 0; a < 3; ++a) {
             const int64_t last = int64_t(origin[a]) + size - 1;
             if (origin[a] < lo[a] || last > hi[a]) return false;
-            const int64_t below = center2[a] - 2 * int64_t(origin[a]);
-            d[a] = std::max(below, 2 * last - center2[a]);
+            const int64_t below = center[a] - inUnits(origin[a], shift);
+            d[a] = std::max(below, inUnits(last, shift) - center[a]);
         }
         return holds(d);
     }
 };
 
+/// @param shift  that of the metric
 /// @return false if the clipped sphere is empty (or certainly holds no voxel).
-inline bool clippedBall(
-    const ExactSphere& s, const Distance& distance, const openvdb::CoordBBox& clip, Ball& ball)
+inline bool clippedBall(const ExactSphere& s, const Distance& distance, int shift,
+    const openvdb::CoordBBox& clip, Ball& ball)
 {
     ball.distance = distance;
+    ball.shift = int8_t(shift);
     ball.clipped = false;
     for (int a = 0; a < 3; ++a) {
-        const Interval range = extent(s, a, distance);
+        const Interval range = extent(s, a, distance, shift);
         const int64_t lo = std::max<int64_t>(range.lo, clip.min()[a]);
         const int64_t hi = std::min<int64_t>(range.hi, clip.max()[a]);
         if (lo > hi) return false;
         ball.lo[a] = int32_t(lo);
         ball.hi[a] = int32_t(hi);
-        ball.center2[a] = s.center2[a];
+        ball.center[a] = s.center[a];
         ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
     ball.plain = distance.isEuclidean() && s.coverSq <= Ball::kMaxPlainCoverSq;

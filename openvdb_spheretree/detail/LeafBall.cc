@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/LeafBall.cc
-/// @brief A voxel is inside when dy^2 + dz^2 <= coverSq - dx^2. The 64 sums on the left are
-/// computed once, the right side is one value for each of the 8 words: 64 comparisons of 16-bit
-/// lanes a word. (A square root a row, 64 a leaf, took ten times as long.)
+/// @brief With S units a voxel and centre c, a voxel q is inside when
+///     |S q - c|^2 <= coverSq   <=>   S/2 |q|^2 - q.c <= floor((coverSq - |c|^2) / 2S)
+/// as the left side is an integer: a sum of a term t(i) = i (S/2 i - c) for each axis, small and
+/// alike for all S. The 64 sums of the terms of y and z are computed once, the rest is one value
+/// for each of the 8 words: 64 comparisons of 16-bit lanes a word. (A square root a row, 64 a leaf,
+/// took ten times as long.)
 ///
-/// Both sides are shifted so that the right one starts at 0, and stays below 2^15 - 1 by the bound
-/// on distances; saturating the left one to 16 bits then changes no comparison. Exact.
+/// Both sides are shifted so that the limits of the words start at 0. They differ by no more than
+/// the terms of x do: with |S q - c| <= r, by 49/2 S if the centre is between the voxels along x,
+/// else by 7 r - 49/2 S; so limits are below 2^15 - 1 where r is at most kLeafBallReach, and
+/// saturating the left side to 16 bits then changes no comparison. Exact.
 
 #include "LeafBall.h"
+
+#include "LeafBallTerms.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "openvdb_spheretree/detail/LeafBall.cc"
@@ -24,33 +31,26 @@ namespace openvdb_spheretree {
 namespace detail {
 namespace HWY_NAMESPACE {
 
-void orBall(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+void orBall(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
 {
 #if HWY_TARGET == HWY_SCALAR
-    orBallIntoLeafPortable(center2, coverSq, words);
+    orBallIntoLeafPortable(center, coverSq, shift, words);
 #else
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<int32_t, 8> d32;
     const hn::Rebind<int16_t, decltype(d32)> dHalf;
     const hn::CappedTag<int16_t, 32> d16;
-    HWY_ALIGN int32_t squares[3][8];
-    for (int a = 0; a < 3; ++a) {
-        for (int i = 0; i < 8; ++i) {
-            const int32_t d = 2 * i - int32_t(center2[a]);
-            squares[a][i] = d * d;
-        }
-    }
-    const int32_t cover = int32_t(coverSq), least = cover - std::max(squares[0][0], squares[0][7]);
+    const BallTerms ball(center, coverSq, shift);
     HWY_ALIGN int16_t sums[64];
     for (int y = 0; y < 8; ++y) {
-        const auto rest = hn::Set(d32, squares[1][y] - least);
+        const auto rest = hn::Set(d32, ball.ofY[y] - ball.least);
         for (std::size_t z = 0; z < 8; z += hn::Lanes(d32)) {
-            const auto sum = hn::Add(hn::Load(d32, squares[2] + z), rest);
+            const auto sum = hn::Add(hn::Load(d32, ball.ofZ + z), rest);
             hn::Store(hn::DemoteTo(dHalf, sum), dHalf, sums + 8 * y + z); // saturates
         }
     }
     for (int x = 0; x < 8; ++x) {
-        const auto beyond = hn::Set(d16, int16_t(cover - squares[0][x] - least + 1));
+        const auto beyond = hn::Set(d16, int16_t(ball.most - ball.ofX[x] + 1));
         uint8_t bytes[16]; // of bits, byte y; room for what a narrow store may write beyond
         for (std::size_t i = 0; i < 64; i += hn::Lanes(d16)) {
             hn::StoreMaskBits(d16, hn::Lt(hn::Load(d16, sums + i), beyond), bytes + i / 8);
@@ -64,13 +64,14 @@ void orBall(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
 
 /// The largest, middle and smallest of three coordinates take the three weights: for each of the 64
 /// (y, z) of a leaf the larger and the smaller one are known, and x falls in somewhere.
-void orNormBall(const int64_t center2[3], const Distance& norm, int64_t limit, uint64_t words[8])
+void orNormBall(
+    const int64_t center[3], const Distance& norm, int64_t limit, int shift, uint64_t words[8])
 {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<int32_t, 8> d32;
     int32_t apart[3][8];
     for (int a = 0; a < 3; ++a) {
-        for (int i = 0; i < 8; ++i) apart[a][i] = int32_t(std::abs(2 * i - center2[a]));
+        for (int i = 0; i < 8; ++i) apart[a][i] = int32_t(std::abs((i << shift) - center[a]));
     }
     HWY_ALIGN int32_t larger[64], smaller[64];
     for (int i = 0; i < 64; ++i) {
@@ -119,13 +120,13 @@ struct Row {
     uint64_t low, high;
 };
 
-Row rowOf(const int32_t squares[8], int32_t added)
+Row rowOf(const int32_t terms[8], int32_t added)
 {
     const auto clamp = [](int32_t value) { return uint64_t(std::max(0, std::min(value, 32767))); };
     Row row{0, 0};
     for (int z = 0; z < 4; ++z) {
-        row.low |= clamp(squares[z] + added) << (16 * z);
-        row.high |= clamp(squares[z + 4] + added) << (16 * z);
+        row.low |= clamp(terms[z] + added) << (16 * z);
+        row.high |= clamp(terms[z + 4] + added) << (16 * z);
     }
     return row;
 }
@@ -142,33 +143,26 @@ uint64_t atMost(const Row& row, uint64_t limits)
 
 } // namespace
 
-void orBallIntoLeafPortable(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+void orBallIntoLeafPortable(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
 {
-    int32_t squares[3][8];
-    for (int a = 0; a < 3; ++a) {
-        for (int i = 0; i < 8; ++i) {
-            const auto d = int32_t(2 * i - center2[a]);
-            squares[a][i] = d * d;
-        }
-    }
-    const int32_t cover = int32_t(coverSq), least = cover - std::max(squares[0][0], squares[0][7]);
+    const BallTerms ball(center, coverSq, shift);
     Row rows[8];
-    for (int y = 0; y < 8; ++y) rows[y] = rowOf(squares[2], squares[1][y] - least);
+    for (int y = 0; y < 8; ++y) rows[y] = rowOf(ball.ofZ, ball.ofY[y] - ball.least);
     for (int x = 0; x < 8; ++x) {
-        const uint64_t limits = uint64_t(cover - squares[0][x] - least) * kEveryLane;
+        const uint64_t limits = uint64_t(ball.most - ball.ofX[x]) * kEveryLane;
         for (int y = 0; y < 8; ++y) words[x] |= atMost(rows[y], limits) << (8 * y);
     }
 }
 
-void orBallIntoLeaf(const int64_t center2[3], int64_t coverSq, uint64_t words[8])
+void orBallIntoLeaf(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
 {
-    HWY_DYNAMIC_DISPATCH(orBall)(center2, coverSq, words);
+    HWY_DYNAMIC_DISPATCH(orBall)(center, coverSq, shift, words);
 }
 
 void orNormBallIntoLeaf(
-    const int64_t center2[3], const Distance& norm, int64_t limit, uint64_t words[8])
+    const int64_t center[3], const Distance& norm, int64_t limit, int shift, uint64_t words[8])
 {
-    HWY_DYNAMIC_DISPATCH(orNormBall)(center2, norm, limit, words);
+    HWY_DYNAMIC_DISPATCH(orNormBall)(center, norm, limit, shift, words);
 }
 
 } // namespace detail

@@ -12,8 +12,8 @@ namespace {
 /// Fewer balls are as soon drawn.
 constexpr std::size_t kFew = 8;
 
-/// Powers of balls this near, and no larger, fit 62 bits; so do their differences.
-constexpr int64_t kFarthest2 = int64_t(1) << 29;
+/// Powers of balls this near, and no larger, fit 62 bits; so do their differences. In units.
+constexpr int64_t kFarthest = int64_t(1) << 29;
 
 } // namespace
 
@@ -24,12 +24,13 @@ bool PowerCull::collect(const std::vector<Ball>& balls, const int32_t origin[3],
     mEntries.clear();
     for (const int32_t index : list) {
         const Ball& ball = balls[index];
-        if (!ball.distance.isEuclidean() || ball.coverSq > kFarthest2 * kFarthest2) return false;
+        if (!ball.distance.isEuclidean() || ball.coverSq > kFarthest * kFarthest) return false;
         Entry entry{ball.coverSq, {}};
         for (int a = 0; a < 3; ++a) {
-            const int64_t d = ball.center2[a] - (2 * int64_t(origin[a]) + size - 1);
-            if (std::abs(d) > kFarthest2) return false;
-            entry.center2[a] = d;
+            const int64_t middle = 2 * int64_t(origin[a]) + size - 1; // in halves of a voxel
+            const int64_t d = ball.center[a] - inUnits(middle, ball.shift - 1);
+            if (std::abs(d) > kFarthest) return false;
+            entry.center[a] = d;
             entry.power -= d * d;
         }
         mEntries.push_back(entry);
@@ -44,8 +45,8 @@ PowerCull::Champions PowerCull::champions(int64_t reach) const
     Champions result{};
     for (std::size_t i = 0; i < mEntries.size(); ++i) {
         const Entry& entry = mEntries[i];
-        const int64_t x = 2 * reach * entry.center2[0], y = 2 * reach * entry.center2[1],
-                      z = 2 * reach * entry.center2[2];
+        const int64_t x = 2 * reach * entry.center[0], y = 2 * reach * entry.center[1],
+                      z = 2 * reach * entry.center[2];
         for (std::size_t place = 0; place < kPlaces; ++place) {
             // What the power is there, but for what is the same for all balls. The centre is tried
             // first later on, so it stands first.
@@ -69,7 +70,7 @@ bool PowerCull::exceeded(std::size_t entry, const Champions& champions, int64_t 
     for (const std::size_t champion : champions) {
         const Entry& other = mEntries[champion];
         int64_t apart = 0;
-        for (int a = 0; a < 3; ++a) apart += std::abs(other.center2[a] - own.center2[a]);
+        for (int a = 0; a < 3; ++a) apart += std::abs(other.center[a] - own.center[a]);
         if (other.power - own.power < 2 * reach * apart) continue;
         return std::find(champions.begin(), champions.end(), entry) == champions.end();
     }
@@ -80,7 +81,8 @@ void PowerCull::cull(const std::vector<Ball>& balls, const int32_t origin[3], in
     std::vector<int32_t>& list)
 {
     if (list.size() <= kFew || !collect(balls, origin, size, list)) return;
-    const int64_t reach = size - 1; // from the centre to the last voxels, doubled
+    // From the centre to the last voxels.
+    const int64_t reach = inUnits(size - 1, balls[list[0]].shift - 1);
     const Champions best = champions(reach);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {

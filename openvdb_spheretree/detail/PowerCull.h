@@ -2,7 +2,7 @@
 /// @file detail/PowerCull.h
 /// @brief Which of the balls that reach into a cube can add a voxel there to the others.
 ///
-/// A ball holds voxel q where its power coverSq - |2 q - center2|^2 is not negative. The powers of
+/// A ball holds voxel q where its power coverSq - |2^shift q - center|^2 is not negative. The powers of
 /// two balls differ by a linear function of q, so that one of them is the larger in all of a cube
 /// just when it is so at a corner that is known beforehand: the other ball adds nothing there.
 /// (Thousands of medial balls reach into a leaf on the surface of a solid, and a few dozen shape
@@ -25,16 +25,17 @@ namespace detail {
 class PowerCull {
 public:
     /// @param list    balls, by index, that reach into the cube; those that add nothing are taken
-    ///                off and the others keep their order. All of them must have the same clip.
+    ///                off and the others keep their order. All of them must have the same clip and
+    ///                units.
     /// @param origin  of the cube, whose side has @a size voxels
     void cull(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
         std::vector<int32_t>& list);
 
 private:
-    /// From the cube's centre, in doubled coordinates.
+    /// From the cube's centre.
     struct Entry {
         int64_t power; ///< there
-        std::array<int64_t, 3> center2;
+        std::array<int64_t, 3> center;
     };
     static constexpr std::size_t kPlaces = 9; ///< centre and corners
     using Champions = std::array<std::size_t, kPlaces>;

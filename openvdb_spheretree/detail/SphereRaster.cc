@@ -68,13 +68,15 @@ private:
     std::vector<Coord> mRootCells;
 };
 
-std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const Distance& distance,
+std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const SphereMetric& metric,
     const openvdb::CoordBBox& clip)
 {
+    const int shift = shiftOf(metric);
     std::vector<Ball> balls(spheres.size());
     std::vector<char> kept(spheres.size());
-    parallelFor(spheres.size(), nullptr,
-        [&](std::size_t i) { kept[i] = clippedBall(spheres[i], distance, clip, balls[i]); });
+    parallelFor(spheres.size(), nullptr, [&](std::size_t i) {
+        kept[i] = clippedBall(spheres[i], metric.distance, shift, clip, balls[i]);
+    });
     std::size_t count = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (kept[i]) balls[count++] = balls[i];
@@ -234,12 +236,12 @@ MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
 
 } // namespace
 
-MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Distance& distance,
+MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const SphereMetric& metric,
     const openvdb::CoordBBox& clip, const MaskTree* within,
     openvdb::util::NullInterrupter* interrupter)
 {
     const Wanted wanted(within);
-    std::vector<Ball> balls = clipSpheres(spheres, distance, clip);
+    std::vector<Ball> balls = clipSpheres(spheres, metric, clip);
     sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);

@@ -14,7 +14,7 @@ namespace detail {
 ///                not have may still be in the result.) Makes coverage of a sparse object cheap
 ///                to check, however large the spheres.
 openvdb::MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres,
-    const Distance& distance, const openvdb::CoordBBox& clip, const openvdb::MaskTree* within,
+    const SphereMetric& metric, const openvdb::CoordBBox& clip, const openvdb::MaskTree* within,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace detail

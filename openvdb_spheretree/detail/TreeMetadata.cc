@@ -20,7 +20,9 @@ using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
 constexpr char kTransformTypeKey[] = "spheretree_transform_type";
-constexpr char kTopologyKey[] = "spheretree_topology"; // files were first written without
+constexpr char kTopologyKey[] = "spheretree_topology";       // files were first written without
+constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // and without this, which was 2
+constexpr char kQualityKey[] = "spheretree_quality";         // and all settings of tight trees
 constexpr int kMaxLevels = 1024; // far more than 32 bits of coordinates can be halved
 
 std::string levelKey(int level, const char* what)
@@ -102,6 +104,48 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
 
 // ---- Settings, object, levels
 
+void writeBudget(GridBase& grid, const SphereBudget& budget)
+{
+    setMeta<std::string>(grid, "spheretree_spheres", countsToString(budget.spheres));
+    setMeta<int32_t>(grid, "spheretree_branching", budget.branching);
+    if (budget.error) setMeta<double>(grid, "spheretree_error", *budget.error);
+    if (budget.distance) setMeta<double>(grid, "spheretree_distance", *budget.distance);
+}
+
+SphereBudget readBudget(const GridBase& grid)
+{
+    SphereBudget budget;
+    const std::string spheres = getMeta<std::string>(grid, "spheretree_spheres");
+    if (!spheres.empty()) budget.spheres = countsFromString(spheres);
+    budget.branching = getMeta<int32_t>(grid, "spheretree_branching");
+    if (grid["spheretree_error"]) budget.error = getMeta<double>(grid, "spheretree_error");
+    if (grid["spheretree_distance"]) budget.distance = getMeta<double>(grid, "spheretree_distance");
+    return budget;
+}
+
+/// With center=, which came with them.
+void writeTightSettings(GridBase& grid, const SphereTreeSettings& settings)
+{
+    setMeta<std::string>(grid, kQualityKey, toString(settings.quality));
+    writeBudget(grid, settings.budget);
+    setMeta<std::string>(grid, "spheretree_cover", toString(settings.cover));
+    setMeta<std::string>(grid, "spheretree_leaves", toString(settings.leaves));
+    setMeta<std::string>(grid, "spheretree_side", toString(settings.side));
+    setMeta<bool>(grid, "spheretree_cuts", settings.cuts);
+    setMeta<std::string>(grid, "spheretree_center", toString(settings.center));
+}
+
+void readTightSettings(const GridBase& grid, SphereTreeSettings& settings)
+{
+    settings.quality = qualityFromString(getMeta<std::string>(grid, kQualityKey));
+    settings.budget = readBudget(grid);
+    settings.cover = coverFromString(getMeta<std::string>(grid, "spheretree_cover"));
+    settings.leaves = leavesFromString(getMeta<std::string>(grid, "spheretree_leaves"));
+    settings.side = sideFromString(getMeta<std::string>(grid, "spheretree_side"));
+    settings.cuts = getMeta<bool>(grid, "spheretree_cuts");
+    settings.center = centerFromString(getMeta<std::string>(grid, "spheretree_center"));
+}
+
 void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
 {
     setMeta<std::string>(grid, "spheretree_tree", toString(settings.tree));
@@ -118,6 +162,7 @@ void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
     setMeta<bool>(grid, "spheretree_dag", settings.dag);
     setMeta<std::string>(grid, "spheretree_dag_edges", toString(settings.edges));
     setMeta<bool>(grid, kTopologyKey, settings.topology);
+    writeTightSettings(grid, settings);
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
@@ -146,6 +191,8 @@ SphereTreeSettings readSettings(const GridBase& grid)
     settings.dag = getMeta<bool>(grid, "spheretree_dag");
     settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_dag_edges"));
     settings.topology = grid[kTopologyKey] && getMeta<bool>(grid, kTopologyKey);
+    const bool tight = settings.tree == TreeType::Tight;
+    if (tight || grid[kQualityKey]) readTightSettings(grid, settings);
     settings.name = grid.getName();
     settings.validate();
     return settings;
@@ -257,6 +304,7 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     setMeta<int32_t>(grid, kFormatKey, kPointsFormat);
     setMeta<int32_t>(grid, kScaleKey, scale);
     writeTransform(grid, *tree.transform, scale);
+    setMeta<int32_t>(grid, kSubdivisionKey, tree.subdivision);
     writeSettings(grid, tree.settings);
     writeObject(grid, tree.object);
     setMeta(grid, "spheretree_origin", toVec(tree.origin));
@@ -270,6 +318,8 @@ SphereTree readTreeMetadata(const GridBase& grid)
     SphereTree tree;
     tree.transform = readTransform(grid, readPointScale(grid));
     tree.settings = readSettings(grid);
+    const bool tight = tree.settings.tree == TreeType::Tight;
+    if (tight || grid[kSubdivisionKey]) tree.subdivision = getMeta<int32_t>(grid, kSubdivisionKey);
     tree.object = readObject(grid);
     tree.origin = toCoord(getMeta<Vec3i>(grid, "spheretree_origin"));
     tree.levels = readLevels(grid);

@@ -16,6 +16,7 @@ namespace detail {
 
 constexpr char kFormatKey[] = "spheretree_format";
 constexpr char kDagFormatKey[] = "spheretree_dag_format";
+constexpr char kCutsFormatKey[] = "spheretree_cuts_format";
 constexpr char kScaleKey[] = "spheretree_point_scale";
 
 /// Typed access with errors that name the key; T as in openvdb::TypedMetadata<T>.
@@ -39,7 +40,7 @@ T getMeta(const openvdb::GridBase& grid, const std::string& key)
     return static_cast<const openvdb::TypedMetadata<T>&>(*meta).value();
 }
 
-/// @brief Everything of @a tree but its nodes and edges.
+/// @brief Everything of @a tree but its nodes, edges and cuts.
 /// @param grid  has its transform: the tree's, scaled by @a scale
 void writeTreeMetadata(openvdb::GridBase& grid, const SphereTree& tree, int scale);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the actions do, and how they pass things on.
 
+#include "../support/SampleTrees.h"
 #include "CommandRunner.h"
 
 #include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb_spheretree/SphereTreePoints.h>
 
 #include <regex>
 
@@ -44,8 +46,10 @@ TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
     EXPECT_EQ(valuesOf(json, "format"), std::vector<std::string>{"\"vdb_spheretree.stats.1\""});
     EXPECT_EQ(valuesOf(json, "voxels"), std::vector<std::string>{std::to_string(kBlockVoxels)});
     EXPECT_EQ(valuesOf(json, "factor"), std::vector<std::string>{"3"});
-    const auto spheres = valuesOf(json, "spheres");
-    ASSERT_GE(spheres.size(), 2u);
+    auto spheres = valuesOf(json, "spheres");
+    ASSERT_GE(spheres.size(), 3u);
+    EXPECT_EQ(spheres.front(), "[]") << "the setting";
+    spheres.erase(spheres.begin());
     EXPECT_EQ(spheres.back(), "1") << "it ends at one sphere";
     EXPECT_EQ(valuesOf(json, "level").front(), "0");
     EXPECT_EQ(valuesOf(json, "excess").front(), "0") << "level 0 is the object";
@@ -166,8 +170,9 @@ TEST_F(CommandWork, SpheresAsALevelSetHoldTheObject)
 TEST_F(CommandWork, OneLevelIsKeptByNumberOrBySpheres)
 {
     const Result json = run("-read ball.vdb -spheretree reversible -stats json=-");
-    const auto spheres = valuesOf(json.out, "spheres");
-    ASSERT_GE(spheres.size(), 3u);
+    auto spheres = valuesOf(json.out, "spheres");
+    ASSERT_GE(spheres.size(), 4u);
+    spheres.erase(spheres.begin()); // the setting
     ASSERT_EQ(run("-read ball.vdb -spheretree reversible -level 1 -write a.csv").exitCode, 0);
     ASSERT_EQ(
         run("-read ball.vdb -spheretree reversible -level spheres=" + spheres[1] + " -write b.csv")
@@ -294,6 +299,26 @@ TEST_F(CommandWork, APointGridNamedLikeEdgesIsReadAsPoints)
     const Result result = run("-read u.vdb -print");
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_NE(result.out.find("'a_dag'"), std::string::npos) << result.out;
+}
+
+TEST_F(CommandWork, ATightTreeKeepsItsCutsFromFileToFile)
+{
+    const auto tree = spheretree_test::tightSampleTree();
+    writeGrids(
+        "t.vdb", {openvdb_spheretree::toPoints(tree), openvdb_spheretree::cutsToPoints(tree)});
+    const Result copied = run("-read t.vdb -print -write u.vdb u.json");
+    EXPECT_EQ(copied.exitCode, 0) << copied.err;
+    EXPECT_EQ(copied.out.find("tight tree_cuts"), std::string::npos) << "part of the tree";
+    const auto grids = readGrids("u.vdb");
+    ASSERT_EQ(grids.size(), 2u);
+    using openvdb::points::PointDataGrid;
+    const auto points = openvdb::gridPtrCast<PointDataGrid>(grids[0]);
+    const auto cuts = openvdb::gridPtrCast<PointDataGrid>(grids[1]);
+    spheretree_test::expectSameTree(
+        openvdb_spheretree::fromPoints(*points, nullptr, cuts.get()), tree);
+    EXPECT_NE(readText(path("u.json")).find("\"cuts\": {"), std::string::npos);
+    EXPECT_EQ(run("-read t.vdb -write u.csv").exitCode, 0);
+    EXPECT_NE(readText(path("u.csv")).find(",-1,11,-1000,-1\n"), std::string::npos);
 }
 
 TEST_F(CommandWork, AFlatTreeAsAMaskIsTheObject)

@@ -200,7 +200,7 @@ TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
         for (const Coord& q : voxelsOfBox(all)) {
             bool inside = false;
             for (const ExactSphere& ball : balls) {
-                const Coord c(int(ball.center2[0]), int(ball.center2[1]), int(ball.center2[2]));
+                const Coord c(int(ball.center[0]), int(ball.center[1]), int(ball.center[2]));
                 const int64_t d = length(Coord(2 * q[0], 2 * q[1], 2 * q[2]), c);
                 inside = inside || d * d <= ball.coverSq;
             }

@@ -106,12 +106,13 @@ inline std::vector<RandomObject> someObjects(uint32_t firstSeed, uint32_t count)
     return objects;
 }
 
-/// |2 (q - center)|^2, exactly, by the tree's distance.
-inline int64_t doubledDistanceSq(const SphereTree& tree, int32_t id, const Coord& q)
+/// |subdivision (q - center)|^2, exactly, by the tree's distance.
+inline int64_t distanceSqInUnits(const SphereTree& tree, int32_t id, const Coord& q)
 {
     Coord d;
     for (int axis = 0; axis < 3; ++axis) {
-        d[axis] = int32_t(2 * int64_t(q[axis]) - std::llround(2 * tree.center[id][axis]));
+        d[axis] = int32_t(tree.subdivision * int64_t(q[axis])
+            - std::llround(tree.subdivision * tree.center[id][axis]));
     }
     const auto& dist = tree.settings.dist;
     if (dist.isEuclidean()) return squaredDistance(d, Coord(0, 0, 0));
@@ -121,7 +122,7 @@ inline int64_t doubledDistanceSq(const SphereTree& tree, int32_t id, const Coord
 
 inline bool holds(const SphereTree& tree, int32_t id, const Coord& q)
 {
-    return doubledDistanceSq(tree, id, q) <= tree.coverSq[id];
+    return distanceSqInUnits(tree, id, q) <= tree.coverSq[id];
 }
 
 /// One entry a node: levels, links, spheres. Not what the tree knows of its object.

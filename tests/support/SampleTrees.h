@@ -84,7 +84,7 @@ inline void fillDescription(SphereTree& tree)
     tree.object.bbox.reset(openvdb::Coord(-15, 9, -1000), openvdb::Coord(20, 30, 40));
 }
 
-/// Three levels of 1, 2 and 5 nodes: negative and half-voxel centres, one centre on all levels, an
+/// Three levels of 1, 2 and 5 nodes: negative centres and such between voxels, one centre on all levels, an
 /// error known, one unknown, one never asked for, one topology, a DAG, and no setting at its
 /// default.
 inline SphereTree sampleTree()
@@ -94,6 +94,7 @@ inline SphereTree sampleTree()
     tree.transform->postRotate(0.3, openvdb::math::X_AXIS);
     tree.transform->postTranslate({1.0 / 3, -2e5, 7});
     fillDescription(tree);
+    tree.subdivision = 16;
     addLevel(tree, 1, 3);
     addLevel(tree, 2, 17);
     addLevel(tree, 5, 99);
@@ -112,6 +113,65 @@ inline SphereTree sampleTree()
     tree.levels[1].errorUnknown = "too many rows";
     tree.levels[0].topology = openvdb_spheretree::LevelTopology{3, int64_t(1) << 33, 2};
     tree.dag = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {1, 5}, {2, 5}, {2, 6}, {2, 7}};
+    return tree;
+}
+
+inline void fillTightSettings(openvdb_spheretree::SphereTreeSettings& settings)
+{
+    using namespace openvdb_spheretree;
+    settings.tree = TreeType::Tight;
+    settings.quality = Quality::Best;
+    settings.budget.spheres = {512, 2};
+    settings.cover = Cover::Balls;
+    settings.leaves = Leaves::Medial;
+    settings.side = Side::Inner;
+    settings.cuts = true;
+    settings.padding = 0.1;
+    settings.name = "tight tree";
+}
+
+inline void addCutsNode(SphereTree& tree, const openvdb::Vec3d& center, int64_t coverSq,
+    int32_t parent, int32_t first, int32_t last)
+{
+    openvdb_spheretree::SphereCuts& cuts = tree.cuts;
+    cuts.center.push_back(center);
+    cuts.coverSq.push_back(coverSq);
+    cuts.radius.push_back(std::sqrt(double(coverSq)) / tree.subdivision);
+    cuts.radiusWorld.push_back(float(cuts.radius.back()) + float(cuts.center.size()));
+    cuts.parent.push_back(parent);
+    cuts.first.push_back(first);
+    cuts.last.push_back(last);
+}
+
+/// Cuts of 1 to 4 spheres: two leaves merge, then a leaf ends that owes nothing, then the rest
+/// merges.
+inline void addCuts(SphereTree& tree)
+{
+    addCutsNode(tree, {-3.0625, 10.5, -1000}, 77, 4, 4, 4);         // 0
+    addCutsNode(tree, {-2, 10.9375, -1000}, 5, 4, 4, 4);            // 1
+    addCutsNode(tree, {0, 0, 0}, 0, -1, 3, 4);                      // 2
+    addCutsNode(tree, {7.125, -3, 2e6}, int64_t(1) << 40, 5, 2, 4); // 3
+    addCutsNode(tree, {-2.5, 10.6875, -1000}, 300, 5, 2, 3);        // 4
+    addCutsNode(tree, {2, 2, 1e6}, int64_t(1) << 48, -1, 1, 1);     // 5
+}
+
+/// Two levels of 1 and 3 nodes in 16ths of a voxel, of which one is a digital ball, with cuts.
+inline SphereTree tightSampleTree()
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.1);
+    fillDescription(tree);
+    tree.settings = {};
+    fillTightSettings(tree.settings);
+    tree.subdivision = 16;
+    addLevel(tree, 1, 0);
+    addLevel(tree, 3, 99);
+    addNode(tree, {-1.4375, 10.5, -1000.0625}, {-1, 11, -1000}, 30, -1);
+    addNode(tree, {-4, 9, 3}, {-4, 9, 3}, 20, 0);
+    addNode(tree, {-4.0625, 9, 3}, {-4, 9, 3}, 20, 0);
+    addNode(tree, {100000.9375, 9, -3.5625}, {100001, 9, -4}, 7, 0);
+    for (int32_t id : {0, 2, 3}) tree.radiusSq[id] = -1;
+    addCuts(tree);
     return tree;
 }
 
@@ -159,6 +219,21 @@ inline SphereTree oneLevelOf(const SphereTree& tree, int number)
     return kept;
 }
 
+inline void expectSameTightSettings(const openvdb_spheretree::SphereTreeSettings& a,
+    const openvdb_spheretree::SphereTreeSettings& b)
+{
+    EXPECT_EQ(a.quality, b.quality);
+    EXPECT_EQ(a.budget.spheres, b.budget.spheres);
+    EXPECT_EQ(a.budget.branching, b.budget.branching);
+    EXPECT_EQ(a.budget.error, b.budget.error);
+    EXPECT_EQ(a.budget.distance, b.budget.distance);
+    EXPECT_EQ(a.cover, b.cover);
+    EXPECT_EQ(a.leaves, b.leaves);
+    EXPECT_EQ(a.side, b.side);
+    EXPECT_EQ(a.cuts, b.cuts);
+    EXPECT_EQ(a.center, b.center);
+}
+
 inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
 {
     EXPECT_EQ(a.settings.tree, b.settings.tree);
@@ -174,6 +249,7 @@ inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
     EXPECT_EQ(a.settings.edges, b.settings.edges);
     EXPECT_EQ(a.settings.topology, b.settings.topology);
     EXPECT_EQ(a.settings.name, b.settings.name);
+    expectSameTightSettings(a.settings, b.settings);
     EXPECT_EQ(a.object.name, b.object.name);
     EXPECT_EQ(a.object.voxels, b.object.voxels);
     EXPECT_EQ(a.object.leaves, b.object.leaves);
@@ -208,6 +284,18 @@ inline void expectSameLevel(const SphereTreeLevel& a, const SphereTreeLevel& b)
     EXPECT_EQ(a.error->hausdorff, b.error->hausdorff);
 }
 
+inline void expectSameCuts(
+    const openvdb_spheretree::SphereCuts& a, const openvdb_spheretree::SphereCuts& b)
+{
+    EXPECT_EQ(a.center, b.center);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.coverSq, b.coverSq);
+    EXPECT_EQ(a.radiusWorld, b.radiusWorld);
+    EXPECT_EQ(a.parent, b.parent);
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.last, b.last);
+}
+
 /// Identical in every field.
 inline void expectSameTree(const SphereTree& a, const SphereTree& b)
 {
@@ -218,7 +306,9 @@ inline void expectSameTree(const SphereTree& a, const SphereTree& b)
     EXPECT_EQ(a.parent, b.parent);
     EXPECT_EQ(a.ijk, b.ijk);
     EXPECT_EQ(a.radiusSq, b.radiusSq);
+    EXPECT_EQ(a.subdivision, b.subdivision);
     EXPECT_EQ(a.dag, b.dag);
+    expectSameCuts(a.cuts, b.cuts);
     ASSERT_EQ(a.levels.size(), b.levels.size());
     for (std::size_t k = 0; k < a.levels.size(); ++k) expectSameLevel(a.levels[k], b.levels[k]);
     expectSameDescription(a, b);

@@ -67,6 +67,15 @@ TEST(IntersectionDag, SpheresThatTouchMeetAndOthersDoNot)
     EXPECT_TRUE(intersectionDag(starOf({{{7, 0, 0}, 0}, {{7.5, 0, 0}, 0}})).empty());
 }
 
+TEST(IntersectionDag, CountsInTheTreesUnits)
+{
+    for (const int64_t less : {0, 1}) {
+        SphereTree tree = starOf({{{0.0625, 0, 0}, 32 * 32}, {{3.0625, 4, 0}, 48 * 48 - less}});
+        tree.subdivision = 16;
+        EXPECT_EQ(intersectionDag(tree).size(), less == 0 ? 1u : 0u);
+    }
+}
+
 TEST(IntersectionDag, IsExactAtTheLargestCoordinates)
 {
     const int64_t far = int64_t(1) << 29, diameter = far * 2;

@@ -31,6 +31,7 @@ protected:
 struct Sphere {
     openvdb::Vec3d center;
     int64_t coverSq;
+    int subdivision = 2; ///< of all spheres of a tree
 };
 
 /// One level of spheres; the other fields are as the errors need them.
@@ -40,6 +41,7 @@ SphereTree treeOf(const std::vector<Sphere>& spheres, const BoolGrid& object, in
     for (const Sphere& s : spheres) {
         tree.center.push_back(s.center);
         tree.coverSq.push_back(s.coverSq);
+        tree.subdivision = s.subdivision;
     }
     tree.levels.resize(1);
     tree.levels[0].end = int32_t(spheres.size());
@@ -51,7 +53,7 @@ SphereTree treeOf(const std::vector<Sphere>& spheres, const BoolGrid& object, in
 bool inAny(const std::vector<Sphere>& spheres, const Coord& q)
 {
     for (const Sphere& s : spheres) {
-        if ((2.0 * (q.asVec3d() - s.center)).lengthSqr() <= double(s.coverSq)) return true;
+        if ((s.subdivision * (q.asVec3d() - s.center)).lengthSqr() <= s.coverSq) return true;
     }
     return false;
 }
@@ -114,15 +116,17 @@ BoolGrid::Ptr randomObject(std::mt19937& random, const Coord& middle, int spread
     return object;
 }
 
-std::vector<Sphere> randomSpheres(std::mt19937& random, const Coord& middle, int spread)
+std::vector<Sphere> randomSpheres(
+    std::mt19937& random, const Coord& middle, int spread, int subdivision)
 {
-    std::uniform_int_distribution<int> offset2(-2 * spread, 2 * spread);
-    std::uniform_int_distribution<int> count(1, 5), square(0, 400);
+    std::uniform_int_distribution<int> offset(-subdivision * spread, subdivision * spread);
+    std::uniform_int_distribution<int> count(1, 5), square(0, 100 * subdivision * subdivision);
     std::vector<Sphere> spheres(count(random));
     for (Sphere& s : spheres) {
-        const double x = offset2(random), y = offset2(random), z = offset2(random);
-        s.center = middle.asVec3d() + openvdb::Vec3d(x, y, z) / 2;
+        const double x = offset(random), y = offset(random), z = offset(random);
+        s.center = middle.asVec3d() + openvdb::Vec3d(x, y, z) / subdivision;
         s.coverSq = square(random);
+        s.subdivision = subdivision;
     }
     return spheres;
 }
@@ -136,7 +140,7 @@ TEST_F(LevelErrors, MatchBruteForceOnRandomObjectsAndSpheres)
         const Coord middle = middles[seed % 3];
         const int count = seed % 4 == 0 ? 2 : 60;
         const BoolGrid::Ptr object = randomObject(random, middle, 9, count);
-        const std::vector<Sphere> spheres = randomSpheres(random, middle, 8);
+        const std::vector<Sphere> spheres = randomSpheres(random, middle, 8, seed % 2 ? 16 : 2);
         CoordBBox box(middle, middle);
         box.expand(20);
         expectSame(errorOf(spheres, *object), bruteForce(spheres, *object, box));
@@ -393,7 +397,7 @@ TEST_F(LevelErrors, DoNotDependOnThreads)
     const BoolGrid::Ptr object = randomObject(random, Coord(0), 60, 400);
     std::vector<Sphere> spheres;
     for (int i = 0; i < 40; ++i) {
-        for (const Sphere& s : randomSpheres(random, Coord(0), 70)) spheres.push_back(s);
+        for (const Sphere& s : randomSpheres(random, Coord(0), 70, 2)) spheres.push_back(s);
     }
     const auto compute = [&](int threads) {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

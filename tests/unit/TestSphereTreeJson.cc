@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -45,6 +46,8 @@ void expectObject(const json& object, const SphereTree& tree)
     EXPECT_EQ(object.at("origin"), coordOf(tree.origin));
 }
 
+json orNull(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
 void expectSettings(const json& written, const SphereTreeSettings& settings)
 {
     const json expected = {{"tree", toString(settings.tree)}, {"factor", settings.factor},
@@ -53,7 +56,11 @@ void expectSettings(const json& written, const SphereTreeSettings& settings)
         {"final_fit", settings.finalFit}, {"reconstruct", toString(settings.reconstruct)},
         {"scale", toString(settings.scale)}, {"padding", paddingToString(settings.padding)},
         {"dag", settings.dag}, {"edges", toString(settings.edges)}, {"topology", settings.topology},
-        {"name", settings.name}};
+        {"center", toString(settings.center)}, {"quality", toString(settings.quality)},
+        {"spheres", settings.budget.spheres}, {"branching", settings.budget.branching},
+        {"error", orNull(settings.budget.error)}, {"distance", orNull(settings.budget.distance)},
+        {"cover", toString(settings.cover)}, {"leaves", toString(settings.leaves)},
+        {"side", toString(settings.side)}, {"cuts", settings.cuts}, {"name", settings.name}};
     EXPECT_EQ(written, expected);
 }
 
@@ -84,7 +91,8 @@ void expectNode(const json& columns, const json& row, const SphereTree& tree, in
 {
     const int level = tree.levelOf(id);
     const openvdb::Vec3d world = tree.transform->indexToWorld(tree.center[id]);
-    const openvdb::Coord ijk = level ? tree.ijk[id] : openvdb::Coord::round(tree.center[id]);
+    const bool levelGrid = level > 0 && tree.radiusSq[id] > 0;
+    const openvdb::Coord ijk = levelGrid ? tree.ijk[id] : openvdb::Coord::round(tree.center[id]);
     const json expected = {{"level", level}, {"id", id}, {"parent", tree.parent[id]},
         {"x", world[0]}, {"y", world[1]}, {"z", world[2]}, {"radius", double(tree.radiusWorld[id])},
         {"i", ijk[0]}, {"j", ijk[1]}, {"k", ijk[2]}, {"radius_sq", tree.radiusSq[id]},
@@ -110,10 +118,35 @@ void expectDag(const json& dag, const SphereTree& tree)
     }
 }
 
+void expectCuts(const json& written, const SphereTree& tree)
+{
+    const SphereCuts& cuts = tree.cuts;
+    if (cuts.empty()) {
+        EXPECT_TRUE(written.is_null());
+        return;
+    }
+    const json& columns = written.at("columns");
+    ASSERT_EQ(written.at("nodes").size(), std::size_t(cuts.size()));
+    for (int32_t id = 0; id < cuts.size(); ++id) {
+        const json& row = written.at("nodes")[std::size_t(id)];
+        const openvdb::Vec3d& center = cuts.center[id];
+        const openvdb::Vec3d world = tree.transform->indexToWorld(center);
+        const json expected = {{"id", id}, {"parent", cuts.parent[id]}, {"first", cuts.first[id]},
+            {"last", cuts.last[id]}, {"x", world[0]}, {"y", world[1]}, {"z", world[2]},
+            {"radius", double(cuts.radiusWorld[id])}, {"index_x", center[0]},
+            {"index_y", center[1]}, {"index_z", center[2]}, {"radius_voxels", cuts.radius[id]},
+            {"cover_sq", cuts.coverSq[id]}};
+        json found = json::object();
+        ASSERT_EQ(row.size(), columns.size());
+        for (std::size_t i = 0; i < row.size(); ++i) found[columns[i].get<std::string>()] = row[i];
+        ASSERT_EQ(found, expected);
+    }
+}
+
 void expectAll(const SphereTree& tree)
 {
     const json read = json::parse(textOf(tree));
-    EXPECT_EQ(read.size(), 8u);
+    EXPECT_EQ(read.size(), 10u);
     EXPECT_EQ(read.at("format"), "vdb_spheretree.tree.1");
     expectObject(read.at("object"), tree);
     expectSettings(read.at("settings"), tree.settings);
@@ -125,6 +158,8 @@ void expectAll(const SphereTree& tree)
         expectNode(read.at("columns"), read.at("nodes")[std::size_t(id)], tree, id);
     }
     expectDag(read.at("dag"), tree);
+    expectCuts(read.at("cuts"), tree);
+    EXPECT_EQ(read.at("subdivision"), tree.subdivision);
 
     // Rows for row vectors: a point of index space times the matrix is the point of the world.
     const std::vector<double> m = read.at("transform").get<std::vector<double>>();
@@ -143,7 +178,8 @@ class NoDisk : public std::streambuf {};
 
 TEST(SphereTreeJson, HoldsEveryNumberOfTheTree)
 {
-    for (const SphereTree& tree : {oneVoxelTree(), sampleTree(), randomTree(3000, 7)}) {
+    for (const SphereTree& tree :
+        {oneVoxelTree(), sampleTree(), tightSampleTree(), randomTree(3000, 7)}) {
         expectAll(tree);
     }
 }

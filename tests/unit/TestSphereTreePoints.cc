@@ -207,9 +207,66 @@ TEST(SphereTreePoints, SettingsOfEveryKindComeBack)
     }
 }
 
+TEST(SphereTreePoints, SettingsOfTightTreesComeBack)
+{
+    SphereTree tree = oneVoxelTree();
+    tree.settings.center = Center::Miniball;
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+    tree.settings.center = Center::Medial;
+    tree.settings.tree = TreeType::Tight;
+    tree.settings.budget.branching = 5;
+    tree.settings.budget.error = 1.0 / 3;
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+    tree.settings.budget = {};
+    tree.settings.budget.distance = 1e-300;
+    tree.settings.quality = Quality::Fast;
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+}
+
+TEST(SphereTreePoints, ATightTreeWithItsCutsComesBack)
+{
+    const SphereTree tree = tightSampleTree();
+    const PointDataGrid::Ptr nodes = toPoints(tree), cuts = cutsToPoints(tree);
+    EXPECT_TRUE(isCutsOf(*cuts, "tight tree"));
+    EXPECT_FALSE(isCutsOf(*cuts, "tight"));
+    EXPECT_FALSE(isCutsOf(*nodes, "tight tree"));
+    EXPECT_FALSE(isSphereTree(*cuts));
+    EXPECT_FALSE(isDagOf(*cuts, "tight tree"));
+    expectSameTree(fromPoints(*nodes, nullptr, cuts.get()), tree);
+    const auto grids = throughFile({nodes, cuts});
+    ASSERT_EQ(grids.size(), 2u);
+    const bool inOrder = isSphereTree(*grids[0]);
+    expectSameTree(
+        fromPoints(*grids[inOrder ? 0 : 1], nullptr, grids[inOrder ? 1 : 0].get()), tree);
+}
+
+TEST(SphereTreePoints, ATreeReadWithoutItsCutsSaysThatItHasNone)
+{
+    const SphereTree read = fromPoints(*toPoints(tightSampleTree()));
+    EXPECT_TRUE(read.cuts.empty());
+    EXPECT_FALSE(read.settings.cuts);
+    EXPECT_EQ(read.subdivision, 16);
+    EXPECT_FALSE(cutsToPoints(read));
+}
+
+TEST(SphereTreePoints, AFileFromBeforeTightTreesIsReadAsItWas)
+{
+    SphereTree tree = randomTree(50, 3);
+    fillDescription(tree);
+    tree.settings.dag = false; // without a grid of edges
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    for (const char* key : {"subdivision", "quality", "spheres", "branching", "cover", "leaves",
+             "side", "cuts", "center"}) {
+        EXPECT_TRUE((*grid)["spheretree_" + std::string(key)]) << key;
+        grid->removeMeta("spheretree_" + std::string(key));
+    }
+    expectSameTree(fromPoints(*grid), tree);
+}
+
 TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
 {
     SphereTree tree = oneVoxelTree();
+    tree.subdivision = 16;
     for (double far : {0.0, 1e6, -1e9, 2e9}) {
         for (double part : {0.5, -0.5, 0.25, 1.0 / 16, -15.0 / 16}) {
             tree.center[0] = openvdb::Vec3d(far + part, -far - part, part);
@@ -217,6 +274,7 @@ TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
         }
     }
     tree = randomTree(2000, 6);
+    tree.subdivision = 16;
     for (openvdb::Vec3d& center : tree.center) center += openvdb::Vec3d(1e9, 0.0625, -0.4375);
     EXPECT_EQ(fromPoints(*toPoints(tree)).center, tree.center);
 }
@@ -225,10 +283,20 @@ TEST(SphereTreePoints, ACentreThatAFloatCannotHoldIsAnErrorAndNotRounded)
 {
     SphereTree tree = oneVoxelTree();
     const double inf = std::numeric_limits<double>::infinity();
+    tree.center[0] = {1, 2.25, 3};
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { toPoints(tree); }), "multiple of 1/2 voxel"));
+    tree.subdivision = 16;
+    EXPECT_NO_THROW(toPoints(tree));
+    tree.center[0] = {1, 2.03125, 3};
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { toPoints(tree); }), "multiple of 1/16 voxel"));
+    tree.subdivision = 2;
     for (double x : {0.1, 1e10, std::nan(""), inf, -inf}) {
         tree.center[0] = {0, x, 0};
         const std::string why = messageOf<openvdb::ValueError>([&] { toPoints(tree); });
-        EXPECT_TRUE(mentions(why, x == 0.1 ? "point 0" : "node 0 has the position"));
+        EXPECT_TRUE(mentions(why, x == 0.1 ? "no multiple of 1/2 voxel" : "which no"));
+        EXPECT_TRUE(mentions(why, "node 0 has the position"));
     }
 }
 
@@ -441,6 +509,67 @@ TEST(SphereTreePoints, DagEdgesComeBackSortedWhereverTheirPointsAre)
 
 // ---- Damage
 
+/// What fromPoints() says of the tight sample tree after one value of its cuts was changed.
+template <typename T>
+static std::string whyCutsDamaged(const char* attribute, int32_t id, const T& value)
+{
+    const PointDataGrid::Ptr grid = toPoints(tightSampleTree());
+    const PointDataGrid::Ptr cuts = cutsToPoints(tightSampleTree());
+    damage<T>(*cuts, attribute, id, value);
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { fromPoints(*grid, nullptr, cuts.get()); });
+    EXPECT_TRUE(mentions(why, "'tight tree_cuts' is a damaged list of cuts"));
+    return why;
+}
+
+TEST(SphereTreePoints, DamagedCutsAreErrorsThatNameTheNode)
+{
+    using Int = int32_t;
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("id", 3, 2), "two points have the id 2"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("id", 3, 6), "there is an id 6"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 2), "node 3 has the parent 2"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 3), "node 3 has the parent 3"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 6), "node 3 has the parent 6"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, -2), "node 3 has the parent -2"));
+    EXPECT_TRUE(
+        mentions(whyCutsDamaged<Int>("parent", 0, 5), "its parent 5 begins with that of 1"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 0), "cuts of 0 to 4"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 5), "cuts of 5 to 4"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 2), "the cut of 2 spheres has 3"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 2, 3), "node 2 has no child"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 2, 1 << 30), "of 1073741824 spheres, but"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 5, 0), "its parent 5 begins with that of 0"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 4, 4), "node 0 ends with the cut of 4"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<double>("radius", 1, -1.0), "node 1 has the radius -1"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<float>("pscale", 1, -1.f), "node 1 has the pscale -1"));
+    EXPECT_TRUE(mentions(whyCutsDamaged<int64_t>("cover_sq", 1, -1), "node 1 has the cover_sq -1"));
+    SphereTree coarse = tightSampleTree();
+    for (openvdb::Vec3d& center : coarse.center) center *= 16;
+    coarse.subdivision = 2;
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { cutsToPoints(coarse); }),
+        "cannot be stored: in its cuts, node 0 has the position"));
+}
+
+TEST(SphereTreePoints, CutsOfAnotherTreeOrCutShortAreAnError)
+{
+    const SphereTree tree = tightSampleTree();
+    const PointDataGrid::Ptr points = toPoints(tree), cuts = cutsToPoints(tree);
+    const auto why = [&] {
+        return messageOf<openvdb::ValueError>([&] { fromPoints(*points, nullptr, cuts.get()); });
+    };
+    cuts->insertMeta("spheretree_nodes", openvdb::Int32Metadata(5));
+    EXPECT_TRUE(mentions(why(), "beside a tree of 5 nodes"));
+    cuts->insertMeta("spheretree_nodes", openvdb::Int32Metadata(4));
+    EXPECT_NO_THROW(fromPoints(*points, nullptr, cuts.get()));
+    cuts->insertMeta("spheretree_cuts_nodes", openvdb::Int32Metadata(7));
+    EXPECT_TRUE(mentions(why(), "7 spheres beside 4 nodes are expected"));
+    cuts->insertMeta("spheretree_cuts_format", openvdb::Int32Metadata(kPointsFormat + 1));
+    EXPECT_TRUE(mentions(why(), "update openvdb_spheretree"));
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { fromPoints(*points, nullptr, points.get()); }),
+        "spheretree_cuts_format"));
+}
+
 TEST(SphereTreePoints, OrdinaryPointsAreNoSphereTree)
 {
     openvdb::initialize();
@@ -564,23 +693,33 @@ TEST(SphereTreePoints, AnEmptyGridIsNotMistakenForATree)
     EXPECT_TRUE(mentions(whyDamaged(*grid), "0 points, by its metadata 8"));
 }
 
-TEST(SphereTreePoints, MissingMetadataIsNamed)
+static int expectMissingMetadataIsNamed(const SphereTree& tree)
 {
-    const PointDataGrid::Ptr complete = toPoints(sampleTree());
+    const PointDataGrid::Ptr complete = toPoints(tree);
+    const bool tight = tree.settings.tree == TreeType::Tight;
     int keys = 0;
     for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
         const std::string key = it->first;
         const bool optional = key == "spheretree_level_1_error_unknown"
             || key == "spheretree_level_0_covered" || key == "spheretree_level_0_components"
             || key == "spheretree_topology" || key == "spheretree_dist" || key == "spheretree_model"
+            || (!tight && (key == "spheretree_quality" || key == "spheretree_subdivision"))
             || key.rfind("spheretree_", 0) != 0;
         if (optional || key == "spheretree_format") continue;
-        const PointDataGrid::Ptr grid = toPoints(sampleTree());
+        const PointDataGrid::Ptr grid = toPoints(tree);
         grid->removeMeta(key);
         EXPECT_TRUE(mentions(whyDamaged(*grid), "'" + key + "'"));
         ++keys;
     }
-    EXPECT_GE(keys, 25);
+    return keys;
+}
+
+TEST(SphereTreePoints, MissingMetadataIsNamed)
+{
+    SphereTree coarse = sampleTree(); // without its subdivision it is one in halves
+    for (openvdb::Vec3d& center : coarse.center) center *= 8;
+    EXPECT_GE(expectMissingMetadataIsNamed(coarse), 25);
+    EXPECT_GE(expectMissingMetadataIsNamed(tightSampleTree()), 30);
 }
 
 TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
@@ -603,6 +742,12 @@ TEST(SphereTreePoints, MetadataOutOfRangeIsAnError)
 {
     EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_factor", 1), "factor=1"));
     EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_dim", 4), "dim=4"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_subdivision", 3), "units of 1/3"));
+    EXPECT_TRUE(
+        mentions(whyDamagedMeta<std::string>("spheretree_spheres", "8,x"), "spheres='8,x'"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_side", "left"), "side='left'"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_branching", 1), "branching=1"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_cuts", true), "cuts"));
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_tree", "oak"), "tree='oak'"));
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_padding", "x"), "padding='x'"));
     EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_factor", true), "of type bool"));
@@ -651,6 +796,9 @@ TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
     };
     EXPECT_TRUE(mentions(why(SphereTree()), "no nodes"));
     SphereTree tree = sampleTree();
+    tree.subdivision = 4;
+    EXPECT_TRUE(mentions(why(tree), "units of 1/4"));
+    tree = sampleTree();
     tree.radius.pop_back();
     EXPECT_TRUE(mentions(why(tree), "length"));
     tree = sampleTree();

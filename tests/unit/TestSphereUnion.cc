@@ -22,6 +22,7 @@ using openvdb::MaskTree;
 using Spheres = std::vector<ExactSphere>;
 
 const CoordBBox kWide(Coord(-100000), Coord(100000));
+const int kSubdivisions[] = {2, 4, 8, 16};
 
 class SphereUnion : public ::testing::Test {
 protected:
@@ -33,23 +34,27 @@ ExactSphere ball(int64_t x2, int64_t y2, int64_t z2, int64_t coverSq)
     return {{x2, y2, z2}, coverSq};
 }
 
-bool inAny(const Spheres& spheres, const Coord& q)
+bool inAny(const Spheres& spheres, const Coord& q, int subdivision = 2)
 {
     for (const ExactSphere& s : spheres) {
         int64_t sum = 0;
-        for (int a = 0; a < 3; ++a) sum += (2 * q[a] - s.center2[a]) * (2 * q[a] - s.center2[a]);
+        for (int a = 0; a < 3; ++a) {
+            const int64_t d = int64_t(subdivision) * q[a] - s.center[a];
+            sum += d * d;
+        }
         if (sum <= s.coverSq) return true;
     }
     return false;
 }
 
-void expectLikeBruteForce(const Spheres& spheres, const CoordBBox& clip, const CoordBBox& all)
+void expectLikeBruteForce(
+    const Spheres& spheres, const CoordBBox& clip, const CoordBBox& all, int subdivision = 2)
 {
-    const MaskTree::Ptr tree = sphereUnion(spheres, clip);
+    const MaskTree::Ptr tree = sphereUnion(spheres, clip, nullptr, {{}, subdivision});
     openvdb::tree::ValueAccessor<const MaskTree> voxels(*tree);
     int64_t expected = 0;
     for (auto q = all.begin(); q; ++q) {
-        const bool in = clip.isInside(*q) && inAny(spheres, *q);
+        const bool in = clip.isInside(*q) && inAny(spheres, *q, subdivision);
         expected += in;
         ASSERT_EQ(voxels.isValueOn(*q), in) << *q;
     }
@@ -57,18 +62,22 @@ void expectLikeBruteForce(const Spheres& spheres, const CoordBBox& clip, const C
     for (auto leaf = tree->cbeginLeaf(); leaf; ++leaf) EXPECT_FALSE(leaf->isEmpty());
 }
 
-/// Spheres of all sizes up to @a largest around @a middle, centres between voxels included.
-Spheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int spread, int largest)
+/// Spheres of all sizes up to @a largest voxels around @a middle, up to half of @a spread away,
+/// centres between voxels included.
+Spheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int spread, int largest,
+    int subdivision = 2)
 {
+    const int apart = spread * subdivision / 2;
     const auto pick = [&](int lo, int hi) {
         return std::uniform_int_distribution<int>(lo, hi)(random);
     };
     Spheres spheres;
     for (int i = 0; i < count; ++i) {
-        const int r2 = pick(0, 2 * largest);
-        spheres.push_back(
-            ball(2 * middle[0] + pick(-spread, spread), 2 * middle[1] + pick(-spread, spread),
-                2 * middle[2] + pick(-spread, spread), pick(-3, r2 * r2)));
+        const int r = pick(0, subdivision * largest);
+        ExactSphere sphere = ball(0, 0, 0, pick(-3, r * r));
+        for (int a = 0; a < 3; ++a)
+            sphere.center[a] = subdivision * middle[a] + pick(-apart, apart);
+        spheres.push_back(sphere);
     }
     return spheres;
 }
@@ -81,13 +90,33 @@ TEST_F(SphereUnion, MatchesBruteForceOnRandomSpheresAcrossNodeBorders)
         const Coord corners[] = {
             Coord(0), Coord(8, -128, 128), Coord(-4096, 4096, 0), Coord(3), Coord(128, 128, 4096)};
         const Coord middle = corners[seed % 5];
-        const int largest = seed % 3 == 0 ? 3 : 14;
-        const Spheres spheres = randomSpheres(random, 1 + seed % 7, middle, 20, largest);
+        const int largest = seed % 3 == 0 ? 3 : 14, units = kSubdivisions[seed % 4];
+        const Spheres spheres = randomSpheres(random, 1 + seed % 7, middle, 20, largest, units);
         CoordBBox all(middle, middle);
         all.expand(26);
-        expectLikeBruteForce(spheres, kWide, all);
+        expectLikeBruteForce(spheres, kWide, all, units);
         const CoordBBox clip(middle.offsetBy(-7, -4, -9), middle.offsetBy(9, 12, 6));
-        expectLikeBruteForce(spheres, clip, all);
+        expectLikeBruteForce(spheres, clip, all, units);
+    }
+}
+
+/// Balls whose farthest voxel is one of a leaf's border, or would be if a 16th were added.
+TEST_F(SphereUnion, MatchesBruteForceOnBallsThatJustTouchLeaves)
+{
+    std::mt19937 random(17);
+    for (int trial = 0; trial < 60; ++trial) {
+        SCOPED_TRACE(trial);
+        ExactSphere sphere = ball(0, 0, 0, 0);
+        for (int64_t& c : sphere.center) c = int64_t(random() % 128) - 64;
+        const Coord touched(8 * int(random() % 3) - 8, int(random() % 8), -1);
+        for (int a = 0; a < 3; ++a) {
+            const int64_t d = 16 * touched[(a + trial) % 3] - sphere.center[a];
+            sphere.coverSq += d * d;
+        }
+        const CoordBBox all(Coord(-40), Coord(40));
+        expectLikeBruteForce({sphere}, kWide, all, 16);
+        --sphere.coverSq;
+        expectLikeBruteForce({sphere}, kWide, all, 16);
     }
 }
 
@@ -98,11 +127,12 @@ TEST_F(SphereUnion, MatchesBruteForceOnManyBallsThatOverlap)
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         const Coord middle = seed % 2 ? Coord(3) : Coord(-128, 4096, 16);
-        Spheres spheres = randomSpheres(random, 120, middle, 24, 5 + int(seed % 4) * 4);
+        const int units = kSubdivisions[seed / 2 % 4];
+        Spheres spheres = randomSpheres(random, 120, middle, 24, 5 + int(seed % 4) * 4, units);
         spheres.insert(spheres.end(), spheres.begin(), spheres.begin() + 40);
         CoordBBox all(middle, middle);
         all.expand(32);
-        expectLikeBruteForce(spheres, kWide, all);
+        expectLikeBruteForce(spheres, kWide, all, units);
     }
 }
 
@@ -111,6 +141,53 @@ TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
     const Spheres spheres{ball(1, -3, 5, 4 * 41 * 41), ball(90, 10, -7, 4 * 25 * 25 + 3)};
     expectLikeBruteForce(spheres, kWide, CoordBBox(Coord(-48), Coord(80)));
     EXPECT_GT(sphereUnion(spheres, kWide)->activeTileCount(), 0u);
+    const Spheres fine{ball(7, -23, 41, 256 * 41 * 41 + 5), ball(723, 77, -55, 256 * 25 * 25 - 7)};
+    expectLikeBruteForce(fine, kWide, CoordBBox(Coord(-48), Coord(80)), 16);
+    EXPECT_GT(sphereUnion(fine, kWide, nullptr, {{}, 16})->activeTileCount(), 0u);
+}
+
+/// With radii on both sides of what the kernel for leaves takes, in units of all sizes.
+TEST_F(SphereUnion, LargeSpheresMatchBruteForceInAWindow)
+{
+    for (int units : kSubdivisions) {
+        for (int radius : {140, 280, 300, 700, 2400}) {
+            SCOPED_TRACE(std::to_string(units) + " units, radius " + std::to_string(radius));
+            const int64_t r = int64_t(units) * radius, c = r * 5 / 7;
+            const Spheres spheres{ball(-c + 3, -c - 5, 9, r * r + 11)};
+            const CoordBBox clip(Coord(-20, -20, -30), Coord(40, 40, 30));
+            expectLikeBruteForce(spheres, clip, clip, units);
+        }
+    }
+}
+
+TEST_F(SphereUnion, TheSameSpheresInOtherUnitsAreTheSameVoxels)
+{
+    std::mt19937 random(23);
+    Spheres spheres = randomSpheres(random, 400, Coord(64, -3, 9), 300, 30);
+    const MaskTree::Ptr expected = sphereUnion(spheres, kWide);
+    for (int units : {4, 8, 16}) {
+        Spheres finer = spheres;
+        for (ExactSphere& s : finer) {
+            for (int64_t& c : s.center) c *= units / 2;
+            s.coverSq *= units / 2 * units / 2;
+        }
+        const MaskTree::Ptr same = sphereUnion(finer, kWide, nullptr, {{}, units});
+        EXPECT_TRUE(expected->hasSameTopology(*same));
+        EXPECT_EQ(expected->activeVoxelCount(), same->activeVoxelCount());
+        EXPECT_EQ(boundingBox(finer, {{}, units}), boundingBox(spheres));
+        const CoordBBox box(Coord(-100), Coord(100));
+        EXPECT_DOUBLE_EQ(crossedRows(finer, box, {{}, units}), crossedRows(spheres, box));
+    }
+}
+
+TEST_F(SphereUnion, UnitsThatAreNoPowerOfTwoInRangeAreAnError)
+{
+    for (int units : {-16, 0, 1, 3, 12, 32}) {
+        EXPECT_THROW(
+            sphereUnion({ball(0, 0, 0, 9)}, kWide, nullptr, {{}, units}), openvdb::ValueError)
+            << units;
+        EXPECT_THROW(boundingBox({ball(0, 0, 0, 9)}, {{}, units}), openvdb::ValueError) << units;
+    }
 }
 
 TEST_F(SphereUnion, ASphereOfOneVoxelIsThatVoxel)
@@ -177,18 +254,19 @@ TEST_F(SphereUnion, NodesGrowWithTheSurfaceOnly)
 }
 
 /// Bits that lie in a ball, whose centre may be anywhere near or far.
-void expectKernelsLikeBruteForce(const int64_t center2[3], int64_t coverSq)
+void expectKernelsLikeBruteForce(const int64_t center[3], int64_t coverSq, int shift)
 {
-    const Spheres ball{{{center2[0], center2[1], center2[2]}, coverSq}};
+    const Spheres ball{{{center[0], center[1], center[2]}, coverSq}};
     uint64_t expected[8] = {}, vector[8] = {}, portable[8] = {};
     for (int i = 0; i < 512; ++i) {
-        if (inAny(ball, Coord(i >> 6, i >> 3 & 7, i & 7))) expected[i >> 6] |= 1ull << (i & 63);
+        if (inAny(ball, Coord(i >> 6, i >> 3 & 7, i & 7), 1 << shift))
+            expected[i >> 6] |= 1ull << (i & 63);
     }
-    detail::orBallIntoLeaf(center2, coverSq, vector);
-    detail::orBallIntoLeafPortable(center2, coverSq, portable);
+    detail::orBallIntoLeaf(center, coverSq, shift, vector);
+    detail::orBallIntoLeafPortable(center, coverSq, shift, portable);
     for (int x = 0; x < 8; ++x) {
         ASSERT_EQ(vector[x], expected[x])
-            << center2[0] << ' ' << center2[1] << ' ' << center2[2] << ' ' << coverSq;
+            << center[0] << ' ' << center[1] << ' ' << center[2] << ' ' << coverSq << ' ' << shift;
         ASSERT_EQ(portable[x], expected[x]);
     }
 }
@@ -196,23 +274,29 @@ void expectKernelsLikeBruteForce(const int64_t center2[3], int64_t coverSq)
 TEST_F(SphereUnion, TheLeafKernelsMatchBruteForceUpToTheirLimits)
 {
     std::mt19937 random(5);
-    const int64_t reach = detail::kLeafBallReach2;
-    for (int64_t range : {int64_t(0), int64_t(30), int64_t(300), reach - 14}) {
-        std::uniform_int_distribution<int64_t> offset(-range, range);
-        for (int trial = 0; trial < 2000; ++trial) {
-            const int64_t center2[3] = {7 + offset(random), 7 + offset(random), 7 + offset(random)};
-            // Mostly a surface that passes through the leaf.
-            int64_t square = 0;
-            for (int64_t c : center2) square += (c - 2 * int64_t(random() % 8)) * (c - 7);
-            expectKernelsLikeBruteForce(center2, std::min(std::abs(square), reach * reach));
+    const int64_t reach = detail::kLeafBallReach;
+    for (int shift = 1; shift <= 4; ++shift) {
+        const int64_t last = int64_t(7) << shift, middle = last / 2;
+        for (int64_t range : {int64_t(0), 2 * last, 20 * last, reach - last}) {
+            std::uniform_int_distribution<int64_t> offset(-range, range);
+            for (int trial = 0; trial < 2000; ++trial) {
+                const int64_t center[3] = {
+                    middle + offset(random), middle + offset(random), middle + offset(random)};
+                // Mostly a surface that passes through the leaf.
+                int64_t square = 0;
+                for (int64_t c : center)
+                    square += (c - (int64_t(random() % 8) << shift)) * (c - middle);
+                expectKernelsLikeBruteForce(
+                    center, std::min(std::abs(square), reach * reach), shift);
+            }
         }
-    }
-    for (int64_t x : {14 - reach, reach}) {
-        for (int64_t coverSq : {int64_t(0), reach * reach - 1, reach * reach}) {
-            const int64_t alongX[3] = {x, 6, 7}, alongZ[3] = {7, 6, x}, diagonal[3] = {x, x, x};
-            expectKernelsLikeBruteForce(alongX, coverSq);
-            expectKernelsLikeBruteForce(alongZ, coverSq);
-            expectKernelsLikeBruteForce(diagonal, coverSq);
+        for (int64_t x : {last - reach, reach}) {
+            for (int64_t coverSq : {int64_t(0), reach * reach - 1, reach * reach}) {
+                const int64_t alongX[3] = {x, 6, 7}, alongZ[3] = {7, 6, x}, diagonal[3] = {x, x, x};
+                expectKernelsLikeBruteForce(alongX, coverSq, shift);
+                expectKernelsLikeBruteForce(alongZ, coverSq, shift);
+                expectKernelsLikeBruteForce(diagonal, coverSq, shift);
+            }
         }
     }
 }
@@ -235,6 +319,13 @@ TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
     const MaskTree::Ptr below =
         sphereUnion({ball(0, 0, -r2, r2 * r2 - 1)}, CoordBBox(Coord(-3, -3, -20), Coord(3, 3, 20)));
     EXPECT_EQ(below->activeVoxelCount(), 20u * 49);
+
+    // In 16ths of a voxel, so at an eighth of the distance.
+    const CoordBBox near(Coord(-20, -1, -1), Coord(20, 1, 1));
+    const Spheres fine{ball(-r2, 0, 0, r2 * r2)};
+    EXPECT_EQ(sphereUnion(fine, near, nullptr, {{}, 16})->activeVoxelCount(), 20u * 9 + 1);
+    EXPECT_EQ(boundingBox(fine, {{}, 16}).max().x(), 0);
+    EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2 - 1)}, {{}, 16}).max().x(), -1);
 
     // The largest that there may be.
     const int64_t root = 3037000499, most = std::numeric_limits<int64_t>::max();
@@ -337,14 +428,16 @@ TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
 {
     std::mt19937 random(3);
     for (int i = 0; i < 300; ++i) {
-        const Spheres spheres = randomSpheres(random, 1 + i % 3, Coord(-5, 3, 9), 12, 1 + i % 5);
+        const SphereMetric metric({}, kSubdivisions[i % 4]);
+        const Spheres spheres =
+            randomSpheres(random, 1 + i % 3, Coord(-5, 3, 9), 12, 1 + i % 5, metric.subdivision);
         CoordBBox expected;
-        sphereUnion(spheres, kWide)->evalActiveVoxelBoundingBox(expected);
-        EXPECT_EQ(boundingBox(spheres), expected) << "trial " << i;
+        sphereUnion(spheres, kWide, nullptr, metric)->evalActiveVoxelBoundingBox(expected);
+        EXPECT_EQ(boundingBox(spheres, metric), expected) << "trial " << i;
     }
 }
 
-TEST_F(SphereUnion, SpheresOfALevelAreItsRangeWithDoubledCentres)
+TEST_F(SphereUnion, SpheresOfALevelAreItsRangeInTheTreesUnits)
 {
     SphereTree tree;
     tree.center = {{0, 0, 0}, {-1.5, 2, 1048576.5}, {3, -4, 5}};
@@ -354,12 +447,19 @@ TEST_F(SphereUnion, SpheresOfALevelAreItsRangeWithDoubledCentres)
     level.end = 3;
     const Spheres spheres = levelSpheres(tree, level);
     ASSERT_EQ(spheres.size(), 2u);
-    EXPECT_EQ(spheres[0].center2[0], -3);
-    EXPECT_EQ(spheres[0].center2[1], 4);
-    EXPECT_EQ(spheres[0].center2[2], 2097153);
+    EXPECT_EQ(spheres[0].center[0], -3);
+    EXPECT_EQ(spheres[0].center[1], 4);
+    EXPECT_EQ(spheres[0].center[2], 2097153);
     EXPECT_EQ(spheres[0].coverSq, 7);
-    EXPECT_EQ(spheres[1].center2[1], -8);
+    EXPECT_EQ(spheres[1].center[1], -8);
     EXPECT_EQ(spheres[1].coverSq, 9);
+    tree.subdivision = 16;
+    tree.center[1] = {-1.4375, 2147483647.9375, -2147483648.0};
+    const ExactSphere fine = levelSpheres(tree, level)[0];
+    EXPECT_EQ(fine.center[0], -23);
+    EXPECT_EQ(fine.center[1], (int64_t(1) << 35) - 1);
+    EXPECT_EQ(fine.center[2], -(int64_t(1) << 35));
+    EXPECT_EQ(metricOf(tree).subdivision, 16);
 }
 
 TEST(LevelUnion, OfAFlatTreeStaysInItsPlane)

@@ -138,6 +138,20 @@ TEST_F(TreeCheck, FindsNothingWrongWithAValidTree)
     }
 }
 
+/// The same spheres, and a finer unit than they need.
+TEST_F(TreeCheck, FindsNothingWrongWithAValidTreeInSixteenths)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = validTree(*object);
+    tree.subdivision = 16;
+    for (int64_t& square : tree.coverSq) square *= 64;
+    EXPECT_EQ(joined(checkSphereTree(tree, *object)), "");
+    tree.center[3][0] += 1.0 / 32;
+    const std::string failures = joined(checkSphereTree(tree, *object));
+    EXPECT_EQ(failures,
+        "the centre is not a multiple of 1/16 of a voxel in range for 1 node (first: id 3)\n");
+}
+
 TEST_F(TreeCheck, FindsNothingWrongWithPaddedRadiiWhateverTheVoxelSize)
 {
     for (double voxel : {1.0, 0.1, 1.0 / 3, 12345.678, 1e-3}) {
@@ -203,6 +217,8 @@ TEST_F(TreeCheck, SaysWhenArraysDifferInLength)
 
 TEST_F(TreeCheck, SaysWhenLevelsAreNoRangesOfNodes)
 {
+    expectFailure([](SphereTree& tree) { tree.subdivision = 3; },
+        "centres are in units of 1/3 of a voxel, not 1/2 or 1/16");
     expectFailure([](SphereTree& tree) { tree.levels[1].begin = 2; },
         "level 1 is nodes 2 to 3 (exclusive), where nodes from 1 on are expected");
     expectFailure([](SphereTree& tree) { tree.levels[0].end = 4; },
@@ -230,12 +246,12 @@ TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
     for (double far : {infinity, -infinity, 1e10}) {
         expectFailure([&](SphereTree& tree) { tree.center[2].z() = far; },
-            "the centre is not a multiple of half a voxel in range for 1 node (first: id 2)");
+            "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 2)");
     }
     expectFailure([&](SphereTree& tree) { tree.center[3].y() = nan; },
-        "the centre is not a multiple of half a voxel in range for 1 node (first: id 3)");
+        "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 3)");
     expectFailure([](SphereTree& tree) { tree.center[1].x() = tree.center[2].x() = 0.25; },
-        "the centre is not a multiple of half a voxel in range for 2 nodes (first: id 1)");
+        "the centre is not a multiple of 1/2 of a voxel in range for 2 nodes (first: id 1)");
     expectFailure([&](SphereTree& tree) { tree.radius[4] = nan; },
         "the radius is negative or not a number for 1 node (first: id 4)");
     expectFailure([](SphereTree& tree) { tree.coverSq[0] = -1; },
