@@ -4,7 +4,9 @@
 #include "FlatAxis.h"
 #include "IntersectionDag.h"
 #include "UniformVoxels.h"
+#include "detail/MiniballCenters.h"
 #include "detail/RoundUp.h"
+#include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
 #include "detail/WorldDistance.h"
 
@@ -124,6 +126,12 @@ void containStoredLeaves(SphereTree& tree)
     }
 }
 
+/// Whether every node contains the leaf balls below it.
+bool containsLeaves(const SphereTreeSettings& settings)
+{
+    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+}
+
 } // namespace
 
 int SphereTree::levelOf(int32_t id) const
@@ -162,11 +170,15 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     appendNodes(tree,
         settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
                                               : detail::extendedLevels(voxels, context));
+    if (settings.center == Center::Miniball) {
+        detail::timed("miniballs", interrupter, &context.seconds->tree,
+            [&] { detail::centerOnMiniballs(tree, interrupter); });
+    }
     if (settings.dag && settings.edges == DagEdges::Intersecting) {
         tree.dag = intersectionDag(tree, interrupter);
     }
     storeRadii(tree);
-    if (settings.tree == TreeType::Extended) containStoredLeaves(tree);
+    if (containsLeaves(settings)) containStoredLeaves(tree);
     return tree;
 }
 
@@ -197,6 +209,7 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.settings = tree.settings;
     result.settings.dag = false; // edges lead from level to level
     result.object = tree.object;
+    result.subdivision = tree.subdivision;
     result.origin = tree.origin;
     result.transform = tree.transform->copy();
     return result;
