@@ -4,6 +4,7 @@
 #include "FlatAxis.h"
 #include "IntersectionDag.h"
 #include "UniformVoxels.h"
+#include "detail/InnerLevels.h"
 #include "detail/MiniballCenters.h"
 #include "detail/RoundUp.h"
 #include "detail/StageTimer.h"
@@ -51,6 +52,21 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
             "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist)
                            << ": use smaller weights, or larger voxels");
     }
+}
+
+/// What a tree says of its object, before it has nodes.
+SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSettings& settings)
+{
+    requireUniformVoxels(object);
+    SphereTree tree;
+    tree.settings = settings;
+    tree.settings.hadCustomModel = bool(settings.customModel);
+    tree.object = describe(object);
+    requireValidObject(tree.object, settings);
+    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
+    tree.origin = pyramidOrigin(tree.object.bbox);
+    tree.transform = object.transform().copy();
+    return tree;
 }
 
 /// Nodes of all levels, top level first: ids in the order of the header.
@@ -146,19 +162,11 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
     settings.validate();
-    if (settings.tree == TreeType::Tight) {
+    const bool inner = settings.side == Side::Inner;
+    if (settings.tree == TreeType::Tight && !inner) {
         OPENVDB_THROW(openvdb::NotImplementedError, "tree=tight is not available yet");
     }
-    requireUniformVoxels(object);
-    SphereTree tree;
-    tree.settings = settings;
-    tree.settings.hadCustomModel = bool(settings.customModel);
-    tree.object = describe(object);
-    requireValidObject(tree.object, settings);
-    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
-    tree.origin = pyramidOrigin(tree.object.bbox);
-    tree.transform = object.transform().copy();
-
+    SphereTree tree = withoutNodes(object, settings);
     BuildSeconds ownSeconds;
     const FlatAxis flat(tree.settings.flatAxis);
     SphereTreeSettings turned = settings;
@@ -167,6 +175,10 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         interrupter, seconds ? seconds : &ownSeconds, detail::modelOf(settings, interrupter)};
     auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    if (inner) {
+        detail::appendInnerTree(tree, *voxels, context);
+        return tree;
+    }
     appendNodes(tree,
         settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
                                               : detail::extendedLevels(voxels, context));
