@@ -4,7 +4,10 @@
 #include "FlatAxis.h"
 #include "IntersectionDag.h"
 #include "UniformVoxels.h"
+#include "detail/InnerLevels.h"
+#include "detail/MiniballCenters.h"
 #include "detail/RoundUp.h"
+#include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
 #include "detail/WorldDistance.h"
 
@@ -49,6 +52,21 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
             "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist)
                            << ": use smaller weights, or larger voxels");
     }
+}
+
+/// What a tree says of its object, before it has nodes.
+SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSettings& settings)
+{
+    requireUniformVoxels(object);
+    SphereTree tree;
+    tree.settings = settings;
+    tree.settings.hadCustomModel = bool(settings.customModel);
+    tree.object = describe(object);
+    requireValidObject(tree.object, settings);
+    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
+    tree.origin = pyramidOrigin(tree.object.bbox);
+    tree.transform = object.transform().copy();
+    return tree;
 }
 
 /// Nodes of all levels, top level first: ids in the order of the header.
@@ -124,6 +142,12 @@ void containStoredLeaves(SphereTree& tree)
     }
 }
 
+/// Whether every node contains the leaf balls below it.
+bool containsLeaves(const SphereTreeSettings& settings)
+{
+    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+}
+
 } // namespace
 
 int SphereTree::levelOf(int32_t id) const
@@ -138,19 +162,11 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
     settings.validate();
-    if (settings.tree == TreeType::Tight) {
+    const bool inner = settings.side == Side::Inner;
+    if (settings.tree == TreeType::Tight && !inner) {
         OPENVDB_THROW(openvdb::NotImplementedError, "tree=tight is not available yet");
     }
-    requireUniformVoxels(object);
-    SphereTree tree;
-    tree.settings = settings;
-    tree.settings.hadCustomModel = bool(settings.customModel);
-    tree.object = describe(object);
-    requireValidObject(tree.object, settings);
-    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
-    tree.origin = pyramidOrigin(tree.object.bbox);
-    tree.transform = object.transform().copy();
-
+    SphereTree tree = withoutNodes(object, settings);
     BuildSeconds ownSeconds;
     const FlatAxis flat(tree.settings.flatAxis);
     SphereTreeSettings turned = settings;
@@ -159,14 +175,22 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         interrupter, seconds ? seconds : &ownSeconds, detail::modelOf(settings, interrupter)};
     auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    if (inner) {
+        detail::appendInnerTree(tree, *voxels, context);
+        return tree;
+    }
     appendNodes(tree,
         settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
                                               : detail::extendedLevels(voxels, context));
+    if (settings.center == Center::Miniball) {
+        detail::timed("miniballs", interrupter, &context.seconds->tree,
+            [&] { detail::centerOnMiniballs(tree, interrupter); });
+    }
     if (settings.dag && settings.edges == DagEdges::Intersecting) {
         tree.dag = intersectionDag(tree, interrupter);
     }
     storeRadii(tree);
-    if (settings.tree == TreeType::Extended) containStoredLeaves(tree);
+    if (containsLeaves(settings)) containStoredLeaves(tree);
     return tree;
 }
 
@@ -198,6 +222,7 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.settings = tree.settings;
     result.settings.dag = result.settings.cuts = false; // edges lead from level to level
     result.object = tree.object;
+    result.subdivision = tree.subdivision;
     result.origin = tree.origin;
     result.transform = tree.transform->copy();
     return result;

@@ -97,6 +97,29 @@ void requireTightSettings(const SphereTreeSettings& settings)
     }
 }
 
+void requireMiniballSettings(const SphereTreeSettings& settings)
+{
+    if (settings.center != Center::Miniball) return;
+    if (!settings.dist.isEuclidean()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "center=miniball is for dist=l2, not for dist=" << toString(settings.dist)
+                                                            << ": use center=medial");
+    }
+    if (settings.tree == TreeType::Extended && !settings.finalFit) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "center=miniball and final_fit=0 contradict each other: the first stores the smallest "
+            "spheres there are, the second larger ones than need be");
+    }
+}
+
+void requireInnerSettings(const SphereTreeSettings& settings)
+{
+    if (settings.side != Side::Inner || !settings.budget.hasBound()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "side=inner and a bound on the error or the distance contradict each other: inner spheres "
+        "reach nowhere outside, and cover what their number allows; use spheres or branching");
+}
+
 } // namespace
 
 double SphereTreeSettings::paddingVoxels() const
@@ -122,6 +145,8 @@ void SphereTreeSettings::validate() const
             "tree="
                 << toString(tree));
     }
+    requireMiniballSettings(*this);
+    requireInnerSettings(*this);
     if (customModel && closing > 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "closing and customModel are both set: choose one of these pyramid models");

@@ -88,4 +88,15 @@ double largestStretch(const openvdb::math::Transform& transform)
     return skew < 1e-15 ? largest : largest * (1 + skew + 1e-15);
 }
 
+double smallestStretch(const openvdb::math::Transform& transform)
+{
+    const VoxelEdges voxel(transform);
+    const double* length = voxel.length;
+    const double smallest = *std::min_element(length, length + 3);
+    // As above, |J v|^2 >= smallest^2 (1 - 2 skew) |v|^2 but for 1e-6 of the skew, and the root of
+    // 1 - 2 skew is about 1 - skew.
+    const double skew = voxel.skew();
+    return skew < 1e-15 ? smallest : smallest * (1 - 2 * skew - 1e-15);
+}
+
 } // namespace openvdb_spheretree

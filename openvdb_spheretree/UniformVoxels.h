@@ -18,4 +18,7 @@ void requireUniformVoxels(const openvdb::GridBase& grid);
 /// the voxel size, a hair more where the voxels are cubes only nearly.
 double largestStretch(const openvdb::math::Transform& transform);
 
+/// @return the same from below: the voxel size, or a hair less.
+double smallestStretch(const openvdb::math::Transform& transform);
+
 } // namespace openvdb_spheretree

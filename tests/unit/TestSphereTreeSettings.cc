@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace openvdb_spheretree;
 using spheretree_test::mentions;
@@ -63,7 +64,7 @@ TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
     EXPECT_EQ(reconstructionFromString("none"), Reconstruction::None);
     EXPECT_EQ(radiusScaleFromString("tight"), RadiusScale::Tight);
     EXPECT_EQ(radiusScaleFromString("paper"), RadiusScale::Paper);
-    for (TreeType v : {TreeType::Reversible, TreeType::Extended}) {
+    for (TreeType v : {TreeType::Reversible, TreeType::Extended, TreeType::Tight}) {
         EXPECT_EQ(treeTypeFromString(toString(v)), v);
     }
     for (ParentRule v : {ParentRule::Centre, ParentRule::Dag}) {
@@ -86,7 +87,7 @@ TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
 {
     const std::string tree = messageOf<openvdb::ValueError>([] { treeTypeFromString("octree"); });
     EXPECT_TRUE(mentions(tree, "tree='octree'"));
-    EXPECT_TRUE(mentions(tree, "reversible or extended"));
+    EXPECT_TRUE(mentions(tree, "reversible, extended or tight"));
     const std::string reconstruct =
         messageOf<openvdb::ValueError>([] { reconstructionFromString("Clip"); });
     EXPECT_TRUE(mentions(reconstruct, "reconstruct='Clip'"));
@@ -97,11 +98,101 @@ TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
         messageOf<openvdb::ValueError>([] { radiusScaleFromString(""); }), "tight or paper"));
 }
 
-TEST(SphereTreeSettings, TightTreesAreSaidToBeUnavailableYet)
+TEST(SphereTreeSettings, TheNamesOfWhatTightTreesCanBeAskedForReadBack)
 {
-    const std::string why = messageOf<openvdb::ValueError>([] { treeTypeFromString("tight"); });
-    EXPECT_TRUE(mentions(why, "not available yet"));
-    EXPECT_TRUE(mentions(why, "reversible or extended"));
+    EXPECT_EQ(treeTypeFromString("tight"), TreeType::Tight);
+    EXPECT_STREQ(toString(TreeType::Tight), "tight");
+    const std::pair<const char*, Quality> qualities[] = {
+        {"fast", Quality::Fast}, {"normal", Quality::Normal}, {"best", Quality::Best}};
+    for (const auto& [name, value] : qualities) {
+        EXPECT_EQ(qualityFromString(name), value);
+        EXPECT_STREQ(toString(value), name);
+    }
+    const std::pair<const char*, Cover> covers[] = {
+        {"voxels", Cover::Voxels}, {"balls", Cover::Balls}};
+    for (const auto& [name, value] : covers) {
+        EXPECT_EQ(coverFromString(name), value);
+        EXPECT_STREQ(toString(value), name);
+    }
+    const std::pair<const char*, Center> centers[] = {
+        {"medial", Center::Medial}, {"miniball", Center::Miniball}};
+    for (const auto& [name, value] : centers) {
+        EXPECT_EQ(centerFromString(name), value);
+        EXPECT_STREQ(toString(value), name);
+    }
+    const std::pair<const char*, Leaves> leaves[] = {
+        {"pruned", Leaves::Pruned}, {"medial", Leaves::Medial}};
+    for (const auto& [name, value] : leaves) {
+        EXPECT_EQ(leavesFromString(name), value);
+        EXPECT_STREQ(toString(value), name);
+    }
+    const std::pair<const char*, Side> sides[] = {{"outer", Side::Outer}, {"inner", Side::Inner}};
+    for (const auto& [name, value] : sides) {
+        EXPECT_EQ(sideFromString(name), value);
+        EXPECT_STREQ(toString(value), name);
+    }
+}
+
+TEST(SphereTreeSettings, AnUnknownNameOfATightTreeIsAnErrorThatNamesItAndTheValuesThereAre)
+{
+    const auto why = [](auto parse, const char* text) {
+        return messageOf<openvdb::ValueError>([&] { parse(text); });
+    };
+    EXPECT_TRUE(mentions(why(qualityFromString, "Best"), "quality='Best'"));
+    EXPECT_TRUE(mentions(why(qualityFromString, ""), "fast, normal or best"));
+    EXPECT_TRUE(mentions(why(coverFromString, "cubes"), "cover='cubes' is unknown"));
+    EXPECT_TRUE(mentions(why(coverFromString, "voxel"), "voxels or balls"));
+    EXPECT_TRUE(mentions(why(centerFromString, "centre"), "medial or miniball"));
+    EXPECT_TRUE(mentions(why(leavesFromString, "all"), "pruned or medial"));
+    EXPECT_TRUE(mentions(why(sideFromString, "both"), "outer or inner"));
+}
+
+TEST(SphereTreeSettings, ATightTreeTakesEverySettingOfItsOwn)
+{
+    SphereTreeSettings settings;
+    settings.tree = TreeType::Tight;
+    EXPECT_NO_THROW(settings.validate());
+    settings.quality = Quality::Best;
+    settings.budget.spheres = {512, 64, 8};
+    settings.cover = Cover::Balls;
+    settings.leaves = Leaves::Medial;
+    settings.cuts = true;
+    EXPECT_NO_THROW(settings.validate());
+    settings.side = Side::Inner;
+    EXPECT_NO_THROW(settings.validate());
+    settings.budget.branching = 4;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "contradict each other"));
+}
+
+TEST(SphereTreeSettings, ATightTreeRefusesWhatOnlyTreesOfThePyramidHave)
+{
+    SphereTreeSettings norm, miniball, dag;
+    norm.tree = miniball.tree = dag.tree = TreeType::Tight;
+    norm.dist = Distance::chamfer(3, 4, 5);
+    miniball.center = Center::Miniball;
+    dag.dag = true;
+    EXPECT_TRUE(mentions(whyInvalid(norm), "not for dist=chamfer:3,4,5"));
+    EXPECT_TRUE(mentions(whyInvalid(miniball), "center=miniball"));
+    EXPECT_TRUE(mentions(whyInvalid(dag), "no Sphere-DAG"));
+}
+
+TEST(SphereTreeSettings, OtherTreesRefuseWhatOnlyTightTreesHave)
+{
+    for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
+        SphereTreeSettings spheres, branching, error, distance, cuts, inner;
+        spheres.budget.spheres = {8};
+        branching.budget.branching = 4;
+        error.budget.error = 1;
+        distance.budget.distance = 1;
+        cuts.cuts = true;
+        inner.side = Side::Inner;
+        for (SphereTreeSettings settings : {spheres, branching, error, distance, cuts, inner}) {
+            settings.tree = type;
+            const std::string why = whyInvalid(settings);
+            EXPECT_TRUE(mentions(why, "for tree=tight"));
+            EXPECT_TRUE(mentions(why, toString(type)));
+        }
+    }
 }
 
 TEST(SphereTreeSettings, ALongValueIsClippedInTheMessage)
@@ -183,4 +274,37 @@ TEST(SphereTreeSettings, APaddingThatIsNegativeOrNoNumberIsAnError)
         settings.padding = padding;
         EXPECT_NO_THROW(settings.validate());
     }
+}
+
+TEST(SphereTreeSettings, MiniballsAreEuclideanAndFitted)
+{
+    for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
+        SphereTreeSettings settings;
+        settings.tree = type;
+        settings.center = Center::Miniball;
+        EXPECT_NO_THROW(settings.validate());
+        settings.dist = Distance::l1();
+        EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball is for dist=l2"));
+        settings.dist = Distance();
+        settings.finalFit = false;
+        if (type == TreeType::Reversible) {
+            EXPECT_NO_THROW(settings.validate()) << "which knows no final fit";
+        } else {
+            EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball and final_fit=0"));
+        }
+    }
+}
+
+TEST(SphereTreeSettings, InnerTreesHaveNoBoundOnWhatTheyReachOutside)
+{
+    SphereTreeSettings settings;
+    settings.tree = TreeType::Tight;
+    settings.side = Side::Inner;
+    settings.budget.spheres = {64};
+    EXPECT_NO_THROW(settings.validate());
+    settings.budget.error = 1;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "side=inner and a bound"));
+    settings.budget.error.reset();
+    settings.budget.distance = 1;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "side=inner and a bound"));
 }
