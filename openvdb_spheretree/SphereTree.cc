@@ -10,6 +10,7 @@
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
 #include "detail/WorldDistance.h"
+#include "tight/TightTree.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -100,22 +101,29 @@ void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
     std::sort(tree.dag.begin(), tree.dag.end());
 }
 
-/// Padding added, voxels to world units, rounded up to floats.
-void storeRadii(SphereTree& tree)
+/// @return radii in world units: padding added, voxels to world units, rounded up to floats.
+std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii)
 {
     const double padding = tree.settings.paddingVoxels();
     const double voxel = largestStretch(*tree.transform);
-    tree.radiusWorld.resize(tree.radius.size());
-    for (std::size_t i = 0; i < tree.radius.size(); ++i) {
-        const double padded = detail::addUp(tree.radius[i], padding);
-        tree.radiusWorld[i] = detail::toFloatUp(detail::multiplyUp(padded, voxel));
-        if (!std::isfinite(tree.radiusWorld[i])) {
+    std::vector<float> stored;
+    for (const double radius : radii) {
+        const double padded = detail::addUp(radius, padding);
+        stored.push_back(detail::toFloatUp(detail::multiplyUp(padded, voxel)));
+        if (!std::isfinite(stored.back())) {
             OPENVDB_THROW(openvdb::ValueError,
                 "a radius of " << padded << " voxels of " << voxel
                                << " does not fit a float: use another unit of length, or less "
                                   "padding");
         }
     }
+    return stored;
+}
+
+void storeRadii(SphereTree& tree)
+{
+    tree.radiusWorld = storedRadii(tree, tree.radius);
+    tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius);
 }
 
 /// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
@@ -162,17 +170,21 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
     settings.validate();
-    const bool inner = settings.side == Side::Inner;
-    if (settings.tree == TreeType::Tight && !inner) {
-        OPENVDB_THROW(openvdb::NotImplementedError, "tree=tight is not available yet");
-    }
     SphereTree tree = withoutNodes(object, settings);
     BuildSeconds ownSeconds;
+    if (!seconds) seconds = &ownSeconds;
+    const bool inner = settings.side == Side::Inner;
+    if (settings.tree == TreeType::Tight && !inner) {
+        tight::appendTightTree(tree, object, interrupter, seconds);
+        storeRadii(tree);
+        if (settings.cover == Cover::Balls) containStoredLeaves(tree);
+        return tree;
+    }
     const FlatAxis flat(tree.settings.flatAxis);
     SphereTreeSettings turned = settings;
     turned.flatAxis = 2;
     const detail::BuildContext context{turned, flat.toZ(tree.origin), flat.toZ(tree.object.bbox),
-        interrupter, seconds ? seconds : &ownSeconds, detail::modelOf(settings, interrupter)};
+        interrupter, seconds, detail::modelOf(settings, interrupter)};
     auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
     if (inner) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "UncoveredVoxels.h"
 
-#include "LeafBall.h"
+#include "../tight/BallMask.h"
 #include "RoundUp.h"
 
 #include <hwy/base.h>
@@ -14,9 +14,6 @@ namespace detail {
 namespace {
 
 using openvdb::Coord;
-
-/// Leaves that a ball of up to this radius reaches into are within the bounds of LeafBall.h.
-constexpr int64_t kMostKernelReach = kLeafBallReach2 / 2 - kLeafDim;
 
 /// The leaves along an axis that hold the coordinates from c - reach to c + reach, as steps from
 /// the leaf of c.
@@ -40,21 +37,6 @@ struct Gap {
         most = std::max(below, above);
     }
 };
-
-/// A row at a time: for balls too large for the kernel.
-void orLargeBall(const int64_t from[3], int64_t limit, LeafMask& words)
-{
-    for (int x = 0; x < kLeafDim; ++x) {
-        for (int y = 0; y < kLeafDim; ++y) {
-            const int64_t dx = x - from[0], dy = y - from[1], rest = limit - dx * dx - dy * dy;
-            if (rest < 0) continue;
-            const int64_t reach = floorSqrt(rest);
-            const int64_t first = std::max<int64_t>(0, from[2] - reach);
-            const int64_t last = std::min<int64_t>(kLeafDim - 1, from[2] + reach);
-            for (int64_t z = first; z <= last; ++z) words[x] |= uint64_t(1) << (8 * y + z);
-        }
-    }
-}
 
 } // namespace
 
@@ -96,17 +78,7 @@ void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) co
 
 LeafMask UncoveredVoxels::partInside(const MedialBall& ball, uint32_t leaf) const
 {
-    const Coord from = ball.center - mLayout.origin(leaf);
-    const int64_t limit = int64_t(ball.radiusSq) - 1;
-    LeafMask words{};
-    if (limit <= kMostKernelReach * kMostKernelReach) {
-        const int64_t center2[3] = {2 * from[0], 2 * from[1], 2 * from[2]};
-        orBallIntoLeaf(center2, 4 * limit, words.data());
-    } else {
-        const int64_t center[3] = {from[0], from[1], from[2]};
-        orLargeBall(center, limit, words);
-    }
-    return words;
+    return tight::ballMask(tight::fineBall(ball), mLayout.origin(leaf));
 }
 
 int64_t UncoveredVoxels::countIn(const MedialBall& ball) const

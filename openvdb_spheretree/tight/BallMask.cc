@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BallMask.h"
 
+#include "../detail/LeafBall.h"
 #include "../detail/RoundUp.h"
 
 #include <algorithm>
@@ -49,7 +50,16 @@ LeafMask ballMask(const FineBall& ball, const openvdb::Coord& origin)
         return mask;
     }
     int64_t center[3];
-    for (int a = 0; a < 3; ++a) center[a] = ball.center[a] - kFine * int64_t(origin[a]);
+    int64_t farthest = 0; // of the leaf's voxels, along any axis
+    for (int a = 0; a < 3; ++a) {
+        center[a] = ball.center[a] - kFine * int64_t(origin[a]);
+        farthest = std::max(farthest, std::max(center[a], 7 * kFine - center[a]));
+    }
+    using detail::kLeafBallReach;
+    if (farthest <= kLeafBallReach && ball.radiusSq <= kLeafBallReach * kLeafBallReach) {
+        detail::orBallIntoLeaf(center, ball.radiusSq, /*shift=*/4, mask.data());
+        return mask;
+    }
     for (int x = 0; x < 8; ++x) {
         const int64_t dx = kFine * x - center[0], slice = ball.radiusSq - dx * dx;
         for (int y = 0; y < 8; ++y) {

@@ -7,6 +7,8 @@
 
 #pragma once
 
+#include "../MedialAxis.h"
+
 #include <openvdb/Types.h>
 
 #include <cmath>
@@ -33,6 +35,20 @@ struct FineBall {
     }
 };
 
+/// @return the ball that holds this voxel alone, radius 0.
+inline FineBall voxelBall(const openvdb::Coord& ijk)
+{
+    return {{kFine * int64_t(ijk[0]), kFine * int64_t(ijk[1]), kFine * int64_t(ijk[2])}, 0};
+}
+
+/// @return the closed ball of the same voxels.
+inline FineBall fineBall(const MedialBall& ball)
+{
+    FineBall fine = voxelBall(ball.center);
+    fine.radiusSq = kFine * kFine * (int64_t(ball.radiusSq) - 1);
+    return fine;
+}
+
 /// @return the distance of two centres, 1/16 voxel.
 inline double centerDistance(const FineBall& a, const FineBall& b)
 {
@@ -45,17 +61,6 @@ inline double centerDistance(const FineBall& a, const FineBall& b)
 inline double gapBetween(const FineBall& a, const FineBall& b)
 {
     return centerDistance(a, b) - a.radius() - b.radius();
-}
-
-/// @return the squared distance of a voxel to a ball's centre, 1/256 voxel^2.
-inline int64_t fineDistanceSq(const FineBall& ball, const openvdb::Coord& voxel)
-{
-    int64_t sum = 0;
-    for (int a = 0; a < 3; ++a) {
-        const int64_t d = kFine * voxel[a] - ball.center[a];
-        sum += d * d;
-    }
-    return sum;
 }
 
 } // namespace tight

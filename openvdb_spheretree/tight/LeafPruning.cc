@@ -53,13 +53,6 @@ CoverCounts countBalls(const std::vector<FineBall>& balls, const SampleLevel& ob
 
 } // namespace
 
-FineBall fineBall(const MedialBall& ball)
-{
-    const openvdb::Coord& c = ball.center;
-    return {{kFine * int64_t(c[0]), kFine * int64_t(c[1]), kFine * int64_t(c[2])},
-        kFine * kFine * (int64_t(ball.radiusSq) - 1)};
-}
-
 std::vector<int32_t> prunedLeaves(const std::vector<MedialBall>& medial, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {

@@ -23,9 +23,6 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// @return the closed ball of the same voxels.
-FineBall fineBall(const MedialBall& ball);
-
 /// @param balls  whose union is @a object
 /// @return the indices of the balls to keep, ascending.
 std::vector<int32_t> prunedLeaves(const std::vector<MedialBall>& balls, const SampleLevel& object,

@@ -22,18 +22,11 @@ Held joined(const Held& a, const Held& b)
     return held;
 }
 
-FineBall voxelBall(const Coord& p)
-{
-    return {{kFine * int64_t(p[0]), kFine * int64_t(p[1]), kFine * int64_t(p[2])}, 0};
-}
-
 Coord voxelOf(const FineBall& ball)
 {
     const auto axis = [&](int a) { return int32_t(ball.center[a] / kFine); };
     return Coord(axis(0), axis(1), axis(2));
 }
-
-bool holdsVoxels(const Held& held) { return !held.empty() && held.front().radiusSq == 0; }
 
 Held extremeVoxels(const Held& held)
 {
@@ -78,10 +71,11 @@ Held extremeBalls(const Held& held)
 } // namespace
 
 StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> leaves,
-    std::vector<Held> held, const FitEffort& effort, bool flat,
+    HeldByLeaves held, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
-    : mObject(object), mEffort(effort), mFlat(flat), mInterrupter(interrupter),
-      mBalls(std::move(leaves)), mHeld(held), mExtreme(std::move(held)), mCost(mBalls.size(), 0.0)
+    : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
+      mInterrupter(interrupter), mBalls(std::move(leaves)), mHeld(held.held),
+      mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
 {}
 
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
@@ -109,7 +103,7 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
         const MergeCandidate& c = merges[i];
         const std::size_t m = std::size_t(node) + i;
         mHeld[m] = joined(mHeld[c.a], mHeld[c.b]);
-        if (holdsVoxels(mHeld[m])) {
+        if (mVoxels) {
             mHeld[m] = extremeVoxels(mHeld[m]);
             mExtreme[m] = mHeld[m];
         } else {
@@ -126,20 +120,20 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
     }
 }
 
-std::vector<Held> heldVoxels(const std::vector<std::vector<Coord>>& cellPoints)
+HeldByLeaves heldVoxels(const std::vector<std::vector<Coord>>& cellPoints)
 {
     std::vector<Held> held(cellPoints.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
         for (const Coord& p : cellPoints[i]) held[i].push_back(voxelBall(p));
     }
-    return held;
+    return {std::move(held), true};
 }
 
-std::vector<Held> heldBalls(const std::vector<FineBall>& leaves)
+HeldByLeaves heldBalls(const std::vector<FineBall>& leaves)
 {
     std::vector<Held> held;
     for (const FineBall& leaf : leaves) held.push_back({leaf});
-    return held;
+    return {std::move(held), false};
 }
 
 } // namespace tight

@@ -25,13 +25,17 @@ namespace tight {
 /// What a node holds: balls; a voxel is one of radius 0.
 using Held = std::vector<FineBall>;
 
+/// What the leaves of a merging hold.
+struct HeldByLeaves {
+    std::vector<Held> held;
+    bool areVoxels; ///< of which only the corners of their hull count
+};
+
 class StrictMerging : public MergeModel {
 public:
     /// @param leaves  whose union is the object
-    /// @param held    by each leaf: some of its cell's voxels, which stand for all of them, or the
-    ///                leaf's ball
     /// @param flat    centres keep their z
-    StrictMerging(const SampledObject& object, std::vector<FineBall> leaves, std::vector<Held> held,
+    StrictMerging(const SampledObject& object, std::vector<FineBall> leaves, HeldByLeaves held,
         const FitEffort& effort, bool flat, openvdb::util::NullInterrupter* interrupter);
 
     std::vector<FineBall> leaves() const override { return mBalls; }
@@ -43,7 +47,7 @@ public:
 private:
     const SampledObject& mObject;
     FitEffort mEffort;
-    bool mFlat;
+    bool mFlat, mVoxels;
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<FineBall> mBalls;
     std::vector<Held> mHeld;    ///< of living nodes: all there is, or all of its extreme voxels
@@ -52,9 +56,9 @@ private:
 };
 
 /// @return the extreme points of cells as what leaves hold.
-std::vector<Held> heldVoxels(const std::vector<std::vector<openvdb::Coord>>& cellPoints);
+HeldByLeaves heldVoxels(const std::vector<std::vector<openvdb::Coord>>& cellPoints);
 /// @return each leaf's own ball.
-std::vector<Held> heldBalls(const std::vector<FineBall>& leaves);
+HeldByLeaves heldBalls(const std::vector<FineBall>& leaves);
 
 } // namespace tight
 } // namespace openvdb_spheretree

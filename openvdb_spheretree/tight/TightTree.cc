@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightTree.h"
 
-#include "FlatAxis.h"
-#include "LevelErrors.h"
-#include "MedialLevel.h"
-#include "detail/RoundUp.h"
-#include "detail/StageTimer.h"
-#include "tight/LeafPruning.h"
-#include "tight/LevelCounts.h"
-#include "tight/MergeForest.h"
-#include "tight/PowerCells.h"
-#include "tight/SlackMerging.h"
-#include "tight/StrictMerging.h"
-#include "tight/TightLevels.h"
+#include "../FlatAxis.h"
+#include "../LevelErrors.h"
+#include "../MedialLevel.h"
+#include "../detail/StageTimer.h"
+#include "LeafPruning.h"
+#include "LevelCounts.h"
+#include "MergeForest.h"
+#include "PowerCells.h"
+#include "SlackMerging.h"
+#include "StrictMerging.h"
+#include "TightLevels.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -21,11 +20,11 @@
 #include <utility>
 
 namespace openvdb_spheretree {
-namespace detail {
+namespace tight {
 
 namespace {
 
-using namespace tight;
+using detail::timed;
 
 /// How much a quality looks at.
 struct Effort {
@@ -114,5 +113,5 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     if (settings.cuts) tree.cuts = cutsOf(forest, settings);
 }
 
-} // namespace detail
+} // namespace tight
 } // namespace openvdb_spheretree
