@@ -46,7 +46,7 @@ struct FineBox {
 class CostWindow {
 public:
     /// A level is chosen such that the radius that matters has no more samples.
-    static constexpr int kWishedRadius = 40;
+    static constexpr int kWishedRadius = 16;
 
     /// @return the finest level of samples that has no more than kWishedRadius in @a radius.
     static int levelFor(double radius);

@@ -6,7 +6,7 @@
 /// mask, most of which end after two. Who takes a ball out for a moment asks for the voxels that
 /// are held exactly once or twice, and changes nothing: many can ask at the same time.
 ///
-/// Cost: 64 bytes a leaf for each bit that the largest possible count has.
+/// Cost: 64 bytes a leaf, and as much again for each bit that the largest possible count has.
 
 #pragma once
 
@@ -30,7 +30,7 @@ public:
 
     LeafMask once(std::size_t leaf) const;
     LeafMask twice(std::size_t leaf) const;
-    LeafMask moreThanOnce(std::size_t leaf) const;
+    const LeafMask& moreThanOnce(std::size_t leaf) const { return mMore[leaf]; }
 
 private:
     LeafMask* planes(std::size_t leaf) { return &mPlanes[leaf * mPerLeaf]; }
@@ -38,6 +38,7 @@ private:
 
     std::size_t mPerLeaf;
     std::vector<LeafMask> mPlanes; ///< of a leaf: bit 0 of the counts, bit 1, ...
+    std::vector<LeafMask> mMore;   ///< voxels with any bit but bit 0
 };
 
 } // namespace tight

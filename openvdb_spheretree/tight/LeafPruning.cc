@@ -31,7 +31,7 @@ bool isNeeded(const FineBall& ball, const SampleLevel& object, const CoverCounts
 {
     bool needed = false;
     forEachMask(ball, object, [&](std::size_t leaf, const LeafMask& mask) {
-        const LeafMask shared = counts.moreThanOnce(leaf);
+        const LeafMask& shared = counts.moreThanOnce(leaf);
         for (int word = 0; word < 8; ++word) needed = needed || (mask[word] & ~shared[word]);
         return !needed;
     });
