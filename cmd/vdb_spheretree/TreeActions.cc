@@ -85,8 +85,9 @@ SphereTree levelOf(const SphereTree& tree, const ActionCall& call, Session& sess
 {
     if (call.given("level")) return spheretree::keepLevel(tree, int(call.integer("level")));
     const int64_t spheres = call.integer("spheres");
-    SphereTree level = spheretree::keepLevel(tree, levelOfAtMost(tree, spheres));
-    const bool finest = level.levels.front().level == 0;
+    SphereTree level = tree.cuts.empty() ? spheretree::keepLevel(tree, levelOfAtMost(tree, spheres))
+                                         : spheretree::cutTree(tree, spheres);
+    const bool finest = !tree.cuts.empty() || level.levels.front().level == 0;
     if (finest) remarkIfAll(spheres, level.size(), session);
     return level;
 }
@@ -145,7 +146,8 @@ ActionSpec levelAction()
     ActionSpec action{"level", "", "level", "keep one level of a sphere-tree"};
     action.options = {integer("level", "", 0, 1000, "the level; 0 is the finest"),
         integer("spheres", "", 1, SphereBudget::kMaxSpheres,
-            "in place of a level: the finest that has at most this many spheres"),
+            "in place of a level: as many spheres, of a tree with cuts=1; of any other the finest "
+            "level that has at most so many"),
         vdbOption("the tree"), keepOption(), nameOption("", "name of the result")};
     action.check = checkLevel;
     action.run = runLevel;

@@ -89,6 +89,21 @@ TEST_F(CommandTight, MoreSpheresThanThereAreLeavesGivesAllOfThemAndSaysSo)
     EXPECT_EQ(remarks(tree + "spheres=2").find("more than there are"), std::string::npos);
     EXPECT_EQ(spheresOf(statsOf("tree=tight side=inner spheres=9999"))[0], std::stoi(all));
     EXPECT_NE(remarks(tree + "-level spheres=9999").find(said), std::string::npos);
+    EXPECT_NE(remarks(tree + "cuts=1 -level spheres=9999").find(said), std::string::npos);
+    EXPECT_EQ(remarks(tree + "cuts=1 -level spheres=3").find("more than"), std::string::npos);
+}
+
+TEST_F(CommandTight, ALevelByItsSpheresIsACutWhereTheTreeHasThem)
+{
+    EXPECT_EQ(spheresOf(statsOf("tree=tight side=inner spheres=2 cuts=1 -level spheres=3")),
+        std::vector<int>{3});
+    EXPECT_EQ(spheresOf(statsOf("tree=tight side=inner spheres=2,5 -level spheres=3")),
+        std::vector<int>{2})
+        << "without cuts: the finest level with at most as many";
+    const Result none =
+        run("-read a.vol -spheretree tree=tight side=inner spheres=5 -level spheres=3");
+    EXPECT_EQ(none.exitCode, 3);
+    EXPECT_NE(none.err.find("no level has at most 3 spheres"), std::string::npos) << none.err;
 }
 
 TEST_F(CommandTight, SmallestSpheresCoverTheObjectWithLessExcess)
