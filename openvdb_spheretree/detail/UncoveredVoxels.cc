@@ -42,21 +42,34 @@ struct Gap {
 };
 
 /// A row at a time: for balls too large for the kernel.
-void orLargeBall(const int64_t from[3], int64_t limit, LeafMask& words)
+void orLargeBall(const Coord& center, int64_t closedSq, LeafMask& words)
 {
     for (int x = 0; x < kLeafDim; ++x) {
         for (int y = 0; y < kLeafDim; ++y) {
-            const int64_t dx = x - from[0], dy = y - from[1], rest = limit - dx * dx - dy * dy;
+            const int64_t dx = int64_t(x) - center[0], dy = int64_t(y) - center[1];
+            const int64_t rest = closedSq - dx * dx - dy * dy;
             if (rest < 0) continue;
             const int64_t reach = floorSqrt(rest);
-            const int64_t first = std::max<int64_t>(0, from[2] - reach);
-            const int64_t last = std::min<int64_t>(kLeafDim - 1, from[2] + reach);
+            const int64_t first = std::max<int64_t>(0, center[2] - reach);
+            const int64_t last = std::min<int64_t>(kLeafDim - 1, center[2] + reach);
             for (int64_t z = first; z <= last; ++z) words[x] |= uint64_t(1) << (8 * y + z);
         }
     }
 }
 
 } // namespace
+
+LeafMask voxelsInside(const Coord& center, int64_t closedSq)
+{
+    LeafMask words{};
+    if (closedSq <= kMostKernelReach * kMostKernelReach) {
+        const int64_t center2[3] = {2 * center[0], 2 * center[1], 2 * center[2]};
+        orBallIntoLeaf(center2, 4 * closedSq, words.data());
+    } else {
+        orLargeBall(center, closedSq, words);
+    }
+    return words;
+}
 
 UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
     : mLayout(layout), mDim(dim), mLeft(layout.voxelCount()), mMasks(layout.leafCount()),
@@ -92,21 +105,6 @@ void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) co
             }
         }
     }
-}
-
-LeafMask UncoveredVoxels::partInside(const MedialBall& ball, uint32_t leaf) const
-{
-    const Coord from = ball.center - mLayout.origin(leaf);
-    const int64_t limit = int64_t(ball.radiusSq) - 1;
-    LeafMask words{};
-    if (limit <= kMostKernelReach * kMostKernelReach) {
-        const int64_t center2[3] = {2 * from[0], 2 * from[1], 2 * from[2]};
-        orBallIntoLeaf(center2, 4 * limit, words.data());
-    } else {
-        const int64_t center[3] = {from[0], from[1], from[2]};
-        orLargeBall(center, limit, words);
-    }
-    return words;
 }
 
 int64_t UncoveredVoxels::countIn(const MedialBall& ball) const
