@@ -14,16 +14,16 @@ namespace openvdb_spheretree {
 
 namespace {
 
-/// |c - c'| <= r + r', all of them times the subdivision n: with D = coverSq = (n r)^2 this is
-/// |n c - n c'|^2 - D - D' <= 2 sqrt(D D').
+/// |c - c'| <= r + r', all of them in the tree's units: with D = coverSq = r^2 this is
+/// |c - c'|^2 - D - D' <= 2 sqrt(D D').
 bool meet(const SphereTree& tree, int32_t s, int32_t t)
 {
     using Wide = unsigned __int128;
     const Wide reach = Wide(tree.coverSq[s]) + Wide(tree.coverSq[t]);
-    const int n = tree.subdivision;
     int64_t d[3];
     for (int axis = 0; axis < 3; ++axis) {
-        d[axis] = int64_t(n * tree.center[s][axis]) - int64_t(n * tree.center[t][axis]);
+        d[axis] = int64_t(tree.subdivision * tree.center[s][axis])
+            - int64_t(tree.subdivision * tree.center[t][axis]);
     }
     const Wide apart = tree.settings.dist.lengthSq(d[0], d[1], d[2]);
     if (apart <= reach) return true;

@@ -27,6 +27,10 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         json.value("radius_min", radii.smallest);
         json.value("radius_max", radii.largest);
         writeError(json, level);
+        if (tree.settings.side == openvdb_spheretree::Side::Inner) {
+            if (level.error) json.value("covered_percent", coveredPercent(tree, level));
+            else json.null("covered_percent");
+        }
         json.endObject();
     }
     json.endArray();

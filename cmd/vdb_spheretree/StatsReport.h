@@ -17,6 +17,10 @@ struct LevelRadii {
 LevelRadii radiiOf(
     const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
 
+/// @return how much of the object a level covers whose error has been counted.
+double coveredPercent(
+    const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
+
 /// @return the most memory that the process has held so far, in bytes.
 int64_t peakBytes();
 

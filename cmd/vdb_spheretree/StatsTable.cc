@@ -20,8 +20,19 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-const Row kHeader = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
-    "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
+/// Where spheres lie inside the object, what counts is how much of it they cover.
+bool isInner(const SphereTree& tree)
+{
+    return tree.settings.side == openvdb_spheretree::Side::Inner;
+}
+
+Row headerOf(const SphereTree& tree)
+{
+    Row row = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
+        "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
+    if (isInner(tree)) row.push_back("covered %");
+    return row;
+}
 
 std::string fixed(double number, int digits)
 {
@@ -44,13 +55,14 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
     }
     row.insert(row.end(), {fixed(radii.smallest, 2), fixed(radii.largest, 2)});
     if (!level.error) {
-        row.insert(row.end(), 5, "-");
+        row.resize(headerOf(tree).size(), "-");
         return row;
     }
     const auto& error = *level.error;
     row.insert(row.end(),
         {withCommas(error.covered), withCommas(error.excess), withCommas(error.missing),
             fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
+    if (isInner(tree)) row.push_back(fixed(coveredPercent(tree, level), 2));
     return row;
 }
 
@@ -86,7 +98,10 @@ void printTopologyReason(std::ostream& out, const SphereTree& tree)
 {
     const auto counted = [](const SphereTreeLevel& level) { return level.topology.has_value(); };
     if (std::all_of(tree.levels.begin(), tree.levels.end(), counted)) return;
-    out << "'-' for parts, tunnels and cavities: these were not counted (topology=0)\n";
+    out << "'-' for parts, tunnels and cavities: "
+        << (tree.settings.topology ? "the level has no voxels of its own"
+                                   : "these were not counted (topology=0)")
+        << "\n";
 }
 
 std::string range(const openvdb_spheretree::Degrees& degrees)
@@ -141,17 +156,30 @@ int64_t peakBytes()
     return int64_t(usage.ru_maxrss) * 1024;
 }
 
+double coveredPercent(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const int64_t inside = level.error->covered - level.error->excess;
+    return 100.0 * double(inside) / double(tree.object.voxels);
+}
+
 namespace {
 
-/// What else shapes the numbers, where it is not the default.
-std::string unusualSettings(const openvdb_spheretree::SphereTreeSettings& settings)
+/// What kind of tree it is, and what else shapes the numbers, where it is not the default.
+std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
 {
-    std::string text;
+    using namespace openvdb_spheretree;
+    std::string text = toString(settings.tree);
+    if (settings.tree != TreeType::Tight) text += ", factor " + std::to_string(settings.factor);
+    else if (settings.side == Side::Inner) text += ", side inner";
+    else text += std::string(", quality ") + toString(settings.quality);
+    if (settings.cover == Cover::Balls) text += ", cover balls";
+    if (settings.leaves == Leaves::Medial) text += ", leaves medial";
+    if (settings.center == Center::Miniball) text += ", center miniball";
     if (settings.dim == 2) text += ", dim 2";
     if (!settings.dist.isEuclidean()) text += ", dist " + toString(settings.dist);
     const std::string model = modelToString(settings);
     if (model != "or") text += ", model " + model;
-    if (settings.scale == openvdb_spheretree::RadiusScale::Paper) text += ", scale paper";
+    if (settings.scale == RadiusScale::Paper) text += ", scale paper";
     return text;
 }
 
@@ -166,10 +194,9 @@ std::string statsTable(const SphereTree& tree, const Session& session)
         << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
         << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
         << size[2] << "\n";
-    out << "tree '" << oneLine(tree.settings.name, 60) << "': " << toString(tree.settings.tree)
-        << ", factor " << tree.settings.factor << unusualSettings(tree.settings) << ", "
+    out << "tree '" << oneLine(tree.settings.name, 60) << "': " << kindOf(tree.settings) << ", "
         << withCommas(tree.size()) << " spheres; radii and distances in voxels of level 0\n";
-    std::vector<Row> rows = {kHeader};
+    std::vector<Row> rows = {headerOf(tree)};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
     printRows(out, rows);
     printReasons(out, tree);

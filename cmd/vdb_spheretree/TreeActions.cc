@@ -4,51 +4,21 @@
 
 #include "Actions.h"
 #include "ObjectChoice.h"
+#include "TreeOptions.h"
 
 #include <openvdb_spheretree/LevelErrors.h>
 #include <openvdb_spheretree/TreeCheck.h>
+
+#include <algorithm>
 
 namespace command {
 
 namespace spheretree = openvdb_spheretree;
 using openvdb::BoolGrid;
+using spheretree::SphereBudget;
 using spheretree::SphereTree;
-using spheretree::SphereTreeSettings;
 
 namespace {
-
-SphereTreeSettings settingsOf(const ActionCall& call)
-{
-    SphereTreeSettings settings;
-    settings.tree = spheretree::treeTypeFromString(call.text("tree"));
-    settings.factor = int(call.integer("factor"));
-    settings.dim = int(call.integer("dim"));
-    settings.dist = spheretree::distanceFromString(call.text("dist"));
-    settings.closing = spheretree::closingFromString(call.text("model"));
-    settings.parent = spheretree::parentRuleFromString(call.text("parent"));
-    settings.finalFit = call.flag("final_fit");
-    settings.reconstruct = spheretree::reconstructionFromString(call.text("reconstruct"));
-    settings.scale = spheretree::radiusScaleFromString(call.text("scale"));
-    settings.padding = spheretree::paddingFromString(call.text("padding"));
-    settings.dag = call.flag("dag");
-    settings.edges = spheretree::dagEdgesFromString(call.text("edges"));
-    settings.topology = call.flag("topology");
-    settings.name = call.text("name");
-    return settings;
-}
-
-void checkSpheretree(const ActionCall& call, Plan&)
-{
-    if (call.text("tree") == "tight") {
-        throwUsage(
-            "tree=tight is not available yet in this version; there are extended and reversible");
-    }
-    if (call.given("edges") && !call.flag("dag")) {
-        throwUsage("-spheretree edges=" + call.text("edges")
-            + " says which edges of the Sphere-DAG to store, and none are: add dag=1");
-    }
-    settingsOf(call).validate();
-}
 
 /// The object of a grid, and how long it took to find it.
 BoolGrid::ConstPtr objectOf(const openvdb::GridBase& grid, Session& session)
@@ -59,6 +29,22 @@ BoolGrid::ConstPtr objectOf(const openvdb::GridBase& grid, Session& session)
     return object;
 }
 
+/// Says so if there are fewer spheres than were asked for.
+void remarkIfAll(int64_t asked, int64_t all, Session& session)
+{
+    if (asked <= all) return;
+    session.remark("spheres=" + std::to_string(asked) + " is more than there are: all "
+        + std::to_string(all) + " are taken");
+}
+
+/// The finest level that was asked for has no more spheres than the object has leaves.
+void remarkOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
+{
+    if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
+    const auto most = std::max_element(budget.spheres.begin(), budget.spheres.end());
+    remarkIfAll(*most, tree.levels.front().size(), session);
+}
+
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
@@ -66,10 +52,12 @@ void runSpheretree(const ActionCall& call, Session& session)
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
     result.object = object;
-    result.tree = std::make_shared<SphereTree>(spheretree::buildSphereTree(
-        *object, settingsOf(call), &session.progress, &session.seconds.build));
+    const auto settings = settingsOf(call);
+    result.tree = std::make_shared<SphereTree>(
+        spheretree::buildSphereTree(*object, settings, &session.progress, &session.seconds.build));
     session.remark(std::to_string(result.tree->size()) + " spheres on "
         + std::to_string(result.tree->levels.size()) + " levels");
+    remarkOnBudget(settings.budget, *result.tree, session);
     if (call.flag("errors")) computeErrors(result, session);
     session.stack.beginBatch(call.label());
     session.stack.push(result);
@@ -92,14 +80,24 @@ int levelOfAtMost(const SphereTree& tree, int64_t spheres)
         + std::to_string(tree.root().size()));
 }
 
+/// The spheres that were asked for, as a tree of one level.
+SphereTree levelOf(const SphereTree& tree, const ActionCall& call, Session& session)
+{
+    if (call.given("level")) return spheretree::keepLevel(tree, int(call.integer("level")));
+    const int64_t spheres = call.integer("spheres");
+    SphereTree level = tree.cuts.empty() ? spheretree::keepLevel(tree, levelOfAtMost(tree, spheres))
+                                         : spheretree::cutTree(tree, spheres);
+    const bool finest = !tree.cuts.empty() || level.levels.front().level == 0;
+    if (finest) remarkIfAll(spheres, level.size(), session);
+    return level;
+}
+
 void runLevel(const ActionCall& call, Session& session)
 {
     StackItem& input = session.stack.selectTree(call.text("vdb"));
-    const int level = call.given("level") ? int(call.integer("level"))
-                                          : levelOfAtMost(*input.tree, call.integer("spheres"));
     StackItem result;
     result.object = input.object;
-    result.tree = std::make_shared<SphereTree>(spheretree::keepLevel(*input.tree, level));
+    result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
     if (call.given("name")) result.tree->settings.name = call.text("name");
     if (!call.flag("keep")) session.stack.drop(&input);
     session.stack.beginBatch(call.label());
@@ -125,46 +123,6 @@ void runCheck(const ActionCall& call, Session& session)
     if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
 }
 
-std::vector<OptionSpec> spheretreeOptions()
-{
-    std::vector<OptionSpec> options = {
-        choice("tree", {"extended", "reversible", "tight"},
-            "extended: spheres contain the leaf balls below them; reversible: every level rebuilds "
-            "its own pyramid level; tight: not available yet"),
-        integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
-            "voxels per axis merged from level to level, 2 to 32768"),
-        integer("dim", "3", 2, 3, "2 for an object one voxel thick along an axis"),
-        text("dist", "l2",
-            "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of "
-            "a "
-            "step across a face, an edge and a corner, such as chamfer:3,4,5"),
-        text("model", "or",
-            "what becomes of 2x2x2 voxels (or factor per axis): or, one voxel if any is on; or "
-            "closing:R, the same after a closing by a ball of radius R, 1 to 64 voxels"),
-        choice("parent", {"centre", "dag"},
-            "which ball a ball hangs below: by its centre, or by its edges in the Sphere-DAG"),
-        flag("final_fit", true, "store the smallest radius around the leaf balls (extended)"),
-        choice("reconstruct", {"clip", "free", "none"},
-            "how a level is rebuilt before it is coarsened (extended)"),
-        choice("scale", {"tight", "paper"},
-            "how the radii of a level's balls become those of level 0 (reversible)"),
-        text("padding", "cubes",
-            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
-            "of voxels"),
-        flag("dag", false, "collect and store the edges of the Sphere-DAG too"),
-        choice("edges", {"shared", "intersecting"},
-            "with dag=1: edges between balls whose cells share a voxel, or between all spheres "
-            "that meet"),
-        flag("topology", true, "count components, tunnels and cavities of every level's voxels"),
-        flag("errors", true, "count the exact error of every level, and store it"),
-        vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree")};
-    for (const char* name : {"cover", "center", "leaves", "quality", "spheres", "branching",
-             "error", "distance", "cuts", "side", "memory"}) {
-        options.push_back(later(name));
-    }
-    return options;
-}
-
 } // namespace
 
 void computeErrors(StackItem& item, Session& session)
@@ -178,7 +136,7 @@ ActionSpec spheretreeAction()
 {
     ActionSpec action{"spheretree", "", "tree", "build the sphere-tree of a grid's object"};
     action.options = spheretreeOptions();
-    action.check = checkSpheretree;
+    action.check = [](const ActionCall& call, Plan&) { checkTreeOptions(call); };
     action.run = runSpheretree;
     return action;
 }
@@ -187,8 +145,9 @@ ActionSpec levelAction()
 {
     ActionSpec action{"level", "", "level", "keep one level of a sphere-tree"};
     action.options = {integer("level", "", 0, 1000, "the level; 0 is the finest"),
-        integer("spheres", "", 1, int64_t(1) << 31,
-            "in place of a level: the finest that has at most this many spheres"),
+        integer("spheres", "", 1, SphereBudget::kMaxSpheres,
+            "in place of a level: as many spheres, of a tree with cuts=1; of any other the finest "
+            "level that has at most so many"),
         vdbOption("the tree"), keepOption(), nameOption("", "name of the result")};
     action.check = checkLevel;
     action.run = runLevel;

@@ -40,6 +40,13 @@ struct Gap {
 
 } // namespace
 
+LeafMask voxelsInside(const Coord& center, int64_t closedSq)
+{
+    tight::FineBall ball = tight::voxelBall(center);
+    ball.radiusSq = tight::kFine * tight::kFine * closedSq;
+    return tight::ballMask(ball, Coord(0));
+}
+
 UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
     : mLayout(layout), mDim(dim), mLeft(layout.voxelCount()), mMasks(layout.leafCount()),
       mCounts(layout.leafCount(), 0), mChangedAt(layout.leafCount(), 0)
@@ -74,11 +81,6 @@ void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) co
             }
         }
     }
-}
-
-LeafMask UncoveredVoxels::partInside(const MedialBall& ball, uint32_t leaf) const
-{
-    return tight::ballMask(tight::fineBall(ball), mLayout.origin(leaf));
 }
 
 int64_t UncoveredVoxels::countIn(const MedialBall& ball) const

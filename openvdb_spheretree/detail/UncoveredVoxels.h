@@ -22,6 +22,12 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// @param center    from the leaf's corner
+/// @param closedSq  the ball's squared radius
+/// @return the voxels of a leaf in the closed ball; the ball must come near it, as balls that reach
+///         into it do.
+LeafMask voxelsInside(const openvdb::Coord& center, int64_t closedSq);
+
 /// Counting is thread-safe while nobody covers.
 class UncoveredVoxels {
 public:
@@ -42,7 +48,10 @@ private:
     /// Calls visit(leaf, whether all of it is inside) until that is false.
     template <typename Visit>
     void visitLeaves(const MedialBall& ball, const Visit& visit) const;
-    LeafMask partInside(const MedialBall& ball, uint32_t leaf) const;
+    LeafMask partInside(const MedialBall& ball, uint32_t leaf) const
+    {
+        return voxelsInside(ball.center - mLayout.origin(leaf), int64_t(ball.radiusSq) - 1);
+    }
 
     const LeafLayout& mLayout;
     int mDim;

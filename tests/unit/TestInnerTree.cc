@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/LevelErrors.h>
 #include <openvdb_spheretree/detail/PowerSearch.h>
 #include <openvdb_spheretree/detail/RoundDown.h>
+#include <openvdb_spheretree/detail/UncoveredVoxels.h>
 
 #include "../support/BuiltTrees.h"
 #include "../support/Messages.h"
@@ -81,19 +82,6 @@ bool contains(const Voxels& voxels, const Coord& voxel)
     return std::binary_search(voxels.begin(), voxels.end(), voxel);
 }
 
-/// A disc in the plane z = 3, as leaves and their rows.
-openvdb::MaskTree::Ptr disc(int radius)
-{
-    auto tree = std::make_shared<openvdb::MaskTree>(false);
-    openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(*tree);
-    for (int x = -radius; x <= radius; ++x) {
-        for (int y = -radius; y <= radius; ++y) {
-            if (x * x + y * y <= radius * radius) accessor.setValueOn(Coord(x, y, 3));
-        }
-    }
-    return tree;
-}
-
 } // namespace
 
 TEST(InnerOrder, IsStrictlyGreedy)
@@ -137,18 +125,6 @@ TEST(InnerOrder, IsTheSameForAnyNumberOfThreads)
         EXPECT_EQ(order.ball, orders[0].ball);
         EXPECT_EQ(order.covered, orders[0].covered);
     }
-}
-
-/// Beyond the bounds of the kernel for small balls.
-TEST(InnerOrder, CountsBallsOfHundredsOfVoxels)
-{
-    const int radius = 600;
-    const CoreStages stages(*disc(radius), 2);
-    const InnerOrder order = innerOrder(stages.layout, stages.balls, 2);
-    const MedialBall& first = stages.balls[order.ball[0]];
-    EXPECT_EQ(first.center, Coord(0, 0, 3));
-    EXPECT_EQ(order.covered[0], int64_t(voxelsIn(first, 2).size()));
-    EXPECT_EQ(order.covered.back(), stages.layout.voxelCount());
 }
 
 TEST(InnerOrder, CanBeInterrupted)
@@ -351,6 +327,27 @@ TEST(InnerTree, WithCutsHasABallInEveryCutFromItsOwnOn)
         EXPECT_EQ(tree.cuts.parent[i], -1);
         EXPECT_EQ(tree.cuts.first[i], i + 1);
         EXPECT_EQ(tree.cuts.last[i], tree.cuts.size());
+    }
+}
+
+/// Small balls and large ones are drawn by different kernels.
+TEST(UncoveredVoxels, OfALeafInsideABallAreThoseNearEnough)
+{
+    Random random(8);
+    for (const int radius : {0, 1, 5, 60, 539, 541, 2330, 2334, 32000}) {
+        for (int i = 0; i < 300; ++i) {
+            Coord center = random.coord(-3, 10); // so that the sphere passes through the leaf
+            center[i % 3] += (i % 2 ? 1 : -1) * radius;
+            const int64_t closedSq = int64_t(radius) * radius + random.between(0, radius);
+            LeafMask expected{};
+            for (const Coord& v : voxelsOfBox(CoordBBox(Coord(0, 0, 0), Coord(7, 7, 7)))) {
+                if (squaredDistance(v, center) > closedSq) continue;
+                expected[v[0]] |= uint64_t(1) << (8 * v[1] + v[2]);
+            }
+            if (expected == LeafMask{}) continue; // not a leaf that the ball reaches into
+            ASSERT_EQ(detail::voxelsInside(center, closedSq), expected)
+                << "radius " << radius << " around " << center;
+        }
     }
 }
 
