@@ -8,7 +8,8 @@
 /// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
 /// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
-/// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc)
+/// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc), and
+///    checkChains, checkCutChains, checkInside: those of tight trees (detail/TightCheck.cc)
 ///
 /// A tree of a single level has no links to check; only what concerns the level is.
 
@@ -17,6 +18,7 @@
 #include "IntersectionDag.h"
 #include "LeafLayout.h"
 #include "LevelErrors.h"
+#include "detail/CutsLayout.h"
 #include "detail/MaskDifference.h"
 #include "detail/TreeCheckReport.h"
 #include "detail/WorldDistance.h"
@@ -32,6 +34,8 @@ using detail::Offenders;
 using Check = detail::TreeCheck;
 
 bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
+bool isTight(const SphereTree& tree) { return tree.settings.tree == TreeType::Tight; }
+bool isInner(const SphereTree& tree) { return tree.settings.side == Side::Inner; }
 
 void checkArrayLengths(Check& check)
 {
@@ -74,6 +78,16 @@ void checkShape(Check& check)
     }
 }
 
+/// Cuts are there where the settings say so, and each is of as many spheres as it should be.
+void checkCutsLayout(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    if (tree.settings.cuts && tree.cuts.empty())
+        check.fail("the tree lacks the cuts it was made with");
+    const std::string damage = detail::cutsDamage(tree.cuts);
+    if (!damage.empty()) check.fail("in the cuts, ", damage);
+}
+
 /// @return whether the centre is a whole number of the tree's units, not beyond any coordinate.
 bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
 {
@@ -85,33 +99,49 @@ bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
     return true;
 }
 
+const char kInCuts[] = "in the cuts, ";
+
 bool isSquare(int32_t value)
 {
     const int64_t root = detail::floorSqrt(value);
     return root * root == value;
 }
 
+/// @param nodes  of a tree or of its cuts
+/// @param where  what sentences about them begin with
+template <typename Nodes>
+void checkSpheres(Check& check, const Nodes& nodes, const char* where)
+{
+    const int subdivision = check.tree.subdivision;
+    Offenders centers, radii, stored;
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        if (!isOfUnits(nodes.center[id], subdivision)) centers.add(id);
+        const bool valid = std::isfinite(nodes.radius[id]) && nodes.radius[id] >= 0;
+        if (!valid || nodes.coverSq[id] < 0) radii.add(id);
+        if (!std::isfinite(nodes.radiusWorld[id]) || nodes.radiusWorld[id] < 0) stored.add(id);
+    }
+    if (centers) {
+        check.fail(where, "the centre is not a multiple of 1/", subdivision,
+            " of a voxel in range for ", centers);
+    }
+    if (radii) check.fail(where, "the radius is negative or not a number for ", radii);
+    if (stored) check.fail(where, "the stored radius is negative or not a number for ", stored);
+}
+
 void checkNodes(Check& check)
 {
     const SphereTree& tree = check.tree;
     const bool norm = !tree.settings.dist.isEuclidean();
-    Offenders centers, radii, stored, balls, roots;
+    Offenders balls, roots;
     for (int32_t id = 0; id < tree.size(); ++id) {
-        if (!isOfUnits(tree.center[id], tree.subdivision)) centers.add(id);
-        const bool valid = std::isfinite(tree.radius[id]) && tree.radius[id] >= 0;
-        if (!valid || tree.coverSq[id] < 0) radii.add(id);
-        if (!std::isfinite(tree.radiusWorld[id]) || tree.radiusWorld[id] < 0) stored.add(id);
+        if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
         if (tree.radiusSq[id] < 1) balls.add(id);
         else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
     }
     if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
-    if (centers) {
-        check.fail("the centre is not a multiple of 1/", tree.subdivision,
-            " of a voxel in range for ", centers);
-    }
-    if (radii) check.fail("the radius is negative or not a number for ", radii);
-    if (stored) check.fail("the stored radius is negative or not a number for ", stored);
+    checkSpheres(check, tree, "");
     if (balls) check.fail("radius_sq is less than 1 for ", balls);
+    checkSpheres(check, tree.cuts, kInCuts);
 }
 
 /// The object is where the tree is. Files and programs round transforms differently: what counts is
@@ -211,22 +241,24 @@ void checkErrors(Check& check)
 
 /// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
 /// units, or of two such terms' sum; the stored one is no less than radius and padding.
-void checkRadii(Check& check)
+/// @param nodes, where  as for checkSpheres()
+template <typename Nodes>
+void checkRadii(Check& check, const Nodes& nodes, const char* where)
 {
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
     const double unit = double(tree.subdivision) * tree.settings.dist.unit();
     Offenders apart, small;
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const double exact = std::sqrt(double(tree.coverSq[id])) / unit;
-        const double over = tree.radius[id] - exact, rounding = kRounding * tree.radius[id];
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        const double exact = std::sqrt(double(nodes.coverSq[id])) / unit;
+        const double over = nodes.radius[id] - exact, rounding = kRounding * nodes.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
-        const double padded = (tree.radius[id] + padding) * voxel;
-        if (double(tree.radiusWorld[id]) < padded * (1 - kRounding)) small.add(id);
+        const double padded = (nodes.radius[id] + padding) * voxel;
+        if (double(nodes.radiusWorld[id]) < padded * (1 - kRounding)) small.add(id);
     }
-    if (apart) check.fail("radius and cover_sq are not the same sphere for ", apart);
-    if (small) check.fail("the stored radius is less than radius and padding for ", small);
+    if (apart) check.fail(where, "radius and cover_sq are not the same sphere for ", apart);
+    if (small) check.fail(where, "the stored radius is less than radius and padding for ", small);
 }
 
 /// Every node but the root has a parent, on the next level up.
@@ -250,7 +282,8 @@ void checkParents(Check& check)
                 : "the parent is not on the next level up for ",
             wrong);
     }
-    if (hasLinks(tree) && tree.root().size() != 1) {
+    const bool endsAnywhere = isTight(tree); // at as many spheres as were asked for
+    if (hasLinks(tree) && tree.root().size() != 1 && !endsAnywhere) {
         check.fail("level ", tree.root().level, ", the top one, has ", tree.root().size(),
             " nodes instead of one root");
     }
@@ -309,7 +342,7 @@ void checkDagEdges(Check& check)
     }
 }
 
-/// Extended tree: every node above level 0 has a child.
+/// Extended and tight trees: every node above level 0 has a child.
 void checkChildren(Check& check)
 {
     const SphereTree& tree = check.tree;
@@ -326,7 +359,8 @@ void checkChildren(Check& check)
     }
 }
 
-/// Extended tree: the stored spheres contain those of the leaves below them, in world space.
+/// Extended trees, and tight ones of cover=balls: the stored spheres contain those of the leaves
+/// below them, in world space.
 void checkLeavesContained(Check& check)
 {
     const SphereTree& tree = check.tree;
@@ -347,7 +381,8 @@ void checkLeavesContained(Check& check)
 }
 
 /// The checks of links, those that follow parents only if parents are in order.
-void checkLinks(Check& check)
+/// @return whether they are
+bool checkLinks(Check& check)
 {
     const std::size_t before = check.failures.size();
     checkParents(check);
@@ -355,9 +390,28 @@ void checkLinks(Check& check)
     checkDag(check);
     const SphereTree& tree = check.tree;
     if (check.failures.empty() && tree.settings.dag && hasLinks(tree)) checkDagEdges(check);
-    if (!parentsRight || !hasLinks(tree) || tree.settings.tree != TreeType::Extended) return;
+    if (!parentsRight || !hasLinks(tree) || tree.settings.tree == TreeType::Reversible) {
+        return parentsRight;
+    }
     checkChildren(check);
-    checkLeavesContained(check);
+    const bool ofBalls = tree.settings.cover == Cover::Balls && !isInner(tree);
+    if (!isTight(tree) || ofBalls) checkLeavesContained(check);
+    return true;
+}
+
+/// Every voxel has a chain of nodes that hold it, in a tight tree; in others it has a node of every
+/// level. In those that lie inside the object, nodes hold nothing else.
+void checkCovering(Check& check, bool parentsRight)
+{
+    const SphereTree& tree = check.tree;
+    if (isInner(tree)) {
+        detail::checkInside(check);
+        return;
+    }
+    const bool chained =
+        isTight(tree) && hasLinks(tree) && parentsRight && detail::checkChains(check);
+    if (!chained) detail::checkCoverage(check);
+    if (!tree.cuts.empty()) detail::checkCutChains(check);
 }
 
 } // namespace
@@ -370,16 +424,18 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     mask.evalActiveVoxelBoundingBox(box);
     Check check{tree, object, mask, box, interrupter, {}};
     checkShape(check);
+    checkCutsLayout(check);
     if (check.failures.empty()) checkNodes(check);
     if (!check.failures.empty()) return check.failures;
 
     checkTransform(check);
     checkObject(check);
     checkTopology(check);
-    checkRadii(check);
-    checkLinks(check);
+    checkRadii(check, tree, "");
+    checkRadii(check, tree.cuts, kInCuts);
+    const bool parentsRight = checkLinks(check);
     detail::checkDigitalBalls(check);
-    detail::checkCoverage(check);
+    checkCovering(check, parentsRight);
     checkErrors(check);
     return check.failures;
 }

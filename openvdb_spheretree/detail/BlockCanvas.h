@@ -7,8 +7,7 @@
 
 #pragma once
 
-#include "ExactBall.h"
-#include "LeafBall.h"
+#include "BallWords.h"
 
 #include <algorithm>
 #include <vector>
@@ -46,7 +45,11 @@ public:
     bool isFull(int cell, int leaf) const { return mFull[cell] & bit(leaf); }
 
     /// Draws a ball, wherever it is in the block, by rows.
-    void drawSmall(const Ball& ball) { drawRows(ball, mOrigin, 1 << kLog2); }
+    void drawSmall(const Ball& ball)
+    {
+        forEachRow(ball, mOrigin, 1 << kLog2,
+            [this](int32_t x, int32_t y, int32_t lo, int32_t hi) { drawRow(x, y, lo, hi); });
+    }
 
     /// Draws the part of a ball that is in a leaf; @a origin is the leaf's.
     void drawLeaf(const Ball& ball, int cell, int leaf, const openvdb::Coord& origin)
@@ -54,7 +57,7 @@ public:
         if (isFull(cell, leaf)) return;
         uint64_t* word = &mWords[(64 * cell + leaf) * 8];
         mDrawn[cell] |= bit(leaf);
-        drawLeaf(ball, origin, word);
+        orBallIntoWords(ball, origin, word);
         if (std::all_of(word, word + 8, [](uint64_t w) { return w == kAllOn; })) {
             fillLeaf(cell, leaf);
         }
@@ -91,58 +94,6 @@ private:
         return origin.offsetBy(x << log2, y << log2, z << log2);
     }
 
-    /// The part of a ball's box in a cube, counted from its corner.
-    struct Range {
-        int32_t lo[3], hi[3]; // inclusive
-        Range(const Ball& ball, const openvdb::Coord& origin, int32_t size)
-        {
-            for (int a = 0; a < 3; ++a) {
-                lo[a] = std::max(ball.lo[a], origin[a]) - origin[a];
-                hi[a] = std::min(ball.hi[a], origin[a] + (size - 1)) - origin[a];
-            }
-        }
-    };
-
-    void drawLeaf(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
-    {
-        int64_t center[3], farthest = 0;
-        const int64_t middle = inUnits(7, ball.shift - 1);
-        for (int a = 0; a < 3; ++a) {
-            center[a] = ball.center[a] - inUnits(origin[a], ball.shift);
-            farthest = std::max(farthest, std::abs(center[a] - middle) + middle);
-        }
-        const bool euclidean = ball.distance.isEuclidean();
-        const int64_t most = euclidean ? kLeafBallReach : kLeafNormReach;
-        if (ball.clipped || farthest > most || ball.coverSq > most * most) {
-            drawRows(ball, origin, 1 << kLeafLog2);
-        } else if (euclidean) {
-            orBallIntoLeaf(center, ball.coverSq, ball.shift, words);
-        } else {
-            orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.coverSq), ball.shift, words);
-        }
-    }
-
-    /// Draws the rows of the ball in a cube of the block.
-    void drawRows(const Ball& ball, const openvdb::Coord& origin, int32_t size)
-    {
-        const Range box(ball, origin, size);
-        const openvdb::Coord corner = origin - mOrigin;
-        int64_t center[3];
-        for (int a = 0; a < 3; ++a) center[a] = ball.center[a] - inUnits(origin[a], ball.shift);
-        for (int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-            for (int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-                const int64_t reach = ball.distance.reach(inUnits(x, ball.shift) - center[0],
-                    inUnits(y, ball.shift) - center[1], ball.coverSq);
-                if (reach < 0) continue;
-                const Interval run(center[2], reach, ball.shift);
-                const int64_t lo = std::max<int64_t>(run.lo, box.lo[2]);
-                const int64_t hi = std::min<int64_t>(run.hi, box.hi[2]);
-                drawRow(
-                    corner[0] + x, corner[1] + y, int32_t(corner[2] + lo), int32_t(corner[2] + hi));
-            }
-        }
-    }
-
     /// Draws a row of z, which may be empty or cross leaves; coordinates from the block's corner.
     void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
     {
@@ -150,9 +101,8 @@ private:
             const int cell = inFours(x >> 5, y >> 5, z >> 5);
             const int leaf = inFours(x >> 3, y >> 3, z >> 3);
             const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
-            const uint64_t row = (0xffu >> (7 - last)) & (0xffu << first);
             mDrawn[cell] |= bit(leaf);
-            mWords[(64 * cell + leaf) * 8 + (x & 7)] |= row << (8 * (y & 7));
+            mWords[(64 * cell + leaf) * 8 + (x & 7)] |= rowBits(first, last) << (8 * (y & 7));
         }
     }
 

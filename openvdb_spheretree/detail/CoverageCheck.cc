@@ -6,6 +6,7 @@
 #include "SphereRaster.h"
 #include "TreeCheckReport.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace openvdb_spheretree {
@@ -92,23 +93,64 @@ void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
         check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
             " that the object has not");
     }
-    if (lost.voxels > 0) {
+    if (lost.voxels > 0 && check.tree.settings.side != Side::Inner) {
         check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
     }
 }
 
+/// @return whether the nodes of a level are digital balls. In tight trees they may be spheres that
+/// are none, which have no volume to rebuild.
+bool hasDigitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const auto begin = tree.radiusSq.begin();
+    return std::find(begin + level.begin, begin + level.end, -1) == begin + level.end;
+}
+
+void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
+{
+    if (level.pyramidVoxels != 0) {
+        check.fail("level ", level.level, " records ", level.pyramidVoxels,
+            " pyramid voxels, but its spheres are no digital balls");
+    }
+    if (level.topology) {
+        check.fail("level ", level.level,
+            " records the topology of its voxels, but its spheres are no digital balls");
+    }
+    Offenders elsewhere;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        if (check.tree.radiusSq[id] != -1) continue;
+        const openvdb::Vec3d apart = check.tree.center[id] - check.tree.ijk[id].asVec3d();
+        const double most = std::max({std::abs(apart[0]), std::abs(apart[1]), std::abs(apart[2])});
+        if (most > 0.5) elsewhere.add(id);
+    }
+    if (elsewhere) {
+        check.fail(
+            "level ", level.level, ": ijk is not the voxel nearest to the centre for ", elsewhere);
+    }
+}
+
 /// Balls of a reversible tree, and of level 0, rebuild all voxels of their level. An extended tree
-/// drops balls without children.
+/// drops balls without children; spheres inside the object may be any of them.
 void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
 {
+    if (check.tree.settings.side == Side::Inner && rebuilt <= level.pyramidVoxels) return;
     const bool all = level.level == 0 || check.tree.settings.tree == TreeType::Reversible;
     if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
     check.fail("level ", level.level, " records ", level.pyramidVoxels,
         " pyramid voxels, but its digital balls rebuild ", rebuilt);
 }
 
-/// The stored spheres without their padding, in voxels: what is left must cover voxel centres. The
-/// division by the voxel size may round down what was exact; hence the factor, far finer than
+/// @return object voxels that no sphere covers. Draws only where the object is.
+MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
+{
+    const MaskTree::Ptr covered =
+        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
+    return maskDifference(check.mask, *covered, check.interrupter);
+}
+
+} // namespace
+
+/// The division by the voxel size may round down what was exact; hence the factor, far finer than
 /// floats.
 std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
@@ -123,14 +165,6 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
     return spheres;
 }
 
-/// @return object voxels that no sphere covers. Draws only where the object is.
-MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
-{
-    const MaskTree::Ptr covered =
-        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
-    return maskDifference(check.mask, *covered, check.interrupter);
-}
-
 bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than)
 {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -139,11 +173,13 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
     return true;
 }
 
-} // namespace
-
 void checkDigitalBalls(TreeCheck& check)
 {
     for (const SphereTreeLevel& level : check.tree.levels) {
+        if (!hasDigitalBalls(check.tree, level)) {
+            checkNoVolume(check, level);
+            continue;
+        }
         const bool finest = level.level == 0;
         const int64_t voxels = finest ? countVoxels(check.mask) : level.pyramidVoxels;
         if (double(voxels) > implausibleVoxels(check, level)) {

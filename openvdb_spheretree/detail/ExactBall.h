@@ -80,30 +80,41 @@ struct Ball {
         return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
     }
 
-    /// @return whether the box meets the cube of @a size voxels at @a origin and the sphere comes
-    /// as near as one of its voxels, the clip aside.
-    bool touches(const int32_t origin[3], int32_t size) const
+    /// @return whether the sphere comes as near as a voxel of the box first...last, which its own
+    /// box must meet; the clip aside.
+    bool touches(const int32_t first[3], const int32_t last[3]) const
     {
         int64_t d[3];
         for (int a = 0; a < 3; ++a) {
-            const int64_t first = inUnits(origin[a], shift);
-            const int64_t last = first + inUnits(int64_t(size) - 1, shift);
-            d[a] = std::max(first, std::min(center[a], last)) - center[a];
+            const int64_t from = inUnits(first[a], shift), to = inUnits(last[a], shift);
+            d[a] = std::max(from, std::min(center[a], to)) - center[a];
         }
         return holds(d);
     }
+    /// The same for the cube of @a size voxels at @a origin.
+    bool touches(const int32_t origin[3], int32_t size) const
+    {
+        const int32_t far = size - 1;
+        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
+        return touches(origin, last);
+    }
 
-    /// @return whether every voxel of the cube is in the sphere and in the clip.
-    bool contains(const int32_t origin[3], int32_t size) const
+    /// @return whether every voxel of the box is in the sphere and in the clip.
+    bool contains(const int32_t first[3], const int32_t last[3]) const
     {
         int64_t d[3];
         for (int a = 0; a < 3; ++a) {
-            const int64_t last = int64_t(origin[a]) + size - 1;
-            if (origin[a] < lo[a] || last > hi[a]) return false;
-            const int64_t below = center[a] - inUnits(origin[a], shift);
-            d[a] = std::max(below, inUnits(last, shift) - center[a]);
+            if (first[a] < lo[a] || last[a] > hi[a]) return false;
+            const int64_t below = center[a] - inUnits(first[a], shift);
+            d[a] = std::max(below, inUnits(last[a], shift) - center[a]);
         }
         return holds(d);
+    }
+    bool contains(const int32_t origin[3], int32_t size) const
+    {
+        const int32_t far = size - 1;
+        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
+        return contains(origin, last);
     }
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../SphereTree.h"
+#include "../SphereUnion.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -54,11 +55,32 @@ private:
     int32_t mFirst = -1;
 };
 
-/// Level 0's digital balls are the object; those of other levels have the recorded volume.
+/// @return the stored spheres of a level without their padding: what is left must hold voxel
+///         centres.
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+
+/// @return whether each sphere is at least as large as its counterpart.
+bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than);
+
+/// Level 0's digital balls are the object; those of other levels have the recorded volume. Levels
+/// of spheres that are none record no volume.
 void checkDigitalBalls(TreeCheck& check);
 
 /// No level misses a voxel of the object, in exact radii nor in stored ones.
 void checkCoverage(TreeCheck& check);
+
+/// Every voxel of the object has a chain of nodes, one a level, each the child of the one above,
+/// that all hold it, in exact radii and in stored ones: so no level misses a voxel. Parents must be
+/// in order.
+/// @return whether it has
+bool checkChains(TreeCheck& check);
+
+/// The same for chains from the leaves of the cuts up to the cuts of 1, 2, 4, ... and all spheres.
+/// The arrays must be in order (CutsLayout.h).
+void checkCutChains(TreeCheck& check);
+
+/// No sphere of a level or a cut holds a voxel that the object has not.
+void checkInside(TreeCheck& check);
 
 } // namespace detail
 } // namespace openvdb_spheretree
