@@ -230,13 +230,6 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.levels = {*range};
     result.levels[0].begin = 0;
     result.levels[0].end = result.size();
-<<<<<<< HEAD
-    result.subdivision = tree.subdivision;
-    result.settings = tree.settings;
-    result.settings.dag = result.settings.cuts = false; // edges lead from level to level
-    result.object = tree.object;
-=======
->>>>>>> h2
     result.subdivision = tree.subdivision;
     result.settings = tree.settings;
     result.settings.dag = result.settings.cuts = false; // edges lead from level to level
