@@ -28,6 +28,7 @@ struct FitEffort {
     int stepsPerSize = 12;  ///< rounds of steps of one size
     int smallest = 1;       ///< the last size of steps, 1/16 sample
     bool restarts = false;  ///< descend from each start, not only from the best of them
+    int samples = 16;       ///< costs are counted with up to so many in a radius
 };
 
 /// @param points    not empty; in the window's coordinates

@@ -18,10 +18,10 @@ void FineBox::expand(const FineBall& ball, double margin)
     }
 }
 
-int CostWindow::levelFor(double radius)
+int CostWindow::levelFor(double radius, int samples)
 {
     int level = 0;
-    while (radius > double(int64_t(kFine * kWishedRadius) << level)) ++level;
+    while (radius > double((kFine * samples) << level)) ++level;
     return level;
 }
 

@@ -45,11 +45,8 @@ struct FineBox {
 
 class CostWindow {
 public:
-    /// A level is chosen such that the radius that matters has no more samples.
-    static constexpr int kWishedRadius = 16;
-
-    /// @return the finest level of samples that has no more than kWishedRadius in @a radius.
-    static int levelFor(double radius);
+    /// @return the finest level of samples that has no more than @a samples in @a radius.
+    static int levelFor(double radius, int samples);
 
     /// Every sample of the box that is outside the object costs.
     void reset(const SampledObject& object, const FineBox& box, int level);

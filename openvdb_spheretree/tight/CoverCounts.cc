@@ -13,62 +13,84 @@ std::size_t bitsOf(uint32_t value)
     return bits;
 }
 
+bool isWhole(const LeafMask& mask)
+{
+    uint64_t all = ~uint64_t(0);
+    for (const uint64_t word : mask) all &= word;
+    return all == ~uint64_t(0);
+}
+
 } // namespace
 
 CoverCounts::CoverCounts(std::size_t leaves, uint32_t most)
-    : mPerLeaf(bitsOf(most)), mPlanes(leaves * mPerLeaf, LeafMask{}),
-      mMore(leaves, LeafMask{})
+    : mPerLeaf(bitsOf(most)), mPlanes(leaves * mPerLeaf, LeafMask{}), mWhole(leaves, 0)
 {}
 
 void CoverCounts::add(std::size_t leaf, const LeafMask& mask)
 {
-    LeafMask* const plane = planes(leaf);
-    for (int word = 0; word < 8; ++word) {
-        uint64_t carry = mask[word];
-        mMore[leaf][word] |= plane[0][word] & carry;
-        for (std::size_t bit = 0; carry && bit < mPerLeaf; ++bit) {
-            const uint64_t before = plane[bit][word];
-            plane[bit][word] = before ^ carry;
-            carry &= before;
+    if (isWhole(mask)) {
+        ++mWhole[leaf];
+        return;
+    }
+    LeafMask carry = mask;
+    LeafMask* plane = planes(leaf);
+    for (uint64_t any = 1; any; ++plane) {
+        any = 0;
+        for (int word = 0; word < 8; ++word) {
+            const uint64_t before = (*plane)[word];
+            (*plane)[word] = before ^ carry[word];
+            carry[word] &= before;
+            any |= carry[word];
         }
     }
 }
 
 void CoverCounts::remove(std::size_t leaf, const LeafMask& mask)
 {
-    LeafMask* const plane = planes(leaf);
-    for (int word = 0; word < 8; ++word) {
-        uint64_t borrow = mask[word];
-        for (std::size_t bit = 0; borrow && bit < mPerLeaf; ++bit) {
-            const uint64_t before = plane[bit][word];
-            plane[bit][word] = before ^ borrow;
-            borrow &= ~before;
-        }
-        const uint64_t suspects = mask[word] & mMore[leaf][word]; // may have 1 left
-        if (!suspects) continue;
-        uint64_t more = 0;
-        for (std::size_t bit = 1; bit < mPerLeaf; ++bit) more |= plane[bit][word];
-        mMore[leaf][word] = more;
+    if (isWhole(mask)) {
+        --mWhole[leaf];
+        return;
     }
+    LeafMask borrow = mask;
+    LeafMask* plane = planes(leaf);
+    for (uint64_t any = 1; any; ++plane) {
+        any = 0;
+        for (int word = 0; word < 8; ++word) {
+            const uint64_t before = (*plane)[word];
+            (*plane)[word] = before ^ borrow[word];
+            borrow[word] &= ~before;
+            any |= borrow[word];
+        }
+    }
+}
+
+LeafMask CoverCounts::planesSay(std::size_t leaf, uint32_t count) const
+{
+    LeafMask differs{};
+    for (std::size_t bit = 0; bit < mPerLeaf; ++bit) {
+        const uint64_t wanted = count >> bit & 1 ? ~uint64_t(0) : 0;
+        for (int word = 0; word < 8; ++word) differs[word] |= planes(leaf)[bit][word] ^ wanted;
+    }
+    for (uint64_t& word : differs) word = count >> mPerLeaf ? 0 : ~word;
+    return differs;
 }
 
 LeafMask CoverCounts::once(std::size_t leaf) const
 {
-    LeafMask result = planes(leaf)[0];
-    const LeafMask& more = mMore[leaf];
-    for (int word = 0; word < 8; ++word) result[word] &= ~more[word];
-    return result;
+    return mWhole[leaf] > 1 ? LeafMask{} : planesSay(leaf, 1 - mWhole[leaf]);
 }
 
 LeafMask CoverCounts::twice(std::size_t leaf) const
 {
-    const LeafMask* const plane = planes(leaf);
+    return mWhole[leaf] > 2 ? LeafMask{} : planesSay(leaf, 2 - mWhole[leaf]);
+}
+
+LeafMask CoverCounts::moreThanOnce(std::size_t leaf) const
+{
     LeafMask result{};
-    if (mPerLeaf < 2) return result;
-    for (int word = 0; word < 8; ++word) {
-        uint64_t others = plane[0][word];
-        for (std::size_t bit = 2; bit < mPerLeaf; ++bit) others |= plane[bit][word];
-        result[word] = plane[1][word] & ~others;
+    if (mWhole[leaf] > 1) result.fill(~uint64_t(0));
+    for (std::size_t bit = mWhole[leaf] == 0; mWhole[leaf] < 2 && bit < mPerLeaf; ++bit) {
+        for (int word = 0; word < 8; ++word) result[word] |= planes(leaf)[bit][word];
     }
     return result;
 }

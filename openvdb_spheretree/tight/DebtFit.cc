@@ -46,25 +46,25 @@ int64_t radiusSqToHold(const FineBall& ball, const FineBall& held)
 }
 
 void DebtFit::open(const SampledObject& object, const std::vector<openvdb::Coord>& debt,
-    const std::vector<FineBall>& olds)
+    const std::vector<FineBall>& olds, int samples)
 {
     mDebt.clear();
     for (const openvdb::Coord& p : debt) {
         mDebt.push_back({{kFine * int64_t(p[0]), kFine * int64_t(p[1]), kFine * int64_t(p[2])}, 0});
     }
     mOlds = olds;
-    openWindow(object);
+    openWindow(object, samples);
 }
 
 void DebtFit::open(const SampledObject& object, const std::vector<FineBall>& debt,
-    const std::vector<FineBall>& olds)
+    const std::vector<FineBall>& olds, int samples)
 {
     mDebt = debt;
     mOlds = olds;
-    openWindow(object);
+    openWindow(object, samples);
 }
 
-void DebtFit::openWindow(const SampledObject& object)
+void DebtFit::openWindow(const SampledObject& object, int samples)
 {
     const FineBall around = ballAroundBox(mDebt);
     double largest = around.radius();
@@ -74,7 +74,7 @@ void DebtFit::openWindow(const SampledObject& object)
         mBox.expand(old);
         largest = std::max(largest, old.radius());
     }
-    mWindow.reset(object, mBox, CostWindow::levelFor(largest));
+    mWindow.reset(object, mBox, CostWindow::levelFor(largest, samples));
 }
 
 double DebtFit::costOf(const std::vector<FineBall>& balls)

@@ -29,11 +29,12 @@ int64_t radiusSqToHold(const FineBall& ball, const FineBall& held);
 class DebtFit {
 public:
     /// The window around @a debt and the balls @a olds: everything outside the object costs in there.
-    /// @param debt  voxels, or balls, to be held; not empty
+    /// @param debt     voxels, or balls, to be held; not empty
+    /// @param samples  of a radius, at most: FitEffort
     void open(const SampledObject& object, const std::vector<openvdb::Coord>& debt,
-        const std::vector<FineBall>& olds);
+        const std::vector<FineBall>& olds, int samples);
     void open(const SampledObject& object, const std::vector<FineBall>& debt,
-        const std::vector<FineBall>& olds);
+        const std::vector<FineBall>& olds, int samples);
     /// What the window reaches over; balls that meet it may want to cover() their part.
     const FineBox& box() const { return mBox; }
     void cover(const FineBall& ball) { mWindow.cover(ball); }
@@ -45,7 +46,7 @@ public:
     PaidDebt pay(const FitEffort& effort, bool flat);
 
 private:
-    void openWindow(const SampledObject& object);
+    void openWindow(const SampledObject& object, int samples);
 
     std::vector<FineBall> mDebt, mOlds; ///< a voxel is a ball of radius 0
     FineBox mBox;

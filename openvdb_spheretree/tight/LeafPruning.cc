@@ -14,28 +14,36 @@ namespace tight {
 
 namespace {
 
-/// Calls body(leaf, mask) for the leaves that a ball reaches into, until it returns false.
-template <typename Body>
-void forEachMask(const FineBall& ball, const SampleLevel& object, const Body& body)
-{
-    openvdb::CoordBBox box;
-    if (!ballBox(ball, box)) return;
-    bool go = true;
-    object.forEachLeaf(box, [&](std::size_t leaf) {
-        if (go) go = body(leaf, ballMask(ball, object.origin(leaf)));
-    });
-}
-
 /// @return whether some voxel of the ball is in no other one.
 bool isNeeded(const FineBall& ball, const SampleLevel& object, const CoverCounts& counts)
 {
+    openvdb::CoordBBox box;
     bool needed = false;
-    forEachMask(ball, object, [&](std::size_t leaf, const LeafMask& mask) {
-        const LeafMask& shared = counts.moreThanOnce(leaf);
-        for (int word = 0; word < 8; ++word) needed = needed || (mask[word] & ~shared[word]);
-        return !needed;
+    if (!ballBox(ball, box)) return needed;
+    object.forEachLeaf(box, [&](std::size_t leaf) {
+        if (needed) return;
+        const LeafMask more = counts.moreThanOnce(leaf);
+        LeafMask alone; // the voxels of the leaf that only one ball holds
+        uint64_t any = 0;
+        for (int word = 0; word < 8; ++word) {
+            alone[word] = object.mask(leaf)[word] & ~more[word];
+            any |= alone[word];
+        }
+        if (!any || !mayReach(ball, object.origin(leaf))) return;
+        const LeafMask mask = ballMask(ball, object.origin(leaf));
+        for (int word = 0; word < 8; ++word) needed = needed || (mask[word] & alone[word]);
     });
     return needed;
+}
+
+void takeOut(const FineBall& ball, const SampleLevel& object, CoverCounts& counts)
+{
+    openvdb::CoordBBox box;
+    if (!ballBox(ball, box)) return;
+    object.forEachLeaf(box, [&](std::size_t leaf) {
+        if (!mayReach(ball, object.origin(leaf))) return;
+        counts.remove(leaf, ballMask(ball, object.origin(leaf)));
+    });
 }
 
 CoverCounts countBalls(const std::vector<FineBall>& balls, const SampleLevel& object,
@@ -80,10 +88,7 @@ std::vector<int32_t> prunedLeaves(const std::vector<MedialBall>& medial, const S
                 kept.push_back(id);
                 continue;
             }
-            forEachMask(balls[id], object, [&](std::size_t leaf, const LeafMask& mask) {
-                counts.remove(leaf, mask);
-                return true;
-            });
+            takeOut(balls[id], object, counts);
         }
     }
     std::sort(kept.begin(), kept.end());

@@ -3,8 +3,8 @@
 /// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis.
 ///
 /// Large spheres are compared by how much they hold outside the object. Counted voxel by voxel, that
-/// costs their volume; counted on samples it costs no more than for a sphere of 48 voxels, and no
-/// sphere is ever compared by fewer than 58,000 samples. Only choices are made by samples: what a
+/// costs their volume; counted on samples it costs no more than for a sphere of some 16 to 40 voxels
+/// (FitEffort), so the time for a ball is bounded. Only choices are made by samples: what a
 /// sphere has to cover is always every voxel.
 ///
 /// Samples and not the OR-pyramid: a thin sheet would count as thick as its coarse voxels. Cost:

@@ -51,7 +51,7 @@ MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
     std::vector<openvdb::Coord>& debt = points.finish();
     if (debt.empty()) return {-1e300, a, b, FineBall(), 0}; // nothing is better than this
 
-    fit.open(mObject, debt, {mBalls[a], mBalls[b]});
+    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
     for (const int32_t other : mMerged.meeting(fit.box())) {
         if (other != a && other != b) fit.cover(mBalls[other]);
     }

@@ -81,7 +81,7 @@ StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> 
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 {
     thread_local DebtFit fit;
-    fit.open(mObject, joined(mExtreme[a], mExtreme[b]), {mBalls[a], mBalls[b]});
+    fit.open(mObject, joined(mExtreme[a], mExtreme[b]), {mBalls[a], mBalls[b]}, mEffort.samples);
     const PaidDebt paid = fit.pay(mEffort, mFlat);
     return {paid.cost - mCost[a] - mCost[b], a, b, paid.ball, 0};
 }

@@ -15,6 +15,8 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -32,10 +34,18 @@ struct Effort {
     int neighbours;
 };
 
-Effort effortOf(Quality quality)
+/// Large objects have large balls where small ones have small ones: what is fine for 4,000 leaves is
+/// too fine for more of them, or the time for a leaf would grow.
+int samplesFor(std::size_t leaves)
 {
-    if (quality == Quality::Fast) return {{false, 4, 1, false}, 6};
-    return {{true, 12, 1, true}, 8};
+    constexpr double kMost = 40, kLeast = 16, kFew = 4000;
+    return int(std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leaves)))));
+}
+
+Effort effortOf(Quality quality, std::size_t leaves)
+{
+    if (quality == Quality::Fast) return {{false, 4, 1, false, 16}, 6};
+    return {{true, 12, 1, true, samplesFor(leaves)}, 8};
 }
 
 /// The leaves of the tree, as medial balls and as the balls they are.
@@ -62,7 +72,7 @@ std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
     const SampledObject& object, const std::vector<FineBall>& leaves,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const FitEffort fit = effortOf(settings.quality).fit;
+    const FitEffort fit = effortOf(settings.quality, leaves.size()).fit;
     const bool flat = settings.dim == 2;
     if (settings.cover == Cover::Balls) {
         return std::make_unique<StrictMerging>(
@@ -103,7 +113,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
         [&] { return leavesOf(level, samples, settings.leaves, interrupter); });
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
         const auto model = modelFor(settings, samples, leaves.balls, interrupter);
-        return mergeToRoot(*model, effortOf(settings.quality).neighbours, interrupter);
+        return mergeToRoot(
+            *model, effortOf(settings.quality, leaves.balls.size()).neighbours, interrupter);
     });
     const auto counts = levelCounts(
         settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
