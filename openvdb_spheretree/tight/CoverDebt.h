@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file tight/CoverDebt.h
+/// @brief What balls of a cover owe: what would be uncovered without them.
+///
+/// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a whole:
+/// the cell of a ball of the next finer level, which then is a child of that ball.
+
+#pragma once
+
+#include "BallGrid.h"
+#include "ExtremePoints.h"
+#include "SampledObject.h"
+
+#include <openvdb/Types.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+class CoverDebt {
+public:
+    virtual ~CoverDebt() = default;
+    /// @param lifted  balls taken out of the cover
+    /// @param others  at least all other balls that meet one of them; empty balls hold nothing
+    /// @param points  receives voxels that stand for all that only the lifted balls hold: a ball
+    ///                that holds them holds it all
+    virtual void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+        std::vector<openvdb::Coord>& points) const = 0;
+};
+
+class VoxelDebt : public CoverDebt {
+public:
+    explicit VoxelDebt(const SampleLevel& object) : mObject(object) {}
+    void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+        std::vector<openvdb::Coord>& points) const override;
+
+private:
+    const SampleLevel& mObject;
+};
+
+class UnitDebt : public CoverDebt {
+public:
+    /// @param units  extreme points of each
+    explicit UnitDebt(const std::vector<std::vector<openvdb::Coord>>& units);
+    void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+        std::vector<openvdb::Coord>& points) const override;
+
+private:
+    const std::vector<std::vector<openvdb::Coord>>& mUnits;
+    BallGrid mGrid; ///< of balls around units
+};
+
+/// @return whether @a ball holds all the points.
+bool holdsAll(const FineBall& ball, const std::vector<openvdb::Coord>& points);
+
+} // namespace tight
+} // namespace openvdb_spheretree

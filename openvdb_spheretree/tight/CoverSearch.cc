@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CoverSearch.h"
+
+#include "../detail/Hash.h"
+#include "../detail/Parallel.h"
+#include "BallGrid.h"
+#include "DebtFit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+/// A part of the cover, and what has become of it in a trial.
+struct Part {
+    std::vector<int32_t> ids;    ///< ascending
+    std::vector<FineBall> balls; ///< of these
+    FineBox box;                 ///< no change reaches out of it
+    double change = 0;           ///< of the cover's cost, voxels
+
+    std::size_t indexOf(int32_t id) const
+    {
+        return std::size_t(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+    }
+};
+
+bool meet(const FineBox& a, const FineBox& b)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a.hi[axis] < b.lo[axis] || b.hi[axis] < a.lo[axis]) return false;
+    }
+    return true;
+}
+
+/// Random numbers of one trial.
+class Dice {
+public:
+    explicit Dice(uint64_t trial) : mState(detail::hash(trial)) {}
+    double uniform() { return detail::unitInterval(mState = detail::hash(mState)); }
+    std::size_t below(std::size_t n) { return std::min(n - 1, std::size_t(uniform() * double(n))); }
+
+private:
+    uint64_t mState;
+};
+
+class Search {
+public:
+    Search(std::vector<FineBall> balls, const SampledObject& object, const CoverDebt& debt,
+        const SearchEffort& effort, openvdb::util::NullInterrupter* interrupter)
+        : mBalls(std::move(balls)), mObject(object), mDebt(debt), mEffort(effort),
+          mInterrupter(interrupter)
+    {
+        for (std::size_t i = 0; i < mBalls.size(); ++i) mGrid.add(int32_t(i), mBalls[i]);
+    }
+
+    std::vector<FineBall> run()
+    {
+        sweeps();
+        const std::size_t batch = std::max<std::size_t>(4, std::min<std::size_t>(64, size() / 8));
+        const std::size_t trials = size() * std::size_t(mEffort.trialsPerBall);
+        for (std::size_t done = 0; done < trials; done += batch) runBatch(done, batch);
+        sweeps();
+        std::vector<FineBall> result;
+        for (const FineBall& ball : mBalls) {
+            if (!ball.empty()) result.push_back(ball);
+        }
+        return result;
+    }
+
+private:
+    std::size_t size() const { return mBalls.size(); }
+
+    /// @return the part of the cover that @a centre and its neighbours are in; room for them to grow.
+    Part partAround(const std::vector<int32_t>& ids) const
+    {
+        Part part;
+        for (const int32_t id : ids) {
+            const FineBall& ball = mBalls[id];
+            part.box.expand(ball, 0.5 * ball.radius() + 4 * kFine);
+        }
+        part.ids = mGrid.meeting(part.box);
+        for (const int32_t id : part.ids) part.balls.push_back(mBalls[id]);
+        return part;
+    }
+
+    /// @return what one ball costs beside the others, and what another in its place would.
+    static std::pair<double, double> costs(const SampledObject& object, const Part& part,
+        std::size_t i, const FineBall& instead, DebtFit& fit, int samples)
+    {
+        fit.open(object, std::vector<FineBall>{instead}, {part.balls[i]}, samples);
+        coverOthers(part, i, fit);
+        return {fit.costOf({part.balls[i]}), fit.costOf({instead})};
+    }
+
+    static void coverOthers(const Part& part, std::size_t i, DebtFit& fit)
+    {
+        for (std::size_t k = 0; k < part.balls.size(); ++k) {
+            const FineBall& other = part.balls[k];
+            if (k == i || other.empty()) continue;
+            FineBox box;
+            box.expand(other);
+            if (meet(box, fit.box())) fit.cover(other);
+        }
+    }
+
+    void debtOf(const Part& part, std::size_t i, std::vector<Coord>& points) const
+    {
+        std::vector<FineBall> others;
+        for (std::size_t k = 0; k < part.balls.size(); ++k) {
+            if (k != i && !part.balls[k].empty() && gapBetween(part.balls[k], part.balls[i]) <= 0) {
+                others.push_back(part.balls[k]);
+            }
+        }
+        std::sort(others.begin(), others.end(), // the largest one may hold it all
+            [](const FineBall& a, const FineBall& b) { return a.radiusSq > b.radiusSq; });
+        mDebt.collect({part.balls[i]}, others, points);
+    }
+
+    /// Places a ball anew for what it alone owes, if that costs less.
+    /// @return whether it changed.
+    bool refit(Part& part, std::size_t i, DebtFit& fit) const
+    {
+        const FineBall old = part.balls[i];
+        if (old.empty()) return false;
+        std::vector<Coord> points;
+        debtOf(part, i, points);
+        if (points.empty()) {
+            part.change -= costs(mObject, part, i, old, fit, mEffort.fit.samples).first;
+            part.balls[i] = FineBall();
+            return true;
+        }
+        fit.open(mObject, points, {old}, mEffort.fit.samples);
+        coverOthers(part, i, fit);
+        const double before = fit.costOf({old});
+        const PaidDebt paid = fit.pay(mEffort.fit, mEffort.flat);
+        const bool better = paid.cost < before
+            || (paid.cost == before && paid.ball.radiusSq < old.radiusSq);
+        if (!better || !inside(paid.ball, part.box)) return false;
+        part.change += paid.cost - before;
+        part.balls[i] = paid.ball;
+        return true;
+    }
+
+    static bool inside(const FineBall& ball, const FineBox& box)
+    {
+        FineBox own;
+        own.expand(ball);
+        for (int a = 0; a < 3; ++a) {
+            if (own.lo[a] < box.lo[a] || own.hi[a] > box.hi[a]) return false;
+        }
+        return true;
+    }
+
+    // ---- Trials
+
+    FineBall grown(const FineBall& ball, Dice& dice) const
+    {
+        const double r = ball.radius();
+        const double larger = dice.uniform() < 0.5 ? r * (1 + 0.3 * dice.uniform())
+                                                   : r + double(kFine) * (0.3 + 2 * dice.uniform());
+        FineBall result = ball;
+        result.radiusSq = int64_t(larger * larger);
+        return result;
+    }
+
+    /// Somewhere else, and as large as it has to be there.
+    FineBall moved(const FineBall& ball, const std::vector<Coord>& points, Dice& dice) const
+    {
+        const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
+        const double z = mEffort.flat ? 0 : 2 * dice.uniform() - 1;
+        const double angle = 2 * M_PI * dice.uniform(), xy = std::sqrt(1 - z * z);
+        FineBall result = ball;
+        result.center[0] += std::lrint(step * xy * std::cos(angle));
+        result.center[1] += std::lrint(step * xy * std::sin(angle));
+        result.center[2] += std::lrint(step * z);
+        result.radiusSq = 0;
+        for (const Coord& p : points) {
+            result.radiusSq =
+                std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
+        }
+        return result;
+    }
+
+    Part runTrial(uint64_t number) const
+    {
+        thread_local DebtFit fit;
+        constexpr std::size_t kNeighbours = 10;
+        Dice dice(number);
+        Part part;
+        const auto id = int32_t(dice.below(size()));
+        const FineBall ball = mBalls[id];
+        if (ball.empty()) return part;
+        std::vector<int32_t> around = mGrid.nearest(id, ball, kNeighbours);
+        std::vector<int32_t> all(around);
+        all.push_back(id);
+        part = partAround(all);
+        const std::size_t i = part.indexOf(id);
+        const bool grow = dice.uniform() < 0.5;
+        std::vector<Coord> points;
+        if (!grow) debtOf(part, i, points);
+        const FineBall spoilt = grow ? grown(ball, dice) : moved(ball, points, dice);
+        if (!inside(spoilt, part.box)) return Part();
+        const auto [before, after] =
+            costs(mObject, part, i, spoilt, fit, mEffort.fit.samples);
+        part.change += after - before;
+        part.balls[i] = spoilt;
+        if (dice.uniform() < 0.5) {
+            for (std::size_t k = around.size(); k > 1; --k) std::swap(around[k - 1], around[dice.below(k)]);
+        }
+        for (const int32_t other : around) {
+            if (gapBetween(mBalls[other], spoilt) <= double(kFine)) {
+                refit(part, part.indexOf(other), fit);
+            }
+        }
+        refit(part, i, fit);
+        return part;
+    }
+
+    void apply(const Part& part)
+    {
+        for (std::size_t k = 0; k < part.ids.size(); ++k) {
+            const int32_t id = part.ids[k];
+            if (part.balls[k] == mBalls[id]) continue;
+            mGrid.remove(id, mBalls[id]);
+            mBalls[id] = part.balls[k];
+            if (!mBalls[id].empty()) mGrid.add(id, mBalls[id]);
+        }
+    }
+
+    /// Applies the parts that pay, as far as they do not meet.
+    bool applyBest(const std::vector<Part>& parts)
+    {
+        std::vector<FineBox> taken;
+        for (const Part& part : parts) {
+            if (!(part.change < 0)) continue;
+            const bool free = std::none_of(taken.begin(), taken.end(),
+                [&](const FineBox& box) { return meet(box, part.box); });
+            if (!free) continue;
+            apply(part);
+            taken.push_back(part.box);
+        }
+        return !taken.empty();
+    }
+
+    void runBatch(std::size_t first, std::size_t count)
+    {
+        std::vector<Part> parts(count);
+        detail::parallelFor(
+            count, mInterrupter, [&](std::size_t t) { parts[t] = runTrial(first + t); });
+        applyBest(parts);
+    }
+
+    /// Places every ball anew, until nothing changes.
+    void sweeps()
+    {
+        constexpr int kMost = 10;
+        std::vector<int32_t> order(size());
+        std::iota(order.begin(), order.end(), 0);
+        for (int sweep = 0; sweep < kMost; ++sweep) {
+            std::stable_sort(order.begin(), order.end(),
+                [&](int32_t a, int32_t b) { return mBalls[a].radiusSq > mBalls[b].radiusSq; });
+            bool any = false;
+            for (std::vector<int32_t> left = order; !left.empty();) any |= sweepSome(left);
+            if (!any) return;
+        }
+    }
+
+    /// Places the first of the balls that do not touch each other anew, and takes them off the list.
+    bool sweepSome(std::vector<int32_t>& left)
+    {
+        constexpr std::size_t kMost = 64;
+        std::vector<FineBox> boxes;
+        std::vector<int32_t> now, later;
+        for (const int32_t id : left) {
+            if (mBalls[id].empty()) continue;
+            FineBox box;
+            box.expand(mBalls[id], 0.5 * mBalls[id].radius() + 4 * kFine);
+            const bool free = now.size() < kMost
+                && std::none_of(boxes.begin(), boxes.end(),
+                    [&](const FineBox& other) { return meet(box, other); });
+            (free ? now : later).push_back(id);
+            if (now.size() < kMost) boxes.push_back(box); // who waits keeps its place
+        }
+        std::vector<Part> parts(now.size());
+        detail::parallelFor(now.size(), mInterrupter, [&](std::size_t k) {
+            thread_local DebtFit fit;
+            parts[k] = partAround({now[k]});
+            if (!refit(parts[k], parts[k].indexOf(now[k]), fit)) parts[k] = Part();
+        });
+        bool any = false;
+        for (const Part& part : parts) {
+            any = any || !part.ids.empty();
+            apply(part);
+        }
+        left.swap(later);
+        return any;
+    }
+
+    std::vector<FineBall> mBalls; ///< empty where one was dropped
+    const SampledObject& mObject;
+    const CoverDebt& mDebt;
+    SearchEffort mEffort;
+    openvdb::util::NullInterrupter* mInterrupter;
+    BallGrid mGrid;
+};
+
+} // namespace
+
+std::vector<FineBall> improveCover(std::vector<FineBall> balls, const SampledObject& object,
+    const CoverDebt& debt, const SearchEffort& effort, openvdb::util::NullInterrupter* interrupter)
+{
+    return Search(std::move(balls), object, debt, effort, interrupter).run();
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree
