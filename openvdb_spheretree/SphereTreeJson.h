@@ -32,9 +32,9 @@ namespace openvdb_spheretree {
 /// topology are null where they were not counted (`error_unknown` says why). Nodes come by id,
 /// which is their place. Their first eleven columns are those of the .csv (SphereTreeCsv.h); then
 /// the centre in index space, the radius in voxels without padding, and its exact form `cover_sq`,
-/// which may exceed 2^53 and counts squares of 1 / `subdivision` voxel. `dag` is sorted, and null in
-/// a tree without edges; `cuts` is null in a tree without (SphereCuts.h). Numbers read back to the
-/// same value.
+/// which may exceed 2^53 and counts squares of 1 / `subdivision` voxel. `dag` is sorted, and null
+/// in a tree without edges; `cuts` is null in a tree without (SphereCuts.h). Numbers read back to
+/// the same value.
 ///
 /// Written as it goes: memory does not grow with the tree.
 /// @throw openvdb::IoError if the stream fails

@@ -240,7 +240,8 @@ void checkErrors(Check& check)
 }
 
 /// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
-/// units, or of two such terms' sum; the stored one is no less than radius and padding.
+/// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more than
+/// the radius where spheres lie inside the object.
 /// @param nodes, where  as for checkSpheres()
 template <typename Nodes>
 void checkRadii(Check& check, const Nodes& nodes, const char* where)
@@ -249,16 +250,23 @@ void checkRadii(Check& check, const Nodes& nodes, const char* where)
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
     const double unit = double(tree.subdivision) * tree.settings.dist.unit();
-    Offenders apart, small;
+    Offenders apart, small, large;
     for (int32_t id = 0; id < nodes.size(); ++id) {
         const double exact = std::sqrt(double(nodes.coverSq[id])) / unit;
         const double over = nodes.radius[id] - exact, rounding = kRounding * nodes.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
         const double padded = (nodes.radius[id] + padding) * voxel;
-        if (double(nodes.radiusWorld[id]) < padded * (1 - kRounding)) small.add(id);
+        const double stored = nodes.radiusWorld[id];
+        if (isInner(tree)) {
+            if (stored > nodes.radius[id] * voxel * (1 + kRounding)) large.add(id);
+        } else if (stored < padded * (1 - kRounding)) {
+            small.add(id);
+        }
     }
     if (apart) check.fail(where, "radius and cover_sq are not the same sphere for ", apart);
     if (small) check.fail(where, "the stored radius is less than radius and padding for ", small);
+    if (large)
+        check.fail(where, "the stored radius is more than that inside the object for ", large);
 }
 
 /// Every node but the root has a parent, on the next level up.
@@ -359,8 +367,8 @@ void checkChildren(Check& check)
     }
 }
 
-/// Extended trees, and tight ones of cover=balls: the stored spheres contain those of the leaves
-/// below them, in world space.
+/// Where nodes contain their leaf balls: the stored spheres contain those of the leaves below them,
+/// in world space.
 void checkLeavesContained(Check& check)
 {
     const SphereTree& tree = check.tree;
@@ -380,6 +388,13 @@ void checkLeavesContained(Check& check)
     if (open) check.fail("the stored sphere does not contain every leaf ball below it for ", open);
 }
 
+bool containsLeaves(const SphereTree& tree)
+{
+    const SphereTreeSettings& settings = tree.settings;
+    if (isTight(tree)) return settings.cover == Cover::Balls && !isInner(tree);
+    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+}
+
 /// The checks of links, those that follow parents only if parents are in order.
 /// @return whether they are
 bool checkLinks(Check& check)
@@ -390,12 +405,9 @@ bool checkLinks(Check& check)
     checkDag(check);
     const SphereTree& tree = check.tree;
     if (check.failures.empty() && tree.settings.dag && hasLinks(tree)) checkDagEdges(check);
-    if (!parentsRight || !hasLinks(tree) || tree.settings.tree == TreeType::Reversible) {
-        return parentsRight;
-    }
-    checkChildren(check);
-    const bool ofBalls = tree.settings.cover == Cover::Balls && !isInner(tree);
-    if (!isTight(tree) || ofBalls) checkLeavesContained(check);
+    if (!parentsRight || !hasLinks(tree)) return parentsRight;
+    if (tree.settings.tree != TreeType::Reversible) checkChildren(check);
+    if (containsLeaves(tree)) checkLeavesContained(check);
     return true;
 }
 

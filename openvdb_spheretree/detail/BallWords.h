@@ -15,8 +15,8 @@ namespace openvdb_spheretree {
 namespace detail {
 
 /// Calls f(x, y, lo, hi) for the rows of a ball in the cube of @a size voxels at @a origin, which
-/// its box must meet: voxels (x, y, lo...hi), counted from the cube's corner. Some rows may be empty
-/// (lo > hi).
+/// its box must meet: voxels (x, y, lo...hi), counted from the cube's corner. Some rows may be
+/// empty (lo > hi).
 template <typename F>
 void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, const F& f)
 {
@@ -44,8 +44,8 @@ void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, co
 /// @return the bits of lo...hi, which are in order, of a row of eight.
 inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (0xffu << lo); }
 
-/// ORs the voxels of a ball into the words of the leaf at @a origin (word x, bit 8 y + z), which its
-/// box must meet. By a kernel where that is exact and the ball is not clipped.
+/// ORs the voxels of a ball into the words of the leaf at @a origin (word x, bit 8 y + z), which
+/// its box must meet. By a kernel where that is exact and the ball is not clipped.
 inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
 {
     int64_t center[3], farthest = 0;

@@ -65,7 +65,8 @@ bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxel
 /// What a file records is not trusted with memory.
 double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 {
-    const double scale = std::pow(double(check.tree.settings.factor), level.level);
+    const bool ownGrid = check.tree.settings.tree != TreeType::Tight;
+    const double scale = ownGrid ? std::pow(double(check.tree.settings.factor), level.level) : 1;
     const openvdb::Coord size = check.box.extents();
     double voxels = 1;
     for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
@@ -129,12 +130,11 @@ void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
     }
 }
 
-/// Balls of a reversible tree, and of level 0, rebuild all voxels of their level. An extended tree
-/// drops balls without children; spheres inside the object may be any of them.
+/// Balls rebuild all voxels of their level, but for an extended tree, which above level 0 drops
+/// balls without children.
 void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
 {
-    if (check.tree.settings.side == Side::Inner && rebuilt <= level.pyramidVoxels) return;
-    const bool all = level.level == 0 || check.tree.settings.tree == TreeType::Reversible;
+    const bool all = level.level == 0 || check.tree.settings.tree != TreeType::Extended;
     if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
     check.fail("level ", level.level, " records ", level.pyramidVoxels,
         " pyramid voxels, but its digital balls rebuild ", rebuilt);

@@ -141,28 +141,22 @@ TEST(ChainsOracle, LargeTilesAreOnlyTakenApartWhereSpheresEnd)
     EXPECT_EQ(losses[0].first, Coord(0));
 }
 
+/// On a line through many leaves, of whose voxels one alone has a sphere.
 TEST(ChainsOracle, TheFirstVoxelIsTheSmallestWhateverTheThreads)
 {
-    const RandomObject object = randomObject(3);
-    Random random(5);
-    const Hierarchy hierarchy(object.voxels, 12, random);
-    SphereTree tree = randomTightTree(*gridOf(object.voxels), hierarchy, random);
-    const int32_t leaf = tree.levels[0].begin;
-    tree.coverSq[leaf] = -1;
-    tree.parent[tree.levels[0].end - 1] = tree.parent[leaf];
-    Voxels lost;
-    const HoldsVoxel holds = holdsExactly(tree, 16);
-    for (const Coord& voxel : object.voxels) {
-        bool any = false;
-        for (int32_t id = leaf; id < tree.size(); ++id) any = any || holds(id, voxel);
-        if (!any) lost.push_back(voxel);
-    }
-    ASSERT_FALSE(lost.empty());
+    Voxels line;
+    for (int i = -3000; i < 3000; ++i) line.push_back(Coord(i, -i, 7));
+    const auto mask = maskOf(line);
+    ChainForest forest;
+    forest.spheres = {{{-3000 * 16, 3000 * 16, 7 * 16}, 255}};
+    forest.parent = {-1};
+    forest.sections = {1};
+    forest.sectionCount = 1;
     for (int threads : {1, 2}) {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const auto losses = brokenChains(forestOf(tree), {{}, 16}, *maskOf(object.voxels), nullptr);
-        EXPECT_EQ(losses[0].first, *std::min_element(lost.begin(), lost.end()));
-        EXPECT_EQ(losses[0].voxels, int64_t(lost.size()));
+        const auto losses = brokenChains(forest, {{}, 16}, *mask, nullptr);
+        EXPECT_EQ(losses[0].first, Coord(-2999, 2999, 7));
+        EXPECT_EQ(losses[0].voxels, 5999);
     }
 }
 

@@ -84,9 +84,9 @@ inline void fillDescription(SphereTree& tree)
     tree.object.bbox.reset(openvdb::Coord(-15, 9, -1000), openvdb::Coord(20, 30, 40));
 }
 
-/// Three levels of 1, 2 and 5 nodes: negative centres and such between voxels, one centre on all levels, an
-/// error known, one unknown, one never asked for, one topology, a DAG, and no setting at its
-/// default.
+/// Three levels of 1, 2 and 5 nodes: negative centres and such between voxels, one centre on all
+/// levels, an error known, one unknown, one never asked for, one topology, a DAG, and no setting at
+/// its default.
 inline SphereTree sampleTree()
 {
     SphereTree tree;

@@ -312,6 +312,9 @@ SphereTree innerTree(const BoolGrid& object)
     tree.settings.padding = 0;
     add(tree, tree, {2, 2, 2}, 0.5, -1);
     add(tree, tree, {2, 2.0625, 2}, 1, 0);
+    for (int32_t id : {0, 1}) { // rounded down
+        tree.radiusWorld[id] = std::nextafter(float(tree.radius[id] * tree.voxelSize()), 0.f);
+    }
     tree.ijk = {Coord(2, 2, 2), Coord(2, 2, 2)};
     tree.radiusSq = {-1, -1};
     tree.levels.resize(2);
@@ -334,7 +337,7 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
         tree.ijk[id] = at;
         tree.coverSq[id] = coverSq;
         tree.radius[id] = std::sqrt(double(coverSq)) / 16;
-        tree.radiusWorld[id] = 1e9f;
+        tree.radiusWorld[id] = 0;
         computeLevelErrors(tree, *object);
         return check(tree, *object);
     };
@@ -351,12 +354,41 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
         "level 0: the sphere reaches out of the object's box for 1 node (first: id 1)\n");
 }
 
+TEST(TightCheck, InnerRadiiAreStoredRoundedDown)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    object->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+    SphereTree tree = innerTree(*object);
+    EXPECT_EQ(check(tree, *object), "");
+    tree.radiusWorld[1] = std::nextafter(0.1f, 1.f);
+    EXPECT_EQ(check(tree, *object),
+        "the stored radius is more than that inside the object for 1 node (first: id 1)\n");
+}
+
+/// Levels of balls that are each of the level below as well, in the object's own grid.
+TEST(TightCheck, InnerLevelsOfDigitalBallsRecordWhatTheyCover)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = innerTree(*object);
+    tree.center[1] = tree.center[0];
+    tree.coverSq[0] = tree.coverSq[1] = 256;
+    tree.radius[0] = tree.radius[1] = 1;
+    tree.radiusSq = {2, 2};
+    for (SphereTreeLevel& level : tree.levels) level.pyramidVoxels = 7;
+    computeLevelErrors(tree, *object);
+    EXPECT_EQ(check(tree, *object), "");
+    tree.levels[1].pyramidVoxels = 8;
+    EXPECT_EQ(check(tree, *object),
+        "level 1 records 8 pyramid voxels, but its digital balls rebuild 7\n");
+}
+
 TEST(TightCheck, InnerCutsMustLieInside)
 {
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = innerTree(*object);
     tree.settings.cuts = true;
     add(tree.cuts, tree, {2, 2, 2}, 1, -1);
+    tree.cuts.radiusWorld[0] = 0.5f;
     tree.cuts.first = tree.cuts.last = {1};
     EXPECT_EQ(check(tree, *object), "");
 
@@ -383,7 +415,7 @@ TEST(TightCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     EXPECT_EQ(check(tree, *object), "");
     tree.settings.side = Side::Inner;
     tree.coverSq[0] = 16 * 16 * 16;
-    tree.radius[0] = 4;
+    tree.radius[0] = tree.radiusWorld[0] = 4;
     EXPECT_EQ(check(tree, *object), "");
 }
 
