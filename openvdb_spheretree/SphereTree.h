@@ -10,7 +10,8 @@
 /// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel centre* the
 /// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
 /// stored in files: in world units, with the padding added, rounded up to a float, so that whatever
-/// was covered stays covered.
+/// was covered stays covered. Spheres of an inner tree (InnerTree.h) lie inside the object instead:
+/// their radii are rounded down, and nothing is added.
 
 #pragma once
 
@@ -33,7 +34,7 @@ namespace openvdb_spheretree {
 struct LevelError {
     int64_t covered = 0;       ///< voxels whose centre lies in a sphere of the level
     int64_t excess = 0;        ///< covered, but not in the object
-    int64_t missing = 0;       ///< in the object, but not covered: 0 for every tree built here
+    int64_t missing = 0;       ///< in the object, but not covered: 0 for all trees but inner ones
     double hammingPercent = 0; ///< 100 (excess + missing) / object voxels
     double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
 };

@@ -157,12 +157,14 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, const Bu
     const std::vector<int64_t> counts = tree.settings.budget.counts(int64_t(balls.size()));
     tree.settings.padding = 0;
     tree.levels.resize(counts.size());
-    LevelAppender levels(tree, balls, context.interrupter);
-    for (int k = int(counts.size()) - 1; k >= 0; --k) {
-        tree.levels[k].level = k;
-        tree.levels[k].pyramidVoxels = order.covered[counts[k] - 1];
-        levels.append(tree.levels[k], counts[k]);
-    }
+    timed("inner levels", context.interrupter, &context.seconds->tree, [&] {
+        LevelAppender levels(tree, balls, context.interrupter);
+        for (int k = int(counts.size()) - 1; k >= 0; --k) {
+            tree.levels[k].level = k;
+            tree.levels[k].pyramidVoxels = order.covered[counts[k] - 1];
+            levels.append(tree.levels[k], counts[k]);
+        }
+    });
     if (order.covered[counts[0] - 1] == medial->layout.voxelCount()) {
         tree.levels[0].topology = topologyOf(*medial, context);
     }
