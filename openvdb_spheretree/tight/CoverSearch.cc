@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -50,11 +51,16 @@ private:
     uint64_t mState;
 };
 
+constexpr std::size_t kNeighbours = 10;
+constexpr std::size_t kRelocations = 6;
+constexpr int32_t kNew = std::numeric_limits<int32_t>::max(); ///< a ball that has no slot yet
+
 class Search {
 public:
-    Search(std::vector<FineBall> balls, const SampledObject& object, const CoverDebt& debt,
-        const SearchEffort& effort, openvdb::util::NullInterrupter* interrupter)
-        : mBalls(std::move(balls)), mObject(object), mDebt(debt), mEffort(effort),
+    Search(std::vector<FineBall> balls, const std::vector<FineBall>& leaves,
+        const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
+        openvdb::util::NullInterrupter* interrupter)
+        : mBalls(std::move(balls)), mLeaves(leaves), mObject(object), mDebt(debt), mEffort(effort),
           mInterrupter(interrupter)
     {
         for (std::size_t i = 0; i < mBalls.size(); ++i) mGrid.add(int32_t(i), mBalls[i]);
@@ -65,13 +71,14 @@ public:
         sweeps();
         const std::size_t batch = std::max<std::size_t>(4, std::min<std::size_t>(64, size() / 8));
         const std::size_t trials = size() * std::size_t(mEffort.trialsPerBall);
-        for (std::size_t done = 0; done < trials; done += batch) runBatch(done, batch);
-        sweeps();
-        std::vector<FineBall> result;
-        for (const FineBall& ball : mBalls) {
-            if (!ball.empty()) result.push_back(ball);
+        const std::size_t perRelocation = std::max<std::size_t>(1, trials / kRelocations);
+        for (std::size_t done = 0; done < trials; done += batch) {
+            if (done % perRelocation < batch) relocate();
+            runBatch(done, batch);
         }
-        return result;
+        sweeps();
+        fill();
+        return mBalls;
     }
 
 private:
@@ -88,6 +95,12 @@ private:
         part.ids = mGrid.meeting(part.box);
         for (const int32_t id : part.ids) part.balls.push_back(mBalls[id]);
         return part;
+    }
+
+    /// @return what ball @a i costs beside the others.
+    double costOf(const Part& part, std::size_t i, DebtFit& fit) const
+    {
+        return costs(mObject, part, i, part.balls[i], fit, mEffort.fit.samples).first;
     }
 
     /// @return what one ball costs beside the others, and what another in its place would.
@@ -132,7 +145,7 @@ private:
         std::vector<Coord> points;
         debtOf(part, i, points);
         if (points.empty()) {
-            part.change -= costs(mObject, part, i, old, fit, mEffort.fit.samples).first;
+            part.change -= costOf(part, i, fit);
             part.balls[i] = FineBall();
             return true;
         }
@@ -140,8 +153,8 @@ private:
         coverOthers(part, i, fit);
         const double before = fit.costOf({old});
         const PaidDebt paid = fit.pay(mEffort.fit, mEffort.flat);
-        const bool better = paid.cost < before
-            || (paid.cost == before && paid.ball.radiusSq < old.radiusSq);
+        const bool better =
+            paid.cost < before || (paid.cost == before && paid.ball.radiusSq < old.radiusSq);
         if (!better || !inside(paid.ball, part.box)) return false;
         part.change += paid.cost - before;
         part.balls[i] = paid.ball;
@@ -182,16 +195,23 @@ private:
         result.center[2] += std::lrint(step * z);
         result.radiusSq = 0;
         for (const Coord& p : points) {
-            result.radiusSq =
-                std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
+            result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
         }
         return result;
+    }
+
+    /// Those of the balls that touch @a ball are placed anew.
+    void refitNear(
+        Part& part, const std::vector<int32_t>& ids, const FineBall& ball, DebtFit& fit) const
+    {
+        for (const int32_t id : ids) {
+            if (gapBetween(mBalls[id], ball) <= double(kFine)) refit(part, part.indexOf(id), fit);
+        }
     }
 
     Part runTrial(uint64_t number) const
     {
         thread_local DebtFit fit;
-        constexpr std::size_t kNeighbours = 10;
         Dice dice(number);
         Part part;
         const auto id = int32_t(dice.below(size()));
@@ -207,46 +227,175 @@ private:
         if (!grow) debtOf(part, i, points);
         const FineBall spoilt = grow ? grown(ball, dice) : moved(ball, points, dice);
         if (!inside(spoilt, part.box)) return Part();
-        const auto [before, after] =
-            costs(mObject, part, i, spoilt, fit, mEffort.fit.samples);
+        const auto [before, after] = costs(mObject, part, i, spoilt, fit, mEffort.fit.samples);
         part.change += after - before;
         part.balls[i] = spoilt;
         if (dice.uniform() < 0.5) {
-            for (std::size_t k = around.size(); k > 1; --k) std::swap(around[k - 1], around[dice.below(k)]);
+            for (std::size_t k = around.size(); k > 1; --k)
+                std::swap(around[k - 1], around[dice.below(k)]);
         }
-        for (const int32_t other : around) {
-            if (gapBetween(mBalls[other], spoilt) <= double(kFine)) {
-                refit(part, part.indexOf(other), fit);
-            }
-        }
+        refitNear(part, around, spoilt, fit);
         refit(part, i, fit);
         return part;
     }
 
-    void apply(const Part& part)
+    // ---- Balls that go elsewhere
+
+    /// A neighbour takes over what ball @a id owes, the one for which that costs least.
+    Part removal(int32_t id) const
+    {
+        thread_local DebtFit fit;
+        constexpr std::size_t kHeirs = 3;
+        const FineBall ball = mBalls[id];
+        Part best;
+        best.change = std::numeric_limits<double>::infinity();
+        if (ball.empty()) return best;
+        const std::vector<int32_t> around = mGrid.nearest(id, ball, kNeighbours);
+        std::vector<int32_t> all(around);
+        all.push_back(id);
+        const Part before = partAround(all);
+        for (std::size_t k = 0; k < std::min(kHeirs, around.size()); ++k) {
+            Part part = before;
+            if (takeOver(part, part.indexOf(id), part.indexOf(around[k]), fit)
+                && part.change < best.change) {
+                best = std::move(part);
+            }
+        }
+        if (!best.ids.empty()) refitNear(best, around, ball, fit);
+        return best;
+    }
+
+    /// @return whether ball @a heir could be placed for what it and ball @a i owe; that one is gone.
+    bool takeOver(Part& part, std::size_t i, std::size_t heir, DebtFit& fit) const
+    {
+        const std::vector<FineBall> olds{part.balls[i], part.balls[heir]};
+        part.balls[i] = part.balls[heir] = FineBall();
+        std::vector<FineBall> others;
+        for (const FineBall& ball : part.balls) {
+            if (!ball.empty()) others.push_back(ball);
+        }
+        std::vector<Coord> points;
+        mDebt.collect(olds, others, points);
+        if (points.empty()) return false;
+        fit.open(mObject, points, olds, mEffort.fit.samples);
+        coverOthers(part, i, fit);
+        const double before = fit.costOf(olds);
+        const PaidDebt paid = fit.pay(mEffort.fit, mEffort.flat);
+        part.balls[heir] = paid.ball;
+        part.change += paid.cost - before;
+        return inside(paid.ball, part.box);
+    }
+
+    /// A leaf is put in, and its neighbours shrink.
+    Part insertion(uint64_t number) const
+    {
+        thread_local DebtFit fit;
+        Dice dice(~number);
+        const FineBall leaf = mLeaves[dice.below(mLeaves.size())];
+        const std::vector<int32_t> around = mGrid.nearest(kNew, leaf, kNeighbours);
+        Part part = partAround(around);
+        part.ids.push_back(kNew);
+        part.balls.push_back(leaf);
+        part.change += costOf(part, part.ids.size() - 1, fit);
+        refitNear(part, around, leaf, fit);
+        refit(part, part.ids.size() - 1, fit);
+        if (part.balls.back().empty()) part.change = 0; // nobody needs it there
+        return part;
+    }
+
+    std::vector<Part> insertions(std::size_t count)
+    {
+        std::vector<Part> parts(count);
+        const uint64_t first = mInsertions;
+        mInsertions += count;
+        detail::parallelFor(
+            count, mInterrupter, [&](std::size_t t) { parts[t] = insertion(first + t); });
+        sortByChange(parts);
+        return parts;
+    }
+
+    static void sortByChange(std::vector<Part>& parts)
+    {
+        std::stable_sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.change < b.change; });
+    }
+
+    static bool meetsAny(const FineBox& box, const std::vector<FineBox>& boxes)
+    {
+        return std::any_of(
+            boxes.begin(), boxes.end(), [&](const FineBox& other) { return meet(box, other); });
+    }
+
+    /// Pairs the cheapest removals with the best insertions, as long as that pays.
+    void relocate()
+    {
+        if (size() < 4) return;
+        fill();
+        std::vector<Part> removals(size());
+        detail::parallelFor(
+            size(), mInterrupter, [&](std::size_t i) { removals[i] = removal(int32_t(i)); });
+        std::vector<std::size_t> order(size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return removals[a].change < removals[b].change; });
+        const std::vector<Part> put = insertions(2 * size());
+        std::vector<FineBox> taken;
+        std::size_t next = 0;
+        for (const std::size_t i : order) {
+            while (next < put.size() && meetsAny(put[next].box, taken)) ++next;
+            if (next == put.size() || !(removals[i].change + put[next].change < 0)) break;
+            if (meetsAny(removals[i].box, taken) || meet(removals[i].box, put[next].box)) continue;
+            apply(removals[i]);
+            apply(put[next], int32_t(i));
+            taken.push_back(removals[i].box);
+            taken.push_back(put[next].box);
+        }
+        fill();
+    }
+
+    /// Puts leaves in where balls were dropped.
+    void fill()
+    {
+        constexpr std::size_t kTries = 64;
+        for (std::size_t i = 0; i < size(); ++i) {
+            if (!mBalls[i].empty()) continue;
+            Part best = insertions(kTries).front();
+            if (best.balls.back().empty()) best.balls.back() = spareLeaf();
+            apply(best, int32_t(i));
+        }
+    }
+
+    /// A leaf that is no ball of the cover yet; there is one, or there would be no room for more.
+    FineBall spareLeaf() const
+    {
+        for (const FineBall& leaf : mLeaves) {
+            if (std::find(mBalls.begin(), mBalls.end(), leaf) == mBalls.end()) return leaf;
+        }
+        return mLeaves.front();
+    }
+
+    /// @param slot  of an empty ball, for the new one if there is one
+    void apply(const Part& part, int32_t slot = -1)
     {
         for (std::size_t k = 0; k < part.ids.size(); ++k) {
-            const int32_t id = part.ids[k];
+            const int32_t id = part.ids[k] == kNew ? slot : part.ids[k];
             if (part.balls[k] == mBalls[id]) continue;
-            mGrid.remove(id, mBalls[id]);
+            if (!mBalls[id].empty()) mGrid.remove(id, mBalls[id]);
             mBalls[id] = part.balls[k];
             if (!mBalls[id].empty()) mGrid.add(id, mBalls[id]);
         }
     }
 
     /// Applies the parts that pay, as far as they do not meet.
-    bool applyBest(const std::vector<Part>& parts)
+    void applyBest(const std::vector<Part>& parts)
     {
         std::vector<FineBox> taken;
         for (const Part& part : parts) {
             if (!(part.change < 0)) continue;
-            const bool free = std::none_of(taken.begin(), taken.end(),
-                [&](const FineBox& box) { return meet(box, part.box); });
-            if (!free) continue;
+            if (meetsAny(part.box, taken)) continue;
             apply(part);
             taken.push_back(part.box);
         }
-        return !taken.empty();
     }
 
     void runBatch(std::size_t first, std::size_t count)
@@ -282,9 +431,7 @@ private:
             if (mBalls[id].empty()) continue;
             FineBox box;
             box.expand(mBalls[id], 0.5 * mBalls[id].radius() + 4 * kFine);
-            const bool free = now.size() < kMost
-                && std::none_of(boxes.begin(), boxes.end(),
-                    [&](const FineBox& other) { return meet(box, other); });
+            const bool free = now.size() < kMost && !meetsAny(box, boxes);
             (free ? now : later).push_back(id);
             if (now.size() < kMost) boxes.push_back(box); // who waits keeps its place
         }
@@ -304,6 +451,8 @@ private:
     }
 
     std::vector<FineBall> mBalls; ///< empty where one was dropped
+    const std::vector<FineBall>& mLeaves;
+    uint64_t mInsertions = 0; ///< tried so far
     const SampledObject& mObject;
     const CoverDebt& mDebt;
     SearchEffort mEffort;
@@ -313,10 +462,11 @@ private:
 
 } // namespace
 
-std::vector<FineBall> improveCover(std::vector<FineBall> balls, const SampledObject& object,
-    const CoverDebt& debt, const SearchEffort& effort, openvdb::util::NullInterrupter* interrupter)
+std::vector<FineBall> improveCover(std::vector<FineBall> balls, const std::vector<FineBall>& leaves,
+    const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
+    openvdb::util::NullInterrupter* interrupter)
 {
-    return Search(std::move(balls), object, debt, effort, interrupter).run();
+    return Search(std::move(balls), leaves, object, debt, effort, interrupter).run();
 }
 
 } // namespace tight

@@ -76,7 +76,14 @@ StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> 
     : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
       mInterrupter(interrupter), mBalls(std::move(leaves)), mHeld(held.held),
       mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
-{}
+{
+    if (held.areInside) return;
+    detail::parallelFor(mBalls.size(), interrupter, [&](std::size_t i) {
+        thread_local DebtFit fit;
+        fit.open(mObject, std::vector<FineBall>{mBalls[i]}, {}, mEffort.samples);
+        mCost[i] = fit.costOf({mBalls[i]});
+    });
+}
 
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 {
@@ -126,14 +133,14 @@ HeldByLeaves heldVoxels(const std::vector<std::vector<Coord>>& cellPoints)
     for (std::size_t i = 0; i < held.size(); ++i) {
         for (const Coord& p : cellPoints[i]) held[i].push_back(voxelBall(p));
     }
-    return {std::move(held), true};
+    return {std::move(held), true, true};
 }
 
 HeldByLeaves heldBalls(const std::vector<FineBall>& leaves)
 {
     std::vector<Held> held;
     for (const FineBall& leaf : leaves) held.push_back({leaf});
-    return {std::move(held), false};
+    return {std::move(held), false, true};
 }
 
 } // namespace tight

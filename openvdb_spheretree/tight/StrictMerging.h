@@ -28,7 +28,8 @@ using Held = std::vector<FineBall>;
 /// What the leaves of a merging hold.
 struct HeldByLeaves {
     std::vector<Held> held;
-    bool areVoxels; ///< of which only the corners of their hull count
+    bool areVoxels;        ///< of which only the corners of their hull count
+    bool areInside = true; ///< the leaves have no voxel outside the object
 };
 
 class StrictMerging : public MergeModel {

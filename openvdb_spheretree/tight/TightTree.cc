@@ -9,6 +9,7 @@
 #include "LevelCounts.h"
 #include "MergeForest.h"
 #include "PowerCells.h"
+#include "SearchedLevels.h"
 #include "SlackMerging.h"
 #include "StrictMerging.h"
 #include "TightLevels.h"
@@ -45,6 +46,7 @@ int samplesFor(std::size_t leaves)
 Effort effortOf(Quality quality, std::size_t leaves)
 {
     if (quality == Quality::Fast) return {{false, 4, 1, false, 16}, 6};
+    if (quality == Quality::Best) return {{true, 12, 1, false, samplesFor(leaves)}, 6};
     return {{true, 12, 1, true, samplesFor(leaves)}, 8};
 }
 
@@ -69,10 +71,9 @@ TreeLeaves leavesOf(const MedialLevel& level, const SampledObject& object, Leave
 }
 
 std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
-    const SampledObject& object, const std::vector<FineBall>& leaves,
+    const SampledObject& object, const std::vector<FineBall>& leaves, const FitEffort& fit,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const FitEffort fit = effortOf(settings.quality, leaves.size()).fit;
     const bool flat = settings.dim == 2;
     if (settings.cover == Cover::Balls) {
         return std::make_unique<StrictMerging>(
@@ -111,16 +112,23 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const SampledObject samples(level.layout);
     const TreeLeaves leaves = timed("leaves", interrupter, &seconds->tree,
         [&] { return leavesOf(level, samples, settings.leaves, interrupter); });
+    const Effort effort = effortOf(settings.quality, leaves.balls.size());
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
-        const auto model = modelFor(settings, samples, leaves.balls, interrupter);
-        return mergeToRoot(
-            *model, effortOf(settings.quality, leaves.balls.size()).neighbours, interrupter);
+        const auto model = modelFor(settings, samples, leaves.balls, effort.fit, interrupter);
+        return mergeToRoot(*model, effort.neighbours, interrupter);
     });
     const auto counts = levelCounts(
         settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
             return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);
         });
-    appendLevels(levelsOf(forest, counts, leaves.medial), tree);
+    const bool search = settings.quality == Quality::Best && settings.cover == Cover::Voxels;
+    appendLevels(timed("levels", interrupter, &seconds->tree,
+                     [&] {
+                         return search ? searchedLevels(forest, counts, leaves.medial, samples,
+                                    effort.fit, settings.dim == 2, interrupter)
+                                       : levelsOf(forest, counts, leaves.medial);
+                     }),
+        tree);
     if (settings.cuts) tree.cuts = cutsOf(forest, settings);
 }
 
