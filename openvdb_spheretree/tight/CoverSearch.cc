@@ -23,7 +23,8 @@ using openvdb::Coord;
 struct Part {
     std::vector<int32_t> ids;    ///< ascending
     std::vector<FineBall> balls; ///< of these
-    FineBox box;                 ///< no change reaches out of it
+    FineBox box;                 ///< no change may reach out of it
+    FineBox changed;             ///< of the balls that are not what they were, before and after
     double change = 0;           ///< of the cover's cost, voxels
 
     std::size_t indexOf(int32_t id) const
@@ -171,6 +172,24 @@ private:
         return true;
     }
 
+    /// @return the changes of a part, when all are made. Another part whose changed balls do not
+    /// meet these neither relies on them nor shares their costs.
+    Part closed(const Part& part) const
+    {
+        Part changes;
+        changes.change = part.change;
+        for (std::size_t k = 0; k < part.ids.size(); ++k) {
+            const FineBall before = part.ids[k] == kNew ? FineBall() : mBalls[part.ids[k]];
+            if (part.balls[k] == before) continue;
+            changes.ids.push_back(part.ids[k]);
+            changes.balls.push_back(part.balls[k]);
+            for (const FineBall& ball : {before, part.balls[k]}) {
+                if (!ball.empty()) changes.changed.expand(ball);
+            }
+        }
+        return changes;
+    }
+
     // ---- Trials
 
     FineBall grown(const FineBall& ball, Dice& dice) const
@@ -236,7 +255,7 @@ private:
         }
         refitNear(part, around, spoilt, fit);
         refit(part, i, fit);
-        return part;
+        return closed(part);
     }
 
     // ---- Balls that go elsewhere
@@ -262,7 +281,7 @@ private:
             }
         }
         if (!best.ids.empty()) refitNear(best, around, ball, fit);
-        return best;
+        return closed(best);
     }
 
     /// @return whether ball @a heir could be placed for what it and ball @a i owe; that one is gone.
@@ -299,8 +318,7 @@ private:
         part.change += costOf(part, part.ids.size() - 1, fit);
         refitNear(part, around, leaf, fit);
         refit(part, part.ids.size() - 1, fit);
-        if (part.balls.back().empty()) part.change = 0; // nobody needs it there
-        return part;
+        return closed(part);
     }
 
     std::vector<Part> insertions(std::size_t count)
@@ -342,13 +360,16 @@ private:
         std::vector<FineBox> taken;
         std::size_t next = 0;
         for (const std::size_t i : order) {
-            while (next < put.size() && meetsAny(put[next].box, taken)) ++next;
+            while (next < put.size() && meetsAny(put[next].changed, taken)) ++next;
             if (next == put.size() || !(removals[i].change + put[next].change < 0)) break;
-            if (meetsAny(removals[i].box, taken) || meet(removals[i].box, put[next].box)) continue;
+            if (meetsAny(removals[i].changed, taken)
+                || meet(removals[i].changed, put[next].changed)) {
+                continue;
+            }
             apply(removals[i]);
             apply(put[next], int32_t(i));
-            taken.push_back(removals[i].box);
-            taken.push_back(put[next].box);
+            taken.push_back(removals[i].changed);
+            taken.push_back(put[next].changed);
         }
         fill();
     }
@@ -359,9 +380,9 @@ private:
         constexpr std::size_t kTries = 64;
         for (std::size_t i = 0; i < size(); ++i) {
             if (!mBalls[i].empty()) continue;
-            Part best = insertions(kTries).front();
-            if (best.balls.back().empty()) best.balls.back() = spareLeaf();
+            const Part best = insertions(kTries).front();
             apply(best, int32_t(i));
+            if (mBalls[i].empty()) put(int32_t(i), spareLeaf()); // it was of no use there
         }
     }
 
@@ -374,15 +395,19 @@ private:
         return mLeaves.front();
     }
 
-    /// @param slot  of an empty ball, for the new one if there is one
-    void apply(const Part& part, int32_t slot = -1)
+    void put(int32_t id, const FineBall& ball)
     {
-        for (std::size_t k = 0; k < part.ids.size(); ++k) {
-            const int32_t id = part.ids[k] == kNew ? slot : part.ids[k];
-            if (part.balls[k] == mBalls[id]) continue;
-            if (!mBalls[id].empty()) mGrid.remove(id, mBalls[id]);
-            mBalls[id] = part.balls[k];
-            if (!mBalls[id].empty()) mGrid.add(id, mBalls[id]);
+        if (!mBalls[id].empty()) mGrid.remove(id, mBalls[id]);
+        mBalls[id] = ball;
+        if (!ball.empty()) mGrid.add(id, ball);
+    }
+
+    /// @param changes  of a closed part
+    /// @param slot     of an empty ball, for the new one if there is one
+    void apply(const Part& changes, int32_t slot = -1)
+    {
+        for (std::size_t k = 0; k < changes.ids.size(); ++k) {
+            put(changes.ids[k] == kNew ? slot : changes.ids[k], changes.balls[k]);
         }
     }
 
@@ -391,10 +416,10 @@ private:
     {
         std::vector<FineBox> taken;
         for (const Part& part : parts) {
-            if (!(part.change < 0)) continue;
-            if (meetsAny(part.box, taken)) continue;
+            if (!(part.change < 0) || part.ids.empty()) continue;
+            if (meetsAny(part.changed, taken)) continue;
             apply(part);
-            taken.push_back(part.box);
+            taken.push_back(part.changed);
         }
     }
 
@@ -438,8 +463,9 @@ private:
         std::vector<Part> parts(now.size());
         detail::parallelFor(now.size(), mInterrupter, [&](std::size_t k) {
             thread_local DebtFit fit;
-            parts[k] = partAround({now[k]});
-            if (!refit(parts[k], parts[k].indexOf(now[k]), fit)) parts[k] = Part();
+            Part part = partAround({now[k]});
+            refit(part, part.indexOf(now[k]), fit);
+            parts[k] = closed(part);
         });
         bool any = false;
         for (const Part& part : parts) {
