@@ -202,16 +202,22 @@ private:
         return result;
     }
 
-    /// Somewhere else, and as large as it has to be there.
-    FineBall moved(const FineBall& ball, const std::vector<Coord>& points, Dice& dice) const
+    /// @return the ball, moved by @a step in some direction.
+    FineBall shifted(const FineBall& ball, double step, Dice& dice) const
     {
-        const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
         const double z = mEffort.flat ? 0 : 2 * dice.uniform() - 1;
         const double angle = 2 * M_PI * dice.uniform(), xy = std::sqrt(1 - z * z);
         FineBall result = ball;
         result.center[0] += std::lrint(step * xy * std::cos(angle));
         result.center[1] += std::lrint(step * xy * std::sin(angle));
         result.center[2] += std::lrint(step * z);
+        return result;
+    }
+
+    /// Somewhere else, and as large as it has to be there.
+    FineBall moved(const FineBall& ball, const std::vector<Coord>& points, Dice& dice) const
+    {
+        FineBall result = shifted(ball, std::max(1.0, ball.radius() * 0.4 * dice.uniform()), dice);
         result.radiusSq = 0;
         for (const Coord& p : points) {
             result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
@@ -305,18 +311,29 @@ private:
         return inside(paid.ball, part.box);
     }
 
-    /// A leaf is put in, and its neighbours shrink.
+    /// A leaf, or about half of a ball that is there: which half, and how much of it, is random.
+    FineBall newcomer(Dice& dice) const
+    {
+        const FineBall& ball = mBalls[dice.below(size())];
+        if (dice.uniform() < 0.5 || ball.empty()) return mLeaves[dice.below(mLeaves.size())];
+        FineBall half = shifted(ball, ball.radius() * (0.3 + 0.3 * dice.uniform()), dice);
+        const double radius = ball.radius() * (0.55 + 0.3 * dice.uniform());
+        half.radiusSq = int64_t(radius * radius);
+        return half;
+    }
+
+    /// A small ball is put in, and its neighbours shrink.
     Part insertion(uint64_t number) const
     {
         thread_local DebtFit fit;
         Dice dice(~number);
-        const FineBall leaf = mLeaves[dice.below(mLeaves.size())];
-        const std::vector<int32_t> around = mGrid.nearest(kNew, leaf, kNeighbours);
+        const FineBall small = newcomer(dice);
+        const std::vector<int32_t> around = mGrid.nearest(kNew, small, kNeighbours);
         Part part = partAround(around);
         part.ids.push_back(kNew);
-        part.balls.push_back(leaf);
+        part.balls.push_back(small);
         part.change += costOf(part, part.ids.size() - 1, fit);
-        refitNear(part, around, leaf, fit);
+        refitNear(part, around, small, fit);
         refit(part, part.ids.size() - 1, fit);
         return closed(part);
     }
