@@ -22,7 +22,7 @@ using Units = std::vector<std::vector<Coord>>;
 /// Few balls need more trials each: their error is in a few numbers, and all of them matter.
 int trialsFor(int64_t count)
 {
-    constexpr int64_t kAll = 36000, kLeast = 40, kMost = 500;
+    constexpr int64_t kAll = 24000, kLeast = 40, kMost = 400;
     return int(std::max(kLeast, std::min(kMost, kAll / count)));
 }
 
