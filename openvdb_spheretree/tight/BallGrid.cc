@@ -125,15 +125,15 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::si
         FineBox box;
         box.expand(ball, slack);
         found.clear();
-        std::size_t seen = 0;
+        std::size_t itself = 0;
         forEachNear(box, [&](const Entry& entry) {
-            ++seen;
             const double gap = gapBetween(entry.ball, ball);
+            if (entry.id == id) itself = 1;
             if (entry.id == id || gap > slack) return;
             found.emplace_back(
                 gap / (std::min(entry.ball.radius(), ball.radius()) + kFine), entry.id);
         });
-        if (found.size() >= count || seen >= mSize) break;
+        if (found.size() >= std::min(count, mSize - itself)) break;
     }
     const std::size_t kept = std::min(count, found.size());
     std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(kept), found.end());

@@ -30,8 +30,9 @@ public:
     std::vector<int32_t> near(const FineBall& ball, double slack = 0) const;
     /// @return balls that may reach into the box: those whose own boxes meet it, ascending.
     std::vector<int32_t> meeting(const FineBox& box) const;
-    /// @return up to @a count balls next to @a ball, itself (@a id) left out: those with the smallest
-    /// gap for the smaller one's radius, ascending by that.
+    /// @return @a count balls next to @a ball, or all there are; itself (@a id) left out. Of those
+    /// within a reach that has as many: the ones with the smallest gap for the smaller one's radius,
+    /// ascending by that. The reach is a power of two times one of the ball's own.
     std::vector<int32_t> nearest(int32_t id, const FineBall& ball, std::size_t count) const;
 
     std::size_t size() const { return mSize; }
