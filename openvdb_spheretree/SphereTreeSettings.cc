@@ -78,9 +78,37 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
 
 const std::string kClosing = "closing:";
 
+/// A setting that would change nothing is a mistake: whoever made it expects something of it.
+void refusePyramidSetting(bool given, const std::string& what)
+{
+    if (!given) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        what << " is for tree=extended and tree=reversible, not for tree=tight, which has no "
+                "pyramid: leave it out, or choose one of these");
+}
+
 /// What only the trees of the pyramid know.
+void refusePyramidSettings(const SphereTreeSettings& settings)
+{
+    const SphereTreeSettings usual;
+    refusePyramidSetting(
+        settings.factor != usual.factor, "factor=" + std::to_string(settings.factor));
+    refusePyramidSetting(
+        settings.closing != 0 || settings.customModel, "model=" + modelToString(settings));
+    refusePyramidSetting(
+        settings.parent != usual.parent, std::string("parent=") + toString(settings.parent));
+    refusePyramidSetting(settings.finalFit != usual.finalFit, "final_fit=0");
+    refusePyramidSetting(settings.reconstruct != usual.reconstruct,
+        std::string("reconstruct=") + toString(settings.reconstruct));
+    refusePyramidSetting(
+        settings.scale != usual.scale, std::string("scale=") + toString(settings.scale));
+    refusePyramidSetting(
+        settings.edges != usual.edges, std::string("edges=") + toString(settings.edges));
+}
+
 void requireTightSettings(const SphereTreeSettings& settings)
 {
+    refusePyramidSettings(settings);
     if (!settings.dist.isEuclidean()) {
         OPENVDB_THROW(openvdb::ValueError,
             "tree=tight is for dist=l2, not for dist=" << toString(settings.dist)
@@ -94,6 +122,11 @@ void requireTightSettings(const SphereTreeSettings& settings)
     if (settings.dag) {
         OPENVDB_THROW(openvdb::ValueError,
             "tree=tight has no Sphere-DAG: use tree=extended or tree=reversible with dag=1");
+    }
+    if (settings.quality == Quality::Best && settings.cuts) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "quality=best and cuts=1 contradict each other: best searches the levels that are "
+            "named, and cuts keep every number of spheres; use quality=normal");
     }
 }
 
@@ -136,6 +169,10 @@ void SphereTreeSettings::validate() const
             "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
     }
     requireClosing(closing);
+    if (customModel && closing > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "closing and customModel are both set: choose one of these pyramid models");
+    }
     budget.validate();
     if (tree == TreeType::Tight) {
         requireTightSettings(*this);
@@ -147,10 +184,6 @@ void SphereTreeSettings::validate() const
     }
     requireMiniballSettings(*this);
     requireInnerSettings(*this);
-    if (customModel && closing > 0) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "closing and customModel are both set: choose one of these pyramid models");
-    }
     if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding

@@ -71,7 +71,7 @@ enum class Side {
 };
 
 struct SphereTreeSettings {
-    TreeType tree = TreeType::Extended;
+    TreeType tree = TreeType::Tight;
     /// @name Tight trees
     /// @{
     Quality quality = Quality::Normal;
@@ -82,7 +82,7 @@ struct SphereTreeSettings {
     bool cuts = false; ///< also keep the tree for every number of spheres: SphereCuts.h
     /// @}
     Center center = Center::Medial; ///< reversible and extended trees
-    /// @name Reversible and extended trees, unless it says otherwise
+    /// @name Reversible and extended trees, unless it says otherwise; tight trees refuse others
     /// @{
     /// Voxels of a level merged per axis into one voxel of the next level: 2 to kMaxFactor.
     int factor = 2;

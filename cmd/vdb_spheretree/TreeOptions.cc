@@ -113,9 +113,10 @@ std::vector<OptionSpec> tightOptions()
 std::vector<OptionSpec> spheretreeOptions()
 {
     std::vector<OptionSpec> options = {
-        choice("tree", {"extended", "reversible", "tight"},
-            "extended: spheres contain the leaf balls below them; reversible: every level rebuilds "
-            "its own pyramid level; tight: the least error for a number of spheres"),
+        choice("tree", {"tight", "extended", "reversible"},
+            "tight: the least error for a number of spheres; the paper's two: extended: spheres "
+            "contain the leaf balls below them; reversible: every level rebuilds its own pyramid "
+            "level"),
         integer("dim", "3", 2, 3, "2 for an object one voxel thick along an axis"),
         text("dist", "l2",
             "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of "

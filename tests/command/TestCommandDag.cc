@@ -24,7 +24,7 @@ protected:
 
 TEST_F(CommandDag, EdgesGoToATableBesideThatOfTheNodes)
 {
-    ASSERT_EQ(run("-read a.vol -spheretree dag=1 -write t.csv t.json").exitCode, 0);
+    ASSERT_EQ(run("-read a.vol -spheretree tree=extended dag=1 -write t.csv t.json").exitCode, 0);
     const json tree = json::parse(readText(path("t.json")));
     std::string rows = "parent,child\n";
     for (const json& edge : tree.at("dag")) {
@@ -46,7 +46,7 @@ TEST_F(CommandDag, ATreeWithoutEdgesHasOneTable)
 TEST_F(CommandDag, BothTablesAreWrittenOrNone)
 {
     std::filesystem::create_directory(path("t_dag.csv"));
-    const Result result = run("-read a.vol -spheretree dag=1 -write t.csv");
+    const Result result = run("-read a.vol -spheretree tree=extended dag=1 -write t.csv");
     EXPECT_EQ(result.exitCode, 4) << result.err;
     EXPECT_NE(result.err.find("t_dag.csv"), std::string::npos) << result.err;
     EXPECT_FALSE(exists("t.csv"));
@@ -54,7 +54,7 @@ TEST_F(CommandDag, BothTablesAreWrittenOrNone)
 
 TEST_F(CommandDag, ATableMayNotStandWhereTheEdgesGo)
 {
-    const Result result = run("-read a.vol -spheretree dag=1 -write t_dag.csv t.csv");
+    const Result result = run("-read a.vol -spheretree tree=extended dag=1 -write t_dag.csv t.csv");
     EXPECT_EQ(result.exitCode, 2) << result.err;
     EXPECT_NE(result.err.find("t_dag.csv"), std::string::npos) << result.err;
     EXPECT_EQ(files(), std::vector<std::string>{"a.vol"});

@@ -302,7 +302,8 @@ TEST_F(CommandInput, SpheresTooLargeToDraw)
     far->tree().setValueOn(openvdb::Coord(0, 0, 0));
     far->tree().setValueOn(openvdb::Coord(60000, 0, 0));
     writeGrids("far.vdb", {far});
-    expectInputError("-read far.vdb -spheretree errors=0 -spheres2mask level=16 -write t.vdb",
+    expectInputError(
+        "-read far.vdb -spheretree tree=extended errors=0 -spheres2mask level=16 -write t.vdb",
         "choose a finer level");
 }
 

@@ -150,7 +150,7 @@ TEST_F(CommandOutput, SameBytesOnStdoutAndForOtherGrids)
 TEST_F(CommandOutput, FilesOfDifferentContentHaveDifferentIdentifiers)
 {
     ASSERT_EQ(run("-read a.vol -spheretree -write a.vdb").exitCode, 0);
-    ASSERT_EQ(run("-read a.vol -spheretree factor=3 -write b.vdb").exitCode, 0);
+    ASSERT_EQ(run("-read a.vol -spheretree tree=extended factor=3 -write b.vdb").exitCode, 0);
     openvdb::io::File a(path("a.vdb").string()), b(path("b.vdb").string());
     a.open();
     b.open();
@@ -205,7 +205,8 @@ TEST_F(CommandOutput, VdbToolAndVdbPrintTakeWhatWeWrite)
     }
     const Result piped =
         shell("vdb_tool -quiet -sphere dim=40 -o stdout.vdb"
-              " | $VDB_SPHERETREE -quiet -read stdin.vdb -spheretree dag=1 -write stdout.vdb"
+              " | $VDB_SPHERETREE -quiet -read stdin.vdb -spheretree tree=extended dag=1 -write "
+              "stdout.vdb"
               " | vdb_tool -quiet -read stdin.vdb -write tool.vdb && vdb_print -l tool.vdb");
     EXPECT_EQ(piped.exitCode, 0) << piped.err;
     EXPECT_NE(piped.out.find("spheretree"), std::string::npos) << piped.out << piped.err;

@@ -17,7 +17,9 @@ protected:
     {
         CommandTest::SetUp();
         writeBlock("a.vol");
-        ASSERT_EQ(run("-read a.vol -mask -spheretree keep=1 name=tree -write t.vdb").exitCode, 0);
+        ASSERT_EQ(run("-read a.vol -mask -spheretree tree=extended keep=1 name=tree -write t.vdb")
+                      .exitCode,
+            0);
     }
 
     /// The bytes of the picture that a line of actions writes, small unless it says otherwise.
@@ -75,7 +77,7 @@ TEST_F(CommandPicture, ShowsTheBallsOfEveryDistance)
 {
     std::set<std::string> pictures;
     for (const char* dist : {"l2", "l1", "linf", "chamfer:3,4,5"}) {
-        pictures.insert(draw("-read a.vol -spheretree dist=" + std::string(dist)
+        pictures.insert(draw("-read a.vol -spheretree tree=extended dist=" + std::string(dist)
             + " errors=0 topology=0 -write p.png"));
     }
     EXPECT_EQ(pictures.size(), 4u);

@@ -39,7 +39,7 @@ protected:
 
 TEST_F(CommandWork, StatsAsJsonHasAllThatIsPromised)
 {
-    const Result result = run("-read a.vol -spheretree factor=3 -stats json=-");
+    const Result result = run("-read a.vol -spheretree tree=extended factor=3 -stats json=-");
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const std::string& json = result.out;
     EXPECT_EQ(json.front(), '{');
@@ -112,7 +112,9 @@ TEST_F(CommandWork, StatsComputesMissingErrorsWhileTheObjectIsKnown)
 
 TEST_F(CommandWork, AStoredTreeIsTheTreeThatWasBuilt)
 {
-    ASSERT_EQ(run("-read ball.vdb -spheretree dag=1 name=b -write t.vdb t.csv").exitCode, 0);
+    ASSERT_EQ(
+        run("-read ball.vdb -spheretree tree=extended dag=1 name=b -write t.vdb t.csv").exitCode,
+        0);
     EXPECT_EQ(readGrids("t.vdb").size(), 2u) << "the tree, and the edges of its DAG";
     ASSERT_EQ(run("-read t.vdb -write u.vdb u.csv").exitCode, 0);
     EXPECT_EQ(readText(path("t.csv")), readText(path("u.csv")));
@@ -289,7 +291,7 @@ TEST_F(CommandWork, AReaderThatHasSeenEnoughLosesNoTree)
 
 TEST_F(CommandWork, APointGridNamedLikeEdgesIsReadAsPoints)
 {
-    ASSERT_EQ(run("-read a.vol -spheretree dag=1 name=a -write t.vdb").exitCode, 0);
+    ASSERT_EQ(run("-read a.vol -spheretree tree=extended dag=1 name=a -write t.vdb").exitCode, 0);
     auto grids = readGrids("t.vdb");
     ASSERT_EQ(grids.size(), 2u);
     for (auto& grid : grids) {
@@ -330,7 +332,9 @@ TEST_F(CommandWork, AFlatTreeAsAMaskIsTheObject)
 
 TEST_F(CommandWork, TheEdgesOfMeetingSpheresAreStoredAndChecked)
 {
-    ASSERT_EQ(run("-read a.vol -spheretree dag=1 edges=intersecting -write t.vdb").exitCode, 0);
+    ASSERT_EQ(
+        run("-read a.vol -spheretree tree=extended dag=1 edges=intersecting -write t.vdb").exitCode,
+        0);
     EXPECT_EQ(run("-read a.vol t.vdb -check").exitCode, 0);
 }
 

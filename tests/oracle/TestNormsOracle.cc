@@ -243,7 +243,7 @@ TEST(NormsOracle, ACheckFindsARadiusThatIsTooSmallAndOneThatIsNoSquare)
 {
     const RandomObject object = randomObject(7);
     const auto grid = gridOf(object.voxels);
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.dist = Distance::linf();
     const SphereTree tree = buildSphereTree(*grid, settings);
     ASSERT_TRUE(openvdb_spheretree::checkSphereTree(tree, *grid).empty());

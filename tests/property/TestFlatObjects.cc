@@ -80,7 +80,7 @@ TEST(FlatObjects, AreCountedCheckedAndStoredInTheirPlane)
     for (uint32_t seed = 30; seed < 41; ++seed) {
         for (int axis = 0; axis < 3; ++axis) {
             const auto grid = gridOf(turnedFromZ(flatObject(seed), axis));
-            SphereTreeSettings settings;
+            SphereTreeSettings settings = extendedTree();
             settings.dim = 2;
             settings.dag = true;
             SphereTree tree = buildSphereTree(*grid, settings);

@@ -112,7 +112,7 @@ TEST(ModelledTrees, ACustomTreeReadBackIsKnownAsOneAndChecked)
 {
     const RandomObject object = randomObject(12);
     const auto grid = gridOf(object.voxels);
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.dag = true;
     settings.customModel = blockModel(bridges);
     const SphereTree tree = buildSphereTree(*grid, settings);
@@ -129,7 +129,7 @@ TEST(ModelledTrees, ACustomTreeReadBackIsKnownAsOneAndChecked)
 TEST(ModelledTrees, ATreeKnowsWhetherItsModelIsCustom)
 {
     const auto grid = gridOf(randomObject(12).voxels);
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     EXPECT_FALSE(buildSphereTree(*grid, settings).settings.hadCustomModel);
     settings.closing = 1;
     EXPECT_EQ(modelToString(buildSphereTree(*grid, settings).settings), "closing:1");

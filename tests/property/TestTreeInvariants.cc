@@ -448,7 +448,7 @@ TEST(TreeInvariants, ABlockOfTilesGivesTheTreeOfTheSameBlockWrittenOut)
 
 TEST(TreeInvariants, ABlockOfTilesOf512GivesTheTreeOfTheSameBlockWrittenOut)
 {
-    expectTilesLikeVoxels(512, Coord(-128, 0, 256), {SphereTreeSettings()});
+    expectTilesLikeVoxels(512, Coord(-128, 0, 256), {extendedTree()});
 }
 
 /// Per voxel of a level: the ids of its label and of its parent voxel's label are an edge; and

@@ -80,13 +80,20 @@ inline std::vector<SphereTreeSettings> allSettings()
     return all;
 }
 
-/// The two types of tree with everything else as it comes.
+/// @return settings of a tree of the pyramid, with everything else as it comes.
+inline SphereTreeSettings settingsFor(TreeType type)
+{
+    SphereTreeSettings settings;
+    settings.tree = type;
+    return settings;
+}
+
+inline SphereTreeSettings extendedTree() { return settingsFor(TreeType::Extended); }
+
+/// The two types of tree of the pyramid.
 inline std::vector<SphereTreeSettings> bothTypes()
 {
-    SphereTreeSettings reversible, extended;
-    reversible.tree = TreeType::Reversible;
-    extended.tree = TreeType::Extended;
-    return {reversible, extended};
+    return {settingsFor(TreeType::Reversible), extendedTree()};
 }
 
 /// All voxels brought to the height of the lowest.

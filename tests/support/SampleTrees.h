@@ -51,6 +51,7 @@ inline SphereTree oneVoxelTree()
     SphereTree tree;
     tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
     tree.origin = {-8, 0, 0};
+    tree.settings.tree = openvdb_spheretree::TreeType::Extended;
     tree.settings.padding = 0;
     tree.object.name = "dot";
     tree.object.voxels = tree.object.leaves = 1;
@@ -119,8 +120,9 @@ inline SphereTree sampleTree()
 inline void fillTightSettings(openvdb_spheretree::SphereTreeSettings& settings)
 {
     using namespace openvdb_spheretree;
+    settings = SphereTreeSettings();
     settings.tree = TreeType::Tight;
-    settings.quality = Quality::Best;
+    settings.quality = Quality::Fast;
     settings.budget.spheres = {512, 2};
     settings.cover = Cover::Balls;
     settings.leaves = Leaves::Medial;

@@ -105,7 +105,7 @@ TEST(DagAdjacency, RefusesEdgesThatAreOutOfOrderTwiceThereOrBetweenNoNodes)
 
 TEST(DagAdjacency, OfATreeRefusesEdgesThatSkipALevel)
 {
-    SphereTree tree = buildSphereTree(*gridOf(shapes::box(Coord(40, 9, 9))), SphereTreeSettings());
+    SphereTree tree = buildSphereTree(*gridOf(shapes::box(Coord(40, 9, 9))), extendedTree());
     ASSERT_GT(tree.levels.size(), 2u);
     tree.dag = {{tree.levels[2].begin, tree.levels[1].begin}};
     EXPECT_NO_THROW(dagAdjacency(tree));

@@ -16,7 +16,7 @@ using namespace spheretree_test;
 
 SphereTreeSettings extended(Reconstruction reconstruct = Reconstruction::Clip, int factor = 2)
 {
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.reconstruct = reconstruct;
     settings.factor = factor;
     return settings;

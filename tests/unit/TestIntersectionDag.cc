@@ -139,7 +139,7 @@ TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
 TEST(IntersectionDag, LacksAnEdgeOfSharedVoxelsOfAnExtendedTree)
 {
     const RandomObject object = randomObject(70);
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.dag = true;
     const auto lacking = [&] {
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
@@ -158,7 +158,7 @@ TEST(IntersectionDag, IsCheckedWithTheTree)
 {
     for (const DagEdges edges : {DagEdges::Shared, DagEdges::Intersecting}) {
         const auto object = gridOf(shapes::ball(30));
-        SphereTreeSettings settings;
+        SphereTreeSettings settings = extendedTree();
         settings.dag = true;
         settings.edges = edges;
         SphereTree tree = buildSphereTree(*object, settings);

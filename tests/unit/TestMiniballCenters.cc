@@ -286,13 +286,13 @@ TEST(MiniballCenters, IntersectionEdgesAreThoseOfTheNewSpheres)
 TEST(MiniballCenters, OfOneLevelKeepItsUnits)
 {
     const SphereTree tree =
-        buildSphereTree(*gridOf(randomObject(9).voxels), miniballs(SphereTreeSettings()));
+        buildSphereTree(*gridOf(randomObject(9).voxels), miniballs(extendedTree()));
     EXPECT_EQ(keepLevel(tree, 1).subdivision, 16);
 }
 
 TEST(MiniballCenters, OfObjectsTooWideForTheirUnitsAreRefused)
 {
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.topology = false;
     const Voxels wide{Coord(0, 0, 0), Coord(1 << 27, 0, 0)};
     EXPECT_NO_THROW(buildSphereTree(*gridOf(wide), settings));

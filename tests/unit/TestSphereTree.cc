@@ -160,7 +160,7 @@ TEST(SphereTree, RecordsSettingsObjectAndTransform)
     const auto grid = gridOf(*mask);
     grid->setName("bunny");
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.factor = 3;
     settings.finalFit = false;
     settings.name = "my tree";
@@ -383,7 +383,7 @@ TEST(SphereTree, AddsTheTimesOfItsStages)
 {
     BuildSeconds seconds;
     seconds.pyramid = 1000;
-    buildSphereTree(*gridOf(block()), {}, nullptr, &seconds);
+    buildSphereTree(*gridOf(block()), extendedTree(), nullptr, &seconds);
     EXPECT_GT(seconds.pyramid, 1000);
     EXPECT_GT(seconds.distance, 0);
     EXPECT_GT(seconds.power, 0);
@@ -409,7 +409,7 @@ TEST(SphereTree, CountsTopologyUnlessToldNotTo)
 
 TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
 {
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.dag = true;
     const SphereTree tree = buildSphereTree(*someGrid(), settings);
     ASSERT_GT(tree.levels.size(), 2u);
@@ -434,7 +434,7 @@ TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
 
 TEST(KeepLevel, KeepsWhatTheTreeRecords)
 {
-    SphereTreeSettings settings;
+    SphereTreeSettings settings = extendedTree();
     settings.factor = 3;
     settings.name = "kept";
     const auto grid = someGrid();
@@ -501,7 +501,7 @@ TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
             return false;
         }
     } listener;
-    buildSphereTree(*someGrid(), {}, &listener);
+    buildSphereTree(*someGrid(), extendedTree(), &listener);
     for (const char* name : {"distance transform", "power labels", "medial balls", "pyramid"}) {
         EXPECT_TRUE(listener.names.count(name)) << name;
     }

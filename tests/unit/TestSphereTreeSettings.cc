@@ -47,6 +47,7 @@ TEST(SphereTreeSettings, ClosingsHaveALimit)
 {
     for (const int radius : {-1, 65}) {
         SphereTreeSettings settings;
+        settings.tree = TreeType::Extended;
         settings.closing = radius;
         const std::string why = whyInvalid(settings);
         EXPECT_TRUE(mentions(why, "closing=" + std::to_string(radius) + " is out of range"));
@@ -156,6 +157,8 @@ TEST(SphereTreeSettings, ATightTreeTakesEverySettingOfItsOwn)
     settings.budget.spheres = {512, 64, 8};
     settings.cover = Cover::Balls;
     settings.leaves = Leaves::Medial;
+    EXPECT_NO_THROW(settings.validate());
+    settings.quality = Quality::Normal;
     settings.cuts = true;
     EXPECT_NO_THROW(settings.validate());
     settings.side = Side::Inner;
@@ -174,6 +177,42 @@ TEST(SphereTreeSettings, ATightTreeRefusesWhatOnlyTreesOfThePyramidHave)
     EXPECT_TRUE(mentions(whyInvalid(norm), "not for dist=chamfer:3,4,5"));
     EXPECT_TRUE(mentions(whyInvalid(miniball), "center=miniball"));
     EXPECT_TRUE(mentions(whyInvalid(dag), "no Sphere-DAG"));
+
+    SphereTreeSettings factor, closing, custom, parent, fit, reconstruct, scale, edges;
+    factor.factor = 3;
+    closing.closing = 2;
+    custom.customModel = [](const openvdb::MaskTree&, const PyramidStep&) {
+        return openvdb::MaskTree::Ptr();
+    };
+    parent.parent = ParentRule::Dag;
+    fit.finalFit = false;
+    reconstruct.reconstruct = Reconstruction::None;
+    scale.scale = RadiusScale::Paper;
+    edges.edges = DagEdges::Intersecting;
+    const std::vector<std::pair<SphereTreeSettings, std::string>> others{{factor, "factor=3"},
+        {closing, "model=closing:2"}, {custom, "model=custom"}, {parent, "parent=dag"},
+        {fit, "final_fit=0"}, {reconstruct, "reconstruct=none"}, {scale, "scale=paper"},
+        {edges, "edges=intersecting"}};
+    for (auto [settings, what] : others) {
+        EXPECT_TRUE(mentions(whyInvalid(settings), what + " is for tree=extended"));
+        settings.tree = TreeType::Extended;
+        EXPECT_NO_THROW(settings.validate()) << what;
+    }
+}
+
+TEST(SphereTreeSettings, ATightTreeIsWhatThereIsUnlessAskedOtherwise)
+{
+    EXPECT_EQ(SphereTreeSettings().tree, TreeType::Tight);
+}
+
+TEST(SphereTreeSettings, TheBestLevelsAndAllCutsContradictEachOther)
+{
+    SphereTreeSettings settings;
+    settings.quality = Quality::Best;
+    EXPECT_NO_THROW(settings.validate());
+    settings.cuts = true;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "quality=best and cuts=1 contradict"));
+    EXPECT_TRUE(mentions(whyInvalid(settings), "use quality=normal"));
 }
 
 TEST(SphereTreeSettings, OtherTreesRefuseWhatOnlyTightTreesHave)
@@ -241,6 +280,7 @@ TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
 TEST(SphereTreeSettings, AFactorOutOfRangeIsAnErrorThatNamesTheRange)
 {
     SphereTreeSettings settings;
+    settings.tree = TreeType::Extended;
     for (int factor : {2, 3, 64}) {
         settings.factor = factor;
         EXPECT_NO_THROW(settings.validate());
