@@ -112,6 +112,7 @@ PaidDebt DebtFit::pay(const FitEffort& effort, bool flat)
 
     PaidDebt paid;
     paid.ball = mWindow.centerOf(fit.ball);
+    if (flat) paid.ball.center[2] = mDebt.front().center[2]; // which need not be on a sample
     for (const FineBall& held : mDebt) {
         paid.ball.radiusSq = std::max(paid.ball.radiusSq, radiusSqToHold(paid.ball, held));
     }

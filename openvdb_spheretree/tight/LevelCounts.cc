@@ -11,12 +11,6 @@ namespace tight {
 
 namespace {
 
-bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error)
-{
-    return (!budget.error || error.hammingPercent <= *budget.error)
-        && (!budget.distance || error.hausdorff * voxelSize <= *budget.distance);
-}
-
 std::string boundsOf(const SphereBudget& budget)
 {
     std::ostringstream text;
@@ -46,6 +40,12 @@ int64_t fewest(int64_t leaves, const Within& within)
 }
 
 } // namespace
+
+bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error)
+{
+    return (!budget.error || error.hammingPercent <= *budget.error)
+        && (!budget.distance || error.hausdorff * voxelSize <= *budget.distance);
+}
 
 std::vector<int64_t> levelCounts(
     const SphereBudget& budget, int64_t leaves, double voxelSize, const ErrorOfCut& errorOf)

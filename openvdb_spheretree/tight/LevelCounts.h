@@ -17,6 +17,9 @@ namespace tight {
 /// @return the exact error of the cut with so many balls.
 using ErrorOfCut = std::function<LevelError(int64_t count)>;
 
+/// @return whether an error is within what the budget bounds of it; @a voxelSize is in world units.
+bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error);
+
 /// @param leaves     balls there are at most
 /// @param voxelSize  world units
 /// @return counts, finest first, falling. With a bound on the error, the first one is the smallest

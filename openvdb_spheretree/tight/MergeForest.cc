@@ -182,7 +182,8 @@ private:
     {
         for (const FineBall& ball : {mNodes[c.a].ball, mNodes[c.b].ball, c.ball}) {
             if (ball.empty()) continue;
-            for (const int32_t node : mGrid.near(ball, 0)) mLocked[node] = mRound;
+            // Balls may share a voxel where they touch, and gaps are rounded.
+            for (const int32_t node : mGrid.near(ball, 1)) mLocked[node] = mRound;
         }
     }
 

@@ -88,7 +88,9 @@ StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> 
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 {
     thread_local DebtFit fit;
-    fit.open(mObject, joined(mExtreme[a], mExtreme[b]), {mBalls[a], mBalls[b]}, mEffort.samples);
+    const Held debt = joined(mExtreme[a], mExtreme[b]);
+    if (debt.empty()) return {-mCost[b], a, b, mBalls[a], 0}; // either would do
+    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
     const PaidDebt paid = fit.pay(mEffort, mFlat);
     return {paid.cost - mCost[a] - mCost[b], a, b, paid.ball, 0};
 }

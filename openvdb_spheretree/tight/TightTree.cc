@@ -99,11 +99,37 @@ LevelError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
                         << only.errorUnknown << "; ask for spheres= instead");
 }
 
+/// The search looks at sampled excess alone, and not at distances.
+/// @return whether the finest level is still within the bounds that the tree has.
+bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const SphereBudget& budget = tree.settings.budget;
+    if (!budget.hasBound()) return true;
+    const TightLevel alone{finest.balls, {}, finest.digital};
+    return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, object, interrupter));
+}
+
+/// Squares of 1/16 voxel have 64 bits, here and in whoever reads the tree.
+void requireRoom(const SphereTree& tree)
+{
+    const openvdb::Coord size = tree.object.bbox.extents();
+    constexpr int64_t kMost = int64_t(1) << 61;
+    const auto far = [&](int axis) { return 2 * kFine * (int64_t(size[axis]) + 1); };
+    if (Distance().lengthSq(far(0), far(1), far(2)) < kMost) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object '" << tree.object.name << "', of " << size[0] << " x " << size[1] << " x "
+                       << size[2]
+                       << " voxels, is too wide for tree=tight: use tree=extended, or larger "
+                          "voxels");
+}
+
 } // namespace
 
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
 {
+    requireRoom(tree);
     const SphereTreeSettings& settings = tree.settings;
     const FlatAxis flat(settings.flatAxis);
     const auto voxels = flat.toZ(
@@ -117,18 +143,20 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
         const auto model = modelFor(settings, samples, leaves.balls, effort.fit, interrupter);
         return mergeToRoot(*model, effort.neighbours, interrupter);
     });
-    const auto counts = levelCounts(
-        settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
-            return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);
-        });
+    const auto cutError = [&](int64_t count) {
+        return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);
+    };
+    const auto counts =
+        levelCounts(settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
     const bool search = settings.quality == Quality::Best && settings.cover == Cover::Voxels;
-    appendLevels(timed("levels", interrupter, &seconds->tree,
-                     [&] {
-                         return search ? searchedLevels(forest, counts, leaves.medial, samples,
-                                    effort.fit, settings.dim == 2, interrupter)
-                                       : levelsOf(forest, counts, leaves.medial);
-                     }),
-        tree);
+    const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
+        const auto cuts = levelsOf(forest, counts, leaves.medial);
+        if (!search) return cuts;
+        const auto searched = searchedLevels(
+            forest, counts, leaves.medial, samples, effort.fit, settings.dim == 2, interrupter);
+        return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
+    });
+    appendLevels(levels, tree);
     if (settings.cuts) tree.cuts = cutsOf(forest, settings);
 }
 
