@@ -39,7 +39,8 @@ name="$(basename "$file" | tr ',=' '__')" # a comma or an equals sign means some
 name="$results/${name%.*}"
 
 say "running vdb_spheretree"
-(set -x && "$bin/vdb_spheretree" -read "$file" "${to_level_set[@]}" -spheretree -stats \
+(set -x && "$bin/vdb_spheretree" -read "$file" "${to_level_set[@]}" \
+    -spheretree tree=tight quality=fast -stats \
     -write "$name.spheretree.vdb" "$name.spheretree.csv" </dev/null)
 
 printf '\nThe sphere-tree of %s:\n  %s   VDB points\n  %s   table\nThe program: %s\n' \

@@ -7,6 +7,7 @@
 ///     spheretree_benchmark --benchmark_filter=dragon-512
 ///
 /// Columns: `Mvoxel/s` of the stage, `copy` the same of the copy, `of_copy` the one over the other.
+/// Tight trees, whose time goes by leaf balls and not by voxels, have `leaves` and `us/leaf` too.
 /// Objects are made here, plus volumes of the folder SPHERETREE_DATA where there is one.
 
 #include <openvdb_spheretree/LevelErrors.h>
@@ -162,6 +163,16 @@ void buildTree(const Input& in, st::TreeType type)
     benchmark::DoNotOptimize(st::buildSphereTree(in.grid, settings));
 }
 
+/// @return the number of leaf balls.
+int32_t buildTightTree(const Input& in, st::Quality quality)
+{
+    st::SphereTreeSettings settings;
+    settings.tree = st::TreeType::Tight;
+    settings.quality = quality;
+    settings.topology = false;
+    return st::buildSphereTree(in.grid, settings).levels.front().size();
+}
+
 void buildPyramid(const Input& in, int factor)
 {
     benchmark::DoNotOptimize(st::buildOrPyramid(in.grid, factor));
@@ -200,7 +211,9 @@ const std::vector<std::pair<std::string, Stage>>& stages()
                 static std::map<const openvdb::BoolGrid*, st::SphereTree> trees;
                 auto tree = trees.find(&in.grid);
                 if (tree == trees.end()) {
-                    tree = trees.emplace(&in.grid, st::buildSphereTree(in.grid)).first;
+                    st::SphereTreeSettings settings;
+                    settings.tree = st::TreeType::Extended;
+                    tree = trees.emplace(&in.grid, st::buildSphereTree(in.grid, settings)).first;
                 }
                 st::computeLevelErrors(tree->second, in.grid);
             }},
@@ -208,12 +221,9 @@ const std::vector<std::pair<std::string, Stage>>& stages()
     return all;
 }
 
-void run(benchmark::State& state, const std::string& name, const Stage& stage, int threads)
+/// @return the best of all times.
+double bestSeconds(benchmark::State& state, const Input& input, const Stage& stage)
 {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const Input input(name);
-    const double copy = copySeconds(input.layout.leafCount());
-    stage(input); // what a stage makes once for all of its calls
     double best = 1e9;
     for (auto _ : state) {
         const auto start = Clock::now();
@@ -222,18 +232,66 @@ void run(benchmark::State& state, const std::string& name, const Stage& stage, i
         best = std::min(best, seconds);
         state.SetIterationTime(seconds);
     }
+    return best;
+}
+
+void countVoxels(benchmark::State& state, const Input& input, double seconds, double copy)
+{
     const double voxels = 1e-6 * double(input.layout.voxelCount());
-    state.counters["Mvoxel/s"] = voxels / best;
+    state.counters["Mvoxel/s"] = voxels / seconds;
     state.counters["copy"] = voxels / copy;
-    state.counters["of_copy"] = copy / best;
+    state.counters["of_copy"] = copy / seconds;
+}
+
+void run(benchmark::State& state, const std::string& name, const Stage& stage, int threads)
+{
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const Input input(name);
+    const double copy = copySeconds(input.layout.leafCount());
+    stage(input); // what a stage makes once for all of its calls
+    countVoxels(state, input, bestSeconds(state, input, stage), copy);
+}
+
+void runTight(benchmark::State& state, const std::string& name, st::Quality quality, int threads)
+{
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const Input input(name);
+    const double copy = copySeconds(input.layout.leafCount());
+    int32_t leaves = 0;
+    const double seconds =
+        bestSeconds(state, input, [&](const Input& in) { leaves = buildTightTree(in, quality); });
+    countVoxels(state, input, seconds, copy);
+    state.counters["leaves"] = double(leaves);
+    state.counters["us/leaf"] = 1e6 * seconds / double(leaves);
+}
+
+/// On one thread, and on all.
+std::vector<int> threadCounts()
+{
+    std::vector<int> threads{1};
+    if (tbb::info::default_concurrency() > 1) threads.push_back(tbb::info::default_concurrency());
+    return threads;
+}
+
+void registerTight(const std::string& name)
+{
+    for (const st::Quality quality : {st::Quality::Fast, st::Quality::Normal}) {
+        for (const int n : threadCounts()) {
+            const std::string title =
+                name + "/tight-" + toString(quality) + "/threads:" + std::to_string(n);
+            benchmark::RegisterBenchmark(title.c_str(),
+                [name, quality, n](benchmark::State& state) { runTight(state, name, quality, n); })
+                ->UseManualTime()
+                ->Iterations(1) // seconds to minutes each
+                ->Unit(benchmark::kMillisecond);
+        }
+    }
 }
 
 void registerAll(const std::string& name)
 {
-    std::vector<int> threads{1};
-    if (tbb::info::default_concurrency() > 1) threads.push_back(tbb::info::default_concurrency());
     for (const auto& [label, stage] : stages()) {
-        for (const int n : threads) {
+        for (const int n : threadCounts()) {
             const std::string title = name + "/" + label + "/threads:" + std::to_string(n);
             benchmark::RegisterBenchmark(title.c_str(),
                 [name, stage = stage, n](benchmark::State& state) { run(state, name, stage, n); })
@@ -256,7 +314,9 @@ int main(int argc, char** argv)
              "hairball-256", "lucy-boundary-512"}) {
         if (!folder) continue;
         const std::string file = std::string(folder) + "/vol/" + name + ".vol";
-        if (std::filesystem::exists(file)) registerAll(name);
+        if (!std::filesystem::exists(file)) continue;
+        registerAll(name);
+        if (std::string(name).rfind("dragon", 0) == 0) registerTight(name);
     }
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();

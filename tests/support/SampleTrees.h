@@ -183,6 +183,7 @@ inline SphereTree randomTree(int32_t n, unsigned seed)
     std::mt19937 random(seed);
     const auto number = [&](int lo, int hi) { return lo + int(random() % uint32_t(hi - lo + 1)); };
     SphereTree tree;
+    tree.settings.tree = openvdb_spheretree::TreeType::Extended;
     tree.transform = openvdb::math::Transform::createLinearTransform(0.07);
     tree.object.name = "random";
     std::vector<int32_t> counts{n};

@@ -352,6 +352,7 @@ TEST(SphereTreePoints, LevelsAreGroups)
 TEST(SphereTreePoints, ATreeOfMoreLevelsThanAGroupByteHoldsComesBack)
 {
     SphereTree tree;
+    tree.settings.tree = TreeType::Extended;
     tree.transform = math::Transform::createLinearTransform(1.0);
     for (int i = 0; i < 20; ++i) addLevel(tree, 1, 1);
     for (int i = 0; i < 20; ++i) addNode(tree, {0.5, 0.5, 0.5}, {0, 0, 0}, 20 - i, i - 1);

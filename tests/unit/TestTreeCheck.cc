@@ -177,6 +177,7 @@ TEST_F(TreeCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
         object->tree().setValueOn(q);
     }
     SphereTree tree;
+    tree.settings.tree = TreeType::Extended;
     tree.settings.dim = 2;
     tree.settings.padding = 0;
     tree.transform = object->transform().copy();
@@ -470,6 +471,7 @@ TEST_F(TreeCheck, CoverageOfVoxelsFarApartIsCheckedWithoutDrawingWhatIsBetween)
     object->tree().setValueOn(Coord(0));
     object->tree().setValueOn(Coord(1000000));
     SphereTree tree;
+    tree.settings.tree = TreeType::Extended;
     tree.settings.padding = 0;
     tree.transform = object->transform().copy();
     tree.object = {"", 2, 2, 0, CoordBBox(Coord(0), Coord(1000000))};

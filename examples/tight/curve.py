@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The error of each level against its number of spheres: curve.py NAME OUTPUT FOLDER KIND...
+
+Reads FOLDER/KIND.json, the statistics of a tree, and writes OUTPUT.png, .svg and .csv. Levels
+without an error, which are on no logarithmic scale, and those of one sphere are left out.
+"""
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter
+
+# Okabe and Ito's colours, told apart by shape and dash too.
+STYLES = {
+    "best": ("tight, quality=best", "#009E73", "D", "-"),
+    "normal": ("tight (the default)", "#0072B2", "o", "-"),
+    "fast": ("tight, quality=fast", "#56B4E9", "v", "--"),
+    "miniball": ("extended, center=miniball", "#CC79A7", "P", "--"),
+    "extended": ("extended", "#D55E00", "s", "-"),
+    "reversible": ("reversible", "#E69F00", "^", "-"),
+}
+INK, FAINT = "#23272e", "#d9dde3"
+
+plt.rcParams.update({
+    "font.family": "DejaVu Sans", "font.size": 10, "text.color": INK, "axes.labelcolor": INK,
+    "axes.edgecolor": "#8a919c", "xtick.color": INK, "ytick.color": INK, "axes.grid": True,
+    "grid.color": FAINT, "grid.linewidth": 0.7, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False,
+    "lines.linewidth": 1.8, "lines.markersize": 6, "svg.hashsalt": "tight",
+})
+
+
+def levels_of(path):
+    levels = json.loads(path.read_text(encoding="utf-8"))["levels"]
+    points = [(level["spheres"], level["hamming_percent"]) for level in levels]
+    return [(n, error) for n, error in points if error and n > 1]
+
+
+def plain(value, _):
+    return f"{value:,.0f}" if value >= 1 else f"{value:g}"
+
+
+def draw(name, curves):
+    figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
+    for kind, points in curves.items():
+        label, color, marker, dash = STYLES[kind]
+        axes.plot(*zip(*points), label=label, color=color, marker=marker, linestyle=dash,
+                  markeredgecolor="white", markeredgewidth=0.8)
+    axes.set(xscale="log", yscale="log", xlabel="spheres",
+             ylabel="Hamming error, % of the object", title=name)
+    axes.xaxis.set_major_formatter(FuncFormatter(plain))
+    axes.yaxis.set_major_formatter(FuncFormatter(plain))
+    axes.legend(frameon=False)
+    return figure
+
+
+def main(name, output, folder, *kinds):
+    curves = {kind: levels_of(Path(folder) / f"{kind}.json") for kind in kinds}
+    curves = {kind: points for kind, points in curves.items() if points}
+    if not curves:
+        sys.exit("curve.py: no tree has a level that can be drawn")
+    rows = [f"{kind},{n},{error:.6g}\n" for kind, points in curves.items() for n, error in points]
+    Path(output + ".csv").write_text("tree,spheres,hamming_percent\n" + "".join(rows))
+    figure = draw(name, curves)
+    # No dates and no versions: the same numbers give the same files.
+    figure.savefig(output + ".svg", metadata={"Date": None, "Creator": None})
+    figure.savefig(output + ".png", dpi=110, metadata={"Software": None})
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
