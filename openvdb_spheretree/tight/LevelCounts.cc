@@ -31,10 +31,8 @@ int64_t fewest(int64_t leaves, const Within& within)
         else low = middle + 1;
     }
     constexpr int kMoreTries = 8;
-    for (int64_t count = high - 2, tries = 0; count > 0 && tries < kMoreTries; --count, ++tries) {
-        if (!within(count)) continue;
-        high = count;
-        tries = 0;
+    for (int64_t count = high - 2; count > 0 && count >= high - kMoreTries; --count) {
+        if (within(count)) high = count;
     }
     return high;
 }

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestCostWindow.cc
+/// @brief Counts of what costs, by rows (BallRows.h) and by octets (CostOctets.h), sample by sample
+/// and with every target of Highway.
+
+#include <openvdb_spheretree/tight/CostWindow.h>
+
+#include "../support/FineBalls.h"
+
+#include <openvdb_spheretree/tight/BallRows.h>
+#include <openvdb_spheretree/tight/CostOctets.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+
+/// The samples of a window that cost, from its origin.
+struct Samples {
+    std::vector<Coord> cost;
+
+    Samples(const CostWindow& window, const Voxels& object, const Coord& size)
+    {
+        const FineBall origin = window.centerOf(LocalBall());
+        const int64_t step = int64_t(1) << window.level();
+        for (const Coord& at : voxelsOfBox(CoordBBox(Coord(0, 0, 0), size))) {
+            Coord voxel;
+            for (int a = 0; a < 3; ++a) voxel[a] = int32_t(origin.center[a] / 16 + at[a] * step);
+            if (!contains(object, voxel)) cost.push_back(at);
+        }
+    }
+    static double distanceSq(const Coord& at, const LocalBall& ball)
+    {
+        const double x = 16 * at[0] - ball.x, y = 16 * at[1] - ball.y, z = 16 * at[2] - ball.z;
+        return x * x + y * y + z * z;
+    }
+    void cover(const LocalBall& ball)
+    {
+        cost.erase(std::remove_if(cost.begin(), cost.end(),
+                       [&](const Coord& at) { return distanceSq(at, ball) <= ball.radiusSq; }),
+            cost.end());
+    }
+    int64_t count(const LocalBall& ball) const
+    {
+        return std::count_if(cost.begin(), cost.end(),
+            [&](const Coord& at) { return distanceSq(at, ball) <= ball.radiusSq; });
+    }
+};
+
+/// Whole in a window of @a size samples.
+LocalBall localBall(Random& random, const Coord& size)
+{
+    const int radius = random.between(0, 7 * std::min({size[0], size[1], size[2]}));
+    LocalBall ball;
+    float* const center[3] = {&ball.x, &ball.y, &ball.z};
+    for (int a = 0; a < 3; ++a) {
+        *center[a] = float(random.between(radius + 1, 16 * size[a] - radius - 1));
+    }
+    ball.radiusSq = float(radius * radius - random.between(0, radius));
+    return ball;
+}
+
+struct Case {
+    Voxels object;
+    FineBox box;
+    int level;
+    Coord size; ///< samples, at least
+};
+
+Case randomCase(Random& random)
+{
+    Case c;
+    c.level = random.between(0, 3);
+    const int step = 1 << c.level;
+    const Coord corner = random.coord(-40, 40);
+    c.size = random.coord(3, 13);
+    if (random.chance(0.2)) c.size[2] = 70; // more than a word
+    for (int a = 0; a < 3; ++a) {
+        c.box.lo[a] = 16 * int64_t(corner[a]);
+        c.box.hi[a] = 16 * int64_t(corner[a] + step * c.size[a]);
+    }
+    for (int i = 0; i < 400; ++i) {
+        const Coord v = corner + random.coord(-9, step * 12);
+        c.object.emplace_back(v[0] & -step, v[1] & -step, v[2] & -step);
+    }
+    sortVoxels(c.object);
+    return c;
+}
+
+void expectOctets(const CostWindow& window, const Samples& samples, const LocalBall& place)
+{
+    std::vector<Octet> octets;
+    window.collect(place, octets);
+    int64_t found = 0;
+    for (const Octet& octet : octets) {
+        for (int i = 0; i < 8; ++i) {
+            if (!(octet.bits >> i & 1)) continue;
+            const Coord at(int(octet.x) / 16, int(octet.y) / 16, int(octet.z) / 16 + i);
+            const double distanceSq = Samples::distanceSq(at, place);
+            ASSERT_LE(distanceSq, place.radiusSq);
+            ASSERT_LE(octet.distanceSq, distanceSq);
+            ++found;
+        }
+    }
+    ASSERT_EQ(found, samples.count(place));
+}
+
+void expectBounds(const CostOctets& octets, const Samples& samples, const LocalBall& ball)
+{
+    const int64_t count = samples.count(ball);
+    ASSERT_EQ(octets.count(ball), count);
+    for (const int64_t bound : {int64_t(0), count / 2, count - 1, count, count + 5}) {
+        const int64_t bounded = octets.count(ball, bound);
+        if (count > bound) ASSERT_GT(bounded, bound);
+        else ASSERT_EQ(bounded, count);
+    }
+}
+
+void expectCounts(Random& random)
+{
+    const Case c = randomCase(random);
+    const SampledObject object = sampled(c.object);
+    CostWindow window;
+    window.reset(object, c.box, c.level);
+    Samples samples(window, c.object, c.size.offsetBy(1, 1, 8));
+    for (int turn = 0; turn < 8; ++turn) {
+        const LocalBall ball = localBall(random, c.size);
+        ASSERT_EQ(window.count(ball), samples.count(ball));
+        ASSERT_NO_FATAL_FAILURE(expectOctets(window, samples, ball));
+        CostOctets octets;
+        octets.collect(window, ball);
+        for (int i = 0; i < 30; ++i) {
+            LocalBall inner = localBall(random, c.size);
+            inner.radiusSq = std::floor(inner.radiusSq / float(1 + i));
+            if (!octets.fits(inner)) continue;
+            ASSERT_NO_FATAL_FAILURE(expectBounds(octets, samples, inner));
+        }
+        LocalBall covered = localBall(random, c.size);
+        if (turn % 2) covered.x -= 100; // reaches out
+        window.cover(covered);
+        samples.cover(covered);
+    }
+}
+
+TEST(CostWindow, CountsSampleBySampleWithEveryTarget)
+{
+    forEachTarget([] {
+        Random random(1);
+        for (int i = 0; i < 60; ++i) ASSERT_NO_FATAL_FAILURE(expectCounts(random));
+    });
+}
+
+/// At level 0 a ball is the same in the window and out of it.
+TEST(CostWindow, CountsVoxelsOutsideTheObject)
+{
+    Random random(2);
+    for (int i = 0; i < 100; ++i) {
+        const RandomObject object = randomObject(uint32_t(i));
+        const Coord middle = boxOf(object.voxels).min();
+        FineBall ball = randomBall(random, 0, 9, 9);
+        for (int a = 0; a < 3; ++a) ball.center[a] += 16 * int64_t(middle[a]);
+        int64_t expected = 0;
+        for (const Coord& v : voxelsOfBox(CoordBBox(middle - Coord(10), middle + Coord(20)))) {
+            expected += holds(ball, v) && !contains(object.voxels, v);
+        }
+        CostWindow window;
+        FineBox box;
+        box.expand(ball);
+        window.reset(sampled(object.voxels), box, 0);
+        ASSERT_EQ(window.count(window.toLocal(ball)), expected);
+        FineBall back = window.centerOf(window.toLocal(ball));
+        back.radiusSq = ball.radiusSq;
+        ASSERT_TRUE(back == ball);
+        window.cover(ball);
+        ASSERT_EQ(window.count(window.toLocal(ball)), 0);
+    }
+}
+
+TEST(CostWindow, IsClearedByHugeBallsFromFar)
+{
+    forEachTarget([] {
+        CostWindow window;
+        FineBox box;
+        box.expand(voxelBall(Coord(5, 5, 5)), 100);
+        const SampledObject object = sampled({Coord(1, 2, 3)});
+        const LocalBall all{100, 100, 130, 9000};
+        for (const int64_t far : {int64_t(1) << 12, int64_t(1) << 20, int64_t(1) << 29}) {
+            window.reset(object, box, 0);
+            const int64_t before = window.count(all);
+            const int64_t near = far - 5000 * (far >> 20);
+            window.cover(FineBall{{-far, 0, 0}, (near - 400) * (near - 400)});
+            ASSERT_EQ(window.count(all), before) << "it ends before the window";
+            window.cover(FineBall{{-far, 0, 0}, (far + 5000) * (far + 5000)});
+            ASSERT_EQ(window.count(all), 0);
+            ASSERT_GT(before, 0);
+        }
+    });
+}
+
+TEST(CostWindow, HasTheFinestLevelWithFewSamplesInARadius)
+{
+    EXPECT_EQ(CostWindow::levelFor(0, 16), 0);
+    EXPECT_EQ(CostWindow::levelFor(256, 16), 0);
+    EXPECT_EQ(CostWindow::levelFor(257, 16), 1);
+    EXPECT_EQ(CostWindow::levelFor(16 * 40 * 8, 40), 3);
+    EXPECT_EQ(CostWindow::levelFor(16 * 40 * 8 + 1, 40), 4);
+}
+
+} // namespace
