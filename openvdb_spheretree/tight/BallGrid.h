@@ -7,8 +7,8 @@
 /// the grids live as long as the cover does.
 ///
 /// A large ball asks for many cells of the grids of small ones, nearly all of them empty. So each
-/// block of 4^3 cells has a bit for each that is not, and only blocks are looked up in vain. (Without
-/// them, and with cells of one voxel, 90% of the time for hairball-256 went into that.)
+/// block of 4^3 cells has a bit for each that is not, and only blocks are looked up in vain.
+/// (Without them, and with cells of one voxel, 90% of the time for hairball-256 went into that.)
 
 #pragma once
 

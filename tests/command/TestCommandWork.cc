@@ -183,7 +183,7 @@ TEST_F(CommandWork, OneLevelIsKeptByNumberOrBySpheres)
     const std::string csv = readText(path("a.csv"));
     EXPECT_EQ(csv, readText(path("b.csv")));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + std::stoi(spheres[1]));
-    EXPECT_EQ(run("-read ball.vdb -spheretree -level 1 -write l.vdb").exitCode, 0);
+    EXPECT_EQ(run("-read ball.vdb -spheretree extended -level 1 -write l.vdb").exitCode, 0);
     EXPECT_EQ(run("-read l.vdb -spheres2mask -write m.vdb").exitCode, 0);
 }
 
