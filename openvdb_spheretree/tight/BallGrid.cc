@@ -158,7 +158,7 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::si
 {
     // All others are a fair answer, however far they are: without a neighbour no ball could merge.
     constexpr double kFarthest = double(int64_t(1) << 36); // wider than any object
-    const std::size_t wanted = std::min(count, mSize - std::min<std::size_t>(mSize, 1));
+    std::size_t others = mSize;
     const double radius = ball.radius();
     std::vector<std::pair<double, int32_t>> found;
     for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
@@ -167,15 +167,16 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::si
         found.clear();
         forEachNear(box, [&](const Entry& entry) {
             const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;
+            if (entry.id == id) others = mSize - 1;
             if (entry.id == id || gap > slack) return;
             found.emplace_back(gap / (std::min(entry.radius, radius) + kFine), entry.id);
         });
-        if (found.size() < wanted && slack < kFarthest) continue;
+        if (found.size() < std::min(count, others) && slack < kFarthest) continue;
         const auto kept = std::min(count, found.size());
         std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(kept), found.end());
         found.resize(kept);
         // What is farther than the slack has a larger gap for its radius than this.
-        if (found.empty() || found.back().first <= slack / (radius + kFine) || slack >= kFarthest) {
+        if (found.empty() || found.back().first < slack / (radius + kFine) || slack >= kFarthest) {
             break;
         }
     }

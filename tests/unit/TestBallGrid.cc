@@ -36,19 +36,13 @@ std::vector<int32_t> linearMeeting(const Balls& balls, const FineBox& box)
     return ids;
 }
 
-/// By the header: of those within the first reach that has enough.
 std::vector<int32_t> linearNearest(const Balls& balls, int32_t id, std::size_t count)
 {
     const FineBall& ball = balls.at(id);
     std::vector<std::pair<double, int32_t>> found;
-    for (double reach = 32 + ball.radius() / 2; found.size() < std::min(count, balls.size() - 1);
-         reach *= 2) {
-        found.clear();
-        for (const auto& [other, b] : balls) {
-            const double gap = gapBetween(b, ball);
-            if (other == id || gap > reach) continue;
-            found.emplace_back(gap / (std::min(b.radius(), ball.radius()) + 16), other);
-        }
+    for (const auto& [other, b] : balls) {
+        if (other == id) continue;
+        found.emplace_back(gapBetween(b, ball) / (std::min(b.radius(), ball.radius()) + 16), other);
     }
     std::sort(found.begin(), found.end());
     std::vector<int32_t> ids;
