@@ -295,7 +295,7 @@ TEST(SpherePicture, SpheresSideBySideNeverHaveOneColor)
 TEST(SpherePicture, APngReadsBackToTheSamePixels)
 {
     const SphereTree tree = buildSphereTree(*gridOf(shapes::ball(40)));
-    const Picture picture = renderLevel(tree, 1, viewOfTree(tree), small());
+    const Picture picture = renderLevel(tree, 0, viewOfTree(tree), small());
     std::ostringstream out, again;
     writePng(picture, out);
     writePng(picture, again);
