@@ -133,14 +133,61 @@ void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>&
     });
 }
 
+/// Clears word @a word of the rows y0 to y1 of slice x, as far as they are in a ball.
+void clearWords(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball,
+    int32_t x, int32_t y0, int32_t y1, int32_t word)
+{
+    const hn::CappedTag<uint64_t, 8> d64;
+    const hn::RebindToSigned<decltype(d64)> di64;
+    const hn::Rebind<float, decltype(d64)> df;
+    const hn::Rebind<int32_t, decltype(d64)> di;
+    const auto lanes = int32_t(hn::Lanes(d64));
+    const float dx = float(16 * x) - ball.x;
+    const auto rest = hn::Set(df, ball.radiusSq - dx * dx), center = hn::Set(df, ball.y);
+    const auto far = hn::Set(df, kFar), low = hn::Set(df, -kFar), z = hn::Set(df, ball.z);
+    const auto begin = hn::Set(di, 64 * word), none = hn::Zero(di), last = hn::Set(di, 63);
+    const auto all = hn::Set(d64, ~uint64_t(0));
+    const auto wide = [&](auto v) { return hn::BitCast(d64, hn::PromoteTo(di64, v)); };
+    HWY_ALIGN uint64_t kept[8];
+    for (int32_t y = y0; y <= y1; y += lanes) {
+        const auto at = hn::ConvertTo(df, hn::ShiftLeft<4>(hn::Iota(di, y)));
+        const auto apart = hn::Sub(at, center);
+        const auto left = hn::Max(hn::Zero(df), hn::Sub(rest, hn::Mul(apart, apart)));
+        const auto half = hn::Floor(hn::Sqrt(left));
+        const auto from = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Sub(z, half))));
+        const auto to = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Add(z, half))));
+        const auto first = hn::Sub(hn::ShiftRight<4>(hn::Add(from, hn::Set(di, 15))), begin);
+        const auto end = hn::Sub(hn::ShiftRight<4>(to), begin);
+        const auto lo = hn::Max(first, none), hi = hn::Min(end, last);
+        const auto held = hn::And(hn::Shl(all, wide(hn::Min(lo, last))),
+            hn::Shr(all, wide(hn::Sub(last, hn::Max(hi, none)))));
+        // All ones, or none where the chord does not meet the word.
+        const auto meets = hn::IfThenZeroElse(hn::Gt(lo, hi), hn::Set(di, -1));
+        hn::Store(hn::Not(hn::And(held, wide(meets))), d64, kept);
+        uint64_t* row = bits
+            + (std::size_t(x) * std::size_t(size[1]) + std::size_t(y)) * std::size_t(words)
+            + std::size_t(word);
+        const int32_t rows = std::min(lanes, y1 - y + 1);
+        for (int32_t i = 0; i < rows; ++i, row += words) *row &= kept[i];
+    }
+}
+
 void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball)
 {
-    const BitRows rows{bits, {size[0], size[1], size[2]}, words};
-    forEachRow(rows, ball, [&](int32_t, int32_t, std::size_t row, int32_t z0, int32_t z1) {
-        for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
-            bits[row + std::size_t(w)] &= ~wordMask(w, z0, z1);
-        }
-    });
+    if (ball.radiusSq < 0) return;
+    const float reach = std::sqrt(ball.radiusSq);
+    const int32_t x0 = std::max(0, firstSample(ball.x, reach));
+    const int32_t x1 = std::min(size[0] - 1, lastSample(ball.x, reach));
+    const int32_t w0 = std::max(0, firstSample(ball.z, reach) >> 6);
+    const int32_t w1 = std::min(words - 1, lastSample(ball.z, reach) >> 6);
+    for (int32_t x = x0; x <= x1; ++x) {
+        const float dx = float(16 * x) - ball.x, rest = ball.radiusSq - dx * dx;
+        if (rest < 0) continue;
+        const float chord = std::sqrt(rest);
+        const int32_t y0 = std::max(0, firstSample(ball.y, chord));
+        const int32_t y1 = std::min(size[1] - 1, lastSample(ball.y, chord));
+        for (int32_t w = w0; w <= w1; ++w) clearWords(bits, size, words, ball, x, y0, y1, w);
+    }
 }
 
 } // namespace HWY_NAMESPACE

@@ -3,8 +3,10 @@
 
 #include "BallMask.h"
 #include "DebtFit.h"
+#include "ExtremePoints.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace tight {
@@ -13,16 +15,11 @@ namespace {
 
 using openvdb::Coord;
 
-/// Takes the voxels of a ball out of @a mask; false if none is left.
-bool takeOut(const FineBall& ball, const Coord& origin, LeafMask& mask)
+/// Takes @a held out of @a mask; false if none is left.
+bool takeOut(const LeafMask& held, LeafMask& mask)
 {
-    const LeafMask held = ballMask(ball, origin);
-    uint64_t any = 0;
-    for (int word = 0; word < 8; ++word) {
-        mask[word] &= ~held[word];
-        any |= mask[word];
-    }
-    return any != 0;
+    for (int word = 0; word < 8; ++word) mask[word] &= ~held[word];
+    return !isEmpty(mask);
 }
 
 /// A ball around the box of a unit.
@@ -41,26 +38,37 @@ FineBall ballAround(const std::vector<Coord>& points)
 
 } // namespace
 
-void VoxelDebt::collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+LeafMask VoxelDebt::heldIn(std::size_t leaf, const CoverBall& ball) const
+{
+    LeafMask held = ballMask(ball.ball, mObject.origin(leaf));
+    const LeafMask& counts =
+        mRegions ? maskIn((*mRegions)[ball.group], uint32_t(leaf)) : mObject.mask(leaf);
+    for (int word = 0; word < 8; ++word) held[word] &= counts[word];
+    return held;
+}
+
+void VoxelDebt::collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
     std::vector<Coord>& points) const
 {
     thread_local ExtremePoints extreme;
     extreme.clear();
     openvdb::CoordBBox box, one;
-    for (const FineBall& ball : lifted) {
-        if (ballBox(ball, one)) box.expand(one);
+    for (const CoverBall& ball : lifted) {
+        if (ballBox(ball.ball, one)) box.expand(one);
     }
     if (!box.empty()) {
         mObject.forEachLeaf(box, [&](std::size_t leaf) {
             const Coord& origin = mObject.origin(leaf);
             LeafMask owed{};
-            for (const FineBall& ball : lifted) {
-                if (ball.empty() || !mayReach(ball, origin)) continue;
-                const LeafMask held = ballMask(ball, origin);
-                for (int w = 0; w < 8; ++w) owed[w] |= held[w] & mObject.mask(leaf)[w];
+            for (const CoverBall& ball : lifted) {
+                if (ball.empty() || !mayReach(ball.ball, origin)) continue;
+                const LeafMask held = heldIn(leaf, ball);
+                for (int word = 0; word < 8; ++word) owed[word] |= held[word];
             }
-            for (const FineBall& ball : others) {
-                if (!ball.empty() && mayReach(ball, origin) && !takeOut(ball, origin, owed)) return;
+            if (isEmpty(owed)) return;
+            for (const CoverBall& ball : others) {
+                if (ball.empty() || !mayReach(ball.ball, origin)) continue;
+                if (!takeOut(heldIn(leaf, ball), owed)) return;
             }
             extreme.add(origin, owed);
         });
@@ -68,22 +76,29 @@ void VoxelDebt::collect(const std::vector<FineBall>& lifted, const std::vector<F
     points = extreme.finish();
 }
 
-UnitDebt::UnitDebt(const std::vector<std::vector<Coord>>& units) : mUnits(units)
+UnitDebt::UnitDebt(const std::vector<std::vector<Coord>>& units, std::vector<int32_t> groups)
+    : mUnits(units), mGroups(std::move(groups))
 {
+    mGroups.resize(units.size(), 0);
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (!units[i].empty()) mGrid.add(int32_t(i), ballAround(units[i]));
     }
 }
 
-void UnitDebt::collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+bool UnitDebt::holds(const CoverBall& ball, int32_t unit) const
+{
+    return ball.group == mGroups[unit] && holdsAll(ball.ball, mUnits[unit]);
+}
+
+void UnitDebt::collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
     std::vector<Coord>& points) const
 {
     points.clear();
-    for (std::size_t i = 0; i < lifted.size(); ++i) {
-        if (lifted[i].empty()) continue;
-        for (const int32_t unit : mGrid.near(lifted[i])) {
-            const auto holds = [&](const FineBall& ball) { return holdsAll(ball, mUnits[unit]); };
-            if (!holds(lifted[i]) || std::any_of(others.begin(), others.end(), holds)) continue;
+    for (const CoverBall& ball : lifted) {
+        if (ball.empty()) continue;
+        for (const int32_t unit : mGrid.near(ball.ball)) {
+            const auto holdsUnit = [&](const CoverBall& other) { return holds(other, unit); };
+            if (!holdsUnit(ball) || std::any_of(others.begin(), others.end(), holdsUnit)) continue;
             points.insert(points.end(), mUnits[unit].begin(), mUnits[unit].end());
         }
     }

@@ -8,8 +8,9 @@
 #pragma once
 
 #include "BallGrid.h"
-#include "ExtremePoints.h"
+#include "CoverBall.h"
 #include "SampledObject.h"
+#include "VoxelRegion.h"
 
 #include <openvdb/Types.h>
 
@@ -25,29 +26,42 @@ public:
     /// @param others  at least all other balls that meet one of them; empty balls hold nothing
     /// @param points  receives voxels that stand for all that only the lifted balls hold: a ball
     ///                that holds them holds it all
-    virtual void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+    virtual void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
         std::vector<openvdb::Coord>& points) const = 0;
 };
 
 class VoxelDebt : public CoverDebt {
 public:
+    /// Every object voxel that a ball holds counts.
     explicit VoxelDebt(const SampleLevel& object) : mObject(object) {}
-    void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+    /// @param regions  of the groups: what a ball holds counts in its group's only
+    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions)
+        : mObject(object), mRegions(&regions)
+    {}
+    void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
         std::vector<openvdb::Coord>& points) const override;
 
 private:
+    LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
+
     const SampleLevel& mObject;
+    const std::vector<VoxelRegion>* mRegions = nullptr; ///< null: the object
 };
 
 class UnitDebt : public CoverDebt {
 public:
-    /// @param units  extreme points of each
-    explicit UnitDebt(const std::vector<std::vector<openvdb::Coord>>& units);
-    void collect(const std::vector<FineBall>& lifted, const std::vector<FineBall>& others,
+    /// @param units   extreme points of each
+    /// @param groups  of the units; empty: all are in group 0
+    explicit UnitDebt(
+        const std::vector<std::vector<openvdb::Coord>>& units, std::vector<int32_t> groups = {});
+    void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
         std::vector<openvdb::Coord>& points) const override;
 
 private:
+    bool holds(const CoverBall& ball, int32_t unit) const;
+
     const std::vector<std::vector<openvdb::Coord>>& mUnits;
+    std::vector<int32_t> mGroups;
     BallGrid mGrid; ///< of balls around units
 };
 

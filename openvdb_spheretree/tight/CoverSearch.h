@@ -3,11 +3,8 @@
 /// @brief Makes a cover better without more balls (quality=best): tries changes, keeps those that
 /// pay.
 ///
-/// A trial spoils one ball and lets its neighbours make the best of it: the ball grows, or moves,
-/// and then each ball near it is placed anew for what it still owes. If the cover costs less in the
-/// end, it stays; if not, nothing has happened. A ball can also go elsewhere: a neighbour takes over
-/// what it owes, and where a small ball is put in, its neighbours shrink. The
-/// cheapest of all removals are paired with the best of many insertions.
+/// Most trials spoil one ball and let its neighbours make the best of it (CoverTrial.h); six times in
+/// a search balls go elsewhere (CoverRelocation.h); before and after, every ball is placed anew.
 ///
 /// Trials of a batch start from the same cover and run in parallel; of those that pay, the first
 /// ones whose surroundings do not meet are kept. What is tried follows from a counter, and the
@@ -16,9 +13,9 @@
 
 #pragma once
 
-#include "BallFit.h"
+#include "CoverBall.h"
 #include "CoverDebt.h"
-#include "FineBall.h"
+#include "CoverPart.h"
 #include "SampledObject.h"
 
 #include <openvdb/util/NullInterrupter.h>
@@ -28,16 +25,15 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-struct SearchEffort {
-    FitEffort fit;
-    int trialsPerBall = 20;
-    bool flat = false;
+struct SearchedCover {
+    std::vector<CoverBall> balls; ///< empty ones where balls went, if none could be put in
+    double change = 0;            ///< of the cost, voxels, counted on samples: not above 0
 };
 
-/// @param balls   a cover in the sense of @a debt
-/// @param leaves  small balls, to be put in where one is to spare: those of the next finer level
-/// @return a cover of as many balls, whose excess is not larger.
-std::vector<FineBall> improveCover(std::vector<FineBall> balls, const std::vector<FineBall>& leaves,
+/// @param balls  a cover in the sense of @a debt
+/// @param finer  small balls, to be put in where one is to spare: those of the next finer level. If
+///               there are none, balls stay where they are and go where they owe nothing.
+SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
     const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
     openvdb::util::NullInterrupter* interrupter);
 

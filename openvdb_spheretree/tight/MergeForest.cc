@@ -24,7 +24,9 @@ public:
     Forest(MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
         : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
     {
-        for (const FineBall& ball : model.leaves()) addNode(ball);
+        for (const FineBall& ball : model.leaves()) {
+            addNode(ball, model.groupOf(int32_t(mNodes.size())));
+        }
         mLeafCount = mLive = int32_t(mNodes.size());
         for (ForestNode& node : mNodes) node.last = mLive;
     }
@@ -36,6 +38,7 @@ public:
             detail::checkInterrupt(mInterrupter, 100 - int(100.0 * mLive / mLeafCount));
             if (mLive <= rebuildAt || mQueue.empty()) {
                 rebuildQueue();
+                if (mQueue.empty()) break; // each group is one ball
                 rebuildAt = int32_t(mLive * kRebuild);
             }
             refreshTop();
@@ -48,9 +51,11 @@ private:
     bool alive(int32_t node) const { return mNodes[node].parent == -1 && !mGone[node]; }
     int32_t perRound() const { return std::max(1, mLive / kShare); }
 
-    void addNode(const FineBall& ball)
+    void addNode(const FineBall& ball, int32_t group)
     {
-        mGrid.add(int32_t(mNodes.size()), ball);
+        if (std::size_t(group) >= mGrids.size()) mGrids.resize(std::size_t(group) + 1);
+        mGrids[group].add(int32_t(mNodes.size()), ball);
+        mGroup.push_back(group);
         mNodes.push_back({ball, -1, 1, 0});
         mGone.push_back(0);
         mTouched.push_back(mRound);
@@ -114,7 +119,8 @@ private:
     {
         std::vector<std::vector<int32_t>> nearest(nodes.size());
         detail::parallelFor(nodes.size(), mInterrupter, [&](std::size_t i) {
-            nearest[i] = mGrid.nearest(nodes[i], mNodes[nodes[i]].ball, mNeighbours);
+            const BallGrid& grid = mGrids[mGroup[nodes[i]]];
+            nearest[i] = grid.nearest(nodes[i], mNodes[nodes[i]].ball, mNeighbours);
         });
         std::vector<Pair> pairs;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -178,12 +184,20 @@ private:
 
     // ---- Merges
 
+    template <typename Body>
+    void forEachNear(const FineBall& ball, double slack, const Body& body) const
+    {
+        for (const BallGrid& grid : mGrids) {
+            for (const int32_t node : grid.near(ball, slack)) body(node);
+        }
+    }
+
     void lockAround(const MergeCandidate& c)
     {
         for (const FineBall& ball : {mNodes[c.a].ball, mNodes[c.b].ball, c.ball}) {
             if (ball.empty()) continue;
             // Balls may share a voxel where they touch, and gaps are rounded.
-            for (const int32_t node : mGrid.near(ball, 1)) mLocked[node] = mRound;
+            forEachNear(ball, 1, [&](int32_t node) { mLocked[node] = mRound; });
         }
     }
 
@@ -211,7 +225,7 @@ private:
     void touchAround(const FineBall& ball)
     {
         if (ball.empty()) return;
-        for (const int32_t node : mGrid.near(ball, kTouch)) mTouched[node] = mRound;
+        forEachNear(ball, kTouch, [&](int32_t node) { mTouched[node] = mRound; });
     }
 
     void end(int32_t node, int32_t parent)
@@ -219,7 +233,7 @@ private:
         mNodes[node].parent = parent;
         mNodes[node].first = mLive;
         mGone[node] = 1;
-        mGrid.remove(node, mNodes[node].ball);
+        mGrids[mGroup[node]].remove(node, mNodes[node].ball);
     }
 
     void doMerges(const std::vector<MergeCandidate>& taken)
@@ -239,16 +253,16 @@ private:
             end(c.a, node);
             end(c.b, node);
             --mLive;
-            addNode(c.ball);
+            addNode(c.ball, mGroup[c.a]);
             mNodes[node].last = mLive;
             born.push_back(node);
             merges.push_back(c);
         }
-        mDropped.clear();
+        std::vector<MergeCandidate> dropped;
         for (const MergeCandidate& c : taken) {
-            if (c.ball.empty()) mDropped.push_back(c);
+            if (c.ball.empty()) dropped.push_back(c);
         }
-        if (!mDropped.empty()) mModel.merge(mDropped, -1);
+        if (!dropped.empty()) mModel.merge(dropped, -1);
         if (!merges.empty()) mModel.merge(merges, firstNode);
         ++mRound; // what is evaluated from here on knows of these merges
         if (mModel.dependsOnOthers()) {
@@ -264,18 +278,19 @@ private:
     MergeModel& mModel;
     std::size_t mNeighbours;
     openvdb::util::NullInterrupter* mInterrupter;
-    BallGrid mGrid;
+    std::vector<BallGrid> mGrids; ///< of the groups: living nodes
     std::vector<ForestNode> mNodes;
+    std::vector<int32_t> mGroup;
     std::vector<char> mGone;
     std::vector<int32_t> mTouched; ///< the last round that changed something near a node
     std::vector<int32_t> mLocked;  ///< the last round that took a merge near a node
-    std::vector<MergeCandidate> mQueue, mDropped;
+    std::vector<MergeCandidate> mQueue;
     int32_t mLeafCount = 0, mLive = 0, mRound = 0;
 };
 
 } // namespace
 
-std::vector<ForestNode> mergeToRoot(
+std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
 {
     return Forest(model, neighbours, interrupter).run();

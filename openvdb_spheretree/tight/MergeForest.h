@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file tight/MergeForest.h
-/// @brief From leaves to one root by merging the cheapest pair of neighbours, many pairs at a time.
+/// @brief From leaves to one root (one for each group) by merging the cheapest pair of neighbours, many pairs at a time.
 ///
 /// What a merge costs is the model's business (StrictMerging.h, SlackMerging.h); here is the order of
 /// merges. Pairs of near balls wait in a queue by cost. A round takes the cheapest pairs, at most
@@ -42,6 +42,8 @@ class MergeModel {
 public:
     virtual ~MergeModel() = default;
     virtual std::vector<FineBall> leaves() const = 0;
+    /// Leaves of different groups never come together: CoverBall.h.
+    virtual int32_t groupOf(int32_t /*leaf*/) const { return 0; }
     /// @return the merge of two nodes; thread-safe, changes nothing.
     virtual MergeCandidate evaluate(int32_t a, int32_t b) const = 0;
     /// Called for a merge that is going to be done.
@@ -58,9 +60,10 @@ struct ForestNode {
     int32_t first = 1, last = 0; ///< it is part of the cuts of so many spheres: SphereCuts.h
 };
 
+/// Merges until each group is one ball.
 /// @return the leaves, then every merged node in order; dropped candidates are no nodes.
 /// @param neighbours  a ball may merge with: 6 where time counts; more than 8 gain nothing
-std::vector<ForestNode> mergeToRoot(
+std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace tight

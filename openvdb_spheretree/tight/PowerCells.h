@@ -9,6 +9,7 @@
 
 #include "FineBall.h"
 #include "SampledObject.h"
+#include "VoxelRegion.h"
 
 #include <openvdb/util/NullInterrupter.h>
 
@@ -17,7 +18,18 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// @param balls  whose union is @a object
+/// @param balls    that cover @a object
+/// @param regions  where each of them counts; together the object
+/// @return the cell of each ball.
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
+    const std::vector<VoxelRegion>& regions, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return for each region its extreme points: ExtremePoints.h; none for an empty one.
+std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
+
+/// @param balls  that cover @a object
 /// @return for each ball the extreme points of its cell: ExtremePoints.h; none for an empty cell.
 std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);

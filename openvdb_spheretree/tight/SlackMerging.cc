@@ -12,15 +12,14 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-SlackMerging::SlackMerging(const SampledObject& object, std::vector<FineBall> leaves,
-    const FitEffort& effort, bool flat, openvdb::util::NullInterrupter* interrupter)
+SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
+    std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
+    openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
-      mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(std::move(leaves)),
-      mRegions(mBalls.size()),
+      mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(ballsOf(leaves)),
+      mGroups(groupsOf(leaves)), mRegions(std::move(regions)),
       mCounts(mVoxels.leafCount(), LeafBalls(mBalls, mVoxels, interrupter).most())
 {
-    detail::parallelFor(mBalls.size(), interrupter,
-        [&](std::size_t i) { mRegions[i] = regionOf(mBalls[i], mVoxels); });
     for (const VoxelRegion& region : mRegions) {
         for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);
     }

@@ -14,6 +14,7 @@
 
 #include "BallFit.h"
 #include "BallGrid.h"
+#include "CoverBall.h"
 #include "CoverCounts.h"
 #include "MergeForest.h"
 #include "SampledObject.h"
@@ -26,15 +27,18 @@ namespace tight {
 
 class SlackMerging : public MergeModel {
 public:
-    /// @param leaves  whose union is the object
+    /// @param leaves  inside the object
+    /// @param regions  of the leaves, in their balls; they cover the object
     /// @param flat    centres keep their z
-    SlackMerging(const SampledObject& object, std::vector<FineBall> leaves, const FitEffort& effort,
-        bool flat, openvdb::util::NullInterrupter* interrupter);
+    SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
+        std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
+        openvdb::util::NullInterrupter* interrupter);
 
     std::vector<FineBall> leaves() const override
     {
         return {mBalls.begin(), mBalls.begin() + mLeafCount};
     }
+    int32_t groupOf(int32_t leaf) const override { return mGroups[leaf]; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override;
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override;
     bool dependsOnOthers() const override { return true; }
@@ -52,6 +56,7 @@ private:
     openvdb::util::NullInterrupter* mInterrupter;
     int32_t mLeafCount;
     std::vector<FineBall> mBalls;
+    std::vector<int32_t> mGroups;      ///< of leaves
     std::vector<VoxelRegion> mRegions; ///< of living nodes
     CoverCounts mCounts;               ///< of the living nodes' regions
     BallGrid mMerged;                  ///< living nodes that are no leaves

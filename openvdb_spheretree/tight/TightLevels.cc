@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -39,19 +40,6 @@ Coord nearestVoxel(const Vec3d& center)
 {
     const auto axis = [&](int a) { return int32_t(std::floor(center[a] + 0.5)); };
     return Coord(axis(0), axis(1), axis(2));
-}
-
-/// @return the ball of @a level that @a ball sticks out of least.
-int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level)
-{
-    const auto protrusion = [&](const FineBall& other) {
-        return centerDistance(ball, other) + ball.radius() - other.radius();
-    };
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < level.size(); ++i) {
-        if (protrusion(level[i]) < protrusion(level[best])) best = i;
-    }
-    return int32_t(best);
 }
 
 /// The parents of the nodes of a cut in a coarser one.
@@ -122,13 +110,33 @@ std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
     return nodes;
 }
 
+std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count)
+{
+    std::vector<FineBall> balls;
+    for (const int32_t node : cutOf(forest, count)) balls.push_back(forest[node].ball);
+    return balls;
+}
+
+int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level)
+{
+    const auto protrusion = [&](const FineBall& other) {
+        return other.empty() ? std::numeric_limits<double>::infinity()
+                             : centerDistance(ball, other) + ball.radius() - other.radius();
+    };
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < level.size(); ++i) {
+        if (protrusion(level[i]) < protrusion(level[best])) best = i;
+    }
+    return int32_t(best);
+}
+
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves)
 {
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) {
         const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
-        for (const int32_t node : nodes) levels[k].balls.push_back(forest[node].ball);
+        levels[k].balls = ballsOfCut(forest, counts[k]);
         if (nodes.size() == leaves.size()) levels[k].digital = leaves;
         if (k + 1 < counts.size()) {
             levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);

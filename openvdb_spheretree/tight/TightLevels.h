@@ -25,6 +25,12 @@ struct TightLevel {
 /// @return the nodes of the cut with @a count balls, ascending.
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
 
+/// @return the balls of the cut with @a count balls.
+std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
+
+/// @return the ball of @a level that @a ball sticks out of least; empty ones are none.
+int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level);
+
 /// @param counts  finest first, falling, none above the number of leaves
 /// @param leaves  the first nodes of the forest, as medial balls
 /// @return a level for each count. A node's parent is its ancestor in the coarser cut; a ball that

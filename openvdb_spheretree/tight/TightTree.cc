@@ -46,7 +46,7 @@ int samplesFor(std::size_t leaves)
 Effort effortOf(Quality quality, std::size_t leaves)
 {
     if (quality == Quality::Fast) return {{false, 4, 1, false, 16}, 6};
-    if (quality == Quality::Best) return {{true, 12, 1, false, samplesFor(leaves)}, 6};
+    if (quality == Quality::Best) return {{true, 12, 1, true, samplesFor(leaves)}, 6};
     return {{true, 12, 1, true, samplesFor(leaves)}, 8};
 }
 
@@ -83,7 +83,8 @@ std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
         return std::make_unique<StrictMerging>(object, leaves,
             heldVoxels(cellPoints(leaves, object.level(0), interrupter)), fit, flat, interrupter);
     }
-    return std::make_unique<SlackMerging>(object, leaves, fit, flat, interrupter);
+    return std::make_unique<SlackMerging>(object, ungrouped(leaves),
+        regionsOf(leaves, object.level(0), interrupter), fit, flat, interrupter);
 }
 
 /// @param tree  with settings, object and transform
@@ -141,7 +142,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const Effort effort = effortOf(settings.quality, leaves.balls.size());
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
         const auto model = modelFor(settings, samples, leaves.balls, effort.fit, interrupter);
-        return mergeToRoot(*model, effort.neighbours, interrupter);
+        return mergeToRoots(*model, effort.neighbours, interrupter);
     });
     const auto cutError = [&](int64_t count) {
         return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VoxelRegion.h"
 
+#include "../detail/Parallel.h"
+
+#include <algorithm>
+
 namespace openvdb_spheretree {
 namespace tight {
 
@@ -27,6 +31,45 @@ VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object)
     if (!ballBox(ball, box)) return region;
     object.forEachLeaf(box, [&](std::size_t leaf) {
         append(region, leaf, intersection(ballMask(ball, object.origin(leaf)), object.mask(leaf)));
+    });
+    return region;
+}
+
+std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<VoxelRegion> regions(balls.size());
+    detail::parallelFor(
+        balls.size(), interrupter, [&](std::size_t i) { regions[i] = regionOf(balls[i], object); });
+    return regions;
+}
+
+const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)
+{
+    static const LeafMask kNone{};
+    const auto found = std::lower_bound(region.begin(), region.end(), leaf,
+        [](const RegionLeaf& part, uint32_t wanted) { return part.leaf < wanted; });
+    return found != region.end() && found->leaf == leaf ? found->mask : kNone;
+}
+
+VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object)
+{
+    VoxelRegion inside;
+    for (const RegionLeaf& part : region) {
+        const openvdb::Coord& origin = object.origin(part.leaf);
+        if (!mayReach(ball, origin)) continue;
+        append(inside, part.leaf, intersection(ballMask(ball, origin), part.mask));
+    }
+    return inside;
+}
+
+VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
+{
+    VoxelRegion region;
+    forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
+        LeafMask mask;
+        for (int word = 0; word < 8; ++word) mask[word] = inA[word] | inB[word];
+        region.push_back({leaf, mask});
     });
     return region;
 }

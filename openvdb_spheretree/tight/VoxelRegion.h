@@ -7,6 +7,8 @@
 #include "BallMask.h"
 #include "SampledObject.h"
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +32,13 @@ inline bool isEmpty(const LeafMask& mask)
 /// @return the object voxels in @a ball.
 VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object);
 
+/// @return the object voxels in each ball.
+std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return the voxels of the region in one leaf.
+const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf);
+
 /// Calls body(leaf, maskOfA, maskOfB) for the leaves of either region, in order.
 template <typename Body>
 void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& body)
@@ -44,6 +53,11 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
         j += fromB;
     }
 }
+
+/// @return the voxels of a region that lie in @a ball.
+VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object);
+
+VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
 
 /// @return the voxels of either region that lie in @a ball.
 VoxelRegion clippedUnion(

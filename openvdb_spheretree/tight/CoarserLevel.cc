@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CoarserLevel.h"
+
+#include "../detail/Parallel.h"
+#include "DebtFit.h"
+#include "PowerCells.h"
+#include "StrictMerging.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+/// Extreme points of each unit.
+using Units = std::vector<std::vector<Coord>>;
+
+/// The balls of a coarser level before the search: the finer ones, merged.
+std::vector<FineBall> mergedBalls(
+    const std::vector<FineBall>& finer, const Units& units, int64_t count, const LevelMaker& maker)
+{
+    HeldByLeaves held = heldVoxels(units);
+    held.areInside = false;
+    StrictMerging merging(
+        maker.object, finer, std::move(held), maker.fit, maker.flat, maker.interrupter);
+    constexpr int kNeighbours = 8;
+    return ballsOfCut(mergeToRoots(merging, kNeighbours, maker.interrupter), count);
+}
+
+/// @return how far inside a ball a unit is, 1/256 voxel^2; negative where it is not.
+int64_t depthIn(const FineBall& ball, const std::vector<Coord>& unit)
+{
+    int64_t farthest = 0;
+    for (const Coord& p : unit) {
+        farthest = std::max(farthest, radiusSqToHold(ball, voxelBall(p)));
+    }
+    return ball.radiusSq - farthest;
+}
+
+/// @return for each unit the ball it is deepest in.
+std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& balls,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> parents(units.size(), 0);
+    detail::parallelFor(units.size(), interrupter, [&](std::size_t i) {
+        int64_t best = -1;
+        for (std::size_t b = 0; b < balls.size(); ++b) {
+            const int64_t depth = depthIn(balls[b], units[i]);
+            if (depth <= best) continue;
+            best = depth;
+            parents[i] = int32_t(b);
+        }
+    });
+    return parents;
+}
+
+/// Balls without children go; @a parents become links to those that are left.
+void keepParents(std::vector<FineBall>& balls, std::vector<int32_t>& parents)
+{
+    std::vector<int32_t> index(balls.size(), -1);
+    for (const int32_t parent : parents) index[parent] = 0;
+    std::vector<FineBall> kept;
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+        if (index[b] < 0) continue;
+        index[b] = int32_t(kept.size());
+        kept.push_back(balls[b]);
+    }
+    for (int32_t& parent : parents) parent = index[parent];
+    balls.swap(kept);
+}
+
+/// Balls that went because they owed nothing leave their children to others. No voxel needs these
+/// children for its chain.
+void adopt(const TightLevel& level, TightLevel& finer)
+{
+    for (std::size_t i = 0; i < finer.balls.size(); ++i) {
+        if (!level.balls[finer.parent[i]].empty()) continue;
+        finer.parent[i] = leastProtruding(finer.balls[i], level.balls);
+    }
+}
+
+/// @return for each ball the voxels that its children answer for.
+std::vector<VoxelRegion> regionsBelow(
+    const std::vector<VoxelRegion>& regions, const std::vector<int32_t>& parents, std::size_t count)
+{
+    std::vector<VoxelRegion> below(count);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        VoxelRegion& region = below[parents[i]];
+        region = unionOf(region, regions[i]);
+    }
+    return below;
+}
+
+/// The balls, each for itself, while what they hold counts in their own regions only.
+std::vector<FineBall> settled(const std::vector<FineBall>& balls,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
+{
+    std::vector<CoverBall> cover;
+    for (std::size_t i = 0; i < balls.size(); ++i) cover.push_back({balls[i], int32_t(i)});
+    return ballsOf(maker.improve(cover, {}, VoxelDebt(maker.object.level(0), regions)));
+}
+
+} // namespace
+
+TightLevel coarserLevel(
+    TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    const SampleLevel& object = maker.object.level(0);
+    const Units units = extremePoints(
+        cellRegions(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
+    TightLevel level;
+    level.balls = finer.balls;
+    if (count < int64_t(finer.balls.size())) {
+        level.balls =
+            ballsOf(maker.improve(ungrouped(mergedBalls(finer.balls, units, count, maker)),
+                ungrouped(finer.balls), UnitDebt(units)));
+    }
+    finer.parent = parentsOf(units, level.balls, maker.interrupter);
+    keepParents(level.balls, finer.parent);
+    const auto below = regionsBelow(regions, finer.parent, level.balls.size());
+    level.balls = settled(level.balls, below, maker);
+    adopt(level, finer);
+    keepParents(level.balls, finer.parent);
+    regions = regionsBelow(regions, finer.parent, level.balls.size());
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        regions[i] = clipped(regions[i], level.balls[i], object);
+    }
+    return level;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

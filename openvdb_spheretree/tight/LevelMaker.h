@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file tight/LevelMaker.h
+/// @brief What all levels of quality=best are made with.
+
+#pragma once
+
+#include "BallFit.h"
+#include "CoverBall.h"
+#include "CoverDebt.h"
+#include "SampledObject.h"
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+struct LevelMaker {
+    const SampledObject& object;
+    FitEffort fit;
+    bool flat;
+    openvdb::util::NullInterrupter* interrupter;
+
+    /// @return the level after the best of some searches: CoverSearch.h.
+    std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
+        const std::vector<CoverBall>& finer, const CoverDebt& debt) const;
+};
+
+} // namespace tight
+} // namespace openvdb_spheretree
