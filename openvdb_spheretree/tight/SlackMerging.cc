@@ -4,7 +4,6 @@
 #include "../detail/Parallel.h"
 #include "DebtFit.h"
 #include "ExtremePoints.h"
-#include "LeafBalls.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,15 +11,36 @@
 namespace openvdb_spheretree {
 namespace tight {
 
+namespace {
+
+std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<VoxelRegion> regions(balls.size());
+    detail::parallelFor(
+        balls.size(), interrupter, [&](std::size_t i) { regions[i] = regionOf(balls[i], object); });
+    return regions;
+}
+
+/// @return the most regions that have a part in the same leaf.
+uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
+{
+    std::vector<uint32_t> counts(leaves, 0);
+    for (const VoxelRegion& region : regions) {
+        for (const RegionLeaf& part : region) ++counts[part.leaf];
+    }
+    return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+}
+
+} // namespace
+
 SlackMerging::SlackMerging(const SampledObject& object, std::vector<FineBall> leaves,
     const FitEffort& effort, bool flat, openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
       mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(std::move(leaves)),
-      mRegions(mBalls.size()),
-      mCounts(mVoxels.leafCount(), LeafBalls(mBalls, mVoxels, interrupter).most())
+      mRegions(regionsOf(mBalls, mVoxels, interrupter)),
+      mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
 {
-    detail::parallelFor(mBalls.size(), interrupter,
-        [&](std::size_t i) { mRegions[i] = regionOf(mBalls[i], mVoxels); });
     for (const VoxelRegion& region : mRegions) {
         for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);
     }
