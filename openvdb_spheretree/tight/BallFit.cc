@@ -21,7 +21,7 @@ constexpr Step kDiagonals[20] = {{1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0},
 /// The ball around a centre that holds the points.
 LocalBall ballAround(const PointCloud& points, float x, float y, float z)
 {
-    return {x, y, z, points.farthest(x, y, z).distanceSq};
+    return {x, y, z, points.farthestSq(x, y, z)};
 }
 
 /// One descent, with the best ball so far.
