@@ -21,13 +21,13 @@ constexpr Step kDiagonals[20] = {{1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0},
 /// The ball around a centre that holds the points.
 LocalBall ballAround(const PointCloud& points, float x, float y, float z)
 {
-    return {x, y, z, points.farthest(x, y, z).distanceSq};
+    return {x, y, z, points.farthestSq(x, y, z)};
 }
 
 /// One descent, with the best ball so far.
 class Descent {
 public:
-    Descent(const PointCloud& points, const CostOctets& costs, bool flat)
+    Descent(const PointCloud& points, const CostRuns& costs, bool flat)
         : mPoints(points), mCosts(costs), mFlat(flat)
     {}
 
@@ -90,7 +90,7 @@ private:
     }
 
     const PointCloud& mPoints;
-    const CostOctets& mCosts;
+    const CostRuns& mCosts;
     bool mFlat;
     BallFit mBest;
 };
@@ -138,7 +138,7 @@ LocalBall smallestBall(const PointCloud& points, bool flat)
     return best;
 }
 
-BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostOctets& costs,
+BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat)
 {
     Descent descent(points, costs, flat);

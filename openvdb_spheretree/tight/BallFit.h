@@ -9,7 +9,7 @@
 
 #pragma once
 
-#include "CostOctets.h"
+#include "CostRuns.h"
 #include "PointCloud.h"
 
 #include <vector>
@@ -36,7 +36,7 @@ struct FitEffort {
 /// @param costs     around its centre; balls that reach further are not tried
 /// @param starts    centres to try, their radii are not looked at
 /// @param flat      leave z alone
-BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostOctets& costs,
+BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat = false);
 
 /// @return the smallest ball around the points, to about 1/16 of a unit and never too small.

@@ -12,22 +12,10 @@ namespace tight {
 
 namespace {
 
-/// The leaf's nearest and farthest voxel along each axis, squared, in the ball's units.
-struct Reach {
-    int64_t nearestSq = 0, farthestSq = 0;
-
-    Reach(const FineBall& ball, const openvdb::Coord& origin)
-    {
-        for (int a = 0; a < 3; ++a) {
-            const int64_t first = kFine * int64_t(origin[a]), last = first + kFine * 7;
-            const int64_t c = ball.center[a];
-            const int64_t near = std::max(first, std::min(c, last)) - c;
-            const int64_t far = std::max(c - first, last - c);
-            nearestSq += near * near;
-            farthestSq += far * far;
-        }
-    }
-};
+openvdb::CoordBBox leafBox(const openvdb::Coord& origin)
+{
+    return openvdb::CoordBBox::createCube(origin, kLeafDim);
+}
 
 /// The voxels i in 0...7 of a row with |16 i - center| <= half, as a byte.
 uint64_t rowByte(int64_t center, int64_t half)
@@ -40,12 +28,24 @@ uint64_t rowByte(int64_t center, int64_t half)
 
 } // namespace
 
+BoxReach::BoxReach(const FineBall& ball, const openvdb::CoordBBox& box)
+{
+    for (int a = 0; a < 3; ++a) {
+        const int64_t first = kFine * int64_t(box.min()[a]), last = kFine * int64_t(box.max()[a]);
+        const int64_t c = ball.center[a];
+        const int64_t near = std::max(first, std::min(c, last)) - c;
+        const int64_t far = std::max(c - first, last - c);
+        nearestSq += near * near;
+        farthestSq += far * far;
+    }
+}
+
 LeafMask ballMask(const FineBall& ball, const openvdb::Coord& origin)
 {
     LeafMask mask{};
-    const Reach reach(ball, origin);
-    if (reach.nearestSq > ball.radiusSq) return mask;
-    if (reach.farthestSq <= ball.radiusSq) {
+    const BoxReach reach(ball, leafBox(origin));
+    if (!reach.meets(ball)) return mask;
+    if (reach.isHeldBy(ball)) {
         mask.fill(~uint64_t(0));
         return mask;
     }
@@ -72,7 +72,7 @@ LeafMask ballMask(const FineBall& ball, const openvdb::Coord& origin)
 
 bool mayReach(const FineBall& ball, const openvdb::Coord& origin)
 {
-    return Reach(ball, origin).nearestSq <= ball.radiusSq;
+    return BoxReach(ball, leafBox(origin)).meets(ball);
 }
 
 bool ballBox(const FineBall& ball, openvdb::CoordBBox& box)

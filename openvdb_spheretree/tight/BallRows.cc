@@ -114,22 +114,38 @@ int64_t countBits(const BitRows& rows, const LocalBall& ball)
     return sum;
 }
 
-void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>& found)
+/// Calls body(first, last) for the runs of bits between z0 and z1 of a row.
+template <typename Body>
+HWY_INLINE void forEachRun(const uint64_t* row, int32_t z0, int32_t z1, const Body& body)
+{
+    int32_t first = z0, beyond = z0; // the run so far: none
+    for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
+        uint64_t word = row[w] & wordMask(w, z0, z1);
+        while (word) {
+            const int32_t begin = __builtin_ctzll(word);
+            const uint64_t gaps = ~(word >> begin); // only zero where all 64 bits are set
+            const int32_t length = gaps ? __builtin_ctzll(gaps) : 64;
+            if (64 * w + begin != beyond) {
+                if (first < beyond) body(first, beyond - 1);
+                first = 64 * w + begin;
+            }
+            beyond = 64 * w + begin + length;
+            word = begin + length < 64 ? word & ~uint64_t(0) << (begin + length) : 0;
+        }
+    }
+    if (first < beyond) body(first, beyond - 1);
+}
+
+void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<CostRun>& found)
 {
     forEachRow(rows, ball, [&](int32_t x, int32_t y, std::size_t row, int32_t z0, int32_t z1) {
         const float dx = float(16 * x) - ball.x, dy = float(16 * y) - ball.y;
         const float rowSq = dx * dx + dy * dy;
-        for (int32_t w = z0 >> 6; w <= z1 >> 6; ++w) {
-            uint64_t word = rows.bits[row + std::size_t(w)] & wordMask(w, z0, z1);
-            while (word) {
-                const int32_t shift = __builtin_ctzll(word) & 56;
-                const auto z = float(16 * (64 * w + shift));
-                const float dz = std::max(0.0f, std::max(z - ball.z, ball.z - (z + 112)));
-                found.push_back({float(16 * x), float(16 * y), z, int32_t(word >> shift & 0xff),
-                    rowSq + dz * dz});
-                word &= ~(uint64_t(0xff) << shift);
-            }
-        }
+        forEachRun(rows.bits + row, z0, z1, [&](int32_t first, int32_t last) {
+            const float below = float(16 * first) - ball.z, above = ball.z - float(16 * last);
+            const float dz = std::max(0.0f, std::max(below, above));
+            found.emplace_back(float(16 * x), float(16 * y), first, last, rowSq + dz * dz);
+        });
     });
 }
 
@@ -209,7 +225,7 @@ int64_t countBits(const BitRows& rows, const LocalBall& ball)
     return HWY_DYNAMIC_DISPATCH(countBits)(rows, ball);
 }
 
-void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>& found)
+void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<CostRun>& found)
 {
     HWY_DYNAMIC_DISPATCH(collectBits)(rows, ball, found);
 }

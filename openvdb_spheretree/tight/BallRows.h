@@ -12,7 +12,7 @@ namespace openvdb_spheretree {
 namespace tight {
 
 struct LocalBall;
-struct Octet;
+struct CostRun;
 
 /// Rows of `words` words; row (x, y) is number x * size[1] + y.
 struct BitRows {
@@ -24,8 +24,8 @@ struct BitRows {
 /// @return the bits in the ball, which may reach out of the window.
 int64_t countBits(const BitRows& rows, const LocalBall& ball);
 
-/// Appends these bits, octet by octet; distances are to the ball's centre.
-void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<Octet>& found);
+/// Appends these bits, run by run; distances are to the ball's centre.
+void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<CostRun>& found);
 
 void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball);
 

@@ -81,7 +81,7 @@ int64_t CostWindow::count(const LocalBall& ball) const
     return countBits({mBits.data(), {mSize[0], mSize[1], mSize[2]}, mWords}, ball);
 }
 
-void CostWindow::collect(const LocalBall& ball, std::vector<Octet>& found) const
+void CostWindow::collect(const LocalBall& ball, std::vector<CostRun>& found) const
 {
     collectBits({mBits.data(), {mSize[0], mSize[1], mSize[2]}, mWords}, ball, found);
 }

@@ -29,11 +29,16 @@ struct LocalBall {
     float x = 0, y = 0, z = 0, radiusSq = -1;
 };
 
-/// Eight samples along z in a window's own coordinates.
-struct Octet {
-    float x, y, z;    ///< of the first sample
-    int32_t bits;     ///< the samples that cost, lowest first
-    float distanceSq; ///< no sample is nearer to the place it was collected around
+/// Samples along z that cost, one behind the other.
+struct CostRun {
+    float x, y;          ///< in a window's own coordinates
+    int32_t first, last; ///< samples of the window
+    float distanceSq;    ///< of the nearest one to the place that they were collected around
+
+    /// Made in place: an aggregate that is copied waits for its parts to be stored.
+    CostRun(float rowX, float rowY, int32_t from, int32_t to, float nearestSq)
+        : x(rowX), y(rowY), first(from), last(to), distanceSq(nearestSq)
+    {}
 };
 
 /// A box in 1/16 voxel, inclusive.
@@ -56,8 +61,8 @@ public:
 
     /// @return the samples of a ball that cost; the window reaches over all of it.
     int64_t count(const LocalBall& ball) const;
-    /// Appends the octets with such samples, of a ball that may reach out of the window.
-    void collect(const LocalBall& ball, std::vector<Octet>& found) const;
+    /// Appends the runs of such samples, of a ball that may reach out of the window.
+    void collect(const LocalBall& ball, std::vector<CostRun>& found) const;
 
     LocalBall toLocal(const FineBall& ball) const;
     /// @return the centre of a local ball, its radius left empty.

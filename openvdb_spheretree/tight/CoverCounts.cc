@@ -85,15 +85,5 @@ LeafMask CoverCounts::twice(std::size_t leaf) const
     return mWhole[leaf] > 2 ? LeafMask{} : planesSay(leaf, 2 - mWhole[leaf]);
 }
 
-LeafMask CoverCounts::moreThanOnce(std::size_t leaf) const
-{
-    LeafMask result{};
-    if (mWhole[leaf] > 1) result.fill(~uint64_t(0));
-    for (std::size_t bit = mWhole[leaf] == 0; mWhole[leaf] < 2 && bit < mPerLeaf; ++bit) {
-        for (int word = 0; word < 8; ++word) result[word] |= planes(leaf)[bit][word];
-    }
-    return result;
-}
-
 } // namespace tight
 } // namespace openvdb_spheretree

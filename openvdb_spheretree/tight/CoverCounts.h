@@ -32,7 +32,6 @@ public:
 
     LeafMask once(std::size_t leaf) const;
     LeafMask twice(std::size_t leaf) const;
-    LeafMask moreThanOnce(std::size_t leaf) const;
 
 private:
     /// @return the voxels whose planes say 0, 1 or 2.

@@ -92,10 +92,9 @@ private:
             std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
                 return mCover[a].ball.radiusSq > mCover[b].ball.radiusSq;
             });
+            std::vector<int32_t> left(order);
             bool any = false;
-            for (std::vector<int32_t> left = order; !left.empty();) {
-                any |= refit(takeApart(left, mCover));
-            }
+            while (!left.empty()) any |= refit(takeApart(left, mCover));
             if (!any) return;
         }
     }

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "BallFit.h"
-#include "CostOctets.h"
+#include "CostRuns.h"
 #include "CostWindow.h"
 #include "PointCloud.h"
 
@@ -52,7 +52,7 @@ private:
     FineBox mBox;
     CostWindow mWindow, mLeft;
     PointCloud mPoints;
-    CostOctets mCosts;
+    CostRuns mCosts;
     std::vector<LocalBall> mStarts;
 };
 

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -25,12 +26,17 @@ public:
         std::size_t point;
         float distanceSq; ///< the squared radius that a ball needs: exact for integers below 2^12
     };
+    /// @return the first of the points that are farthest.
     Farthest farthest(float x, float y, float z) const;
+    /// The same without the point, in half the time.
+    float farthestSq(float x, float y, float z) const;
 
     float coordinate(int axis, std::size_t point) const { return mAxis[axis][point]; }
     float radius(std::size_t point) const { return mHasRadii ? mAxis[3][point] : 0; }
 
 private:
+    std::array<const float*, 4> axes() const;
+
     std::vector<float> mAxis[4]; ///< x, y, z, radius
     std::size_t mCount = 0;
     bool mHasRadii = false;

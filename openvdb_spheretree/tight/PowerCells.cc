@@ -2,11 +2,14 @@
 #include "PowerCells.h"
 
 #include "../detail/Parallel.h"
+#include "BallMask.h"
 #include "ExtremePoints.h"
-#include "LeafBalls.h"
+#include "LeafDescent.h"
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace tight {
@@ -34,56 +37,104 @@ struct PowerTerms {
     }
 };
 
+/// Twice the middle of a box: an integer.
+struct Middle {
+    int64_t twice[3];
+
+    explicit Middle(const openvdb::CoordBBox& box)
+    {
+        for (int a = 0; a < 3; ++a) twice[a] = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+    }
+    double powerOf(const FineBall& ball) const
+    {
+        double power = double(ball.radiusSq);
+        for (int a = 0; a < 3; ++a) {
+            const double d = 0.5 * double(twice[a]) - double(ball.center[a]);
+            power -= d * d;
+        }
+        return power;
+    }
+};
+
+/// @return whether the power of @a ball is larger than that of @a other in all of the box: the
+/// difference is linear, so it is smallest at an end of each axis.
+bool dominates(const FineBall& ball, const FineBall& other, const openvdb::CoordBBox& box)
+{
+    int64_t least = ball.radiusSq - other.radiusSq;
+    for (int a = 0; a < 3; ++a) {
+        const auto gain = [&](int64_t at) {
+            const int64_t mine = kFine * at - ball.center[a], theirs = kFine * at - other.center[a];
+            return theirs * theirs - mine * mine;
+        };
+        least += std::min(gain(box.min()[a]), gain(box.max()[a]));
+    }
+    return least > 0;
+}
+
+/// Leaves out the balls that are weaker everywhere than the one that is strongest in the middle.
+BallFilter ballsWithPower(const std::vector<FineBall>& balls)
+{
+    return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
+               std::vector<int32_t>& to) {
+        const Middle middle(box);
+        int32_t strongest = -1;
+        for (const int32_t ball : from) {
+            if (strongest < 0 || middle.powerOf(balls[ball]) > middle.powerOf(balls[strongest])) {
+                strongest = ball;
+            }
+        }
+        for (const int32_t ball : from) {
+            if (!BoxReach(balls[ball], box).meets(balls[ball])) continue;
+            if (!dominates(balls[strongest], balls[ball], box)) to.push_back(ball);
+        }
+    };
+}
+
 /// A ball that may have a part of a leaf, and the voxels that count.
 struct Claim {
     int32_t ball;
     const LeafMask* within;
 };
 
-bool isOn(const LeafMask& mask, int voxel) { return mask[voxel >> 6] >> (voxel & 63) & 1; }
-
+/// @param claims  by ball
 /// @return the parts of cells in the leaf at @a origin, by ball.
 std::vector<CellLeaf> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
     const std::vector<FineBall>& balls)
 {
     std::array<int64_t, kLeafVoxels> best;
-    std::array<int32_t, kLeafVoxels> label;
+    std::array<int32_t, kLeafVoxels> label; // place in `claims`
     best.fill(-1); // a ball without a power of 0 or more does not hold the voxel
-    label.fill(-1);
-    for (const auto& [ball, within] : claims) {
-        const PowerTerms terms(balls[ball], origin);
+    label.fill(0);
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+        const FineBall& ball = balls[claims[k].ball];
+        const LeafMask& within = *claims[k].within;
+        const PowerTerms terms(ball, origin);
         for (int i = 0; i < kLeafVoxels; ++i) {
             const int64_t power =
                 terms.axis[0][i >> 6] + terms.axis[1][i >> 3 & 7] + terms.axis[2][i & 7];
             const bool more = power > best[i]
                 || (power == best[i] && power >= 0
-                    && balls[ball].radiusSq > balls[label[i]].radiusSq);
-            const bool wins = more && isOn(*within, i);
+                    && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
+            const bool wins = more && (within[i >> 6] >> (i & 63) & 1);
             best[i] = wins ? power : best[i];
-            label[i] = wins ? ball : label[i];
+            label[i] = wins ? int32_t(k) : label[i];
         }
     }
     std::vector<CellLeaf> parts;
-    for (const auto& claim : claims) {
-        CellLeaf part{claim.ball, {}};
-        for (int i = 0; i < kLeafVoxels; ++i) {
-            part.mask[i >> 6] |= uint64_t(label[i] == claim.ball) << (i & 63);
-        }
-        if (!isEmpty(part.mask)) parts.push_back(part);
+    for (const Claim& claim : claims) parts.push_back({claim.ball, {}});
+    for (int i = 0; i < kLeafVoxels; ++i) {
+        if (best[i] >= 0) parts[label[i]].mask[i >> 6] |= uint64_t(1) << (i & 63);
     }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                    [](const CellLeaf& part) { return isEmpty(part.mask); }),
+        parts.end());
     return parts;
 }
 
-/// @return the cells, when @a claims are those in each leaf, by ball.
-template <typename ClaimsOf>
-std::vector<VoxelRegion> cellsBy(const ClaimsOf& claimsOf, const std::vector<FineBall>& balls,
-    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
+/// @param parts  of each leaf; they are taken apart
+std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellLeaf>>& parts, std::size_t balls)
 {
-    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
-    detail::parallelFor(parts.size(), interrupter, [&](std::size_t leaf) {
-        parts[leaf] = partsOf(object.origin(leaf), claimsOf(leaf), balls);
-    });
-    std::vector<VoxelRegion> cells(balls.size());
+    std::vector<VoxelRegion> cells(balls);
     for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
         for (const CellLeaf& part : parts[leaf]) {
             cells[part.ball].push_back({uint32_t(leaf), part.mask});
@@ -105,8 +156,26 @@ std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
             claims[part.leaf].push_back({int32_t(ball), &part.mask});
         }
     }
-    const auto claimsOf = [&](std::size_t leaf) -> const auto& { return claims[leaf]; };
-    return cellsBy(claimsOf, balls, object, interrupter);
+    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    detail::parallelFor(parts.size(), interrupter, [&](std::size_t leaf) {
+        parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls);
+    });
+    return cellsOf(parts, balls.size());
+}
+
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> all(balls.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    const auto body = [&](std::size_t leaf, const std::vector<int32_t>& among) {
+        std::vector<Claim> claims;
+        for (const int32_t ball : among) claims.push_back({ball, &object.mask(leaf)});
+        parts[leaf] = partsOf(object.origin(leaf), claims, balls);
+    };
+    forEachLeafWithBalls(object, std::move(all), ballsWithPower(balls), body, interrupter);
+    return cellsOf(parts, balls.size());
 }
 
 std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
@@ -127,13 +196,7 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
 std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
-    const LeafBalls lists(balls, object, interrupter);
-    const auto claimsOf = [&](std::size_t leaf) {
-        std::vector<Claim> claims;
-        for (const int32_t ball : lists.of(leaf)) claims.push_back({ball, &object.mask(leaf)});
-        return claims;
-    };
-    return extremePoints(cellsBy(claimsOf, balls, object, interrupter), object, interrupter);
+    return extremePoints(cellRegions(balls, object, interrupter), object, interrupter);
 }
 
 } // namespace tight

@@ -4,6 +4,10 @@
 ///
 /// The cell of a voxel is that of the ball with the largest power, radiusSq - distance^2; of equals,
 /// the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
+///
+/// The difference of two powers is linear: a ball that is weaker than another one at all corners of a
+/// box is so in all of the box, and left out there and in its parts (LeafDescent.h). With dragon-512
+/// that is 0.6 s in place of 2.7 s.
 
 #pragma once
 
@@ -23,6 +27,10 @@ namespace tight {
 /// @return the cell of each ball.
 std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return the cell of each ball, if every one counts everywhere.
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 /// @return for each region its extreme points: ExtremePoints.h; none for an empty one.

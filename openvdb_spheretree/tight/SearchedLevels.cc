@@ -39,10 +39,7 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
     const std::vector<int64_t>& counts, const std::vector<FineBall>& leaves,
     const LevelMaker& maker)
 {
-    const SampleLevel& object = maker.object.level(0);
-    const LeafCells cells{leaves,
-        cellRegions(
-            leaves, regionsOf(leaves, object, maker.interrupter), object, maker.interrupter)};
+    const LeafCells cells{leaves, cellRegions(leaves, maker.object.level(0), maker.interrupter)};
     std::vector<VoxelRegion> regions;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (k < from) levels[k] = finerLevel(levels[k + 1], regions, cells, counts[k], maker);

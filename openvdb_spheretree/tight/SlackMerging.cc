@@ -4,7 +4,6 @@
 #include "../detail/Parallel.h"
 #include "DebtFit.h"
 #include "ExtremePoints.h"
-#include "LeafBalls.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,13 +11,27 @@
 namespace openvdb_spheretree {
 namespace tight {
 
+namespace {
+
+/// @return the most regions that have a part in the same leaf.
+uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
+{
+    std::vector<uint32_t> counts(leaves, 0);
+    for (const VoxelRegion& region : regions) {
+        for (const RegionLeaf& part : region) ++counts[part.leaf];
+    }
+    return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+}
+
+} // namespace
+
 SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
     std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
       mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(ballsOf(leaves)),
       mGroups(groupsOf(leaves)), mRegions(std::move(regions)),
-      mCounts(mVoxels.leafCount(), LeafBalls(mBalls, mVoxels, interrupter).most())
+      mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
 {
     for (const VoxelRegion& region : mRegions) {
         for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);

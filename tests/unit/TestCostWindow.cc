@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestCostWindow.cc
-/// @brief Counts of what costs, by rows (BallRows.h) and by octets (CostOctets.h), sample by sample
+/// @brief Counts of what costs, by rows (BallRows.h) and by runs (CostRuns.h), sample by sample
 /// and with every target of Highway.
 
 #include <openvdb_spheretree/tight/CostWindow.h>
@@ -8,7 +8,7 @@
 #include "../support/FineBalls.h"
 
 #include <openvdb_spheretree/tight/BallRows.h>
-#include <openvdb_spheretree/tight/CostOctets.h>
+#include <openvdb_spheretree/tight/CostRuns.h>
 
 #include <cmath>
 
@@ -89,30 +89,35 @@ Case randomCase(Random& random)
     return c;
 }
 
-void expectOctets(const CostWindow& window, const Samples& samples, const LocalBall& place)
+void expectRuns(const CostWindow& window, const Samples& samples, const LocalBall& place)
 {
-    std::vector<Octet> octets;
-    window.collect(place, octets);
+    std::vector<CostRun> runs;
+    window.collect(place, runs);
     int64_t found = 0;
-    for (const Octet& octet : octets) {
-        for (int i = 0; i < 8; ++i) {
-            if (!(octet.bits >> i & 1)) continue;
-            const Coord at(int(octet.x) / 16, int(octet.y) / 16, int(octet.z) / 16 + i);
-            const double distanceSq = Samples::distanceSq(at, place);
-            ASSERT_LE(distanceSq, place.radiusSq);
-            ASSERT_LE(octet.distanceSq, distanceSq);
+    Coord before(-1, -1, -1);
+    for (const CostRun& run : runs) {
+        ASSERT_LE(run.first, run.last);
+        double nearestSq = 1e9;
+        for (int z = run.first; z <= run.last; ++z) {
+            const Coord at(int(run.x) / 16, int(run.y) / 16, z);
+            ASSERT_LT(before, at);
+            before = at;
+            nearestSq = std::min(nearestSq, Samples::distanceSq(at, place));
+            ASSERT_LE(Samples::distanceSq(at, place), place.radiusSq);
             ++found;
         }
+        ASSERT_LE(run.distanceSq, nearestSq);
+        before = before.offsetBy(0, 0, 1); // or it would be one run
     }
     ASSERT_EQ(found, samples.count(place));
 }
 
-void expectBounds(const CostOctets& octets, const Samples& samples, const LocalBall& ball)
+void expectBounds(const CostRuns& runs, const Samples& samples, const LocalBall& ball)
 {
     const int64_t count = samples.count(ball);
-    ASSERT_EQ(octets.count(ball), count);
+    ASSERT_EQ(runs.count(ball), count);
     for (const int64_t bound : {int64_t(0), count / 2, count - 1, count, count + 5}) {
-        const int64_t bounded = octets.count(ball, bound);
+        const int64_t bounded = runs.count(ball, bound);
         if (count > bound) ASSERT_GT(bounded, bound);
         else ASSERT_EQ(bounded, count);
     }
@@ -128,14 +133,14 @@ void expectCounts(Random& random)
     for (int turn = 0; turn < 8; ++turn) {
         const LocalBall ball = localBall(random, c.size);
         ASSERT_EQ(window.count(ball), samples.count(ball));
-        ASSERT_NO_FATAL_FAILURE(expectOctets(window, samples, ball));
-        CostOctets octets;
-        octets.collect(window, ball);
+        ASSERT_NO_FATAL_FAILURE(expectRuns(window, samples, ball));
+        CostRuns runs;
+        runs.collect(window, ball);
         for (int i = 0; i < 30; ++i) {
             LocalBall inner = localBall(random, c.size);
             inner.radiusSq = std::floor(inner.radiusSq / float(1 + i));
-            if (!octets.fits(inner)) continue;
-            ASSERT_NO_FATAL_FAILURE(expectBounds(octets, samples, inner));
+            if (!runs.fits(inner)) continue;
+            ASSERT_NO_FATAL_FAILURE(expectBounds(runs, samples, inner));
         }
         LocalBall covered = localBall(random, c.size);
         if (turn % 2) covered.x -= 100; // reaches out
@@ -150,6 +155,32 @@ TEST(CostWindow, CountsSampleBySampleWithEveryTarget)
         Random random(1);
         for (int i = 0; i < 60; ++i) ASSERT_NO_FATAL_FAILURE(expectCounts(random));
     });
+}
+
+/// Rounding may put the end of a ball, and the last sample in it, into different shells.
+TEST(CostWindow, CountsTheSampleWhereTheBallEnds)
+{
+    Random random(3);
+    const Coord middle(20, 20, 20);
+    for (int i = 0; i < 100; ++i) {
+        const Coord half = random.coord(-5, 5), only = middle + half + half;
+        Voxels object = voxelsOfBox(CoordBBox(Coord(0, 0, 0), Coord(40, 40, 40)));
+        object.erase(std::remove(object.begin(), object.end(), only), object.end());
+        FineBox box;
+        box.expand(voxelBall(middle), 16 * 18);
+        CostWindow window;
+        window.reset(sampled(object), box, 0);
+        LocalBall ball = window.toLocal(voxelBall(middle + half));
+        ball.radiusSq = float(256 * squaredDistance(half, Coord(0, 0, 0)));
+        LocalBall place = window.toLocal(voxelBall(middle));
+        for (int shells = 1; shells < 64 && ball.radiusSq > 0; ++shells) {
+            place.radiusSq = 4 * ball.radiusSq * 64 / float(shells); // the ball ends where one does
+            CostRuns runs;
+            runs.collect(window, place);
+            if (!runs.fits(ball)) continue;
+            ASSERT_EQ(runs.count(ball), 1) << half << ", " << shells;
+        }
+    }
 }
 
 /// At level 0 a ball is the same in the window and out of it.

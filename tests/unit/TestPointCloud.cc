@@ -36,6 +36,7 @@ void expectFarthest(int count, bool radii, Random& random)
             most = std::max(most, reach * reach);
         }
         const auto far = cloud.farthest(float(from[0]), float(from[1]), float(from[2]));
+        ASSERT_EQ(far.distanceSq, cloud.farthestSq(float(from[0]), float(from[1]), float(from[2])));
         if (radii) {
             ASSERT_NEAR(far.distanceSq, most, 1e-5 * most);
             continue;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file tight/CostOctets.h
+/// @file tight/CostRuns.h
 /// @brief The samples that cost around one place, as a list: how many of them does a ball hold?
 ///
-/// An octet is eight samples along z that share a byte of bits; a ball's part of it is an interval,
-/// found for several octets at once. The octets nearest to the place come first: a ball that is
-/// worse than the best one so far is given up as soon as it holds too many, and the near ones are
-/// those it is likely to hold. Rows of bits (BallRows.h) cost a square root for each row of the
-/// ball, and most rows have nothing to count: with them a tight tree took three times as long, and
-/// with single samples in place of octets half as long again.
+/// A run are samples along z, one behind the other; so is a row's part of a ball, and what both have
+/// is found for several rows at once. The runs nearest to the place come first: a ball that is worse
+/// than the best one so far is given up as soon as it holds too many, and the near ones are those it
+/// is likely to hold. Rows of bits (BallRows.h) cost a square root for each row of the ball, and most
+/// rows have nothing to count: with them a tight tree took three times as long as with lists.
 
 #pragma once
 
@@ -20,7 +19,7 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-class CostOctets {
+class CostRuns {
 public:
     /// Takes the samples of @a window that lie in @a place, which may reach out of it.
     void collect(const CostWindow& window, const LocalBall& place);
@@ -42,9 +41,9 @@ private:
     LocalBall mPlace;
     float mShellsPerSq = 0;
     std::array<uint32_t, kShells + 1> mShellBegin; ///< in the arrays
-    std::vector<float> mX, mY, mZ;                 ///< of the first sample
-    std::vector<int32_t> mBits;
-    std::vector<Octet> mFound; ///< before they are sorted
+    std::vector<float> mX, mY;                     ///< of the rows
+    std::vector<int32_t> mFirst, mLast;            ///< samples
+    std::vector<CostRun> mFound;                   ///< before they are sorted
 };
 
 } // namespace tight
