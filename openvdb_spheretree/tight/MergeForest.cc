@@ -15,7 +15,9 @@ namespace {
 
 using Pair = std::pair<int32_t, int32_t>;
 
-constexpr double kRebuild = 0.7;
+/// All pairs are looked at anew when the count has shrunk to this part: more often where costs change
+/// with what is around.
+constexpr double kRebuild = 0.7, kRebuildOfMoving = 0.85;
 constexpr int32_t kShare = 64;
 constexpr double kTouch = 8 * kFine; // balls nearer than this to a change are looked at again
 
@@ -39,7 +41,8 @@ public:
             if (mLive <= rebuildAt || mQueue.empty()) {
                 rebuildQueue();
                 if (mQueue.empty()) break; // each group is one ball
-                rebuildAt = int32_t(mLive * kRebuild);
+                const bool moving = mModel.dependsOnOthers();
+                rebuildAt = int32_t(mLive * (moving ? kRebuildOfMoving : kRebuild));
             }
             refreshTop();
             doMerges(takeMerges());

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file tight/MergeForest.h
-/// @brief From leaves to one root (one for each group) by merging the cheapest pair of neighbours, many pairs at a time.
+/// @brief From leaves to one root (one for each group) by merging the cheapest pair of neighbours,
+/// many pairs at a time.
 ///
 /// What a merge costs is the model's business (StrictMerging.h, SlackMerging.h); here is the order of
 /// merges. Pairs of near balls wait in a queue by cost. A round takes the cheapest pairs, at most
 /// one in kShare of all balls, none near another one of the same round, and does them all: that is
 /// what runs in parallel, and what keeps every intermediate cover valid. Where a merge changed the
 /// surroundings of a pair, the pair is evaluated again before it is taken; costs fall as well as
-/// rise, so all pairs are looked at anew whenever the count has shrunk to kRebuild.
+/// rise, so all pairs are looked at anew whenever the count has shrunk by a seventh, or by a third
+/// where they do not depend on other balls.
 ///
 /// The result does not depend on threads: rounds are bounded by counts alone, and ties go by node.
 
