@@ -3,8 +3,6 @@
 
 #include "../support/FineBalls.h"
 
-#include <openvdb_spheretree/MedialLevel.h>
-
 #include <map>
 #include <numeric>
 
@@ -14,43 +12,60 @@ using namespace openvdb_spheretree;
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-/// By definition: smallest first, a ball goes if each of its voxels is in another one.
-std::vector<int32_t> naivelyPruned(const std::vector<MedialBall>& balls, const Voxels& voxels)
+Voxels voxelsOf(const MedialBall& ball)
+{
+    return translated(shapes::ball(ball.radiusSq), ball.center);
+}
+
+/// One ball after the other, smallest first.
+std::vector<int32_t> naivelyPruned(const std::vector<MedialBall>& balls)
 {
     std::map<Coord, int> counts;
-    std::vector<Voxels> held(balls.size());
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        for (const Coord& v : voxels) {
-            if (holds(fineBall(balls[i]), v)) held[i].push_back(v);
-        }
-        for (const Coord& v : held[i]) ++counts[v];
+    for (const MedialBall& ball : balls) {
+        for (const Coord& v : voxelsOf(ball)) ++counts[v];
     }
     std::vector<int32_t> order(balls.size()), kept;
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
         [&](int32_t a, int32_t b) { return balls[a].radiusSq < balls[b].radiusSq; });
     for (const int32_t i : order) {
-        const bool alone = std::any_of(
-            held[i].begin(), held[i].end(), [&](const Coord& v) { return counts[v] == 1; });
-        if (alone) kept.push_back(i);
-        for (const Coord& v : held[i]) counts[v] -= alone ? 0 : 1;
+        const Voxels voxels = voxelsOf(balls[i]);
+        const bool needed = std::any_of(
+            voxels.begin(), voxels.end(), [&](const Coord& v) { return counts[v] == 1; });
+        if (needed) kept.push_back(i);
+        for (const Coord& v : voxels) counts[v] -= !needed;
     }
     std::sort(kept.begin(), kept.end());
     return kept;
 }
 
-TEST(LeafPruning, DropsWhatOthersHoldSmallestFirst)
+void expectPruned(const RandomObject& object)
 {
-    std::size_t dropped = 0;
-    for (uint32_t seed = 0; seed < 66; ++seed) {
-        const RandomObject random = randomObject(seed);
-        const MedialLevel level(*maskOf(random.voxels), 3, Distance(), nullptr);
-        const SampledObject object(level.layout);
-        const auto kept = prunedLeaves(level.balls, object.level(0), nullptr);
-        ASSERT_EQ(kept, naivelyPruned(level.balls, random.voxels)) << random.name;
-        dropped += level.balls.size() - kept.size();
+    const CoreStages stages(*maskOf(object.voxels));
+    const auto kept = prunedLeaves(stages.balls, SampledObject(stages.layout).level(0), nullptr);
+    ASSERT_EQ(kept, naivelyPruned(stages.balls)) << object.name;
+    Voxels all;
+    for (const int32_t i : kept) {
+        for (const Coord& v : voxelsOf(stages.balls[i])) all.push_back(v);
     }
-    EXPECT_GT(dropped, 100u);
+    sortVoxels(all);
+    ASSERT_EQ(all, object.voxels) << object.name;
+}
+
+TEST(LeafPruning, KeepsWhatPruningOneByOneKeeps)
+{
+    for (uint32_t seed = 0; seed < 55; ++seed) {
+        ASSERT_NO_FATAL_FAILURE(expectPruned(randomObject(seed)));
+    }
+}
+
+/// More balls than are asked at once.
+TEST(LeafPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
+{
+    Random random(1);
+    const RandomObject object{"noise", shapes::noise(Coord(40, 30, 20), 0.8, random)};
+    ASSERT_GT(CoreStages(*maskOf(object.voxels)).balls.size(), 4096u);
+    ASSERT_NO_FATAL_FAILURE(expectPruned(object));
 }
 
 TEST(LeafPruning, OfNothingIsNothing)

@@ -8,60 +8,62 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-int64_t powerOf(const FineBall& ball, const Coord& v)
-{
-    int64_t power = ball.radiusSq;
-    for (int a = 0; a < 3; ++a) {
-        const int64_t d = 16 * int64_t(v[a]) - ball.center[a];
-        power -= d * d;
-    }
-    return power;
-}
-
+/// The cell of each ball, voxel by voxel.
 std::vector<Voxels> naiveCells(const std::vector<FineBall>& balls, const Voxels& voxels)
 {
     std::vector<Voxels> cells(balls.size());
     for (const Coord& v : voxels) {
-        std::size_t best = 0;
-        for (std::size_t i = 1; i < balls.size(); ++i) {
-            const int64_t mine = powerOf(balls[i], v), most = powerOf(balls[best], v);
-            const bool larger = balls[i].radiusSq > balls[best].radiusSq;
-            if (mine > most || (mine == most && larger)) best = i;
+        int64_t best = -1;
+        std::size_t label = 0;
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            int64_t power = balls[i].radiusSq;
+            for (int a = 0; a < 3; ++a) {
+                const int64_t d = 16 * int64_t(v[a]) - balls[i].center[a];
+                power -= d * d;
+            }
+            const bool wins = power > best
+                || (power == best && power >= 0 && balls[i].radiusSq > balls[label].radiusSq);
+            if (wins) label = i;
+            best = std::max(best, power);
         }
-        cells[best].push_back(v);
+        if (best >= 0) cells[label].push_back(v);
     }
     return cells;
 }
 
-/// Centres on every eighth or half of a voxel, so that there are ties.
-std::vector<FineBall> coarseBalls(Random& random)
+void expectCells(const std::vector<FineBall>& balls, const Voxels& voxels, Random& random)
 {
-    auto balls = randomBalls(random.between(1, 40), random, -24, 24, random.between(3, 20));
-    const int64_t mask = random.between(0, 1) ? ~int64_t(7) : ~int64_t(127);
-    for (FineBall& ball : balls) {
-        for (int64_t& c : ball.center) c &= mask;
+    const auto points = cellPoints(balls, sampled(voxels).level(0), nullptr);
+    const auto cells = naiveCells(balls, voxels);
+    ASSERT_EQ(points.size(), cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        ASSERT_TRUE(standFor(points[i], cells[i], random)) << "ball " << i;
     }
-    return balls;
 }
 
-TEST(PowerCells, AreOfTheBallThatCoversAVoxelBest)
+TEST(PowerCells, OfLeavesAreTheVoxelsTheyCoverBest)
 {
     Random random(1);
-    for (int i = 0; i < 60; ++i) {
-        const auto balls = coarseBalls(random);
-        Voxels voxels;
-        for (int at = 0; at < 64 * 64 * 64; ++at) {
-            const Coord v((at >> 12) - 32, (at >> 6 & 63) - 32, (at & 63) - 32);
-            const auto has = [&](const FineBall& ball) { return holds(ball, v); };
-            if (std::any_of(balls.begin(), balls.end(), has)) voxels.push_back(v);
+    for (uint32_t seed = 200; seed < 244; ++seed) {
+        const RandomObject object = randomObject(seed);
+        if (object.voxels.size() > 600) continue;
+        std::vector<FineBall> balls;
+        for (const auto& ball : CoreStages(*maskOf(object.voxels)).balls) {
+            balls.push_back(fineBall(ball));
         }
-        if (voxels.empty()) continue;
-        const auto expected = naiveCells(balls, voxels);
-        const auto points = cellPoints(balls, sampled(voxels).level(0), nullptr);
-        ASSERT_EQ(points.size(), balls.size());
-        for (std::size_t ball = 0; ball < balls.size(); ++ball) {
-            ASSERT_TRUE(standFor(points[ball], expected[ball], random)) << i << ", " << ball;
-        }
+        ASSERT_NO_FATAL_FAILURE(expectCells(balls, object.voxels, random)) << object.name;
+    }
+}
+
+/// Balls that reach out of the object, some of them twice.
+TEST(PowerCells, OfAnyBallsAreTheVoxelsTheyCoverBest)
+{
+    Random random(2);
+    for (int turn = 0; turn < 30; ++turn) {
+        auto balls = randomBalls(random.between(1, 30), random, -10, 25, 12);
+        balls.push_back(balls.front());
+        const Voxels voxels = shapes::noise(Coord(17, 12, 14), 0.3, random);
+        ASSERT_NO_FATAL_FAILURE(expectCells(balls, voxels, random));
     }
 }
 
