@@ -33,6 +33,38 @@ inline bool holds(const FineBall& ball, const Coord& voxel)
     return sum <= ball.radiusSq;
 }
 
+/// sqrt(D) >= sqrt(a) + sqrt(b), in integers.
+inline bool atLeastSum(__int128 D, __int128 a, __int128 b)
+{
+    return D >= a + b && (D - a - b) * (D - a - b) >= 4 * a * b;
+}
+
+inline __int128 centersApartSq(const FineBall& a, const FineBall& b)
+{
+    __int128 sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const __int128 d = a.center[axis] - b.center[axis];
+        sum += d * d;
+    }
+    return sum;
+}
+
+/// All of @a held, not its voxels alone.
+inline bool contains(const FineBall& ball, const FineBall& held)
+{
+    return atLeastSum(ball.radiusSq, centersApartSq(ball, held), held.radiusSq);
+}
+
+/// The smallest squared radius around the centre of @a ball that holds these voxels; -1 for none.
+inline int64_t neededRadiusSq(const FineBall& ball, const Voxels& voxels)
+{
+    __int128 most = -1;
+    for (const Coord& v : voxels) {
+        most = std::max(most, centersApartSq(ball, openvdb_spheretree::tight::voxelBall(v)));
+    }
+    return int64_t(most);
+}
+
 /// @param low, high  of the centre, voxels
 /// @param radius     at most, voxels
 inline FineBall randomBall(Random& random, int low, int high, int radius)
@@ -59,6 +91,26 @@ inline SampledObject sampled(const Voxels& voxels)
 inline bool contains(const Voxels& voxels, const Coord& voxel)
 {
     return std::binary_search(voxels.begin(), voxels.end(), voxel);
+}
+
+/// How many voxels balls hold together that are not the object's.
+inline int64_t excess(const std::vector<FineBall>& balls, const Voxels& object)
+{
+    CoordBBox box;
+    for (const FineBall& ball : balls) {
+        const int reach = int(ball.radius() / 16) + 1;
+        for (const int r : {-reach, reach}) {
+            box.expand(Coord(int(ball.center[0] >> 4) + r, int(ball.center[1] >> 4) + r,
+                int(ball.center[2] >> 4) + r));
+        }
+    }
+    int64_t sum = 0;
+    for (const Coord& v : voxelsOfBox(box)) {
+        const bool held = std::any_of(
+            balls.begin(), balls.end(), [&](const FineBall& ball) { return holds(ball, v); });
+        sum += held && !contains(object, v);
+    }
+    return sum;
 }
 
 inline Voxels voxelsOf(const LeafMask& mask, const Coord& origin)

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/tight/MergeForest.h>
+
+#include "../support/FineBalls.h"
+
+#include <cmath>
+
+namespace {
+
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+
+/// Balls whose merge is a ball around both; pairs of idle leaves need none. If costs depend on
+/// others, then on the merged balls that meet a pair.
+class ToyModel : public MergeModel {
+public:
+    ToyModel(int leaves, bool depends, double idle, Random& random) : mDepends(depends)
+    {
+        mBalls = randomBalls(leaves, random, -100, 100, 3);
+        for (int i = 0; i < leaves; ++i) mIdle.push_back(i > 0 && random.chance(idle));
+        mLeaves = mBalls;
+        mEnded.resize(mBalls.size());
+    }
+    std::vector<FineBall> leaves() const override { return mLeaves; }
+    MergeCandidate evaluate(int32_t a, int32_t b) const override
+    {
+        EXPECT_LT(a, b);
+        EXPECT_FALSE(mEnded[a] || mEnded[b]);
+        if (mIdle[a] && mIdle[b]) return {-1e300, a, b, FineBall(), 0};
+        FineBall ball = mBalls[a];
+        const double reach = centerDistance(mBalls[a], mBalls[b]) + mBalls[b].radius() + 1;
+        const double radius = std::max(reach, ball.radius() + 1);
+        ball.radiusSq = int64_t(radius * radius);
+        return {radius + 40 * meeting(a, b), a, b, ball, 0};
+    }
+    void merge(const std::vector<MergeCandidate>& merges, int32_t node) override
+    {
+        ASSERT_FALSE(merges.empty());
+        for (const MergeCandidate& c : merges) {
+            ASSERT_EQ(c.cost, evaluate(c.a, c.b).cost) << "of another time";
+        }
+        if (mDepends) {
+            ASSERT_NO_FATAL_FAILURE(expectApart(merges));
+        }
+        for (std::size_t i = 0; i < merges.size(); ++i) {
+            for (const int32_t child : {merges[i].a, merges[i].b}) {
+                ASSERT_FALSE(mEnded[child]);
+                mEnded[child] = 1;
+            }
+            if (merges[i].ball.empty()) continue;
+            ASSERT_EQ(std::size_t(node) + i, mBalls.size());
+            mBalls.push_back(merges[i].ball);
+            mIdle.push_back(0);
+            mEnded.push_back(0);
+        }
+        mMostAtOnce = std::max(mMostAtOnce, merges.size());
+    }
+    bool dependsOnOthers() const override { return mDepends; }
+    std::size_t mostAtOnce() const { return mMostAtOnce; }
+
+private:
+    int meeting(int32_t a, int32_t b) const
+    {
+        int count = 0;
+        for (std::size_t i = mLeaves.size(); mDepends && i < mBalls.size(); ++i) {
+            if (mEnded[i] || int32_t(i) == a || int32_t(i) == b) continue;
+            count += gapBetween(mBalls[i], mBalls[a]) <= 0 || gapBetween(mBalls[i], mBalls[b]) <= 0;
+        }
+        return count;
+    }
+    /// What one merge takes away meets nothing that another one takes away or puts there.
+    void expectApart(const std::vector<MergeCandidate>& merges) const
+    {
+        for (std::size_t later = 1; later < merges.size(); ++later) {
+            for (std::size_t i = 0; i < later; ++i) {
+                const MergeCandidate& c = merges[i];
+                for (const int32_t node : {merges[later].a, merges[later].b}) {
+                    ASSERT_GT(gapBetween(mBalls[node], mBalls[c.a]), 0);
+                    ASSERT_GT(gapBetween(mBalls[node], mBalls[c.b]), 0);
+                    if (!c.ball.empty()) {
+                        ASSERT_GT(gapBetween(mBalls[node], c.ball), 0);
+                    }
+                }
+            }
+        }
+    }
+
+    bool mDepends;
+    std::vector<FineBall> mBalls, mLeaves;
+    std::vector<char> mIdle, mEnded;
+    std::size_t mMostAtOnce = 0;
+};
+
+void expectForest(const std::vector<ForestNode>& forest, int leaves)
+{
+    std::vector<int> count(std::size_t(leaves) + 1, 0);
+    std::vector<int> children(forest.size(), 0);
+    for (std::size_t i = 0; i < forest.size(); ++i) {
+        const ForestNode& node = forest[i];
+        ASSERT_EQ(int(i) < leaves, node.last == leaves);
+        ASSERT_LE(1, node.first);
+        ASSERT_LE(node.first, node.last);
+        for (int n = node.first; n <= node.last; ++n) ++count[std::size_t(n)];
+        if (node.parent < 0) continue;
+        ASSERT_LT(i, std::size_t(node.parent));
+        ASSERT_EQ(forest[node.parent].last, node.first - 1);
+        ++children[node.parent];
+    }
+    for (int n = 1; n <= leaves; ++n) ASSERT_EQ(count[std::size_t(n)], n);
+    for (std::size_t i = 0; i < forest.size(); ++i) ASSERT_EQ(children[i], int(i) < leaves ? 0 : 2);
+}
+
+TEST(MergeForest, HasACutOfEveryNumberOfNodes)
+{
+    Random random(1);
+    for (const int leaves : {1, 2, 3, 10, 127, 128, 700}) {
+        for (const bool depends : {false, true}) {
+            for (const double idle : {0.0, 0.3, 0.95}) {
+                ToyModel model(leaves, depends, idle, random);
+                ASSERT_NO_FATAL_FAILURE(expectForest(mergeToRoots(model, 6, nullptr), leaves))
+                    << leaves << " leaves, idle " << idle;
+                const bool many = leaves == 700;
+                ASSERT_TRUE(
+                    many ? model.mostAtOnce() > 1 : model.mostAtOnce() <= 1 || leaves > 127);
+            }
+        }
+    }
+}
+
+/// With one merge a round and all pairs known, each merge is the cheapest there is.
+TEST(MergeForest, MergesTheCheapestPair)
+{
+    Random random(2);
+    ToyModel model(60, false, 0, random);
+    const auto forest = mergeToRoots(model, 60, nullptr);
+    for (std::size_t node = 60; node < forest.size(); ++node) {
+        const int before = forest[node].last + 1;
+        std::vector<int32_t> living;
+        for (std::size_t i = 0; i < node; ++i) {
+            if (forest[i].first <= before && before <= forest[i].last) living.push_back(int32_t(i));
+        }
+        double least = 1e300;
+        for (const int32_t a : living) {
+            for (const int32_t b : living) {
+                const FineBall &x = forest[a].ball, &y = forest[b].ball;
+                const double reach = centerDistance(x, y) + y.radius() + 1;
+                if (a < b) least = std::min(least, std::max(reach, x.radius() + 1));
+            }
+        }
+        ASSERT_NEAR(forest[node].ball.radius(), least, 1);
+    }
+}
+
+} // namespace
