@@ -39,7 +39,8 @@ struct FitEffort {
 BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat = false);
 
-/// @return the smallest ball around the points, to about 1/16 of a unit and never too small.
+/// @return the smallest ball around the points, never too small; its centre is among integers, and
+/// its radius to about one more, or a percent, the smallest.
 LocalBall smallestBall(const PointCloud& points, bool flat = false);
 
 } // namespace tight
