@@ -86,7 +86,7 @@ float CostRuns::reachSq(const LocalBall& ball) const
 void CostRuns::collect(const CostWindow& window, const LocalBall& place)
 {
     mPlace = place;
-    mShellsPerSq = float(kShells) / place.radiusSq;
+    mShellsPerSq = float(kShells) / std::max(1.0f, place.radiusSq); // a point is a place, too
     mFound.clear();
     window.collect(place, mFound);
     std::array<uint32_t, kShells> sizes{};

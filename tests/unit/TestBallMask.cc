@@ -53,6 +53,28 @@ TEST(BallMask, HoldsWhatFarAndHugeBallsHold)
     }
 }
 
+/// Balls around the sizes that 16 bits have room for, and larger ones that end in the leaf.
+TEST(BallMask, HoldsWhatBallsOfAbout300VoxelsHold)
+{
+    Random random(6);
+    for (int i = 0; i < 6000; ++i) {
+        const Coord origin = random.coord(-24, 24) & ~7;
+        const int most = i % 3 ? 4900 : 300;
+        FineBall ball{{0, 0, 0}, 0};
+        double sum = 0;
+        for (int a = 0; a < 3; ++a) {
+            const bool far = a == i % 3 || random.chance(0.5);
+            const int64_t away = far ? random.between(4400, 4900) : random.between(0, most);
+            const bool below = random.chance(0.5);
+            ball.center[a] = 16 * int64_t(origin[a]) + (below ? 112 - away : away);
+            sum += double(away) * double(away);
+        }
+        const double radius = std::sqrt(sum) - random.between(-20, 200);
+        ball.radiusSq = int64_t(radius * radius);
+        ASSERT_NO_FATAL_FAILURE(expectMask(ball, origin));
+    }
+}
+
 TEST(BallMask, IsReachedByBallsAsNearAsItsBox)
 {
     Random random(4);

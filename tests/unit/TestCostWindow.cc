@@ -19,13 +19,15 @@ using namespace spheretree_test;
 
 /// The samples of a window that cost, from its origin.
 struct Samples {
+    CoordBBox box; ///< others are not looked at
     std::vector<Coord> cost;
 
     Samples(const CostWindow& window, const Voxels& object, const Coord& size)
+        : box(Coord(0, 0, 0), size)
     {
         const FineBall origin = window.centerOf(LocalBall());
         const int64_t step = int64_t(1) << window.level();
-        for (const Coord& at : voxelsOfBox(CoordBBox(Coord(0, 0, 0), size))) {
+        for (const Coord& at : voxelsOfBox(box)) {
             Coord voxel;
             for (int a = 0; a < 3; ++a) voxel[a] = int32_t(origin.center[a] / 16 + at[a] * step);
             if (!contains(object, voxel)) cost.push_back(at);
@@ -48,6 +50,13 @@ struct Samples {
             [&](const Coord& at) { return distanceSq(at, ball) <= ball.radiusSq; });
     }
 };
+
+/// May reach out on any side.
+LocalBall moved(LocalBall ball, Random& random)
+{
+    for (float* const c : {&ball.x, &ball.y, &ball.z}) *c += float(random.between(-150, 150));
+    return ball;
+}
 
 /// Whole in a window of @a size samples.
 LocalBall localBall(Random& random, const Coord& size)
@@ -82,7 +91,8 @@ Case randomCase(Random& random)
         c.box.hi[a] = 16 * int64_t(corner[a] + step * c.size[a]);
     }
     for (int i = 0; i < 400; ++i) {
-        const Coord v = corner + random.coord(-9, step * 12);
+        Coord v = corner + random.coord(-9, step * 12);
+        if (i % 2) v[2] += step * (c.size[2] - 9); // in the last word, too
         c.object.emplace_back(v[0] & -step, v[1] & -step, v[2] & -step);
     }
     sortVoxels(c.object);
@@ -104,7 +114,7 @@ void expectRuns(const CostWindow& window, const Samples& samples, const LocalBal
             before = at;
             nearestSq = std::min(nearestSq, Samples::distanceSq(at, place));
             ASSERT_LE(Samples::distanceSq(at, place), place.radiusSq);
-            ++found;
+            found += samples.box.isInside(at);
         }
         ASSERT_LE(run.distanceSq, nearestSq);
         before = before.offsetBy(0, 0, 1); // or it would be one run
@@ -129,12 +139,12 @@ void expectCounts(Random& random)
     const SampledObject object = sampled(c.object);
     CostWindow window;
     window.reset(object, c.box, c.level);
-    Samples samples(window, c.object, c.size.offsetBy(1, 1, 8));
+    Samples samples(window, c.object, c.size.offsetBy(1, 1, 8)); // all there are along x and y
+    CostRuns runs;                                               // of one place after the other
     for (int turn = 0; turn < 8; ++turn) {
         const LocalBall ball = localBall(random, c.size);
         ASSERT_EQ(window.count(ball), samples.count(ball));
         ASSERT_NO_FATAL_FAILURE(expectRuns(window, samples, ball));
-        CostRuns runs;
         runs.collect(window, ball);
         for (int i = 0; i < 30; ++i) {
             LocalBall inner = localBall(random, c.size);
@@ -142,8 +152,9 @@ void expectCounts(Random& random)
             if (!runs.fits(inner)) continue;
             ASSERT_NO_FATAL_FAILURE(expectBounds(runs, samples, inner));
         }
+        ASSERT_NO_FATAL_FAILURE(expectRuns(window, samples, moved(ball, random)));
         LocalBall covered = localBall(random, c.size);
-        if (turn % 2) covered.x -= 100; // reaches out
+        if (turn % 2) covered = moved(covered, random);
         window.cover(covered);
         samples.cover(covered);
     }
@@ -153,7 +164,7 @@ TEST(CostWindow, CountsSampleBySampleWithEveryTarget)
 {
     forEachTarget([] {
         Random random(1);
-        for (int i = 0; i < 60; ++i) ASSERT_NO_FATAL_FAILURE(expectCounts(random));
+        for (int i = 0; i < 45; ++i) ASSERT_NO_FATAL_FAILURE(expectCounts(random));
     });
 }
 
@@ -209,6 +220,31 @@ TEST(CostWindow, CountsVoxelsOutsideTheObject)
     }
 }
 
+/// Above level 0, centres are rounded to 1/16 sample and squared radii down.
+TEST(CostWindow, RoundsBallsToItsSamples)
+{
+    Random random(3);
+    const SampledObject object = sampled({Coord(1, 2, 3)});
+    for (int turn = 0; turn < 300; ++turn) {
+        const int level = turn % 6;
+        const double step = std::ldexp(1.0, level);
+        const FineBall ball = randomBall(random, -900, 900, 60);
+        FineBox box;
+        box.expand(ball);
+        CostWindow window;
+        window.reset(object, box, level);
+        const LocalBall local = window.toLocal(ball);
+        ASSERT_EQ(local.radiusSq, std::floor(double(ball.radiusSq) / (step * step)));
+        const FineBall origin = window.centerOf(LocalBall()), back = window.centerOf(local);
+        const float at[3] = {local.x, local.y, local.z};
+        for (int a = 0; a < 3; ++a) {
+            ASSERT_EQ(origin.center[a] % int64_t(16 * step), 0) << "a sample";
+            ASSERT_EQ(double(back.center[a]), double(origin.center[a]) + at[a] * step);
+            ASSERT_LE(std::abs(double(back.center[a] - ball.center[a])), step / 2);
+        }
+    }
+}
+
 TEST(CostWindow, IsClearedByHugeBallsFromFar)
 {
     forEachTarget([] {
@@ -217,15 +253,17 @@ TEST(CostWindow, IsClearedByHugeBallsFromFar)
         box.expand(voxelBall(Coord(5, 5, 5)), 100);
         const SampledObject object = sampled({Coord(1, 2, 3)});
         const LocalBall all{100, 100, 130, 9000};
-        for (const int64_t far : {int64_t(1) << 12, int64_t(1) << 20, int64_t(1) << 29}) {
-            window.reset(object, box, 0);
-            const int64_t before = window.count(all);
-            const int64_t near = far - 5000 * (far >> 20);
-            window.cover(FineBall{{-far, 0, 0}, (near - 400) * (near - 400)});
-            ASSERT_EQ(window.count(all), before) << "it ends before the window";
-            window.cover(FineBall{{-far, 0, 0}, (far + 5000) * (far + 5000)});
-            ASSERT_EQ(window.count(all), 0);
-            ASSERT_GT(before, 0);
+        for (const int64_t far : {int64_t(1) << 12, int64_t(1) << 20, int64_t(1) << 30}) {
+            for (const int64_t at : {-far, far}) {
+                window.reset(object, box, 0);
+                const int64_t before = window.count(all);
+                const int64_t near = far - 5000 * (far >> 20);
+                window.cover(FineBall{{at, 0, 0}, (near - 400) * (near - 400)});
+                ASSERT_EQ(window.count(all), before) << "it ends before the window";
+                window.cover(FineBall{{at, 0, at}, 2 * (far + 5000) * (far + 5000)});
+                ASSERT_EQ(window.count(all), 0);
+                ASSERT_GT(before, 0);
+            }
         }
     });
 }
