@@ -45,16 +45,15 @@ SampleLevel coarser(const SampleLevel& fine)
     std::sort(order.begin(), order.end());
     std::vector<Coord> origins;
     std::vector<LeafMask> masks;
-    for (const auto& [origin, leaf] : order) {
-        if (origins.empty() || origins.back() != origin) {
-            if (!masks.empty() && masks.back() == LeafMask{}) {
-                origins.pop_back();
-                masks.pop_back();
-            }
-            origins.push_back(origin);
-            masks.push_back({});
+    for (std::size_t i = 0; i < order.size();) {
+        const Coord origin = order[i].first;
+        LeafMask mask{};
+        for (; i < order.size() && order[i].first == origin; ++i) {
+            addSamples(fine.mask(order[i].second), fine.origin(order[i].second), mask);
         }
-        addSamples(fine.mask(leaf), fine.origin(leaf), masks.back());
+        if (mask == LeafMask{}) continue;
+        origins.push_back(origin);
+        masks.push_back(mask);
     }
     return SampleLevel(std::move(origins), std::move(masks));
 }

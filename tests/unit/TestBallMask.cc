@@ -53,6 +53,22 @@ TEST(BallMask, HoldsWhatFarAndHugeBallsHold)
     }
 }
 
+/// One voxel on the surface, or it and what is beyond.
+TEST(BallMask, HoldsTheTipsOfHugeBalls)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 8; ++i) {
+            for (const int64_t far : {900, 1 << 20, -900, -(1 << 20)}) {
+                FineBall ball{{16 * 3, 16 * 3, 16 * 3}, 256 * (far - i) * (far - i)};
+                ball.center[axis] = 16 * far;
+                ASSERT_NO_FATAL_FAILURE(expectMask(ball, Coord(0, 0, 0)));
+                --ball.radiusSq;
+                ASSERT_NO_FATAL_FAILURE(expectMask(ball, Coord(0, 0, 0)));
+            }
+        }
+    }
+}
+
 /// Balls around the sizes that 16 bits have room for, and larger ones that end in the leaf.
 TEST(BallMask, HoldsWhatBallsOfAbout300VoxelsHold)
 {

@@ -59,9 +59,9 @@ TEST(DebtFit, CountsWhatBallsCostTogether)
     const SampledObject object = sampled(voxels);
     for (int turn = 0; turn < 12; ++turn) {
         const auto olds = randomBalls(turn % 4, random, 0, 9, 6);
-        const FineBall other = randomBall(random, 0, 9, 6);
+        const FineBall other = randomBall(random, 0, 9, 6); // part of it is in the window
         DebtFit fit;
-        fit.open(object, Voxels{voxels[0], voxels.back()}, olds, 40);
+        fit.open(object, Voxels{voxels[0]}, olds, 40);
         ASSERT_EQ(fit.costOf({}), 0);
         ASSERT_EQ(fit.costOf(olds), double(excess(olds, voxels)));
         ASSERT_EQ(fit.costOf(olds), double(excess(olds, voxels))) << "asked again";
@@ -70,6 +70,24 @@ TEST(DebtFit, CountsWhatBallsCostTogether)
         both.push_back(other);
         ASSERT_EQ(fit.costOf(olds), double(excess(both, voxels) - excess({other}, voxels)));
     }
+}
+
+/// Which stand for 8^3 voxels here.
+TEST(DebtFit, CountsWhatLargeBallsCostOnSamples)
+{
+    const Voxels voxels = shapes::box(Coord(3));
+    const SampledObject object = sampled(voxels);
+    const FineBall large{{7, 5, -3}, 1600 * 1600};
+    const double volume = 4 / 3.0 * M_PI * 100 * 100 * 100;
+    DebtFit fit;
+    fit.open(object, voxels, {large}, 16);
+    EXPECT_EQ(std::fmod(fit.costOf({large}), 512), 0);
+    EXPECT_NEAR(fit.costOf({large}), volume, volume / 50);
+    const Voxels apart{Coord(-100, 0, 0), Coord(100, 0, 0)};
+    fit.open(object, apart, {}, 16);
+    const PaidDebt paid = fit.pay(kNone, false);
+    EXPECT_EQ(std::fmod(paid.cost, 512), 0);
+    EXPECT_NEAR(paid.cost, volume, volume / 50);
 }
 
 TEST(DebtFit, PaysWhatIsOwedAndCountsWhatThatCosts)
@@ -87,7 +105,25 @@ TEST(DebtFit, PaysWhatIsOwedAndCountsWhatThatCosts)
         ASSERT_EQ(paid.cost, double(excess({paid.ball}, voxels)));
         ASSERT_LE(paid.cost, fit.pay(kNone, false).cost);
         fit.open(object, debt, {}, 40);
-        ASSERT_LE(paid.cost, fit.pay(kNone, false).cost) << "the smallest ball";
+        const PaidDebt smallest = fit.pay(kNone, false), alone = fit.pay(kMuch, false);
+        ASSERT_EQ(alone.cost, double(excess({alone.ball}, voxels)));
+        ASSERT_LE(paid.cost, smallest.cost);
+    }
+}
+
+TEST(DebtFit, TriesTheCentersOfOldBallsThatHoldTheDebt)
+{
+    Random random(8);
+    for (int turn = 0; turn < 20; ++turn) {
+        const Voxels voxels = shapes::noise(Coord(9, 8, 10), 0.5, random);
+        const SampledObject object = sampled(voxels);
+        const Voxels debt(voxels.end() - 3, voxels.end());
+        auto olds = randomBalls(2, random, 0, 9, 1);
+        for (FineBall& old : olds) old.radiusSq = neededRadiusSq(old, debt);
+        DebtFit fit;
+        fit.open(object, debt, olds, 40);
+        const double cost = fit.pay(kNone, false).cost;
+        for (const FineBall& old : olds) ASSERT_LE(cost, double(excess({old}, voxels)));
     }
 }
 
@@ -121,7 +157,10 @@ TEST(DebtFit, KeepsCentersOfFlatDebtsInTheirPlane)
 {
     Random random(7);
     for (int turn = 0; turn < 60; ++turn) {
-        const int z = random.between(-20, 20), side = turn % 2 ? 9 : 150;
+        const int z = random.between(-20, 20),
+                  side = turn % 3 == 0 ? 9
+            : turn % 3 == 1            ? 150
+                                       : 3000;
         Voxels debt;
         for (int n = random.between(1, 20); n > 0; --n) {
             debt.emplace_back(random.between(0, side), random.between(0, side), z);
@@ -136,16 +175,20 @@ TEST(DebtFit, KeepsCentersOfFlatDebtsInTheirPlane)
     }
 }
 
-/// One voxel more than the smallest ball has costs nothing here, where that one costs all the rest.
+/// Here the smallest ball reaches out of a round object, and one around its centre does not.
 TEST(DebtFit, LooksForTheBallInTheObject)
 {
     const Voxels voxels = shapes::ball(100);
     const SampledObject object = sampled(voxels);
-    DebtFit fit;
     const Voxels debt{Coord(9, 0, 0), Coord(6, 6, 0), Coord(6, -6, 0)};
+    FineBall old;
+    old.radiusSq = neededRadiusSq(old, debt);
+    DebtFit fit;
     fit.open(object, debt, {}, 40);
     EXPECT_GT(fit.pay(kNone, false).cost, 0);
     EXPECT_EQ(fit.pay(kMuch, false).cost, 0);
+    fit.open(object, debt, {old}, 40);
+    EXPECT_EQ(fit.pay(kNone, false).cost, 0);
 }
 
 } // namespace

@@ -41,6 +41,7 @@ TEST(ExtremePoints, StandForVoxelsFarApart)
         const int reach = 1 << random.between(3, 29);
         for (int n = random.between(1, 90); n > 0; --n)
             voxels.push_back(random.coord(-reach, reach));
+        for (Coord& v : voxels) v[i % 3] = i % 2 ? random.between(-1, 1) : v[i % 3]; // few slices
         sortVoxels(voxels);
         Voxels points = voxels;
         dropInnerPoints(points);

@@ -63,6 +63,22 @@ TEST(LevelCounts, AreTheFewestWithinABoundWhereErrorsFall)
     }
 }
 
+TEST(LevelCounts, KeepBoundsThatAreJustReached)
+{
+    SphereBudget budget;
+    LevelError error;
+    error.hammingPercent = 2.5;
+    error.hausdorff = 3;
+    EXPECT_TRUE(isWithin(budget, 0.5, error));
+    budget.distance = 1.5;
+    EXPECT_TRUE(isWithin(budget, 0.5, error));
+    EXPECT_FALSE(isWithin(budget, 0.51, error));
+    budget.error = 2.5;
+    EXPECT_TRUE(isWithin(budget, 0.5, error));
+    budget.error = 2.4;
+    EXPECT_FALSE(isWithin(budget, 0.5, error));
+}
+
 /// Whatever the errors do, the count is within, and the next eight below it are not.
 TEST(LevelCounts, KeepTheBoundWhereErrorsRiseAndFall)
 {

@@ -30,9 +30,11 @@ public:
         FineBall ball = mBalls[a];
         const double reach = centerDistance(mBalls[a], mBalls[b]) + mBalls[b].radius() + 1;
         const double radius = std::max(reach, ball.radius() + 1);
-        ball.radiusSq = int64_t(radius * radius);
+        ball.radiusSq = int64_t(radius * radius) & ~kMark;
         return {radius + 40 * meeting(a, b), a, b, ball, 0};
     }
+    /// Leaves a mark, that is asked for when the merge is done.
+    void complete(MergeCandidate& c) const override { c.ball.radiusSq |= kMark; }
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override
     {
         ASSERT_FALSE(merges.empty());
@@ -48,6 +50,7 @@ public:
                 mEnded[child] = 1;
             }
             if (merges[i].ball.empty()) continue;
+            ASSERT_TRUE(merges[i].ball.radiusSq & kMark) << "not completed";
             ASSERT_EQ(std::size_t(node) + i, mBalls.size());
             mBalls.push_back(merges[i].ball);
             mIdle.push_back(0);
@@ -59,6 +62,7 @@ public:
     std::size_t mostAtOnce() const { return mMostAtOnce; }
 
 private:
+    static constexpr int64_t kMark = 1; ///< of squared radii
     int meeting(int32_t a, int32_t b) const
     {
         int count = 0;
@@ -127,27 +131,62 @@ TEST(MergeForest, HasACutOfEveryNumberOfNodes)
     }
 }
 
-/// With one merge a round and all pairs known, each merge is the cheapest there is.
-TEST(MergeForest, MergesTheCheapestPair)
+/// The forest of the same merges, when all pairs are looked at in every round.
+std::vector<ForestNode> naiveForest(ToyModel& model)
 {
-    Random random(2);
-    ToyModel model(60, false, 0, random);
-    const auto forest = mergeToRoots(model, 60, nullptr);
-    for (std::size_t node = 60; node < forest.size(); ++node) {
-        const int before = forest[node].last + 1;
-        std::vector<int32_t> living;
-        for (std::size_t i = 0; i < node; ++i) {
-            if (forest[i].first <= before && before <= forest[i].last) living.push_back(int32_t(i));
-        }
-        double least = 1e300;
+    std::vector<ForestNode> forest;
+    std::vector<int32_t> living;
+    for (const FineBall& ball : model.leaves()) {
+        living.push_back(int32_t(forest.size()));
+        forest.push_back({ball, -1, 1, int32_t(model.leaves().size())});
+    }
+    while (living.size() > 1) {
+        std::vector<MergeCandidate> pairs, taken;
         for (const int32_t a : living) {
             for (const int32_t b : living) {
-                const FineBall &x = forest[a].ball, &y = forest[b].ball;
-                const double reach = centerDistance(x, y) + y.radius() + 1;
-                if (a < b) least = std::min(least, std::max(reach, x.radius() + 1));
+                if (a < b) pairs.push_back(model.evaluate(a, b));
             }
         }
-        ASSERT_NEAR(forest[node].ball.radius(), least, 1);
+        std::sort(pairs.begin(), pairs.end());
+        for (MergeCandidate& c : pairs) {
+            const bool meets = std::any_of(taken.begin(), taken.end(), [&](const auto& t) {
+                return t.a == c.a || t.a == c.b || t.b == c.a || t.b == c.b;
+            });
+            if (meets) continue;
+            model.complete(c);
+            taken.push_back(c);
+            if (taken.size() == std::max<std::size_t>(1, living.size() / 64)) break;
+        }
+        model.merge(taken, int32_t(forest.size()));
+        for (const MergeCandidate& c : taken) {
+            const auto parent = int32_t(forest.size()), count = int32_t(living.size());
+            for (const int32_t child : {c.a, c.b}) {
+                forest[child].parent = parent;
+                forest[child].first = count;
+                living.erase(std::find(living.begin(), living.end(), child));
+            }
+            living.push_back(parent);
+            forest.push_back({c.ball, -1, 1, count - 1});
+        }
+    }
+    return forest;
+}
+
+/// Where all pairs are known, and none depends on others.
+TEST(MergeForest, TakesTheCheapestPairsOfEachRound)
+{
+    for (const int leaves : {60, 150}) {
+        Random random(2);
+        ToyModel model(leaves, false, 0, random), same = model;
+        const auto forest = mergeToRoots(model, leaves, nullptr), naive = naiveForest(same);
+        ASSERT_EQ(forest.size(), naive.size());
+        for (std::size_t i = 0; i < forest.size(); ++i) {
+            ASSERT_TRUE(forest[i].ball == naive[i].ball) << i;
+            ASSERT_EQ(forest[i].parent, naive[i].parent) << i;
+            ASSERT_EQ(forest[i].first, naive[i].first) << i;
+            ASSERT_EQ(forest[i].last, naive[i].last) << i;
+        }
+        EXPECT_EQ(model.mostAtOnce(), leaves == 60 ? 1u : 2u);
     }
 }
 

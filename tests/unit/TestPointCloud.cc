@@ -10,7 +10,8 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-void expectFarthest(int count, bool radii, Random& random)
+/// @param spread  of the points: where it is small, some are as far as others
+void expectFarthest(int count, int spread, bool radii, Random& random)
 {
     PointCloud cloud;
     cloud.add(9, 9, 9, 9); // to be forgotten
@@ -18,7 +19,7 @@ void expectFarthest(int count, bool radii, Random& random)
     std::vector<Coord> points;
     std::vector<int> radius;
     for (int i = 0; i < count; ++i) {
-        points.push_back(random.coord(-40, 40));
+        points.push_back(random.coord(-spread, spread));
         radius.push_back(radii ? random.between(0, 30) : 0);
         const Coord& p = points.back();
         cloud.add(float(p[0]), float(p[1]), float(p[2]), float(radius.back()));
@@ -54,8 +55,10 @@ TEST(PointCloud, FindsTheFarthestPointWithEveryTarget)
     forEachTarget([] {
         Random random(1);
         for (int count = 1; count < 70; ++count) {
-            ASSERT_NO_FATAL_FAILURE(expectFarthest(count, false, random));
-            ASSERT_NO_FATAL_FAILURE(expectFarthest(count, true, random));
+            for (const int spread : {1, 3, 40}) {
+                ASSERT_NO_FATAL_FAILURE(expectFarthest(count, spread, false, random));
+                ASSERT_NO_FATAL_FAILURE(expectFarthest(count, spread, true, random));
+            }
         }
     });
 }

@@ -50,6 +50,22 @@ TEST(SampledObject, OfTheOriginHasItOnEveryLevel)
     }
 }
 
+/// Nor a level more than has samples, and one without.
+TEST(SampledObject, HasNoLeafWithoutSamples)
+{
+    EXPECT_EQ(sampled({Coord(1, 2, 3)}).levels(), 2);
+    EXPECT_EQ(sampled({Coord(8, -16, 24)}).levels(), 5);
+    for (uint32_t seed = 0; seed < 22; ++seed) {
+        const SampledObject object = sampled(randomObject(seed).voxels);
+        for (int k = 0; k < object.levels(); ++k) {
+            const SampleLevel& level = object.level(k);
+            for (std::size_t leaf = 0; leaf < level.leafCount(); ++leaf) {
+                ASSERT_NE(level.mask(leaf), LeafMask{}) << "level " << k;
+            }
+        }
+    }
+}
+
 TEST(SampledObject, FindsTheLeavesThatMeetABox)
 {
     Random random(1);

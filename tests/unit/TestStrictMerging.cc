@@ -16,11 +16,13 @@ constexpr FitEffort kEffort{false, 4, 1, false, 40};
 class WatchedMerging : public MergeModel {
 public:
     WatchedMerging(const Voxels& voxels, const std::vector<FineBall>& leaves,
-        const HeldByLeaves& held, bool flat = false)
+        const HeldByLeaves& held, bool flat = false, const FitEffort& effort = kEffort)
         : mVoxels(voxels), mObject(sampled(voxels)),
-          mModel(mObject, leaves, held, kEffort, flat, nullptr), mFlat(flat),
-          mVoxelsOnly(held.areVoxels), mBalls(leaves), mHeld(held.held)
+          mModel(mObject, leaves, held, effort, flat, nullptr), mVoxelsOnly(held.areVoxels),
+          mBalls(leaves), mHeld(held.held)
     {}
+    /// They are not asked for: of discs they are those of balls, and of large balls estimates.
+    void leaveOutCosts() { mCosts = false; }
     std::vector<FineBall> leaves() const override { return mModel.leaves(); }
     MergeCandidate evaluate(int32_t a, int32_t b) const override { return mModel.evaluate(a, b); }
     void complete(MergeCandidate& merge) const override { mModel.complete(merge); }
@@ -32,7 +34,7 @@ public:
             Held both = mHeld[c.a];
             both.insert(both.end(), mHeld[c.b].begin(), mHeld[c.b].end());
             ASSERT_NO_FATAL_FAILURE(expectHeld(c, both));
-            if (!mFlat) {
+            if (mCosts) {
                 ASSERT_NO_FATAL_FAILURE(expectCost(c));
             }
             mBalls.push_back(c.ball);
@@ -65,7 +67,7 @@ private:
     Voxels mVoxels;
     SampledObject mObject;
     StrictMerging mModel;
-    bool mFlat, mVoxelsOnly;
+    bool mVoxelsOnly, mCosts = true;
     std::vector<FineBall> mBalls;
     std::vector<Held> mHeld;
 };
@@ -116,6 +118,22 @@ TEST(StrictMerging, HoldsTheLeafBallsBelow)
     EXPECT_GT(most, 100u);
 }
 
+/// The last one of many is further out than all others, but between directions in which it is not.
+TEST(StrictMerging, HoldsLeafBallsThatWereNotLookedAtWhileABallWasSought)
+{
+    Voxels voxels{Coord(474, 158, 0)}; // 500 from the origin
+    for (const Coord& u : voxelsOfBox(CoordBBox(Coord(-2), Coord(2)))) {
+        const bool even = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
+        if (!even) voxels.push_back(Coord::round(497 / u.asVec3d().length() * u.asVec3d()));
+    }
+    std::vector<FineBall> leaves;
+    for (const Coord& v : voxels) leaves.push_back(voxelBall(v));
+    sortVoxels(voxels);
+    WatchedMerging model(voxels, leaves, heldBalls(leaves), false, {false, 0, 1, false, 4});
+    model.leaveOutCosts();
+    ASSERT_NO_FATAL_FAILURE(expectSound(model, "star"));
+}
+
 TEST(StrictMerging, CountsWhatLeavesHaveOutsideTheObject)
 {
     Random random(1);
@@ -156,6 +174,7 @@ TEST(StrictMerging, KeepsFlatObjectsInTheirPlane)
             ? heldBalls(leaves)
             : heldVoxels(cellPoints(leaves, sampled(voxels).level(0), nullptr));
         WatchedMerging model(voxels, leaves, held, true);
+        model.leaveOutCosts();
         for (const ForestNode& node : mergeToRoots(model, 6, nullptr)) {
             ASSERT_EQ(node.ball.center[2], 16 * turn);
         }
