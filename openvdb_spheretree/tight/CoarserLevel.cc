@@ -2,11 +2,14 @@
 #include "CoarserLevel.h"
 
 #include "../detail/Parallel.h"
+#include "BallGrid.h"
+#include "ChildMoves.h"
 #include "DebtFit.h"
 #include "PowerCells.h"
 #include "StrictMerging.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace openvdb_spheretree {
@@ -15,6 +18,8 @@ namespace tight {
 namespace {
 
 using openvdb::Coord;
+
+constexpr int kTurns = 2;
 
 /// Extreme points of each unit.
 using Units = std::vector<std::vector<Coord>>;
@@ -41,19 +46,28 @@ int64_t depthIn(const FineBall& ball, const std::vector<Coord>& unit)
     return ball.radiusSq - farthest;
 }
 
-/// @return for each unit the ball it is deepest in.
-std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& balls,
-    openvdb::util::NullInterrupter* interrupter)
+/// @return for each unit the ball it is deepest in; for an empty one, any that is near.
+std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& finer,
+    const std::vector<FineBall>& balls, openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<int32_t> parents(units.size(), 0);
+    BallGrid grid;
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+        if (!balls[b].empty()) grid.add(int32_t(b), balls[b]);
+    }
+    std::vector<int32_t> parents(units.size(), -1);
     detail::parallelFor(units.size(), interrupter, [&](std::size_t i) {
+        if (units[i].empty()) {
+            parents[i] = leastProtruding(finer[i], balls);
+            return;
+        }
         int64_t best = -1;
-        for (std::size_t b = 0; b < balls.size(); ++b) {
+        for (const int32_t b : grid.near(voxelBall(units[i].front()), 1)) {
             const int64_t depth = depthIn(balls[b], units[i]);
             if (depth <= best) continue;
             best = depth;
-            parents[i] = int32_t(b);
+            parents[i] = b;
         }
+        assert(parents[i] >= 0); // some ball holds each unit
     });
     return parents;
 }
@@ -83,18 +97,6 @@ void adopt(const TightLevel& level, TightLevel& finer)
     }
 }
 
-/// @return for each ball the voxels that its children answer for.
-std::vector<VoxelRegion> regionsBelow(
-    const std::vector<VoxelRegion>& regions, const std::vector<int32_t>& parents, std::size_t count)
-{
-    std::vector<VoxelRegion> below(count);
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        VoxelRegion& region = below[parents[i]];
-        region = unionOf(region, regions[i]);
-    }
-    return below;
-}
-
 /// The balls, each for itself, while what they hold counts in their own regions only.
 std::vector<FineBall> settled(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
@@ -119,13 +121,16 @@ TightLevel coarserLevel(
             ballsOf(maker.improve(ungrouped(mergedBalls(finer.balls, units, count, maker)),
                 ungrouped(finer.balls), UnitDebt(units)));
     }
-    finer.parent = parentsOf(units, level.balls, maker.interrupter);
+    finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
     keepParents(level.balls, finer.parent);
-    const auto below = regionsBelow(regions, finer.parent, level.balls.size());
-    level.balls = settled(level.balls, below, maker);
-    adopt(level, finer);
-    keepParents(level.balls, finer.parent);
-    regions = regionsBelow(regions, finer.parent, level.balls.size());
+    for (int turn = 0; turn < kTurns; ++turn) {
+        moveChildren(level.balls, finer, regions, maker);
+        const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+        level.balls = settled(level.balls, below, maker);
+        adopt(level, finer);
+        keepParents(level.balls, finer.parent);
+    }
+    regions = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
     for (std::size_t i = 0; i < regions.size(); ++i) {
         regions[i] = clipped(regions[i], level.balls[i], object);
     }

@@ -12,6 +12,7 @@
 
 #include "CostWindow.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 /// @brief A ball of a level that is being made, and the group it is in.
 ///
 /// A level that is split from a coarser one has a group for each ball of that: its children. What a
-/// ball holds counts only where the ancestors of its group hold it, too (GroupRegions.h). All balls
+/// ball holds counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls
 /// of other levels are in group 0.
 
 #pragma once

@@ -42,7 +42,7 @@ LeafMask VoxelDebt::heldIn(std::size_t leaf, const CoverBall& ball) const
 {
     LeafMask held = ballMask(ball.ball, mObject.origin(leaf));
     const LeafMask& counts =
-        mRegions ? maskIn((*mRegions)[ball.group], uint32_t(leaf)) : mObject.mask(leaf);
+        mRegions.empty() ? mObject.mask(leaf) : maskIn(*mRegions[ball.group], uint32_t(leaf));
     for (int word = 0; word < 8; ++word) held[word] &= counts[word];
     return held;
 }

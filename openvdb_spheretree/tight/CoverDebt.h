@@ -14,6 +14,7 @@
 
 #include <openvdb/Types.h>
 
+#include <utility>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -35,9 +36,14 @@ public:
     /// Every object voxel that a ball holds counts.
     explicit VoxelDebt(const SampleLevel& object) : mObject(object) {}
     /// @param regions  of the groups: what a ball holds counts in its group's only
-    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions)
-        : mObject(object), mRegions(&regions)
+    VoxelDebt(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
+        : mObject(object), mRegions(std::move(regions))
     {}
+    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions)
+        : mObject(object)
+    {
+        for (const VoxelRegion& region : regions) mRegions.push_back(&region);
+    }
     void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
         std::vector<openvdb::Coord>& points) const override;
 
@@ -45,7 +51,7 @@ private:
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
 
     const SampleLevel& mObject;
-    const std::vector<VoxelRegion>* mRegions = nullptr; ///< null: the object
+    std::vector<const VoxelRegion*> mRegions; ///< none: the object
 };
 
 class UnitDebt : public CoverDebt {

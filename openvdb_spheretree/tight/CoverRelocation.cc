@@ -105,22 +105,11 @@ void CoverRelocation::fill()
     constexpr std::size_t kTries = 64;
     if (mFiner.empty()) return;
     for (std::size_t i = 0; i < mCover.size(); ++i) {
-        const auto slot = int32_t(i);
-        if (!mCover[slot].empty()) continue;
-        apply(bestInsertions(kTries).front(), slot);
-        // Where the insertion was of no use, any ball that costs nothing will do.
-        if (mCover[slot].empty()) mCover.put(slot, spareBall());
+        if (!mCover[int32_t(i)].empty()) continue;
+        const CoverChange best = bestInsertions(kTries).front();
+        if (!best.pays()) return;
+        apply(best, int32_t(i));
     }
-}
-
-/// A finer ball that is not in the cover yet; there is one, or there would be no room for more.
-CoverBall CoverRelocation::spareBall() const
-{
-    for (const CoverBall& ball : mFiner) {
-        const auto& balls = mCover.balls();
-        if (std::find(balls.begin(), balls.end(), ball) == balls.end()) return ball;
-    }
-    return mFiner.front();
 }
 
 } // namespace tight

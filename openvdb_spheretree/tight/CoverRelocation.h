@@ -26,7 +26,7 @@ public:
 
     /// Pairs the cheapest removals with the best of many insertions, as long as that pays.
     void relocate();
-    /// Puts balls in where some were dropped.
+    /// Puts balls in where some were dropped, as long as that pays.
     void fill();
     /// @return what all that has done to the cover's cost, voxels.
     double change() const { return mChange; }
@@ -36,7 +36,6 @@ private:
     CoverBall newcomer(uint64_t number) const;
     CoverChange insertion(uint64_t number) const;
     std::vector<CoverChange> bestInsertions(std::size_t tries);
-    CoverBall spareBall() const;
     void apply(const CoverChange& change, int32_t slot = -1);
 
     BallCover& mCover;

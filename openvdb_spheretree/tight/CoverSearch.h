@@ -26,13 +26,13 @@ namespace openvdb_spheretree {
 namespace tight {
 
 struct SearchedCover {
-    std::vector<CoverBall> balls; ///< empty ones where balls went, if none could be put in
+    std::vector<CoverBall> balls; ///< empty ones where balls went, if none put in would pay
     double change = 0;            ///< of the cost, voxels, counted on samples: not above 0
 };
 
 /// @param balls  a cover in the sense of @a debt
-/// @param finer  small balls, to be put in where one is to spare: those of the next finer level. If
-///               there are none, balls stay where they are and go where they owe nothing.
+/// @param finer  small balls, to be put in where one is to spare: leaves, or those of a finer level.
+///               If there are none, balls stay where they are, and go if they owe nothing.
 SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
     const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
     openvdb::util::NullInterrupter* interrupter);

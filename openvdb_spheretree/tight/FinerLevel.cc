@@ -6,6 +6,7 @@
 #include "SlackMerging.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace openvdb_spheretree {
@@ -51,7 +52,8 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
             most = held;
             best = group;
         }
-        if (best < 0) break; // no voxel of a cell is outside of all regions
+        assert(best >= 0); // regions together are the object
+        if (best < 0) break;
         groups.push_back(best);
         cell = partOf(cell, regions[best], false);
     }
@@ -81,7 +83,8 @@ std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leaves,
 {
     std::vector<VoxelRegion> held(leaves.size());
     detail::parallelFor(held.size(), maker.interrupter, [&](std::size_t i) {
-        held[i] = clipped(regions[leaves[i].group], leaves[i].ball, maker.object.level(0));
+        const VoxelRegion region = regionOf(leaves[i].ball, maker.object.level(0));
+        held[i] = partOf(region, regions[leaves[i].group], true);
     });
     SlackMerging merging(
         maker.object, leaves, std::move(held), maker.fit, maker.flat, maker.interrupter);
@@ -118,7 +121,8 @@ TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>&
 {
     const std::vector<CoverBall> dealt = dealtOut(leaves, coarser, regions, maker);
     const VoxelDebt debt(maker.object.level(0), regions);
-    const auto balls = maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, debt);
+    const auto balls =
+        filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, debt), dealt);
     TightLevel level;
     level.balls = ballsOf(balls);
     level.parent = groupsOf(balls);

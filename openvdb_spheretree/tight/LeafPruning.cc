@@ -6,6 +6,7 @@
 #include "LeafDescent.h"
 
 #include <algorithm>
+#include <utility>
 #include <numeric>
 
 namespace openvdb_spheretree {

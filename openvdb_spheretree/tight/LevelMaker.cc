@@ -11,7 +11,12 @@ namespace tight {
 
 namespace {
 
-constexpr int kTrialsPerBall = 60;
+/// At so many balls the time for a ball would become hours for all of them.
+int trialsFor(std::size_t count)
+{
+    constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
+    return int(std::max(kLeast, std::min(kMost, kAll / count)));
+}
 
 /// More trials gain little, but few balls have searches that end in different places, and take no
 /// time.
@@ -29,11 +34,24 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     SearchedCover best;
     best.balls = start;
     for (int search = 0; search < searchesFor(start.size()); ++search) {
-        const SearchEffort effort{fit, kTrialsPerBall, uint64_t(search) << 40, flat};
+        const SearchEffort effort{fit, trialsFor(start.size()), uint64_t(search) << 40, flat};
         SearchedCover found = improveCover(start, finer, object, debt, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }
     return std::move(best.balls);
+}
+
+std::vector<CoverBall> filledUp(
+    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leaves)
+{
+    std::vector<CoverBall> filled;
+    for (const CoverBall& ball : cover) {
+        if (!ball.empty()) filled.push_back(ball);
+    }
+    for (auto leaf = leaves.begin(); leaf != leaves.end() && filled.size() < cover.size(); ++leaf) {
+        if (std::find(cover.begin(), cover.end(), *leaf) == cover.end()) filled.push_back(*leaf);
+    }
+    return filled;
 }
 
 } // namespace tight

@@ -27,5 +27,10 @@ struct LevelMaker {
         const std::vector<CoverBall>& finer, const CoverDebt& debt) const;
 };
 
+/// @return the cover, with leaves that are not in it in the places of empty balls; where there are
+/// no such leaves, without these places. Leaves cost nothing.
+std::vector<CoverBall> filledUp(
+    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leaves);
+
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -26,7 +26,13 @@ public:
     Forest(MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
         : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
     {
-        for (const FineBall& ball : model.leaves()) {
+        const std::vector<FineBall> leaves = model.leaves();
+        int32_t groups = 1;
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            groups = std::max(groups, model.groupOf(int32_t(i)) + 1);
+        }
+        mGrids.resize(std::size_t(groups));
+        for (const FineBall& ball : leaves) {
             addNode(ball, model.groupOf(int32_t(mNodes.size())));
         }
         mLeafCount = mLive = int32_t(mNodes.size());
@@ -56,8 +62,8 @@ private:
 
     void addNode(const FineBall& ball, int32_t group)
     {
-        if (std::size_t(group) >= mGrids.size()) mGrids.resize(std::size_t(group) + 1);
         mGrids[group].add(int32_t(mNodes.size()), ball);
+        if (mGrids.size() > 1) mAllGroups.add(int32_t(mNodes.size()), ball);
         mGroup.push_back(group);
         mNodes.push_back({ball, -1, 1, 0});
         mGone.push_back(0);
@@ -190,9 +196,8 @@ private:
     template <typename Body>
     void forEachNear(const FineBall& ball, double slack, const Body& body) const
     {
-        for (const BallGrid& grid : mGrids) {
-            for (const int32_t node : grid.near(ball, slack)) body(node);
-        }
+        const BallGrid& all = mGrids.size() > 1 ? mAllGroups : mGrids.front();
+        for (const int32_t node : all.near(ball, slack)) body(node);
     }
 
     void lockAround(const MergeCandidate& c)
@@ -237,11 +242,12 @@ private:
         mNodes[node].first = mLive;
         mGone[node] = 1;
         mGrids[mGroup[node]].remove(node, mNodes[node].ball);
+        if (mGrids.size() > 1) mAllGroups.remove(node, mNodes[node].ball);
     }
 
     void doMerges(const std::vector<MergeCandidate>& taken)
     {
-        std::vector<MergeCandidate> merges;
+        std::vector<MergeCandidate> merges, dropped;
         std::vector<int32_t> born;
         const auto firstNode = int32_t(mNodes.size());
         for (const MergeCandidate& c : taken) {
@@ -250,6 +256,7 @@ private:
                 --mLive;
                 end(c.b, -1);
                 --mLive;
+                dropped.push_back(c);
                 continue;
             }
             const auto node = int32_t(mNodes.size());
@@ -260,10 +267,6 @@ private:
             mNodes[node].last = mLive;
             born.push_back(node);
             merges.push_back(c);
-        }
-        std::vector<MergeCandidate> dropped;
-        for (const MergeCandidate& c : taken) {
-            if (c.ball.empty()) dropped.push_back(c);
         }
         if (!dropped.empty()) mModel.merge(dropped, -1);
         if (!merges.empty()) mModel.merge(merges, firstNode);
@@ -282,6 +285,7 @@ private:
     std::size_t mNeighbours;
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<BallGrid> mGrids; ///< of the groups: living nodes
+    BallGrid mAllGroups;          ///< of all together, if there is more than one
     std::vector<ForestNode> mNodes;
     std::vector<int32_t> mGroup;
     std::vector<char> mGone;

@@ -39,7 +39,7 @@ struct MergeCandidate {
     }
 };
 
-/// What the order of merges asks of a kind of merging. Nodes 0 to leafCount() - 1 are leaves.
+/// What the order of merges asks of a kind of merging. The first nodes are the leaves.
 class MergeModel {
 public:
     virtual ~MergeModel() = default;
@@ -50,7 +50,8 @@ public:
     virtual MergeCandidate evaluate(int32_t a, int32_t b) const = 0;
     /// Called for a merge that is going to be done.
     virtual void complete(MergeCandidate&) const {}
-    /// Does merges, none of which is near another: the i-th becomes node `node + i`.
+    /// Does merges, none of which is near another: the i-th becomes node `node + i`. Pairs that are
+    /// dropped come by themselves: they become no nodes.
     virtual void merge(const std::vector<MergeCandidate>& merges, int32_t node) = 0;
     /// @return whether what a merge costs depends on the balls around it.
     virtual bool dependsOnOthers() const = 0;

@@ -33,7 +33,7 @@ inline FineBall grown(const FineBall& ball, Dice& dice)
     const double larger = dice.uniform() < 0.5 ? r * (1 + 0.3 * dice.uniform())
                                                : r + double(kFine) * (0.3 + 2 * dice.uniform());
     FineBall result = ball;
-    result.radiusSq = int64_t(larger * larger);
+    result.radiusSq = std::max(ball.radiusSq, int64_t(larger * larger));
     return result;
 }
 

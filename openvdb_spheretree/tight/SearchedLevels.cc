@@ -28,6 +28,7 @@ TightLevel freeLevel(const std::vector<ForestNode>& forest, int64_t count,
 void makeCoarser(std::vector<TightLevel>& levels, std::size_t from,
     const std::vector<int64_t>& counts, const LevelMaker& maker)
 {
+    if (from + 1 == levels.size()) return;
     auto regions = regionsOf(levels[from].balls, maker.object.level(0), maker.interrupter);
     for (std::size_t k = from + 1; k < levels.size(); ++k) {
         levels[k] = coarserLevel(levels[k - 1], regions, counts[k], maker);
@@ -39,6 +40,7 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
     const std::vector<int64_t>& counts, const std::vector<FineBall>& leaves,
     const LevelMaker& maker)
 {
+    if (from == 0) return;
     const LeafCells cells{leaves, cellRegions(leaves, maker.object.level(0), maker.interrupter)};
     std::vector<VoxelRegion> regions;
     for (std::size_t k = levels.size(); k-- > 0;) {
@@ -51,7 +53,7 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
 
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves,
-    const SampledObject& object, const FitEffort& effort, bool flat,
+    std::size_t middle, const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
 {
     const LevelMaker maker{object, effort, flat, interrupter};
@@ -62,7 +64,6 @@ std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
         makeCoarser(levels, 0, counts, maker);
         return levels;
     }
-    const std::size_t middle = counts.size() / 2;
     levels[middle] = freeLevel(forest, counts[middle], leafBalls, maker);
     makeCoarser(levels, middle, counts, maker);
     makeFiner(levels, middle, counts, leafBalls, maker);

@@ -28,9 +28,10 @@ namespace tight {
 /// @param forest  of the leaves, for the start of the middle level
 /// @param counts  of balls, finest first, falling
 /// @param leaves  the leaves of the forest
+/// @param middle  index of the level to begin with
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves,
-    const SampledObject& object, const FitEffort& effort, bool flat,
+    std::size_t middle, const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace tight

@@ -6,6 +6,7 @@
 #include "ExtremePoints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace openvdb_spheretree {

@@ -150,11 +150,13 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const auto counts =
         levelCounts(settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
     const bool search = settings.quality == Quality::Best && settings.cover == Cover::Voxels;
+    // A bound is one of the finest level, which then must not be bound to others.
+    const std::size_t middle = settings.budget.hasBound() ? 0 : counts.size() / 2;
     const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
         const auto cuts = levelsOf(forest, counts, leaves.medial);
         if (!search) return cuts;
         const auto searched = searchedLevels(
-            forest, counts, leaves.medial, samples, effort.fit, settings.dim == 2, interrupter);
+            forest, counts, leaves.medial, middle, samples, effort.fit, settings.dim == 2, interrupter);
         return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
     });
     appendLevels(levels, tree);

@@ -63,6 +63,21 @@ VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const Sampl
     return inside;
 }
 
+void joinLeaves(VoxelRegion& parts)
+{
+    std::sort(parts.begin(), parts.end(),
+        [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
+    std::size_t size = 0;
+    for (const RegionLeaf& part : parts) {
+        if (size == 0 || parts[size - 1].leaf != part.leaf) {
+            parts[size++] = part;
+            continue;
+        }
+        for (int word = 0; word < 8; ++word) parts[size - 1].mask[word] |= part.mask[word];
+    }
+    parts.resize(size);
+}
+
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
 {
     VoxelRegion region;

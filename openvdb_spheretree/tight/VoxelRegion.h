@@ -57,6 +57,9 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 /// @return the voxels of a region that lie in @a ball.
 VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object);
 
+/// Makes a region of leaves in any order, some of them in several parts.
+void joinLeaves(VoxelRegion& parts);
+
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
 
 /// @return the voxels of either region that lie in @a ball.
