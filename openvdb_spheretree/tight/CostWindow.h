@@ -8,7 +8,8 @@
 /// would take memory with the volume of the largest sphere.
 ///
 /// Numbers are local: relative to the window's origin, 1/16 of a sample. At sample level 0 they are
-/// exact for balls that fit in the window; above it centres and radii are rounded, and the bits stand for 8^level voxels.
+/// exact for balls that fit in the window; above it centres and radii are rounded, and the bits
+/// stand for 8^level voxels.
 /// Cost: filling, a byte for 8 samples; counting, a square root for each row and a word for 64
 /// samples.
 
