@@ -194,6 +194,21 @@ TEST(CostWindow, CountsTheSampleWhereTheBallEnds)
     }
 }
 
+TEST(CostWindow, CountsInPlacesThatAreAPoint)
+{
+    CostWindow window;
+    FineBox box;
+    box.expand(voxelBall(Coord(5, 5, 5)), 100);
+    window.reset(sampled({Coord(1, 2, 3)}), box, 0);
+    for (const Coord& at : {Coord(1, 2, 3), Coord(4, 5, 6)}) {
+        const LocalBall point = window.toLocal(voxelBall(at));
+        CostRuns runs;
+        runs.collect(window, point);
+        EXPECT_TRUE(runs.fits(point));
+        EXPECT_EQ(runs.count(point), at == Coord(1, 2, 3) ? 0 : 1);
+    }
+}
+
 /// At level 0 a ball is the same in the window and out of it.
 TEST(CostWindow, CountsVoxelsOutsideTheObject)
 {

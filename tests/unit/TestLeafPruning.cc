@@ -68,6 +68,25 @@ TEST(LeafPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
     ASSERT_NO_FATAL_FAILURE(expectPruned(object));
 }
 
+/// The smallest ball holds all of a leaf, and is alone at its own centre only.
+TEST(LeafPruning, KeepsABallForAVoxelInALeafThatItHolds)
+{
+    const Coord middle(4, 4, 4);
+    std::vector<MedialBall> balls{{middle, 50}};
+    for (const Coord& v : voxelsOfBox(CoordBBox(Coord(-8), Coord(8)))) {
+        const int64_t square = squaredDistance(v, Coord(0, 0, 0));
+        if (square >= 60 && square < 64) balls.push_back({middle + v, 60});
+    }
+    Voxels all;
+    for (const MedialBall& ball : balls) {
+        for (const Coord& v : voxelsOf(ball)) all.push_back(v);
+    }
+    sortVoxels(all);
+    const auto kept = prunedLeaves(balls, sampled(all).level(0), nullptr);
+    ASSERT_EQ(kept.front(), 0);
+    ASSERT_EQ(kept, naivelyPruned(balls));
+}
+
 TEST(LeafPruning, OfNothingIsNothing)
 {
     EXPECT_TRUE(prunedLeaves({}, sampled({}).level(0), nullptr).empty());

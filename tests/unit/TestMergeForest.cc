@@ -21,6 +21,9 @@ public:
         mLeaves = mBalls;
         mEnded.resize(mBalls.size());
     }
+    /// Leaves of @a count groups, by turns.
+    void group(int count) { mGroups = count; }
+    int32_t groupOf(int32_t leaf) const override { return leaf % mGroups; }
     std::vector<FineBall> leaves() const override { return mLeaves; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override
     {
@@ -90,12 +93,14 @@ private:
     }
 
     bool mDepends;
+    int mGroups = 1;
     std::vector<FineBall> mBalls, mLeaves;
     std::vector<char> mIdle, mEnded;
     std::size_t mMostAtOnce = 0;
 };
 
-void expectForest(const std::vector<ForestNode>& forest, int leaves)
+/// @param roots  there are in the end
+void expectForest(const std::vector<ForestNode>& forest, int leaves, int roots = 1)
 {
     std::vector<int> count(std::size_t(leaves) + 1, 0);
     std::vector<int> children(forest.size(), 0);
@@ -110,23 +115,50 @@ void expectForest(const std::vector<ForestNode>& forest, int leaves)
         ASSERT_EQ(forest[node.parent].last, node.first - 1);
         ++children[node.parent];
     }
-    for (int n = 1; n <= leaves; ++n) ASSERT_EQ(count[std::size_t(n)], n);
+    for (int n = roots; n <= leaves; ++n) ASSERT_EQ(count[std::size_t(n)], n);
     for (std::size_t i = 0; i < forest.size(); ++i) ASSERT_EQ(children[i], int(i) < leaves ? 0 : 2);
 }
 
 TEST(MergeForest, HasACutOfEveryNumberOfNodes)
 {
     Random random(1);
-    for (const int leaves : {1, 2, 3, 10, 127, 128, 700}) {
+    for (const int leaves : {1, 2, 3, 10, 127, 128, 450}) {
         for (const bool depends : {false, true}) {
             for (const double idle : {0.0, 0.3, 0.95}) {
                 ToyModel model(leaves, depends, idle, random);
                 ASSERT_NO_FATAL_FAILURE(expectForest(mergeToRoots(model, 6, nullptr), leaves))
                     << leaves << " leaves, idle " << idle;
-                const bool many = leaves == 700;
+                const bool many = leaves == 450;
                 ASSERT_TRUE(
                     many ? model.mostAtOnce() > 1 : model.mostAtOnce() <= 1 || leaves > 127);
             }
+        }
+    }
+}
+
+/// Merges of other groups are near, and what is born stays in its group.
+TEST(MergeForest, KeepsGroupsApart)
+{
+    Random random(4);
+    for (const int leaves : {3, 50, 400}) {
+        for (const bool depends : {false, true}) {
+            ToyModel model(leaves, depends, 0, random);
+            model.group(3);
+            const auto forest = mergeToRoots(model, 6, nullptr);
+            ASSERT_NO_FATAL_FAILURE(expectForest(forest, leaves, 3));
+            std::vector<int32_t> group;
+            std::vector<int> roots(3, 0);
+            for (int i = 0; i < int(forest.size()); ++i) group.push_back(i < leaves ? i % 3 : -1);
+            for (std::size_t i = 0; i < forest.size(); ++i) {
+                const int32_t parent = forest[i].parent;
+                if (parent < 0) {
+                    ++roots[group[i]];
+                    continue;
+                }
+                ASSERT_TRUE(group[parent] == -1 || group[parent] == group[i]);
+                group[parent] = group[i];
+            }
+            ASSERT_EQ(roots, std::vector<int>(3, 1));
         }
     }
 }
@@ -187,32 +219,6 @@ TEST(MergeForest, TakesTheCheapestPairsOfEachRound)
             ASSERT_EQ(forest[i].last, naive[i].last) << i;
         }
         EXPECT_EQ(model.mostAtOnce(), leaves == 60 ? 1u : 2u);
-    }
-}
-
-class GroupedModel : public ToyModel {
-public:
-    using ToyModel::ToyModel;
-    int32_t groupOf(int32_t leaf) const override { return leaf % 3; }
-};
-
-TEST(MergeForest, MakesOneRootOfEachGroup)
-{
-    Random random(3);
-    for (const bool depends : {false, true}) {
-        GroupedModel model(200, depends, 0, random);
-        const auto forest = mergeToRoots(model, 6, nullptr);
-        std::vector<int32_t> group(forest.size(), -1);
-        int roots = 0;
-        for (std::size_t i = 0; i < forest.size(); ++i) {
-            if (i < 200) group[i] = int32_t(i) % 3;
-            const int32_t parent = forest[i].parent;
-            roots += parent < 0;
-            if (parent < 0) continue;
-            ASSERT_TRUE(group[parent] == -1 || group[parent] == group[i]);
-            group[parent] = group[i];
-        }
-        EXPECT_EQ(roots, 3);
     }
 }
 

@@ -49,6 +49,11 @@ public:
     {
         for (const MergeCandidate& c : merges) ASSERT_NO_FATAL_FAILURE(expectPaid(c));
         for (const MergeCandidate& c : merges) ASSERT_NO_FATAL_FAILURE(expectCost(c.a, c.b));
+        const int32_t some = anyLiving(), other = anyLiving(); // dearer ones, too
+        if (some != other) {
+            ASSERT_NO_FATAL_FAILURE(expectPaid(mModel.evaluate(some, other)));
+            ASSERT_NO_FATAL_FAILURE(expectCost(some, other));
+        }
         mModel.merge(merges, node);
         for (std::size_t i = 0; i < merges.size(); ++i) {
             const MergeCandidate& c = merges[i];
@@ -74,6 +79,10 @@ private:
         FineBall ball;
         Voxels region;
     };
+    int32_t anyLiving()
+    {
+        return std::next(mLiving.begin(), mRandom.between(0, int(mLiving.size()) - 1))->first;
+    }
     /// What only these two have.
     Voxels debtOf(int32_t a, int32_t b) const
     {
@@ -117,6 +126,7 @@ private:
     int32_t mLeafCount;
     bool mFlat;
     std::map<int32_t, Living> mLiving;
+    Random mRandom{1};
     int mDropped = 0;
     std::size_t mMostAtOnce = 0;
 };

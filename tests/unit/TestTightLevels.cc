@@ -98,6 +98,14 @@ void expectParent(
     }
 }
 
+TEST(TightLevels, AreStuckOutOfLeastByBallsThatAreThere)
+{
+    const FineBall none, small{{0, 0, 0}, 16 * 16}, large{{320, 0, 0}, 160 * 160};
+    EXPECT_EQ(leastProtruding(small, {none, none, large}), 2);
+    EXPECT_EQ(leastProtruding(small, {large, none, small}), 2);
+    EXPECT_EQ(leastProtruding({{200, 0, 0}, 100}, {small, large, large}), 1) << "the first";
+}
+
 TEST(TightLevels, HaveTheirAncestorsAsParents)
 {
     Random random(2);

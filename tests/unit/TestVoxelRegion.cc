@@ -42,6 +42,15 @@ TEST(VoxelRegion, OfABallAreTheObjectsVoxelsInIt)
         const VoxelRegion inA = regionOf(a, level), inB = regionOf(b, level);
         ASSERT_EQ(
             regionVoxels(inA, level), those(voxels, [&](const Coord& v) { return holds(a, v); }));
+        ASSERT_EQ(regionVoxels(clipped(inA, clip, level), level),
+            those(voxels, [&](const Coord& v) { return holds(a, v) && holds(clip, v); }));
+        ASSERT_EQ(regionVoxels(unionOf(inA, inB), level),
+            those(voxels, [&](const Coord& v) { return holds(a, v) || holds(b, v); }));
+        for (uint32_t leaf = 0; leaf < level.leafCount(); ++leaf) {
+            ASSERT_EQ(voxelsOf(maskIn(inA, leaf), level.origin(leaf)),
+                those(voxels,
+                    [&](const Coord& v) { return holds(a, v) && (v & ~7) == level.origin(leaf); }));
+        }
         ASSERT_EQ(regionVoxels(clippedUnion(inA, inB, clip, level), level),
             those(voxels,
                 [&](const Coord& v) { return (holds(a, v) || holds(b, v)) && holds(clip, v); }));
