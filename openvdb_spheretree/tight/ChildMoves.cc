@@ -109,8 +109,8 @@ private:
         fit.replace(part, to, grown);
         fit.refit(part, part.indexOf(move.from));
         fit.refit(part, to);
-        fit.refitNear(part, mCover.nearest(move.to, mCover[move.to].ball, kChangedNeighbours),
-            child);
+        fit.refitNear(
+            part, mCover.nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
         fit.refit(part, to);
         return fit.changeOf(part);
     }

@@ -72,21 +72,6 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& 
     return parents;
 }
 
-/// Balls without children go; @a parents become links to those that are left.
-void keepParents(std::vector<FineBall>& balls, std::vector<int32_t>& parents)
-{
-    std::vector<int32_t> index(balls.size(), -1);
-    for (const int32_t parent : parents) index[parent] = 0;
-    std::vector<FineBall> kept;
-    for (std::size_t b = 0; b < balls.size(); ++b) {
-        if (index[b] < 0) continue;
-        index[b] = int32_t(kept.size());
-        kept.push_back(balls[b]);
-    }
-    for (int32_t& parent : parents) parent = index[parent];
-    balls.swap(kept);
-}
-
 /// Balls that went because they owed nothing leave their children to others. No voxel needs these
 /// children for its chain.
 void adopt(const TightLevel& level, TightLevel& finer)
@@ -122,13 +107,14 @@ TightLevel coarserLevel(
                 ungrouped(finer.balls), UnitDebt(units)));
     }
     finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
-    keepParents(level.balls, finer.parent);
+    dropChildless(level, finer);
     for (int turn = 0; turn < kTurns; ++turn) {
         moveChildren(level.balls, finer, regions, maker);
-        const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+        const auto below =
+            regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
         level.balls = settled(level.balls, below, maker);
         adopt(level, finer);
-        keepParents(level.balls, finer.parent);
+        dropChildless(level, finer);
     }
     regions = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
     for (std::size_t i = 0; i < regions.size(); ++i) {

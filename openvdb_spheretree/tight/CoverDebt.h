@@ -39,8 +39,7 @@ public:
     VoxelDebt(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
         : mObject(object), mRegions(std::move(regions))
     {}
-    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions)
-        : mObject(object)
+    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions) : mObject(object)
     {
         for (const VoxelRegion& region : regions) mRegions.push_back(&region);
     }

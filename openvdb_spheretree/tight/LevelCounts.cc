@@ -53,9 +53,9 @@ std::vector<int64_t> levelCounts(
         fewest(leaves, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
     if (!budget.spheres.empty() && count > budget.spheres.front()) {
         OPENVDB_THROW(openvdb::ValueError,
-            boundsOf(budget) << " cannot be reached with spheres=" << budget.spheres.front()
-                             << ": it takes " << count
-                             << " spheres; allow more of them, or a larger error");
+            boundsOf(budget)
+                << " cannot be reached with spheres=" << budget.spheres.front() << ": it takes "
+                << count << " spheres (before any search); allow more of them, or a looser bound");
     }
     if (budget.branching == 0) return {count};
     std::vector<int64_t> counts{count};

@@ -157,9 +157,8 @@ std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
         }
     }
     std::vector<std::vector<CellLeaf>> parts(object.leafCount());
-    detail::parallelFor(parts.size(), interrupter, [&](std::size_t leaf) {
-        parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls);
-    });
+    detail::parallelFor(parts.size(), interrupter,
+        [&](std::size_t leaf) { parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls); });
     return cellsOf(parts, balls.size());
 }
 

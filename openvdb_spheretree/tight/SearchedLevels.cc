@@ -18,9 +18,11 @@ namespace {
 TightLevel freeLevel(const std::vector<ForestNode>& forest, int64_t count,
     const std::vector<FineBall>& leaves, const LevelMaker& maker)
 {
+    const auto spare = ungrouped(leaves);
+    const auto found = maker.improve(
+        ungrouped(ballsOfCut(forest, count)), spare, VoxelDebt(maker.object.level(0)));
     TightLevel level;
-    level.balls = ballsOf(maker.improve(
-        ungrouped(ballsOfCut(forest, count)), ungrouped(leaves), VoxelDebt(maker.object.level(0))));
+    level.balls = ballsOf(filledUp(found, spare));
     return level;
 }
 
@@ -52,8 +54,8 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
 } // namespace
 
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves,
-    std::size_t middle, const SampledObject& object, const FitEffort& effort, bool flat,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves, std::size_t middle,
+    const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
 {
     const LevelMaker maker{object, effort, flat, interrupter};
@@ -67,6 +69,7 @@ std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     levels[middle] = freeLevel(forest, counts[middle], leafBalls, maker);
     makeCoarser(levels, middle, counts, maker);
     makeFiner(levels, middle, counts, leafBalls, maker);
+    for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);
     return levels;
 }
 

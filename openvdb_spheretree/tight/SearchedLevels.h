@@ -30,8 +30,8 @@ namespace tight {
 /// @param leaves  the leaves of the forest
 /// @param middle  index of the level to begin with
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves,
-    std::size_t middle, const SampledObject& object, const FitEffort& effort, bool flat,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves, std::size_t middle,
+    const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace tight

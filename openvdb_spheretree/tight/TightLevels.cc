@@ -117,6 +117,21 @@ std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t 
     return balls;
 }
 
+void dropChildless(TightLevel& level, TightLevel& finer)
+{
+    std::vector<int32_t> index(level.balls.size(), -1);
+    for (const int32_t parent : finer.parent) index[parent] = 0;
+    TightLevel kept;
+    for (std::size_t b = 0; b < level.balls.size(); ++b) {
+        if (index[b] < 0) continue;
+        index[b] = int32_t(kept.balls.size());
+        kept.balls.push_back(level.balls[b]);
+        if (!level.parent.empty()) kept.parent.push_back(level.parent[b]);
+    }
+    for (int32_t& parent : finer.parent) parent = index[parent];
+    level = std::move(kept);
+}
+
 int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level)
 {
     const auto protrusion = [&](const FineBall& other) {

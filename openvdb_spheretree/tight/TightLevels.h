@@ -28,6 +28,9 @@ std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
 /// @return the balls of the cut with @a count balls.
 std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
 
+/// Balls of @a level that are the parent of none of @a finer go: no chain needs them.
+void dropChildless(TightLevel& level, TightLevel& finer);
+
 /// @return the ball of @a level that @a ball sticks out of least; empty ones are none.
 int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level);
 

@@ -155,8 +155,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
         const auto cuts = levelsOf(forest, counts, leaves.medial);
         if (!search) return cuts;
-        const auto searched = searchedLevels(
-            forest, counts, leaves.medial, middle, samples, effort.fit, settings.dim == 2, interrupter);
+        const auto searched = searchedLevels(forest, counts, leaves.medial, middle, samples,
+            effort.fit, settings.dim == 2, interrupter);
         return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
     });
     appendLevels(levels, tree);

@@ -182,6 +182,22 @@ TEST(TightTrees, OfQualityNormalKeepTheirChains) { expectAllSound(Quality::Norma
 
 TEST(TightTrees, OfQualityBestKeepTheirChains) { expectAllSound(Quality::Best, 5); }
 
+/// Levels above and below the one that is searched by itself, and groups of groups.
+TEST(TightTrees, OfQualityBestKeepTheirChainsFromTheMiddleOut)
+{
+    for (uint32_t seed = 2100; seed < 2133; ++seed) {
+        const RandomObject object = randomObject(seed);
+        if (object.voxels.size() < 40 || object.voxels.size() > 150) continue;
+        SphereTreeSettings settings = tightSettings(Quality::Best);
+        settings.budget.spheres =
+            seed % 2 ? std::vector<int64_t>{13, 8, 5, 3, 1} : std::vector<int64_t>{9, 4, 1};
+        SCOPED_TRACE(object.name + ": " + describeTight(settings));
+        const auto grid = gridOf(object.voxels);
+        ASSERT_NO_FATAL_FAILURE(
+            expectSound(buildSphereTree(*grid, settings), *grid, object.voxels));
+    }
+}
+
 TEST(TightTrees, OfRandomObjectsKeepTheirChains)
 {
     for (uint32_t seed = 2000; seed < 2066; ++seed) {
