@@ -59,6 +59,13 @@ void Session::print(const std::string& text, std::ostream& out)
     mReaderIsGone = true;
 }
 
+void Session::note(const std::string& line)
+{
+    if (verbosity == Verbosity::Quiet) return;
+    progress.clearLine();
+    std::cerr << "vdb_spheretree: note: " << oneLine(line) << std::endl;
+}
+
 void Session::warn(const std::string& line)
 {
     if (verbosity == Verbosity::Quiet) return;

@@ -54,6 +54,8 @@ struct Session {
     /// A line on stderr, where -verbose or -debug has been given.
     void remark(const std::string& line);
     /// A line on stderr, unless -quiet has been given.
+    void note(const std::string& line);
+    /// The same, of what may be wrong.
     void warn(const std::string& line);
 
     const Plan& plan;

@@ -30,19 +30,19 @@ BoolGrid::ConstPtr objectOf(const openvdb::GridBase& grid, Session& session)
 }
 
 /// Says so if there are fewer spheres than were asked for.
-void remarkIfAll(int64_t asked, int64_t all, Session& session)
+void noteIfAll(int64_t asked, int64_t all, Session& session)
 {
     if (asked <= all) return;
-    session.remark("spheres=" + std::to_string(asked) + " is more than there are: all "
+    session.note("spheres=" + std::to_string(asked) + " is more than there are: all "
         + std::to_string(all) + " are taken");
 }
 
 /// The finest level that was asked for has no more spheres than the object has leaves.
-void remarkOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
+void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
 {
     if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
     const auto most = std::max_element(budget.spheres.begin(), budget.spheres.end());
-    remarkIfAll(*most, tree.levels.front().size(), session);
+    noteIfAll(*most, tree.levels.front().size(), session);
 }
 
 void runSpheretree(const ActionCall& call, Session& session)
@@ -57,7 +57,7 @@ void runSpheretree(const ActionCall& call, Session& session)
         spheretree::buildSphereTree(*object, settings, &session.progress, &session.seconds.build));
     session.remark(std::to_string(result.tree->size()) + " spheres on "
         + std::to_string(result.tree->levels.size()) + " levels");
-    remarkOnBudget(settings.budget, *result.tree, session);
+    noteOnBudget(settings.budget, *result.tree, session);
     if (call.flag("errors")) computeErrors(result, session);
     session.stack.beginBatch(call.label());
     session.stack.push(result);
@@ -88,7 +88,12 @@ SphereTree levelOf(const SphereTree& tree, const ActionCall& call, Session& sess
     SphereTree level = tree.cuts.empty() ? spheretree::keepLevel(tree, levelOfAtMost(tree, spheres))
                                          : spheretree::cutTree(tree, spheres);
     const bool finest = !tree.cuts.empty() || level.levels.front().level == 0;
-    if (finest) remarkIfAll(spheres, level.size(), session);
+    if (finest) {
+        noteIfAll(spheres, level.size(), session);
+    } else if (level.size() < spheres) {
+        session.note("spheres=" + std::to_string(spheres) + ": the level with at most as many has "
+            + std::to_string(level.size()) + "; a tree made with cuts=1 has every number");
+    }
     return level;
 }
 

@@ -72,6 +72,7 @@ private:
         std::vector<Move> moves;
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
+            if (mCover[from].empty()) continue; // it owes nothing for them
             for (const int32_t to : mCover.nearest(kNewBall, mFiner.balls[c], kParents)) {
                 if (to != from) moves.push_back({int32_t(c), from, to});
             }
@@ -112,7 +113,11 @@ private:
         fit.refitNear(
             part, mCover.nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
         fit.refit(part, to);
-        return fit.changeOf(part);
+        CoverChange change = fit.changeOf(part);
+        // Their regions change, also where these balls do not.
+        change.box.expand(mCover[move.from].ball);
+        change.box.expand(mCover[move.to].ball);
+        return change;
     }
 
     BallCover mCover;

@@ -35,9 +35,9 @@ protected:
     }
 
     /// What was said while the line ran.
-    std::string remarks(const std::string& line) const
+    std::string notes(const std::string& line) const
     {
-        const Result result = run("-verbose " + line);
+        const Result result = run(line);
         EXPECT_EQ(result.exitCode, 0) << result.err;
         return result.err;
     }
@@ -85,12 +85,12 @@ TEST_F(CommandTight, MoreSpheresThanThereAreLeavesGivesAllOfThemAndSaysSo)
     const std::string all = std::to_string(spheresOf(statsOf("tree=tight side=inner"))[0]);
     const std::string tree = "-read a.vol -spheretree tree=tight side=inner ";
     const std::string said = "spheres=9999 is more than there are: all " + all + " are";
-    EXPECT_NE(remarks(tree + "spheres=2,9999").find(said), std::string::npos);
-    EXPECT_EQ(remarks(tree + "spheres=2").find("more than there are"), std::string::npos);
+    EXPECT_NE(notes(tree + "spheres=2,9999").find(said), std::string::npos);
+    EXPECT_EQ(notes(tree + "spheres=2").find("more than there are"), std::string::npos);
     EXPECT_EQ(spheresOf(statsOf("tree=tight side=inner spheres=9999"))[0], std::stoi(all));
-    EXPECT_NE(remarks(tree + "-level spheres=9999").find(said), std::string::npos);
-    EXPECT_NE(remarks(tree + "cuts=1 -level spheres=9999").find(said), std::string::npos);
-    EXPECT_EQ(remarks(tree + "cuts=1 -level spheres=3").find("more than"), std::string::npos);
+    EXPECT_NE(notes(tree + "-level spheres=9999").find(said), std::string::npos);
+    EXPECT_NE(notes(tree + "cuts=1 -level spheres=9999").find(said), std::string::npos);
+    EXPECT_EQ(notes(tree + "cuts=1 -level spheres=3").find("more than"), std::string::npos);
 }
 
 TEST_F(CommandTight, ALevelByItsSpheresIsACutWhereTheTreeHasThem)
@@ -100,6 +100,9 @@ TEST_F(CommandTight, ALevelByItsSpheresIsACutWhereTheTreeHasThem)
     EXPECT_EQ(spheresOf(statsOf("tree=tight side=inner spheres=2,5 -level spheres=3")),
         std::vector<int>{2})
         << "without cuts: the finest level with at most as many";
+    const std::string said =
+        notes("-read a.vol -spheretree side=inner spheres=2,5 -level spheres=3");
+    EXPECT_NE(said.find("spheres=3: the level with at most as many has 2"), std::string::npos);
     const Result none =
         run("-read a.vol -spheretree tree=tight side=inner spheres=5 -level spheres=3");
     EXPECT_EQ(none.exitCode, 3);
