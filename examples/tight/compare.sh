@@ -8,7 +8,8 @@
 #   OBJECT     a .vol, .longvol or .vdb file
 #   OUTPUT     the start of the names of the files to make: OUTPUT.png, .svg and .csv
 #              (build/tight/NAME)
-#   --trees    of best, normal, fast, miniball, extended, reversible (all; best takes minutes)
+#   --trees    of alone, best, normal, fast, miniball, extended, reversible (all). alone: quality=best,
+#              with a tree for each number of spheres; this one and best take minutes
 #   --spheres  of the levels of tight trees, falling (512,256,128,64,32,16,8)
 #
 # The program is built first, unless the variable VDB_SPHERETREE names one.
@@ -17,11 +18,11 @@ here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 # shellcheck source=scripts/dependencies.sh
 source "$here/../../scripts/dependencies.sh"
 python=(/usr/bin/python3 -B) # Debian's, whichever comes first in PATH: it has Debian's matplotlib
-trees=best,normal,fast,miniball,extended,reversible
+trees=alone,best,normal,fast,miniball,extended,reversible
 spheres=512,256,128,64,32,16,8
 
 usage() {
-    sed -n '6,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    sed -n '6,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
     exit "$1"
 }
 
@@ -58,10 +59,11 @@ prepare_programs() {
     fi
 }
 
-# The options of -spheretree that make a kind of tree: settings[].
+# settings_of KIND SPHERES: the options of -spheretree that make a kind of tree: settings[].
 settings_of() {
     case "$1" in
-        fast | normal | best) settings=(tree=tight "quality=$1" "spheres=$spheres") ;;
+        alone) settings=(tree=tight quality=best "spheres=$2") ;;
+        fast | normal | best) settings=(tree=tight "quality=$1" "spheres=$2") ;;
         miniball) settings=(tree=extended center=miniball) ;;
         extended | reversible) settings=("tree=$1") ;;
         *) usage 2 ;;
@@ -70,7 +72,7 @@ settings_of() {
 
 parse_arguments "$@"
 IFS=, read -r -a kinds <<<"$trees"
-for kind in "${kinds[@]}"; do settings_of "$kind"; done
+for kind in "${kinds[@]}"; do settings_of "$kind" "$spheres"; done
 prepare_programs
 mkdir -p "$(dirname "$output")"
 work="$(mktemp -d)"
@@ -79,9 +81,13 @@ ln -s "$(realpath -- "$object")" "$work/object.${object##*.}" # commas mean some
 
 for kind in "${kinds[@]}"; do
     say "$name: $kind"
-    settings_of "$kind"
-    "$program" -quiet -read "$work/object.${object##*.}" -spheretree "${settings[@]}" topology=0 \
-        -stats "json=$work/$kind.json" </dev/null >&2
+    counts=("$spheres")
+    if [ "$kind" = alone ]; then IFS=, read -r -a counts <<<"$spheres"; fi
+    for count in "${counts[@]}"; do
+        settings_of "$kind" "$count"
+        "$program" -quiet -read "$work/object.${object##*.}" -spheretree "${settings[@]}" topology=0 \
+            -stats "json=$work/$kind.$count.json" </dev/null >&2
+    done
 done
 "${python[@]}" "$here/curve.py" "$name" "$output" "$work" "${kinds[@]}"
 say "the curve: $output.png, .svg and .csv"

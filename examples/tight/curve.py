@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The error of each level against its number of spheres: curve.py NAME OUTPUT FOLDER KIND...
 
-Reads FOLDER/KIND.json, the statistics of a tree, and writes OUTPUT.png, .svg and .csv. Levels
+Reads FOLDER/KIND.*.json, the statistics of one tree or more, and writes OUTPUT.png, .svg and .csv. Levels
 without an error, which are on no logarithmic scale, and those of one sphere are left out.
 """
 import json
@@ -16,6 +16,7 @@ from matplotlib.ticker import FuncFormatter
 
 # Okabe and Ito's colours, told apart by shape and dash too.
 STYLES = {
+    "alone": ("tight, quality=best, one level a tree", "#000000", "X", ":"),
     "best": ("tight, quality=best", "#009E73", "D", "-"),
     "normal": ("tight (the default)", "#0072B2", "o", "-"),
     "fast": ("tight, quality=fast", "#56B4E9", "v", "--"),
@@ -34,10 +35,12 @@ plt.rcParams.update({
 })
 
 
-def levels_of(path):
-    levels = json.loads(path.read_text(encoding="utf-8"))["levels"]
-    points = [(level["spheres"], level["hamming_percent"]) for level in levels]
-    return [(n, error) for n, error in points if error and n > 1]
+def levels_of(folder, kind):
+    points = []
+    for path in folder.glob(f"{kind}.*.json"):
+        levels = json.loads(path.read_text(encoding="utf-8"))["levels"]
+        points += [(level["spheres"], level["hamming_percent"]) for level in levels]
+    return sorted(((n, error) for n, error in points if error and n > 1), reverse=True)
 
 
 def plain(value, _):
@@ -59,7 +62,7 @@ def draw(name, curves):
 
 
 def main(name, output, folder, *kinds):
-    curves = {kind: levels_of(Path(folder) / f"{kind}.json") for kind in kinds}
+    curves = {kind: levels_of(Path(folder), kind) for kind in kinds}
     curves = {kind: points for kind, points in curves.items() if points}
     if not curves:
         sys.exit("curve.py: no tree has a level that can be drawn")

@@ -34,14 +34,14 @@ head = f"X: {n}\nY: {n}\nZ: {n}\nVoxel-Size: 1\nAlpha-Color: 0\nInt-Endian: 0123
 open(sys.argv[1], "wb").write(head.encode() + data)
 END
 
-expect 0 'the curve' --trees normal,fast,extended --spheres 16,8,4 a,b.vol first/curve
+expect 0 'the curve' --trees alone,normal,fast,extended --spheres 8,4 a,b.vol first/curve
 for file in first/curve.{png,svg,csv}; do [ -s "$file" ] || wrong "$file is missing"; done
-for kind in normal fast; do
-    for spheres in 16 8 4; do
+for kind in alone normal fast; do
+    for spheres in 8 4; do
         grep -q "^$kind,$spheres," first/curve.csv || wrong "no $spheres spheres of $kind"
     done
 done
-expect 0 'the curve' --trees normal,fast,extended --spheres 16,8,4 a,b.vol again/curve
+expect 0 'the curve' --trees alone,normal,fast,extended --spheres 8,4 a,b.vol again/curve
 diff -r first again || wrong "the same input gives another curve"
 
 expect 1 'cannot read' missing.vol
