@@ -75,3 +75,21 @@ build_preset() {
         cmake --build "build/$preset" -j "${CMAKE_BUILD_PARALLEL_LEVEL:-$(build_jobs)}" \
             "${targets[@]}") </dev/null >&2
 }
+
+python=(/usr/bin/python3 -B) # Debian's, whichever comes first in PATH: it has Debian's matplotlib
+
+# For scripts that draw: matplotlib, and the command, whose path becomes $program. It is built first,
+# unless the variable VDB_SPHERETREE names one.
+prepare_drawing() {
+    if ! "${python[@]}" -c 'import matplotlib' 2>/dev/null; then
+        install_packages python3-matplotlib || true
+        "${python[@]}" -c 'import matplotlib' 2>/dev/null ||
+            fail "drawing needs matplotlib: apt-get install python3-matplotlib"
+    fi
+    program="${VDB_SPHERETREE:-}"
+    if [ -z "$program" ]; then
+        install_packages "${build_packages[@]}"
+        build_preset release vdb_spheretree
+        program="$project_root/build/release/bin/vdb_spheretree"
+    fi
+}

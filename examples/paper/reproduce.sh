@@ -16,7 +16,6 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 # shellcheck source=scripts/dependencies.sh
 source "$here/../../scripts/dependencies.sh"
-python=(/usr/bin/python3 -B) # Debian's, whichever comes first in PATH: it has Debian's matplotlib
 factors=(2 3 4)
 up=0,0,1
 size=480
@@ -78,17 +77,7 @@ check_output() {
 }
 
 prepare_programs() {
-    if ! "${python[@]}" -c 'import matplotlib' 2>/dev/null; then
-        install_packages python3-matplotlib || true
-        "${python[@]}" -c 'import matplotlib' 2>/dev/null ||
-            fail "drawing needs matplotlib: apt-get install python3-matplotlib"
-    fi
-    program="${VDB_SPHERETREE:-}"
-    if [ -z "$program" ]; then
-        install_packages "${build_packages[@]}"
-        build_preset release vdb_spheretree
-        program="$project_root/build/release/bin/vdb_spheretree"
-    fi
+    prepare_drawing
     if ! program="$(command -v "$program")"; then
         fail "VDB_SPHERETREE: '$VDB_SPHERETREE' is not a program"
     fi

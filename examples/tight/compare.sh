@@ -17,7 +17,6 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 # shellcheck source=scripts/dependencies.sh
 source "$here/../../scripts/dependencies.sh"
-python=(/usr/bin/python3 -B) # Debian's, whichever comes first in PATH: it has Debian's matplotlib
 trees=alone,best,normal,fast,miniball,extended,reversible
 spheres=512,256,128,64,32,16,8
 
@@ -45,20 +44,6 @@ parse_arguments() {
     output="$(realpath -m -- "${2:-$project_root/build/tight/$name}")"
 }
 
-prepare_programs() {
-    if ! "${python[@]}" -c 'import matplotlib' 2>/dev/null; then
-        install_packages python3-matplotlib || true
-        "${python[@]}" -c 'import matplotlib' 2>/dev/null ||
-            fail "drawing needs matplotlib: apt-get install python3-matplotlib"
-    fi
-    program="${VDB_SPHERETREE:-}"
-    if [ -z "$program" ]; then
-        install_packages "${build_packages[@]}"
-        build_preset release vdb_spheretree
-        program="$project_root/build/release/bin/vdb_spheretree"
-    fi
-}
-
 # settings_of KIND SPHERES: the options of -spheretree that make a kind of tree: settings[].
 settings_of() {
     case "$1" in
@@ -73,7 +58,7 @@ settings_of() {
 parse_arguments "$@"
 IFS=, read -r -a kinds <<<"$trees"
 for kind in "${kinds[@]}"; do settings_of "$kind" "$spheres"; done
-prepare_programs
+prepare_drawing
 mkdir -p "$(dirname "$output")"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
