@@ -47,11 +47,28 @@ int32_t lastSample(float center, float half)
     return int32_t(clamped(center + std::floor(half))) >> 4;
 }
 
+/// Where rows of a slice enter and leave the ball: one for each lane, the first of them row y.
+/// @param rest  what is left of the squared radius in the slice
+template <class DI>
+HWY_INLINE void chordsOf(
+    DI di, const LocalBall& ball, float rest, int32_t y, hn::Vec<DI>& first, hn::Vec<DI>& last)
+{
+    const hn::RebindToFloat<DI> df;
+    const auto far = hn::Set(df, kFar), low = hn::Set(df, -kFar), z = hn::Set(df, ball.z);
+    const auto at = hn::ConvertTo(df, hn::ShiftLeft<4>(hn::Iota(di, y)));
+    const auto apart = hn::Sub(at, hn::Set(df, ball.y));
+    const auto left = hn::Sub(hn::Set(df, rest), hn::Mul(apart, apart));
+    const auto half = hn::Floor(hn::Sqrt(hn::Max(left, hn::Zero(df))));
+    const auto from = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Sub(z, half))));
+    const auto to = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Add(z, half))));
+    first = hn::ShiftRight<4>(hn::Add(from, hn::Set(di, 15)));
+    last = hn::ShiftRight<4>(to);
+}
+
 /// @param sizeY  rows there are: the slice is clipped to [0, sizeY)
 void sliceOf(const LocalBall& ball, int32_t x, int32_t sizeY, Slice& slice)
 {
     const hn::CappedTag<int32_t, 16> di;
-    const hn::RebindToFloat<decltype(di)> df;
     const float dx = float(16 * x) - ball.x, rest = ball.radiusSq - dx * dx;
     slice.y0 = 0;
     slice.y1 = -1;
@@ -59,18 +76,12 @@ void sliceOf(const LocalBall& ball, int32_t x, int32_t sizeY, Slice& slice)
     const float reach = std::sqrt(rest);
     slice.y0 = std::max(0, firstSample(ball.y, reach));
     slice.y1 = std::min(sizeY - 1, lastSample(ball.y, reach));
-    const auto far = hn::Set(df, kFar), low = hn::Set(df, -kFar), z = hn::Set(df, ball.z);
     const int lanes = int(hn::Lanes(di));
+    auto first = hn::Zero(di), last = first;
     for (int32_t y = slice.y0; y <= slice.y1; y += lanes) {
-        const auto at = hn::ConvertTo(df, hn::ShiftLeft<4>(hn::Iota(di, y)));
-        const auto apart = hn::Sub(at, hn::Set(df, ball.y));
-        const auto left = hn::Sub(hn::Set(df, rest), hn::Mul(apart, apart));
-        const auto half = hn::Floor(hn::Sqrt(hn::Max(left, hn::Zero(df))));
-        const auto z0 = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Sub(z, half))));
-        const auto z1 = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Add(z, half))));
-        const auto i = y - slice.y0;
-        hn::StoreU(hn::ShiftRight<4>(hn::Add(z0, hn::Set(di, 15))), di, slice.z0 + i);
-        hn::StoreU(hn::ShiftRight<4>(z1), di, slice.z1 + i);
+        chordsOf(di, ball, rest, y, first, last);
+        hn::StoreU(first, di, slice.z0 + (y - slice.y0));
+        hn::StoreU(last, di, slice.z1 + (y - slice.y0));
     }
 }
 
@@ -155,26 +166,18 @@ void clearWords(uint64_t* bits, const int32_t size[3], int32_t words, const Loca
 {
     const hn::CappedTag<uint64_t, 8> d64;
     const hn::RebindToSigned<decltype(d64)> di64;
-    const hn::Rebind<float, decltype(d64)> df;
     const hn::Rebind<int32_t, decltype(d64)> di;
     const auto lanes = int32_t(hn::Lanes(d64));
-    const float dx = float(16 * x) - ball.x;
-    const auto rest = hn::Set(df, ball.radiusSq - dx * dx), center = hn::Set(df, ball.y);
-    const auto far = hn::Set(df, kFar), low = hn::Set(df, -kFar), z = hn::Set(df, ball.z);
+    const float dx = float(16 * x) - ball.x, rest = ball.radiusSq - dx * dx;
     const auto begin = hn::Set(di, 64 * word), none = hn::Zero(di), last = hn::Set(di, 63);
     const auto all = hn::Set(d64, ~uint64_t(0));
     const auto wide = [&](auto v) { return hn::BitCast(d64, hn::PromoteTo(di64, v)); };
     HWY_ALIGN uint64_t kept[8];
+    auto first = none, end = none;
     for (int32_t y = y0; y <= y1; y += lanes) {
-        const auto at = hn::ConvertTo(df, hn::ShiftLeft<4>(hn::Iota(di, y)));
-        const auto apart = hn::Sub(at, center);
-        const auto left = hn::Max(hn::Zero(df), hn::Sub(rest, hn::Mul(apart, apart)));
-        const auto half = hn::Floor(hn::Sqrt(left));
-        const auto from = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Sub(z, half))));
-        const auto to = hn::ConvertTo(di, hn::Max(low, hn::Min(far, hn::Add(z, half))));
-        const auto first = hn::Sub(hn::ShiftRight<4>(hn::Add(from, hn::Set(di, 15))), begin);
-        const auto end = hn::Sub(hn::ShiftRight<4>(to), begin);
-        const auto lo = hn::Max(first, none), hi = hn::Min(end, last);
+        chordsOf(di, ball, rest, y, first, end);
+        const auto lo = hn::Max(hn::Sub(first, begin), none);
+        const auto hi = hn::Min(hn::Sub(end, begin), last);
         const auto held = hn::And(hn::Shl(all, wide(hn::Min(lo, last))),
             hn::Shr(all, wide(hn::Sub(last, hn::Max(hi, none)))));
         // All ones, or none where the chord does not meet the word.

@@ -146,9 +146,7 @@ void moveChildren(std::vector<FineBall>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     constexpr int kMostRounds = 8;
-    std::vector<CoverBall> cover;
-    for (std::size_t i = 0; i < balls.size(); ++i) cover.push_back({balls[i], int32_t(i)});
-    Moves moves(std::move(cover), finer, regions, maker);
+    Moves moves(eachInItsGroup(balls), finer, regions, maker);
     for (int round = 0; round < kMostRounds && moves.round(); ++round) {}
     balls = moves.balls();
 }

@@ -86,9 +86,8 @@ void adopt(const TightLevel& level, TightLevel& finer)
 std::vector<FineBall> settled(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
-    std::vector<CoverBall> cover;
-    for (std::size_t i = 0; i < balls.size(); ++i) cover.push_back({balls[i], int32_t(i)});
-    return ballsOf(maker.improve(cover, {}, VoxelDebt(maker.object.level(0), regions)));
+    const VoxelDebt debt(maker.object.level(0), regions);
+    return ballsOf(maker.improve(eachInItsGroup(balls), {}, debt));
 }
 
 } // namespace

@@ -32,6 +32,14 @@ inline std::vector<CoverBall> ungrouped(const std::vector<FineBall>& balls)
     return cover;
 }
 
+/// @return the balls, each in a group of its own: those of its number.
+inline std::vector<CoverBall> eachInItsGroup(const std::vector<FineBall>& balls)
+{
+    std::vector<CoverBall> cover;
+    for (const FineBall& ball : balls) cover.push_back({ball, int32_t(cover.size())});
+    return cover;
+}
+
 inline std::vector<FineBall> ballsOf(const std::vector<CoverBall>& cover)
 {
     std::vector<FineBall> balls;

@@ -6,8 +6,8 @@
 #include "LeafDescent.h"
 
 #include <algorithm>
-#include <utility>
 #include <numeric>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace tight {
