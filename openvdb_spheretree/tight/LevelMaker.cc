@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelMaker.h"
 
-#include "CoverSearch.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -10,13 +8,6 @@ namespace openvdb_spheretree {
 namespace tight {
 
 namespace {
-
-/// At so many balls the time for a ball would become hours for all of them.
-int trialsFor(std::size_t count)
-{
-    constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
-    return int(std::max(kLeast, std::min(kMost, kAll / count)));
-}
 
 /// More trials gain little, but few balls have searches that end in different places, and take no
 /// time.
@@ -28,14 +19,26 @@ int searchesFor(std::size_t count)
 
 } // namespace
 
+int LevelMaker::trialsFor(std::size_t count)
+{
+    constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
+    return int(std::max(kLeast, std::min(kMost, kAll / count)));
+}
+
+SearchedCover LevelMaker::search(const std::vector<CoverBall>& start,
+    const std::vector<CoverBall>& finer, const CoverDebt& debt, int trialsPerBall, int number) const
+{
+    const SearchEffort effort{fit, trialsPerBall, uint64_t(number) << 40, flat};
+    return improveCover(start, finer, object, debt, effort, interrupter);
+}
+
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::vector<CoverBall>& finer, const CoverDebt& debt) const
 {
     SearchedCover best;
     best.balls = start;
-    for (int search = 0; search < searchesFor(start.size()); ++search) {
-        const SearchEffort effort{fit, trialsFor(start.size()), uint64_t(search) << 40, flat};
-        SearchedCover found = improveCover(start, finer, object, debt, effort, interrupter);
+    for (int number = 0; number < searchesFor(start.size()); ++number) {
+        SearchedCover found = search(start, finer, debt, trialsFor(start.size()), number);
         if (found.change < best.change) best = std::move(found);
     }
     return std::move(best.balls);

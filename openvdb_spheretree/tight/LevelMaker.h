@@ -7,10 +7,12 @@
 #include "BallFit.h"
 #include "CoverBall.h"
 #include "CoverDebt.h"
+#include "CoverSearch.h"
 #include "SampledObject.h"
 
 #include <openvdb/util/NullInterrupter.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -22,7 +24,15 @@ struct LevelMaker {
     bool flat;
     openvdb::util::NullInterrupter* interrupter;
 
-    /// @return the level after the best of some searches: CoverSearch.h.
+    /// At so many balls the time for a ball would become hours for all of them.
+    static int trialsFor(std::size_t count);
+
+    /// @return the level after one search: CoverSearch.h.
+    /// @param number  another one tries other things
+    SearchedCover search(const std::vector<CoverBall>& start, const std::vector<CoverBall>& finer,
+        const CoverDebt& debt, int trialsPerBall, int number = 0) const;
+
+    /// @return the level after the best of some searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverDebt& debt) const;
 };

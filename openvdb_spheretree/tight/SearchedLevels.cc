@@ -2,8 +2,8 @@
 #include "SearchedLevels.h"
 
 #include "CoarserLevel.h"
-#include "CoverDebt.h"
 #include "FinerLevel.h"
+#include "FreeLevel.h"
 #include "LevelMaker.h"
 #include "PowerCells.h"
 
@@ -13,18 +13,6 @@ namespace openvdb_spheretree {
 namespace tight {
 
 namespace {
-
-/// A level that is searched by itself.
-TightLevel freeLevel(const std::vector<ForestNode>& forest, int64_t count,
-    const std::vector<FineBall>& leaves, const LevelMaker& maker)
-{
-    const auto spare = ungrouped(leaves);
-    const auto found = maker.improve(
-        ungrouped(ballsOfCut(forest, count)), spare, VoxelDebt(maker.object.level(0)));
-    TightLevel level;
-    level.balls = ballsOf(filledUp(found, spare));
-    return level;
-}
 
 /// Makes the levels above levels[from].
 void makeCoarser(std::vector<TightLevel>& levels, std::size_t from,
@@ -66,7 +54,7 @@ std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
         makeCoarser(levels, 0, counts, maker);
         return levels;
     }
-    levels[middle] = freeLevel(forest, counts[middle], leafBalls, maker);
+    levels[middle].balls = freeLevel(forest, counts[middle], leafBalls, maker);
     makeCoarser(levels, middle, counts, maker);
     makeFiner(levels, middle, counts, leafBalls, maker);
     for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);

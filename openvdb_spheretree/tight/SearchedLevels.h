@@ -2,8 +2,7 @@
 /// @file tight/SearchedLevels.h
 /// @brief The levels of quality=best, from the middle out.
 ///
-/// 1. The middle level is a cut of the merge forest, searched with the voxels as what has to be
-///    covered: it is not bound to any level above or below.
+/// 1. The middle level is searched by itself (FreeLevel.h).
 /// 2. Coarser levels come from the level below them (CoarserLevel.h).
 /// 3. Finer levels come from the leaves, and are bound to the levels above them: what a ball holds
 ///    counts only where its ancestors hold it (FinerLevel.h).
