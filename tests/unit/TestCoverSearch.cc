@@ -74,6 +74,89 @@ TEST(CoverSearch, KeepsACoverOfUnitsAndIsNeverWorse)
     }
 }
 
+/// Six balls far apart, the last one of two voxels, and a cover whose first ball holds two of them.
+struct Parted {
+    std::vector<Voxels> parts;
+    Voxels voxels;
+    std::vector<FineBall> leaves, start;
+
+    Parted()
+    {
+        for (int i = 0; i < 6; ++i) {
+            const Voxels part = i < 5 ? shapes::ball(8) : shapes::box(Coord(1, 1, 2));
+            parts.push_back(translated(part, Coord(14 * i, 0, 0)));
+            voxels.insert(voxels.end(), parts.back().begin(), parts.back().end());
+        }
+        sortVoxels(voxels);
+        for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+        start.push_back({{16 * 7, 0, 0}, 160 * 160});
+        for (int i = 2; i < 5; ++i) start.push_back({{16 * 14 * i, 0, 0}, 16 * 16 * 7});
+        for (int z = 0; z < 2; ++z) start.push_back({{16 * 14 * 5, 0, 16 * z}, 0});
+    }
+};
+
+/// @param trials  for each ball
+void expectApart(const Parted& parted, const std::vector<FineBall>& start, int trials)
+{
+    const SampledObject object = sampled(parted.voxels);
+    ASSERT_GT(excess(start, parted.voxels), 0);
+    const SearchedCover found = improveCover(ungrouped(start), ungrouped(parted.leaves), object,
+        VoxelDebt(object.level(0)), {kEffort, trials, 0, false}, nullptr);
+    const auto balls = ballsOf(found.balls);
+    ASSERT_EQ(balls.size(), parted.parts.size());
+    for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
+    for (const Voxels& part : parted.parts) EXPECT_TRUE(anyHolds(balls, part));
+    EXPECT_EQ(excess(balls, parted.voxels), 0);
+    EXPECT_EQ(found.change, -double(excess(start, parted.voxels)));
+}
+
+TEST(CoverSearch, PutsABallThatOwesNothingWhereOneIsMissing)
+{
+    const Parted parted;
+    std::vector<FineBall> start = parted.start;
+    start[4] = {{16 * 14 * 5, 0, 8}, 8 * 8};
+    start[5] = {{16 * 14 * 4, 0, 0}, 16 * 16};
+    for (const int trials : {0, 5}) expectApart(parted, start, trials);
+}
+
+TEST(CoverSearch, TakesABallAwayWhereAnotherOneCanDo)
+{
+    const Parted parted;
+    expectApart(parted, parted.start, 1);
+}
+
+TEST(CoverSearch, KeepsACoverWhereManyBallsChangeAtATime)
+{
+    Random random(4);
+    for (const int64_t count : {20, 40}) {
+        const Start start(shapes::noise(Coord(50, 5, 5), 0.5, random), count);
+        std::vector<Voxels> alone;
+        for (const Coord& v : start.voxels) alone.push_back({v});
+        const VoxelDebt debt(start.object.level(0));
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, debt, alone)) << count;
+    }
+}
+
+/// Without trials every ball is placed anew, and that is all.
+TEST(CoverSearch, TrialsGainHalfAsMuchAgain)
+{
+    Random random(5);
+    double without = 0, with = 0;
+    for (const int64_t count : {9, 12, 18}) {
+        const Start start(shapes::noise(Coord(10, 8, 7), 0.5, random), count);
+        const VoxelDebt debt(start.object.level(0));
+        const auto change = [&](int trials) {
+            return improveCover(ungrouped(start.balls), ungrouped(start.leaves), start.object, debt,
+                {kEffort, trials, 0, false}, nullptr)
+                .change;
+        };
+        without += change(0);
+        with += change(20);
+    }
+    EXPECT_LT(without, 0);
+    EXPECT_LT(with, 1.5 * without);
+}
+
 /// Two balls that are not in each other's region share nothing.
 TEST(CoverSearch, LeavesBallsInTheirGroups)
 {
