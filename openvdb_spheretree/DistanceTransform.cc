@@ -3,11 +3,12 @@
 
 #include "FlatAxis.h"
 #include "SphereTreeSettings.h"
-#include "detail/LeafRows.h"
+#include "detail/LeafTranspose.h"
 #include "detail/Memory.h"
 #include "detail/MinPlus.h"
 #include "detail/NormSweep.h"
 #include "detail/Parallel.h"
+#include "slab/SlabDistance.h"
 
 #include <algorithm>
 #include <array>
@@ -22,63 +23,6 @@ using openvdb::util::NullInterrupter;
 
 template <typename T>
 constexpr uint32_t kLimit = sizeof(T) == 2 ? detail::kNarrowMax : detail::kWideMax;
-
-template <typename T>
-struct Scratch {
-    detail::RowBuffer<T> in, out;
-    detail::RowBuffer<uint16_t> steps;
-    std::vector<uint64_t> words;
-    detail::EnvelopeScratch envelope;
-};
-
-/// Squares of the steps along x, straight from the masks: a leaf's word x is row x.
-template <typename T>
-void alongX(const LeafLayout& layout, T* values, NullInterrupter* interrupter)
-{
-    constexpr uint32_t kMaxSteps = sizeof(T) == 2 ? 255 : 46340;
-    const auto body = [&](std::size_t index, Scratch<T>& scratch) {
-        const LeafLayout::Run run = layout.run(Axis::X, uint32_t(index));
-        const int rows = int(run.count) * kLeafDim;
-        scratch.words.clear();
-        for (std::size_t i = 0; i < run.count; ++i) {
-            const LeafMask& mask = layout.mask(run.leaves[i]);
-            scratch.words.insert(scratch.words.end(), mask.begin(), mask.end());
-        }
-        const uint16_t* steps = scratch.steps.rows(rows);
-        detail::stepsToBackground(scratch.words.data(), rows, scratch.steps.rows(rows));
-        for (uint32_t i = 0; i < run.count; ++i, steps += kLeafVoxels) {
-            T* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
-            for (int k = 0; k < kLeafVoxels; ++k) {
-                const uint32_t step = std::min<uint32_t>(steps[k], kMaxSteps);
-                leaf[k] = T(step * step);
-            }
-        }
-    };
-    detail::parallelForWithScratch<Scratch<T>>(layout.runCount(Axis::X), interrupter, body);
-}
-
-/// Replaces every value by the min over its line of value + step^2.
-template <typename T>
-void alongAxis(Axis axis, const LeafLayout& layout, T* values, NullInterrupter* interrupter)
-{
-    const auto body = [&](std::size_t index, Scratch<T>& scratch) {
-        const LeafLayout::Run run = layout.run(axis, uint32_t(index));
-        const int rows = int(run.count) * kLeafDim;
-        T* in = scratch.in.rows(rows, 1); // background beyond both ends
-        T* out = scratch.out.rows(rows);
-        const auto leafValues = [&](std::size_t i) {
-            return values + std::size_t(run.leaves[i]) * kLeafVoxels;
-        };
-        for (std::size_t i = 0; i < run.count; ++i) {
-            detail::leafToRows(axis, leafValues(i), in + i * kLeafVoxels);
-        }
-        detail::minPlus(in, out, rows, scratch.envelope);
-        for (std::size_t i = 0; i < run.count; ++i) {
-            detail::rowsToLeaf(axis, out + i * kLeafVoxels, leafValues(i));
-        }
-    };
-    detail::parallelForWithScratch<Scratch<T>>(layout.runCount(axis), interrupter, body);
-}
 
 template <typename T>
 uint32_t largest(const T* values, std::size_t leaves, NullInterrupter* interrupter)
@@ -97,9 +41,19 @@ uint32_t largest(const T* values, std::size_t leaves, NullInterrupter* interrupt
 template <typename T>
 uint32_t transform(const LeafLayout& layout, int dim, T* values, NullInterrupter* interrupter)
 {
-    alongX(layout, values, interrupter);
-    alongAxis(Axis::Y, layout, values, interrupter);
-    if (dim == 3) alongAxis(Axis::Z, layout, values, interrupter);
+    const slab::XSteps<slab::StepOf<T>> steps(layout, interrupter);
+    using Slab = slab::SlabDistance<T>;
+    detail::parallelForWithScratch<Slab>(
+        layout.slabCount(), interrupter, [&](std::size_t index, Slab& distances) {
+            const auto store = [&](const LeafLayout::Run& run, const T* rows) {
+                for (uint32_t i = 0; i < run.count; ++i, rows += kLeafVoxels) {
+                    T* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
+                    if (dim == 3) detail::rowsZToLeaf(rows, leaf);
+                    else detail::rowsToLeaf(Axis::Y, rows, leaf);
+                }
+            };
+            distances.forEachRun(layout, uint32_t(index), steps, dim, store);
+        });
     return largest(values, layout.leafCount(), interrupter);
 }
 

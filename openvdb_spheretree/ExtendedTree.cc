@@ -23,6 +23,7 @@
 /// radii. Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
+#include "detail/Parallel.h"
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
 
@@ -85,20 +86,53 @@ LevelNodes keepParents(Links& links, const MedialLevel& coarse)
     return kept;
 }
 
+/// The largest of some sums of two roots for each node, exactly. Roots of doubles tell nearly always
+/// which of two sums is the larger: exact arithmetic is for those that may be.
+class LargestSums {
+public:
+    explicit LargestSums(std::size_t nodes)
+        : mNearly(nodes, 0), mRadius(nodes, 0), mCoverSq(nodes, 0)
+    {}
+
+    void add(std::size_t node, const RootSum& sum, double nearly)
+    {
+        constexpr double kDoubt = 1e-12; // of a root, and of a sum, 1e-15
+        if (nearly < mNearly[node] * (1 - kDoubt)) return;
+        mNearly[node] = std::max(mNearly[node], nearly);
+        mRadius[node] = std::max(mRadius[node], sum.radius());
+        mCoverSq[node] = std::max(mCoverSq[node], sum.coverSq());
+    }
+    void addTo(LevelNodes& nodes) const
+    {
+        for (std::size_t t = 0; t < mRadius.size(); ++t) {
+            nodes.radius[t] = std::max(nodes.radius[t], mRadius[t]);
+            nodes.coverSq[t] = std::max(nodes.coverSq[t], mCoverSq[t]);
+        }
+    }
+
+private:
+    std::vector<double> mNearly; ///< twice the radius
+    std::vector<double> mRadius;
+    std::vector<int64_t> mCoverSq;
+};
+
 /// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
 void fitRadii(
-    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const Distance& distance)
+    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const BuildContext& context)
 {
+    std::vector<Doubled> center;
+    for (const MedialBall& ball : nodes.balls) center.push_back(frame.center(ball.center));
+    tbb::enumerable_thread_specific<LargestSums> sums(nodes.balls.size());
+    parallelFor(leaves.center.size(), context.interrupter, [&](std::size_t s) {
+        const int32_t t = leaves.ancestor[s];
+        const int64_t apart = distanceSq(leaves.center[s], center[t], context.settings.dist);
+        const int64_t own = leaves.radius[s].a; // a leaf's radius is a single root
+        sums.local().add(
+            std::size_t(t), {apart, own}, std::sqrt(double(apart)) + std::sqrt(double(own)));
+    });
     nodes.radius.assign(nodes.balls.size(), 0.0);
     nodes.coverSq.assign(nodes.balls.size(), 0);
-    for (std::size_t s = 0; s < leaves.center.size(); ++s) {
-        const int32_t t = leaves.ancestor[s];
-        const int64_t apart =
-            distanceSq(leaves.center[s], frame.center(nodes.balls[t].center), distance);
-        const RootSum needed{apart, leaves.radius[s].a}; // a leaf's radius is a single root
-        nodes.radius[t] = std::max(nodes.radius[t], needed.radius());
-        nodes.coverSq[t] = std::max(nodes.coverSq[t], needed.coverSq());
-    }
+    for (const LargestSums& some : sums) some.addTo(nodes);
 }
 
 CoordBBox parentBox(const CoordBBox& box, const PyramidStep& step)
@@ -184,7 +218,7 @@ MaskTree::Ptr nextVoxels(
 std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext& context)
 {
     const SphereTreeSettings& settings = context.settings;
-    auto fine = context.medialLevel(*voxels);
+    auto fine = context.medialLevel(*voxels, 0);
     Leaves leaves;
     Boxes boxes{context.bbox, context.bbox};
     std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
@@ -193,12 +227,12 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return nextVoxels(*voxels, level - 1, context, boxes); });
-        auto coarse = context.medialLevel(*voxels);
+        auto coarse = context.medialLevel(*voxels, level, &levels.back());
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse);
             for (int32_t& node : leaves.ancestor) node = links.parent[node];
-            fitRadii(nodes, leaves, context.frame(level), settings.dist);
+            fitRadii(nodes, leaves, context.frame(level), context);
             if (settings.reconstruct != Reconstruction::None && nodes.balls.size() > 1) {
                 voxels = reconstruct(nodes, level, boxes.clip, context);
             }

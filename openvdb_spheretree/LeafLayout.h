@@ -9,7 +9,10 @@
 /// behind the other along an axis; it holds 64 lines side by side. Nothing of a level is stored
 /// outside its leaves, and no tree is searched while a transform runs.
 ///
-/// Cost: O(leaves log leaves) to build, 88 bytes a leaf. A tile of the tree becomes the leaves it
+/// Leaves of equal x make a *slab*. Lines along y and z lie in one slab, so slabs are independent
+/// of each other but for the passes along x.
+///
+/// Cost: O(leaves log leaves) to build, 100 bytes a leaf. A tile of the tree becomes the leaves it
 /// stands for.
 
 #pragma once
@@ -61,6 +64,22 @@ public:
     const openvdb::Coord& origin(uint32_t leaf) const { return mOrigins[leaf]; }
     const LeafMask& mask(uint32_t leaf) const { return mMasks[leaf]; }
 
+    /// The leaves of equal x, in the order of their x: [begin, end).
+    struct Slab {
+        uint32_t begin, end;
+        uint32_t size() const { return end - begin; }
+    };
+    uint32_t slabCount() const { return uint32_t(mSlabBegin.size()) - 1; }
+    Slab slab(uint32_t index) const { return {mSlabBegin[index], mSlabBegin[index + 1]}; }
+    /// @return the slab that a leaf is in; O(log slabs).
+    uint32_t slabOf(uint32_t leaf) const;
+    /// @return the runs along y or z that lie in a slab: their leaves are the slab's.
+    Slab runsOfSlab(Axis axis, uint32_t index) const
+    {
+        const std::vector<uint32_t>& begin = mLines[int(axis)].slabBegin;
+        return {begin[index], begin[index + 1]};
+    }
+
     uint32_t runCount(Axis axis) const { return uint32_t(mLines[int(axis)].runBegin.size()) - 1; }
     Run run(Axis axis, uint32_t index) const
     {
@@ -82,22 +101,30 @@ public:
         return lines.leaves[lines.position[leaf] + steps];
     }
 
+    /// @return the leaf next to it along @a axis, before (-1) or behind (1), if there is one.
+    std::optional<uint32_t> touching(uint32_t leaf, Axis axis, int direction) const;
+
     /// @return the leaf that holds voxel @a ijk, on or off, if there is one; O(log leaves).
     std::optional<uint32_t> findLeaf(const openvdb::Coord& ijk) const;
 
 private:
     /// The leaves in the order of their lines along one axis.
     struct Lines {
-        std::vector<uint32_t> leaves;   ///< by line, then along it
-        std::vector<uint32_t> position; ///< of each leaf in `leaves`
-        std::vector<uint32_t> runBegin; ///< where runs start in `leaves`, and its size at the end
+        std::vector<uint32_t> leaves;    ///< by line, then along it
+        std::vector<uint32_t> position;  ///< of each leaf in `leaves`
+        std::vector<uint32_t> runBegin;  ///< where runs start in `leaves`, and its size at the end
+        std::vector<uint32_t> slabBegin; ///< where slabs start in `runBegin`, not along x
     };
 
     void collectLeaves(const openvdb::MaskTree& level);
-    void buildLines(Axis axis);
+    void cutSlabs();
+    void orderAlongX();
+    void orderAlongY();
+    void cutRuns(Axis axis);
 
     std::vector<openvdb::Coord> mOrigins;
     std::vector<LeafMask> mMasks;
+    std::vector<uint32_t> mSlabBegin;
     std::array<Lines, 3> mLines;
     int64_t mVoxelCount = 0;
 };

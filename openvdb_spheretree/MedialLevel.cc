@@ -1,24 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MedialLevel.h"
 
+#include "detail/BallIndex.h"
+#include "detail/Parallel.h"
 #include "detail/StageTimer.h"
+#include "slab/LabelStream.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace openvdb_spheretree {
 
+namespace {
+
+using openvdb::util::NullInterrupter;
+
+using slab::kNoLeaf;
+
+/// @return the places of voxels; those that are off have no leaf.
+std::vector<PowerMap::Voxel> placesOf(const std::vector<openvdb::Coord>& voxels,
+    const LeafLayout& layout, NullInterrupter* interrupter)
+{
+    std::vector<PowerMap::Voxel> places(voxels.size());
+    detail::parallelFor(voxels.size(), interrupter, [&](std::size_t i) {
+        const auto leaf = layout.findLeaf(voxels[i]);
+        const uint32_t offset = leafOffset(voxels[i]);
+        const bool on = leaf && isOn(layout.mask(*leaf), offset);
+        places[i] = {on ? *leaf : kNoLeaf, offset};
+    });
+    return places;
+}
+
+/// @return the balls that are centred at @a labels; -1 where there is no label.
+std::vector<int32_t> ballsAt(const std::vector<PowerMap::Voxel>& labels, const LeafLayout& layout,
+    const std::vector<LeafMask>& centers, NullInterrupter* interrupter)
+{
+    std::vector<int32_t> balls(labels.size(), -1);
+    if (labels.empty()) return balls;
+    const detail::BallIndex index(layout, centers, interrupter);
+    detail::parallelFor(labels.size(), interrupter, [&](std::size_t i) {
+        if (labels[i].leaf != kNoLeaf) balls[i] = index.ballOf(index.rankAt(labels[i]));
+    });
+    return balls;
+}
+
+std::vector<openvdb::Coord> centersOf(const std::vector<MedialBall>& balls)
+{
+    std::vector<openvdb::Coord> centers;
+    for (const MedialBall& ball : balls) centers.push_back(ball.center);
+    return centers;
+}
+
+} // namespace
+
 MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
-    openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
+    NullInterrupter* interrupter, BuildSeconds* seconds, const LevelWants& wants)
     : layout(detail::timed("layout of leaves", interrupter, seconds ? &seconds->distance : nullptr,
-        [&] { return LeafLayout(voxels); })),
-      distances(
-          detail::timed("distance transform", interrupter, seconds ? &seconds->distance : nullptr,
-              [&] { return distanceTransform(layout, dim, interrupter, distance); })),
-      labels(detail::timed("power labels", interrupter, seconds ? &seconds->power : nullptr,
-          [&] { return powerMap(layout, distances, dim, interrupter); })),
-      balls(detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,
-          [&] { return medialBalls(labels, distances, interrupter); }))
-{}
+        [&] { return LeafLayout(voxels); }))
+{
+    if (!distance.isEuclidean()) {
+        findNormBalls(dim, distance, wants, interrupter, seconds);
+        return;
+    }
+    findBalls(dim, wants, interrupter, seconds);
+}
+
+void MedialLevel::findBalls(
+    int dim, const LevelWants& wants, NullInterrupter* interrupter, BuildSeconds* seconds)
+{
+    const detail::Stage stage("medial balls", interrupter, nullptr);
+    std::vector<PowerMap::Voxel> asked = placesOf(wants.labelsOf, layout, interrupter);
+    slab::LabelStream stream(layout, dim);
+    stream.ask(asked);
+    detail::LabelSteps steps;
+    if (wants.allLabels) stream.keepSteps(steps);
+    slab::LevelBalls found = stream.run(interrupter);
+    if (seconds) {
+        seconds->distance += found.seconds.distance;
+        seconds->power += found.seconds.power;
+        seconds->medial += found.seconds.medial;
+    }
+    if (wants.allLabels) labels = PowerMap(layout, std::move(steps));
+    balls = std::move(found.balls);
+    centers = std::move(found.centers);
+    wantedLabel = ballsAt(asked, layout, centers, interrupter);
+}
+
+/// Norms have no stream: everything is in memory.
+void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWants& wants,
+    NullInterrupter* interrupter, BuildSeconds* seconds)
+{
+    const DistanceMap distances =
+        detail::timed("distance transform", interrupter, seconds ? &seconds->distance : nullptr,
+            [&] { return distanceTransform(layout, dim, interrupter, distance); });
+    labels = detail::timed("power labels", interrupter, seconds ? &seconds->power : nullptr,
+        [&] { return powerMap(layout, distances, dim, interrupter); });
+    balls = detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,
+        [&] { return medialBalls(labels, distances, interrupter); });
+    centers.resize(layout.leafCount());
+    for (const PowerMap::Voxel& place : placesOf(centersOf(balls), layout, interrupter)) {
+        centers[place.leaf][place.offset >> 6] |= uint64_t(1) << (place.offset & 63);
+    }
+    std::vector<PowerMap::Voxel> asked = placesOf(wants.labelsOf, layout, interrupter);
+    for (PowerMap::Voxel& voxel : asked) {
+        if (voxel.leaf != kNoLeaf) voxel = labels.label(voxel);
+    }
+    wantedLabel = ballsAt(asked, layout, centers, interrupter);
+}
 
 int32_t MedialLevel::ballAt(const openvdb::Coord& center) const
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MedialLevel.h
-/// @brief One level of voxels with everything the trees ask of it: layout, distances, power labels
-/// and medial balls.
+/// @brief One level of voxels with what the trees ask of it: layout, medial balls, and some or all
+/// power labels.
 
 #pragma once
 
-#include "DistanceTransform.h"
+#include "Distance.h"
 #include "LeafLayout.h"
 #include "MedialAxis.h"
 #include "PowerMap.h"
@@ -13,30 +13,45 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
 
+/// What is wanted of a level beside its balls.
+struct LevelWants {
+    std::vector<openvdb::Coord> labelsOf; ///< voxels; those that are off have no label
+    bool allLabels = false;               ///< keep the label of every voxel: 3 or 6 bytes each
+};
+
 struct MedialLevel {
     /// @param distance  what the balls are balls of
-    /// @param seconds  may be null; the stages' times are added to it
+    /// @param seconds   may be null; the stages' times are added to it
     /// @throw as distanceTransform() and powerMap()
     MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
-        openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds = nullptr);
+        openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds = nullptr,
+        const LevelWants& wants = {});
     MedialLevel(const MedialLevel&) = delete; // labels refer to the layout
     MedialLevel& operator=(const MedialLevel&) = delete;
 
     /// @return the index in `balls` of the ball centred at @a center. O(log balls).
     /// @throw openvdb::LookupError if there is none
     int32_t ballAt(const openvdb::Coord& center) const;
-    /// @return the index in `balls` of the label of @a ijk.
+    /// @return the index in `balls` of the label of @a ijk, if all labels were wanted. O(log balls).
     /// @throw openvdb::LookupError if @a ijk is off
     int32_t labelOf(const openvdb::Coord& ijk) const { return ballAt(labels.label(ijk)); }
 
     const LeafLayout layout;
-    const DistanceMap distances;
-    const PowerMap labels;
-    const std::vector<MedialBall> balls; ///< ordered by centre
+    std::vector<MedialBall> balls;    ///< ordered by centre
+    std::vector<LeafMask> centers;    ///< of the balls, a mask for each leaf
+    std::vector<int32_t> wantedLabel; ///< per voxel of LevelWants, a ball; -1: the voxel is off
+    PowerMap labels;                  ///< unless all were wanted, of no use
+
+private:
+    void findBalls(int dim, const LevelWants& wants, openvdb::util::NullInterrupter* interrupter,
+        BuildSeconds* seconds);
+    void findNormBalls(int dim, const Distance& distance, const LevelWants& wants,
+        openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds);
 };
 
 } // namespace openvdb_spheretree

@@ -5,7 +5,8 @@
 /// The label of voxel q is the object voxel p that maximises distSq(p) - |p - q|^2, then distSq(p),
 /// then comes first in the order of Coord::operator< (the power diagram of CM07, section 3,
 /// restricted to the object). The passes run z, y, x, each a max over the line of value - step^2
-/// (kernel detail/MaxPlus.h); x coming last gives the smallest-site rule.
+/// (kernel detail/MaxPlus.h); x coming last gives the smallest-site rule. They are made slab by slab
+/// (slab/LabelStream.h).
 ///
 /// What is kept is one small offset a voxel and axis: the label of q is found by going dx(q) along
 /// x, from there dy along y, and from there dz along z. Keys are 32-bit with 8-bit offsets for
@@ -21,18 +22,25 @@
 
 #include "DistanceTransform.h"
 #include "LeafLayout.h"
+#include "detail/LabelSteps.h"
 #include "detail/LargeArray.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace openvdb_spheretree {
 
 class PowerMap {
 public:
+    PowerMap() = default;
+    /// @param layout  kept by reference
+    PowerMap(const LeafLayout& layout, detail::LabelSteps steps)
+        : mLayout(&layout), mSteps(std::move(steps))
+    {}
+
     /// A voxel by its leaf in the layout and its offset there.
     struct Voxel {
         uint32_t leaf, offset;
@@ -47,7 +55,7 @@ public:
         }
         voxel = step(Axis::X, voxel);
         voxel = step(Axis::Y, voxel);
-        return mOffsets[2].empty() ? voxel : step(Axis::Z, voxel);
+        return mSteps[2].empty() ? voxel : step(Axis::Z, voxel);
     }
     /// @return the label of @a ijk, in coordinates of the level. O(log leaves).
     /// @throw openvdb::LookupError if @a ijk is no object voxel
@@ -61,16 +69,21 @@ public:
     int offset(Axis axis, Voxel voxel) const
     {
         const std::size_t i = std::size_t(voxel.leaf) * kLeafVoxels + voxel.offset;
-        const Offsets& offsets = mOffsets[int(axis)];
-        return offsets.narrow ? offsets.narrow[i] : offsets.wide[i];
+        const detail::AxisSteps& steps = mSteps[int(axis)];
+        return steps.narrow ? steps.narrow[i] : steps.wide[i];
     }
     /// @return the voxel at the end of that step, in the same run.
     Voxel step(Axis axis, Voxel voxel) const { return moved(axis, voxel, offset(axis, voxel)); }
     Voxel moved(Axis axis, Voxel voxel, int steps) const
     {
+        return moved(*mLayout, axis, voxel, steps);
+    }
+    /// @return the voxel @a steps further along @a axis, in the same run.
+    static Voxel moved(const LeafLayout& layout, Axis axis, Voxel voxel, int steps)
+    {
         const int shift = 6 - 3 * int(axis);
         const int here = int(voxel.offset >> shift & 7), there = here + steps;
-        if (there < 0 || there > 7) voxel.leaf = mLayout->neighbour(voxel.leaf, axis, there >> 3);
+        if (there < 0 || there > 7) voxel.leaf = layout.neighbour(voxel.leaf, axis, there >> 3);
         voxel.offset = uint32_t(int(voxel.offset) + (((there & 7) - here) << shift));
         return voxel;
     }
@@ -78,31 +91,24 @@ public:
     /// The 512 steps of a leaf along @a axis, as they are stored: one of these two is null.
     const int8_t* narrowSteps(Axis axis, uint32_t leaf) const
     {
-        const Offsets& offsets = mOffsets[int(axis)];
-        return offsets.narrow ? offsets.narrow.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
+        const detail::AxisSteps& steps = mSteps[int(axis)];
+        return steps.narrow ? steps.narrow.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
     }
     const int16_t* wideSteps(Axis axis, uint32_t leaf) const
     {
-        const Offsets& offsets = mOffsets[int(axis)];
-        return offsets.wide ? offsets.wide.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
+        const detail::AxisSteps& steps = mSteps[int(axis)];
+        return steps.wide ? steps.wide.get() + std::size_t(leaf) * kLeafVoxels : nullptr;
     }
 
     const LeafLayout& layout() const { return *mLayout; }
-    bool usesZ() const { return !mOffsets[2].empty(); }
+    bool usesZ() const { return !mSteps[2].empty(); }
 
 private:
     friend PowerMap powerMap(
         const LeafLayout&, const DistanceMap&, int, openvdb::util::NullInterrupter*);
 
-    /// Steps along one axis; one of the arrays is null, both if the axis takes no part.
-    struct Offsets {
-        detail::LargeArray<int8_t> narrow;
-        detail::LargeArray<int16_t> wide;
-        bool empty() const { return !narrow && !wide; }
-    };
-
     const LeafLayout* mLayout = nullptr;
-    std::array<Offsets, 3> mOffsets;
+    detail::LabelSteps mSteps;
     detail::LargeArray<uint32_t> mSites; ///< of a norm: 512 leaf + offset of each voxel's label
 };
 

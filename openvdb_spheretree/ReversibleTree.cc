@@ -38,13 +38,13 @@ LevelNodes allBalls(const MedialLevel& medial, const LevelFrame& frame)
 
 std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const BuildContext& context)
 {
-    auto fine = context.medialLevel(*voxels);
+    auto fine = context.medialLevel(*voxels, 0);
     std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
     levels.back().topology = topologyOf(*fine, context);
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return context.coarsened(*voxels, level); });
-        auto coarse = context.medialLevel(*voxels);
+        auto coarse = context.medialLevel(*voxels, level + 1, &levels.back());
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             LevelNodes& nodes = levels.back();
             Links links = linkLevels(nodes, level, *fine, *coarse, context);

@@ -140,7 +140,7 @@ std::vector<DagEdge> sphereDag(const MedialLevel& fine, const MedialLevel& coars
     const PyramidStep& step, NullInterrupter* interrupter)
 {
     const detail::VoxelBalls parents(coarse, interrupter);
-    const detail::BallIndex index(fine.layout, fine.balls, interrupter);
+    const detail::BallIndex index(fine.layout, fine.centers, interrupter);
     ThreadEdges found;
     detail::parallelFor(fine.layout.runCount(Axis::X), interrupter, [&](std::size_t i) {
         const LeafLayout::Run run = fine.layout.run(Axis::X, uint32_t(i));

@@ -10,7 +10,6 @@
 #pragma once
 
 #include "../LeafLayout.h"
-#include "../MedialAxis.h"
 #include "../PowerMap.h"
 
 #include <hwy/base.h>
@@ -24,8 +23,8 @@ namespace detail {
 
 class BallIndex {
 public:
-    /// @param balls  of that layout, ordered by centre
-    BallIndex(const LeafLayout& layout, const std::vector<MedialBall>& balls,
+    /// @param centers  of the balls, a mask for each leaf
+    BallIndex(const LeafLayout& layout, const std::vector<LeafMask>& centers,
         openvdb::util::NullInterrupter* interrupter);
 
     /// @return the rank of the ball that is centred at @a center; there must be one.
@@ -35,7 +34,7 @@ public:
         const uint64_t before = (uint64_t(1) << (center.offset & 63)) - 1;
         return centres.rank + int32_t(hwy::PopCount(centres.mask & before));
     }
-    /// @return the index of the ball of that rank.
+    /// @return the index of the ball of that rank in the order of balls: by centre.
     int32_t ballOf(int32_t rank) const { return mBallOfRank[std::size_t(rank)]; }
 
 private:
@@ -49,7 +48,8 @@ private:
     {
         return std::size_t(leaf) * kLeafDim + (offset >> 6);
     }
-    void countRanks();
+    /// @return the number of centres.
+    std::size_t countRanks(const std::vector<LeafMask>& centers);
 
     std::vector<Centres> mCentres; ///< eight a leaf
     std::vector<int32_t> mBallOfRank;

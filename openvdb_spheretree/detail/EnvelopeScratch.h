@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "LeafRows.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,10 +15,17 @@ namespace detail {
 
 constexpr int kBlockRows = 8; ///< rows whose reach is decided together
 
+/// The rows [first, last) of @a count; all are multiples of kBlockRows.
+struct RowRange {
+    int first, last, count;
+};
+
 /// One entry a block of rows.
 struct EnvelopeScratch {
     std::vector<int> reach;                 ///< how far away a better row can be
     std::vector<int64_t> largest, smallest; ///< values in the block
+    RowBuffer<int32_t> keys;                ///< rows in another form
+    RowBuffer<int64_t> wideKeys;
 
     void resize(std::size_t blocks)
     {

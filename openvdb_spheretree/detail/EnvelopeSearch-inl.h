@@ -8,7 +8,8 @@
 /// envelope of parabolas line by line, which is scalar work, it uses that the best j never moves
 /// backwards as i grows (the penalty is convex), for all lanes of a vector at once:
 ///
-/// 1. `reach`   of every block of 8 rows: how far away a better row can be at all;
+/// 1. `reach`   of every block of 8 rows: how far away a better row can be at all; those of none
+///              are copied;
 /// 2. `window`  blocks of short reach look at every row in reach;
 /// 3. `divide` longer stretches: search the middle row, remembering where each lane found its best;
 ///              the rows before need not look beyond the last of these places, the rows behind not
@@ -60,35 +61,56 @@ public:
     using D = hn::CappedTag<Value, kLanes>;
     using V = hn::Vec<D>;
 
-    /// @param op  its rows -1 and rowCount must be readable; lives until run() is done
-    EnvelopeSearch(const Op& op, int rowCount, EnvelopeScratch& scratch)
-        : mOp(op), mRows(rowCount), mScratch(scratch), mReach(scratch.reach)
+    /// @param op    its rows -1 and rows.count must be readable; lives until run() is done
+    EnvelopeSearch(const Op& op, const RowRange& rows, EnvelopeScratch& scratch)
+        : mOp(op), mRows(rows.count), mFirstBlock(rows.first / kBlockRows),
+          mEndBlock(rows.last / kBlockRows), mScratch(scratch), mReach(scratch.reach)
     {
         mScratch.resize(mRows / kBlockRows);
     }
 
     void run()
     {
-        for (mLane = 0; mLane < kLanes; mLane += int(hn::Lanes(D()))) {
-            mOp.blockReach(mLane, mScratch);
-            const int blocks = int(mReach.size());
-            for (int block = 0; block < blocks;) {
+        for (mLane = 0; mLane < kLanes; mLane += kVectors * kWidth) {
+            mOp.template blockReach<kVectors>(mLane, mScratch);
+            for (int block = mFirstBlock; block < mEndBlock;) {
+                if (mReach[block] == 0) {
+                    copy(block++);
+                    continue;
+                }
                 if (mReach[block] <= kWindowReach) {
                     window(block++);
                     continue;
                 }
                 const int first = block;
-                while (block < blocks && mReach[block] > kWindowReach) ++block;
+                while (block < mEndBlock && mReach[block] > kWindowReach) ++block;
                 divide(kBlockRows * first, kBlockRows * block - 1, -1, mRows);
             }
         }
     }
 
 private:
+    static constexpr int kWidth = int(hn::MaxLanes(D()));
+    /// Vectors side by side that are searched together: one waits for its own last step, several
+    /// do not wait for each other's.
+    static constexpr int kVectors = kLanes / kWidth < 4 ? kLanes / kWidth : 4;
     /// Beyond this reach, dividing beats looking at every row (measured: 3 to 6 are alike).
     static constexpr int kWindowReach = 4;
     /// A span of candidates this short is not worth dividing (measured: 8 to 12 are alike).
     static constexpr int kDirectSpan = 10;
+
+    HWY_INLINE V load(int row, int vector) const { return mOp.load(row, mLane + vector * kWidth); }
+
+    /// Rows that are their own best.
+    void copy(int block)
+    {
+        const V none = hn::Zero(D());
+        for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+            for (int v = 0; v < kVectors; ++v) {
+                mOp.store(row, mLane + v * kWidth, load(row, v), none);
+            }
+        }
+    }
 
     void window(int block)
     {
@@ -124,11 +146,17 @@ private:
     template <int N>
     void searchRows(int row, int low, int high)
     {
-        const D d;
         const int reach = std::max(mReach[row / kBlockRows], mReach[(row + N - 1) / kBlockRows]);
         low = std::max(low, row - reach);
         high = std::min(high, row + N - 1 + reach);
-        const V first = mOp.load(low, mLane);
+        for (int v = 0; v < kVectors; ++v) searchVector<N>(row, low, high, v);
+    }
+
+    template <int N>
+    HWY_INLINE void searchVector(int row, int low, int high, int vector)
+    {
+        const D d;
+        const V first = load(low, vector);
         V best[N], step[N]; // where the best is, as steps from `row`
         V penalty[N];       // of the candidate at hand; what row k pays now, k + 1 pays next
         for (int k = 0; k < N; ++k) {
@@ -137,7 +165,7 @@ private:
             step[k] = hn::Set(d, Value(low - row));
         }
         for (int j = low + 1; j <= high; ++j) {
-            const V value = mOp.load(j, mLane);
+            const V value = load(j, vector);
             const V here = hn::Set(d, Value(j - row));
             for (int k = N - 1; k > 0; --k) penalty[k] = penalty[k - 1];
             penalty[0] = hn::Set(d, mOp.penalty(row - j));
@@ -151,7 +179,8 @@ private:
         }
         for (int k = 0; k < N; ++k) {
             const V tracked = hn::Sub(step[k], hn::Set(d, Value(k)));
-            mOp.store(row + k, mLane, best[k], Op::kStepInKey ? mOp.step(best[k]) : tracked);
+            mOp.store(row + k, mLane + vector * kWidth, best[k],
+                Op::kStepInKey ? mOp.step(best[k]) : tracked);
         }
     }
 
@@ -162,27 +191,39 @@ private:
         const int reach = mReach[row / kBlockRows];
         low = std::max(low, row - reach);
         high = std::min(high, row + reach);
-        V best = mOp.candidate(mOp.load(low, mLane), hn::Set(d, mOp.penalty(row - low)));
-        V step = hn::Set(d, Value(low - row)); // a row's number need not fit a lane; steps do
-        for (int j = low + 1; j <= high; ++j) {
-            const V next = mOp.candidate(mOp.load(j, mLane), hn::Set(d, mOp.penalty(row - j)));
-            if (!Op::kStepInKey) {
-                step = hn::IfThenElse(mOp.better(next, best), hn::Set(d, Value(j - row)), step);
-            }
-            best = mOp.best(next, best);
+        V best[kVectors], step[kVectors]; // a row's number need not fit a lane; steps do
+        const V firstPenalty = hn::Set(d, mOp.penalty(row - low));
+        for (int v = 0; v < kVectors; ++v) {
+            best[v] = mOp.candidate(load(low, v), firstPenalty);
+            step[v] = hn::Set(d, Value(low - row));
         }
-        if (Op::kStepInKey) step = mOp.step(best);
-        mOp.store(row, mLane, best, step);
-        // A background voxel cuts its line, so it bounds both sides by itself.
-        const auto background = hn::Eq(mOp.load(row, mLane), hn::Zero(d));
-        step = hn::IfThenZeroElse(background, step);
+        for (int j = low + 1; j <= high; ++j) {
+            const V penalty = hn::Set(d, mOp.penalty(row - j)), here = hn::Set(d, Value(j - row));
+            for (int v = 0; v < kVectors; ++v) {
+                const V next = mOp.candidate(load(j, v), penalty);
+                if (!Op::kStepInKey) {
+                    step[v] = hn::IfThenElse(mOp.better(next, best[v]), here, step[v]);
+                }
+                best[v] = mOp.best(next, best[v]);
+            }
+        }
         const hn::RebindToSigned<D> ds;
-        firstBest = row + int(hn::GetLane(hn::MinOfLanes(ds, hn::BitCast(ds, step))));
-        lastBest = row + int(hn::GetLane(hn::MaxOfLanes(ds, hn::BitCast(ds, step))));
+        auto least = hn::Zero(ds), most = hn::Zero(ds);
+        for (int v = 0; v < kVectors; ++v) {
+            if (Op::kStepInKey) step[v] = mOp.step(best[v]);
+            mOp.store(row, mLane + v * kWidth, best[v], step[v]);
+            // A background voxel cuts its line, so it bounds both sides by itself.
+            const auto background = hn::Eq(load(row, v), hn::Zero(d));
+            const auto signedStep = hn::BitCast(ds, hn::IfThenZeroElse(background, step[v]));
+            least = v == 0 ? signedStep : hn::Min(least, signedStep);
+            most = v == 0 ? signedStep : hn::Max(most, signedStep);
+        }
+        firstBest = row + int(hn::GetLane(hn::MinOfLanes(ds, least)));
+        lastBest = row + int(hn::GetLane(hn::MaxOfLanes(ds, most)));
     }
 
     const Op& mOp;
-    int mRows, mLane = 0;
+    int mRows, mFirstBlock, mEndBlock, mLane = 0;
     EnvelopeScratch& mScratch;
     std::vector<int>& mReach;
 };

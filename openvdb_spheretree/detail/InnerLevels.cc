@@ -147,7 +147,7 @@ int64_t mostWanted(const SphereTreeSettings& settings)
 
 void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, const BuildContext& context)
 {
-    const auto medial = context.medialLevel(voxels);
+    const auto medial = context.medialLevel(voxels, 0);
     const InnerOrder order = timed("inner balls", context.interrupter, &context.seconds->tree, [&] {
         return innerOrder(medial->layout, medial->balls, tree.settings.dim, context.interrupter,
             mostWanted(tree.settings));

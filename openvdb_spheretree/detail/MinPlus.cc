@@ -75,14 +75,18 @@ struct MinPlusOp {
 
     /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block
     /// counts.
+    template <int kVectors>
     void blockReach(int lane, EnvelopeScratch& scratch) const
     {
+        const D d;
         for (int block = 0; block < int(scratch.reach.size()); ++block) {
-            V largest = load(kBlockRows * block, lane);
-            for (int row = 1; row < kBlockRows; ++row) {
-                largest = hn::Max(largest, load(kBlockRows * block + row, lane));
+            V largest = hn::Zero(d);
+            for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+                for (int v = 0; v < kVectors; ++v) {
+                    largest = hn::Max(largest, load(row, lane + v * int(hn::Lanes(d))));
+                }
             }
-            const int64_t m = hn::GetLane(hn::MaxOfLanes(D(), largest));
+            const int64_t m = hn::GetLane(hn::MaxOfLanes(d, largest));
             scratch.reach[block] = m <= 1 ? 0 : floorRoot(m - 1);
         }
     }
@@ -90,12 +94,12 @@ struct MinPlusOp {
 
 void MinPlus16(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch)
 {
-    EnvelopeSearch<MinPlusOp<uint16_t>>({in, out}, rows, scratch).run();
+    EnvelopeSearch<MinPlusOp<uint16_t>>({in, out}, {0, rows, rows}, scratch).run();
 }
 
 void MinPlus32(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scratch)
 {
-    EnvelopeSearch<MinPlusOp<uint32_t>>({in, out}, rows, scratch).run();
+    EnvelopeSearch<MinPlusOp<uint32_t>>({in, out}, {0, rows, rows}, scratch).run();
 }
 
 } // namespace HWY_NAMESPACE

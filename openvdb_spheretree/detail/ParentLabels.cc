@@ -12,7 +12,7 @@ namespace detail {
 using openvdb::Coord;
 
 VoxelBalls::VoxelBalls(const MedialLevel& level, openvdb::util::NullInterrupter* interrupter)
-    : mLayout(level.layout), mIndex(mLayout, level.balls, interrupter),
+    : mLayout(level.layout), mIndex(mLayout, level.centers, interrupter),
       mRanks(makeLargeArray<int32_t>(std::size_t(mLayout.leafCount()) * kLeafVoxels)),
       mChanged(mLayout.leafCount()), mLikeBeforeY(mLayout.leafCount()),
       mLikeBeforeZ(mLayout.leafCount())

@@ -40,9 +40,9 @@ namespace {
 
 /// @param before  the steps of the leaf before it in the run; null if it is the first
 template <typename Step>
-LeafMask repeatsOf(const Step* steps, const Step* before)
+LeafMask repeatsOf(const Step* steps, const Step* before, const LeafMask& mask)
 {
-    LeafMask repeats = stepBits(steps, Axis::X).asBefore;
+    LeafMask repeats = stepBits(steps, Axis::X, mask).asBefore;
     if (!before) return repeats;
     const Step* last = before + 7 * 64;
     for (int lane = 0; lane < 64; ++lane) {
@@ -77,11 +77,12 @@ void RunLabels::enterLeaf(uint32_t i)
     if (i == 0) prefetch(1);
     prefetch(i + 2);
     const uint32_t here = leaf(), before = i == 0 ? 0 : mRun.leaves[i - 1];
+    const LeafMask& mask = layout().mask(here);
     mSteps = mLabels.narrowSteps(Axis::X, here);
     if (mSteps) {
-        mRepeats = repeatsOf(mSteps, i == 0 ? nullptr : mLabels.narrowSteps(Axis::X, before));
+        mRepeats = repeatsOf(mSteps, i == 0 ? nullptr : mLabels.narrowSteps(Axis::X, before), mask);
     } else if (const int16_t* wide = mLabels.wideSteps(Axis::X, here)) {
-        mRepeats = repeatsOf(wide, i == 0 ? nullptr : mLabels.wideSteps(Axis::X, before));
+        mRepeats = repeatsOf(wide, i == 0 ? nullptr : mLabels.wideSteps(Axis::X, before), mask);
     } else {
         mRepeats = LeafMask{}; // labels are kept in another way: every voxel is looked up
     }

@@ -15,18 +15,22 @@ namespace detail {
 
 namespace {
 
+/// Whether a build looks at the labels of all voxels.
+bool needsDag(const SphereTreeSettings& settings)
+{
+    return settings.parent == ParentRule::Dag
+        || (settings.dag && settings.edges == DagEdges::Shared);
+}
+
 /// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
 /// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
 /// the clip).
-std::vector<int32_t> parentsByCentre(const LevelNodes& nodes, const MedialLevel& coarse,
-    const PyramidStep& step, openvdb::util::NullInterrupter* interrupter)
+std::vector<int32_t> parentsByCentre(const MedialLevel& coarse)
 {
-    std::vector<int32_t> parent(nodes.balls.size(), 0);
-    if (coarse.balls.size() == 1) return parent;
-    parallelFor(parent.size(), interrupter, [&](std::size_t i) {
-        parent[i] = coarse.labelOf(step.parentVoxel(nodes.balls[i].center));
-    });
-    return parent;
+    std::vector<int32_t> parent = coarse.wantedLabel;
+    if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
+    if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
+    OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
 }
 
 /// Edges between balls of both levels to edges between coarser balls and nodes.
@@ -103,6 +107,21 @@ PyramidModel modelOf(
     return settings.closing > 0 ? closingModel(settings.closing, interrupter) : PyramidModel();
 }
 
+std::unique_ptr<MedialLevel> BuildContext::medialLevel(
+    const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
+{
+    LevelWants wants;
+    wants.allLabels = needsDag(settings);
+    if (children) {
+        const PyramidStep step = stepFrom(level - 1);
+        for (const MedialBall& ball : children->balls) {
+            wants.labelsOf.push_back(step.parentVoxel(ball.center));
+        }
+    }
+    return std::make_unique<MedialLevel>(
+        voxels, settings.dim, settings.dist, interrupter, seconds, wants);
+}
+
 openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
 {
     if (!model) return coarsen(voxels, stepFrom(level), interrupter);
@@ -126,13 +145,13 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
 {
     const PyramidStep step = context.stepFrom(level);
     Links links;
-    links.parent = parentsByCentre(nodes, coarse, step, context.interrupter);
-    const bool byDag = context.settings.parent == ParentRule::Dag;
-    const bool stored = context.settings.dag && context.settings.edges == DagEdges::Shared;
-    if (!byDag && !stored) return links;
+    links.parent = parentsByCentre(coarse);
+    if (!needsDag(context.settings)) return links;
     links.dag = edgesToNodes(sphereDag(fine, coarse, step, context.interrupter), nodes, fine);
-    if (byDag) preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
-    if (!stored) links.dag.clear();
+    if (context.settings.parent == ParentRule::Dag) {
+        preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
+    }
+    if (!context.settings.dag || context.settings.edges != DagEdges::Shared) links.dag.clear();
     return links;
 }
 

@@ -19,6 +19,17 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// The nodes of one level; their indices are within the level.
+struct LevelNodes {
+    std::vector<MedialBall> balls; ///< ordered by centre
+    std::vector<double> radius;    ///< units of the distance, on level 0
+    std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
+    std::vector<int32_t> parent;   ///< node of the next level; empty at the root
+    std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for
+    int64_t pyramidVoxels = 0;
+    std::optional<LevelTopology> topology; ///< of these voxels, if asked for
+};
+
 /// What a build is given, and where it reports to.
 struct BuildContext {
     const SphereTreeSettings& settings;
@@ -33,11 +44,10 @@ struct BuildContext {
     {
         return {level == 0 ? origin : openvdb::Coord(), settings.factor, settings.dim};
     }
-    std::unique_ptr<MedialLevel> medialLevel(const openvdb::MaskTree& voxels) const
-    {
-        return std::make_unique<MedialLevel>(
-            voxels, settings.dim, settings.dist, interrupter, seconds);
-    }
+    /// @return the level of these voxels.
+    /// @param children  nodes of the level below, if there is one: linkLevels() finds their parents
+    std::unique_ptr<MedialLevel> medialLevel(
+        const openvdb::MaskTree& voxels, int level, const LevelNodes* children = nullptr) const;
     /// @return the level above @a level, whose voxels are @a voxels.
     /// @throw openvdb::ValueError if the model is not including, or does not come to an end
     openvdb::MaskTree::Ptr coarsened(const openvdb::MaskTree& voxels, int level) const;
@@ -51,17 +61,6 @@ struct BuildContext {
 PyramidModel modelOf(
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
 
-/// The nodes of one level; their indices are within the level.
-struct LevelNodes {
-    std::vector<MedialBall> balls; ///< ordered by centre
-    std::vector<double> radius;    ///< units of the distance, on level 0
-    std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
-    std::vector<int32_t> parent;   ///< node of the next level; empty at the root
-    std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for
-    int64_t pyramidVoxels = 0;
-    std::optional<LevelTopology> topology; ///< of these voxels, if asked for
-};
-
 /// How the nodes of a level hang on the medial balls of the next one.
 struct Links {
     std::vector<int32_t> parent; ///< per node: index in the coarser level's balls
@@ -71,7 +70,8 @@ struct Links {
 /// @return the topology of a level's voxels, if the settings want it.
 std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context);
 
-/// @brief Find the parents of @a nodes, which are balls of @a fine, among the balls of @a coarse.
+/// @brief Find the parents of @a nodes, which are balls of @a fine, among the balls of @a coarse,
+/// a level that was made with them as children.
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
     const MedialLevel& coarse, const BuildContext& context);
 

@@ -107,13 +107,37 @@ Result runMaxPlus(const Rows& rows, bool withKeys = true)
         in[i] = powerKey<Power>(uint32_t(rows[i].value), uint32_t(rows[i].siteSq));
     }
     EnvelopeScratch scratch;
-    maxPlus<Power>(in, withKeys ? out : nullptr, offsets, count, scratch);
+    maxPlus<Power>(in, withKeys ? out : nullptr, offsets, {0, count, count}, scratch);
     Result result{Rows(rows.size()), std::vector<int>(offsets, offsets + rows.size())};
     for (std::size_t i = 0; withKeys && i < rows.size(); ++i) {
-        const int64_t value = out[i] >> Power::kShift;
-        const int64_t siteSq = (out[i] & ((Key(1) << Power::kShift) - 1)) >> Power::kSiteShift;
+        const int64_t value = out[i] >> Power::kShift, siteSq = siteSqOf<Power>(out[i]);
         result.best[i] = {value, siteSq};
         EXPECT_EQ(out[i], powerKey<Power>(uint32_t(value), uint32_t(siteSq)));
+    }
+    return result;
+}
+
+/// The keys and steps of rows whose values are the squared radii.
+template <typename Power, typename T>
+Result runFirst(const Rows& rows)
+{
+    const int count = int(rows.size()) / kLanes;
+    RowBuffer<T> inBuffer;
+    RowBuffer<typename Power::Key> outBuffer;
+    RowBuffer<typename Power::Offset> offsetBuffer;
+    T* in = inBuffer.rows(count);
+    auto* out = outBuffer.rows(count);
+    auto* offsets = offsetBuffer.rows(count);
+    uint32_t largest = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        in[i] = T(rows[i].siteSq);
+        largest = std::max(largest, uint32_t(in[i]));
+    }
+    EnvelopeScratch scratch;
+    EXPECT_EQ((firstMaxPlus<Power>(in, out, offsets, count, scratch)), largest);
+    Result result{Rows(rows.size()), std::vector<int>(offsets, offsets + rows.size())};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        result.best[i] = {int64_t(out[i] >> Power::kShift), siteSqOf<Power>(out[i])};
     }
     return result;
 }
@@ -159,9 +183,13 @@ void expectMatches(int64_t largestSq, uint32_t seed)
     }
 }
 
+/// Up to this size, steps travel in the keys.
+constexpr int64_t kSmallSq = 60 * 60;
+
 TEST(MaxPlus, SmallKeysMatchPlainLoopsTiesIncluded)
 {
-    expectMatches<SmallPower>(SmallPower::kMaxRadiusSq, 5);
+    expectMatches<NarrowPower>(kSmallSq, 5);
+    expectMatches<NarrowPower>(kSmallSq + 1, 6);
 }
 
 TEST(MaxPlus, NarrowKeysMatchPlainLoopsTiesIncluded)
@@ -179,12 +207,52 @@ TEST(MaxPlus, OffsetsAreTheSameWithoutKeys)
 {
     Random random(4);
     for (int count : kRowCounts) {
-        const Rows rows = makeRows(
-            count, SmallPower::kMaxRadiusSq, kBackgrounds[2].rate, kValues[1].value, random);
+        const Rows rows = makeRows(count, kSmallSq, kBackgrounds[2].rate, kValues[1].value, random);
         const Result expected = naiveMaxPlus(rows);
-        EXPECT_EQ(runMaxPlus<SmallPower>(rows, false).offsets, expected.offsets) << count;
         EXPECT_EQ(runMaxPlus<NarrowPower>(rows, false).offsets, expected.offsets) << count;
         EXPECT_EQ(runMaxPlus<WidePower>(rows, false).offsets, expected.offsets) << count;
+    }
+}
+
+TEST(MaxPlus, DistancesAreTheirOwnSites)
+{
+    Random random(7);
+    for (const int64_t largestSq : {kSmallSq, kSmallSq + 1, int64_t(NarrowPower::kMaxRadiusSq)}) {
+        for (const int count : {8, 40, 200}) {
+            Rows rows = makeRows(count, largestSq, kBackgrounds[2].rate, kValues[0].value, random);
+            for (Entry& entry : rows) entry.siteSq = entry.value;
+            const Result expected = naiveMaxPlus(rows);
+            const Result narrow = runFirst<NarrowPower, uint16_t>(rows);
+            const Result wide = runFirst<WidePower, uint32_t>(rows);
+            ASSERT_TRUE(narrow.best == expected.best && narrow.offsets == expected.offsets);
+            ASSERT_TRUE(wide.best == expected.best && wide.offsets == expected.offsets);
+        }
+    }
+}
+
+TEST(MaxPlus, OnlyWantedRowsAreTouched)
+{
+    Random random(8);
+    constexpr int kCount = 72;
+    const Rows rows = makeRows(kCount, kSmallSq, kBackgrounds[2].rate, kValues[0].value, random);
+    const Result expected = naiveMaxPlus(rows);
+    RowBuffer<int32_t> inBuffer;
+    RowBuffer<int8_t> offsetBuffer;
+    int32_t* in = inBuffer.rows(kCount, 1);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        in[i] = powerKey<NarrowPower>(uint32_t(rows[i].value), uint32_t(rows[i].siteSq));
+    }
+    EnvelopeScratch scratch;
+    for (const RowRange& wanted : {RowRange{0, 8, kCount}, RowRange{24, 56, kCount},
+             RowRange{64, kCount, kCount}, RowRange{8, 8, kCount}}) {
+        int8_t* offsets = offsetBuffer.rows(kCount);
+        std::fill_n(offsets, rows.size(), int8_t(111));
+        maxPlus<NarrowPower>(in, nullptr, offsets, wanted, scratch);
+        for (int i = 0; i < kCount * kLanes; ++i) {
+            const int row = i / kLanes;
+            const bool isWanted = row >= wanted.first && row < wanted.last;
+            ASSERT_EQ(int(offsets[i]), isWanted ? expected.offsets[i] : 111) << row;
+        }
     }
 }
 
@@ -210,7 +278,7 @@ void expectOneSite(int64_t radius)
 
 TEST(MaxPlus, HoldsTheLargestRadiusOfEachWidth)
 {
-    expectOneSite<SmallPower>(60);
+    expectOneSite<NarrowPower>(60);
     expectOneSite<NarrowPower>(61);
     expectOneSite<NarrowPower>(127);
     expectOneSite<WidePower>(128);
@@ -239,8 +307,8 @@ void expectLongLine()
 
 TEST(MaxPlus, LinesMayBeLongerThan65536Rows)
 {
-    expectLongLine<SmallPower>();
     expectLongLine<NarrowPower>();
+    expectLongLine<WidePower>();
 }
 
 } // namespace

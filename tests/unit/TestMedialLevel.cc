@@ -14,7 +14,7 @@ namespace {
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 
-TEST(MedialLevel, HasTheDistancesAndBallsOfTheReference)
+TEST(MedialLevel, HasTheBallsOfTheReference)
 {
     for (const RandomObject& object : someObjects(0, 22)) {
         for (int dim : {2, 3}) {
@@ -23,11 +23,6 @@ TEST(MedialLevel, HasTheDistancesAndBallsOfTheReference)
             const MedialLevel level(*maskOf(object.voxels), dim, {}, nullptr);
             EXPECT_EQ(level.layout.voxelCount(), int64_t(naive.voxels().size()));
             EXPECT_TRUE(agreeOnBalls(naive.balls(), level.balls));
-            for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
-                const Coord& voxel = naive.voxels()[i];
-                const uint32_t leaf = level.layout.findLeaf(voxel).value();
-                ASSERT_EQ(int64_t(level.distances.at(leaf, leafOffset(voxel))), naive.distSq(i));
-            }
         }
     }
 }
@@ -45,15 +40,48 @@ TEST(MedialLevel, FindsTheLabelOfEveryVoxel)
 {
     const Voxels voxels = randomObject(20).voxels;
     const NaiveReference naive(voxels);
-    const MedialLevel level(*maskOf(voxels), 3, {}, nullptr);
+    const MedialLevel level(*maskOf(voxels), 3, {}, nullptr, nullptr, {{}, true});
     for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
         EXPECT_EQ(level.balls.at(level.labelOf(naive.voxels()[i])).center, naive.label(i));
     }
 }
 
+TEST(MedialLevel, FindsTheLabelsThatAreWanted)
+{
+    const Voxels voxels = randomObject(20).voxels;
+    for (const Distance& distance : {Distance(), Distance::linf()}) {
+        const MedialLevel all(*maskOf(voxels), 3, distance, nullptr, nullptr, {{}, true});
+        LevelWants wants;
+        wants.labelsOf = voxels;
+        std::reverse(wants.labelsOf.begin(), wants.labelsOf.end());
+        wants.labelsOf.push_back(voxels.front());
+        wants.labelsOf.push_back(Coord(1000, 2, 3)); // off
+        const MedialLevel level(*maskOf(voxels), 3, distance, nullptr, nullptr, wants);
+        ASSERT_EQ(level.wantedLabel.size(), wants.labelsOf.size());
+        EXPECT_EQ(level.wantedLabel.back(), -1);
+        for (std::size_t i = 0; i + 1 < wants.labelsOf.size(); ++i) {
+            EXPECT_EQ(level.wantedLabel[i], all.labelOf(wants.labelsOf[i]));
+        }
+    }
+}
+
+TEST(MedialLevel, MarksTheCentresOfItsBalls)
+{
+    const MedialLevel level(*maskOf(randomObject(8).voxels), 3, {}, nullptr);
+    std::size_t centers = 0;
+    for (const LeafMask& mask : level.centers) {
+        for (const uint64_t word : mask) centers += openvdb::util::CountOn(word);
+    }
+    EXPECT_EQ(centers, level.balls.size());
+    for (const MedialBall& ball : level.balls) {
+        const uint32_t leaf = level.layout.findLeaf(ball.center).value();
+        EXPECT_TRUE(isOn(level.centers[leaf], leafOffset(ball.center)));
+    }
+}
+
 TEST(MedialLevel, RejectsAVoxelThatIsOff)
 {
-    const MedialLevel level(*maskOf(Voxels{Coord(1, 2, 3)}), 3, {}, nullptr);
+    const MedialLevel level(*maskOf(Voxels{Coord(1, 2, 3)}), 3, {}, nullptr, nullptr, {{}, true});
     EXPECT_THROW(level.labelOf(Coord(1, 2, 4)), openvdb::LookupError);
     EXPECT_THROW(level.labelOf(Coord(100, 2, 3)), openvdb::LookupError);
 }

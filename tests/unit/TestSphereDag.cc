@@ -13,6 +13,8 @@
 
 namespace {
 
+const openvdb_spheretree::LevelWants kAllLabels{{}, true};
+
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 
@@ -52,8 +54,8 @@ Coord originOf(const Voxels& voxels) { return boxOf(voxels).min() & ~7; }
 /// Checks the DAG between the voxels and those of the next level, given by the caller.
 void checkStep(const Voxels& voxels, const Voxels& above, const PyramidStep& step)
 {
-    const MedialLevel fine(*maskOf(voxels), step.dim, Distance(), nullptr);
-    const MedialLevel coarse(*maskOf(above), step.dim, Distance(), nullptr);
+    const MedialLevel fine(*maskOf(voxels), step.dim, Distance(), nullptr, nullptr, kAllLabels);
+    const MedialLevel coarse(*maskOf(above), step.dim, Distance(), nullptr, nullptr, kAllLabels);
     const std::vector<DagEdge> edges = sphereDag(fine, coarse, step);
     EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
     EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
@@ -158,8 +160,8 @@ TEST(SphereDag, IsThatOfTheLabelsOfLargeBalls)
     const openvdb::MaskTree::Ptr voxels = maskOf(CoordBBox(Coord(-3, 0, 0), Coord(256, 259, 259)));
     voxels->setValueOff(Coord(3, 4, 5));
     const PyramidStep step{Coord(-8, 0, 0), 3, 3};
-    const MedialLevel fine(*voxels, 3, Distance(), nullptr);
-    const MedialLevel coarse(*coarsen(*voxels, step), 3, Distance(), nullptr);
+    const MedialLevel fine(*voxels, 3, Distance(), nullptr, nullptr, kAllLabels);
+    const MedialLevel coarse(*coarsen(*voxels, step), 3, Distance(), nullptr, nullptr, kAllLabels);
     ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
     EXPECT_TRUE(sphereDag(fine, coarse, step) == edgesOfLabels(fine, coarse, step));
 }
@@ -176,8 +178,9 @@ TEST(SphereDag, IsThatOfTheLabelsOfLargeDisks)
     disk.insert(disk.end(), solid.begin(), solid.end());
     for (int factor : {2, 3, 4, 5}) {
         const PyramidStep step{Coord(-144, -152, 0), factor, 2};
-        const MedialLevel fine(*maskOf(disk), 2, Distance(), nullptr);
-        const MedialLevel coarse(*maskOf(coarsened(disk, step)), 2, Distance(), nullptr);
+        const MedialLevel fine(*maskOf(disk), 2, Distance(), nullptr, nullptr, kAllLabels);
+        const MedialLevel coarse(
+            *maskOf(coarsened(disk, step)), 2, Distance(), nullptr, nullptr, kAllLabels);
         ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
         EXPECT_TRUE(sphereDag(fine, coarse, step) == edgesOfLabels(fine, coarse, step)) << factor;
     }
@@ -193,9 +196,10 @@ TEST(SphereDag, IsThatOfTheLabelsOfNorms)
             for (int factor : {2, 3, 4, 5}) {
                 const PyramidStep step{originOf(object.voxels), factor, 3};
                 const Distance distance = distanceFromString(name);
-                const MedialLevel fine(*maskOf(object.voxels), 3, distance, nullptr);
-                const MedialLevel coarse(
-                    *maskOf(coarsened(object.voxels, step)), 3, distance, nullptr);
+                const MedialLevel fine(
+                    *maskOf(object.voxels), 3, distance, nullptr, nullptr, kAllLabels);
+                const MedialLevel coarse(*maskOf(coarsened(object.voxels, step)), 3, distance,
+                    nullptr, nullptr, kAllLabels);
                 EXPECT_TRUE(sphereDag(fine, coarse, step) == edgesOfLabels(fine, coarse, step));
             }
         }
@@ -249,15 +253,19 @@ TEST(SphereDag, OfATreeOfAFlatObjectIsThatOfItsPlane)
 
 TEST(SphereDag, IsEmptyWhereNoParentIsOn)
 {
-    const MedialLevel fine(*maskOf(shapes::box(Coord(4, 4, 4))), 3, Distance(), nullptr);
-    const MedialLevel coarse(*maskOf(Voxels{Coord(100, 0, 0)}), 3, Distance(), nullptr);
+    const MedialLevel fine(
+        *maskOf(shapes::box(Coord(4, 4, 4))), 3, Distance(), nullptr, nullptr, kAllLabels);
+    const MedialLevel coarse(
+        *maskOf(Voxels{Coord(100, 0, 0)}), 3, Distance(), nullptr, nullptr, kAllLabels);
     EXPECT_TRUE(sphereDag(fine, coarse, {Coord(0, 0, 0), 2, 3}).empty());
 }
 
 TEST(SphereDag, StopsWhenInterrupted)
 {
-    const MedialLevel fine(*maskOf(shapes::box(Coord(9, 9, 9))), 3, Distance(), nullptr);
-    const MedialLevel coarse(*maskOf(shapes::box(Coord(5, 5, 5))), 3, Distance(), nullptr);
+    const MedialLevel fine(
+        *maskOf(shapes::box(Coord(9, 9, 9))), 3, Distance(), nullptr, nullptr, kAllLabels);
+    const MedialLevel coarse(
+        *maskOf(shapes::box(Coord(5, 5, 5))), 3, Distance(), nullptr, nullptr, kAllLabels);
     StopAfter now;
     EXPECT_THROW(sphereDag(fine, coarse, {Coord(0, 0, 0), 2, 3}, &now), Interrupted);
 }

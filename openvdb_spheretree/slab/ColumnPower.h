@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/ColumnPower.h
+/// @brief The last pass of the power map, along x, over some of the leaves of a run.
+
+#pragma once
+
+#include "../LeafLayout.h"
+#include "../detail/LeafRows.h"
+#include "../detail/MaxPlus.h"
+#include "../detail/StepEnds.h"
+#include "SlabLabels.h"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// Leaves of a run along x that are in the window, one behind the other, and which of them are to
+/// get their labels: [first, last).
+template <typename Power>
+struct Column {
+    std::vector<uint32_t> leaves;
+    std::vector<const SlabLabels<Power>*> labels; ///< of the slab of each
+    uint32_t first = 0, last = 0;
+
+    void clear()
+    {
+        leaves.clear();
+        labels.clear();
+    }
+    uint32_t count() const { return uint32_t(leaves.size()); }
+};
+
+/// Memory of one thread; sees column after column.
+template <typename Power>
+class ColumnPower {
+    using Key = typename Power::Key;
+    using Offset = typename Power::Offset;
+
+public:
+    /// Finds the steps along x and marks where they lead.
+    void run(const Column<Power>& column, const LeafLayout& layout)
+    {
+        const int rows = int(column.count()) * kLeafDim;
+        Key* keys = mKeys.rows(rows, 1);
+        for (uint32_t i = 0; i < column.count(); ++i) {
+            std::memcpy(keys + std::size_t(i) * kLeafVoxels,
+                column.labels[i]->keysOf(column.leaves[i]), kLeafVoxels * sizeof(Key));
+        }
+        Offset* steps = mSteps.rows(rows);
+        const detail::RowRange wanted{
+            int(column.first) * kLeafDim, int(column.last) * kLeafDim, rows};
+        detail::maxPlus<Power>(keys, nullptr, steps, wanted, mEnvelope);
+        mMarks.assign(column.count(), LeafMask{});
+        const auto marksOf = [this](uint32_t i) -> LeafMask& { return mMarks[i]; };
+        for (uint32_t i = column.first; i < column.last; ++i) {
+            const Offset* own = steps + std::size_t(i) * kLeafVoxels;
+            std::memcpy(
+                column.labels[i]->dxOf(column.leaves[i]), own, kLeafVoxels * sizeof(Offset));
+            detail::markEnds(Axis::X, i, own, layout.mask(column.leaves[i]), marksOf);
+        }
+        for (uint32_t i = 0; i < column.count(); ++i) {
+            LeafMask& marks = column.labels[i]->marksOf(column.leaves[i]);
+            for (int x = 0; x < kLeafDim; ++x) marks[x] |= mMarks[i][x];
+        }
+    }
+
+private:
+    detail::RowBuffer<Key> mKeys;
+    detail::RowBuffer<Offset> mSteps;
+    std::vector<LeafMask> mMarks; ///< of the column
+    detail::EnvelopeScratch mEnvelope;
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LargestRadius.h"
+
+#include "../detail/MaxPlus.h"
+#include "../detail/Parallel.h"
+#include "SlabDistance.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+namespace {
+
+using openvdb::util::NullInterrupter;
+
+/// A voxel is no farther from the background than half of the shortest run through its leaf.
+uint64_t boundByRuns(const LeafLayout& layout, int dim)
+{
+    std::vector<uint32_t> shortest(layout.leafCount(), UINT32_MAX);
+    for (int axis = 0; axis < dim; ++axis) {
+        for (uint32_t i = 0; i < layout.runCount(Axis(axis)); ++i) {
+            const LeafLayout::Run run = layout.run(Axis(axis), i);
+            for (uint32_t k = 0; k < run.count; ++k) {
+                uint32_t& leaves = shortest[run.leaves[k]];
+                leaves = std::min(leaves, run.count);
+            }
+        }
+    }
+    uint64_t most = 0;
+    for (const uint32_t leaves : shortest) most = std::max<uint64_t>(most, leaves);
+    const uint64_t steps = (most * kLeafDim + 1) / 2;
+    return steps * steps;
+}
+
+template <typename T>
+uint32_t largest(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+{
+    const XSteps<StepOf<T>> steps(layout, interrupter);
+    std::vector<T> ofSlab(layout.slabCount(), 0);
+    detail::parallelForWithScratch<SlabDistance<T>>(
+        layout.slabCount(), interrupter, [&](std::size_t slab, SlabDistance<T>& distances) {
+            distances.forEachRun(
+                layout, uint32_t(slab), steps, dim, [&](const LeafLayout::Run& run, const T* rows) {
+                    const T* end = rows + std::size_t(run.count) * kLeafVoxels;
+                    ofSlab[slab] = std::max(ofSlab[slab], *std::max_element(rows, end));
+                });
+        });
+    return ofSlab.empty() ? 0 : *std::max_element(ofSlab.begin(), ofSlab.end());
+}
+
+} // namespace
+
+uint32_t largestDistSq(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+{
+    const uint64_t bound = boundByRuns(layout, dim);
+    if (bound <= detail::NarrowPower::kMaxRadiusSq) return uint32_t(bound);
+    const uint32_t narrow = largest<uint16_t>(layout, dim, interrupter);
+    if (narrow < detail::kNarrowMax) return narrow;
+    const uint32_t wide = largest<uint32_t>(layout, dim, interrupter);
+    if (wide < detail::kWideMax) return wide;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object holds a ball of 46340 voxels radius or more, whose "
+        "square does not fit 32 bits: use a larger voxel");
+}
+
+void requireRadius(uint32_t distSq)
+{
+    if (distSq <= detail::WidePower::kMaxRadiusSq) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object holds a ball of more than 32767 voxels radius, "
+        "beyond what power labels hold: use a larger voxel");
+}
+
+} // namespace slab
+} // namespace openvdb_spheretree

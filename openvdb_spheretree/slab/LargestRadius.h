@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/LargestRadius.h
+/// @brief How many bits the numbers of a level need, known before they are computed.
+
+#pragma once
+
+#include "../LeafLayout.h"
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// @return a number that no squared distance of the level exceeds: from the lengths of runs, or,
+///         where those are long, the largest distance itself (a distance transform; nothing of it
+///         is kept).
+/// @throw openvdb::ValueError if a radius is 46340 voxels or more
+uint32_t largestDistSq(
+    const LeafLayout& layout, int dim, openvdb::util::NullInterrupter* interrupter);
+
+/// @throw openvdb::ValueError if power labels do not hold a ball of that size
+void requireRadius(uint32_t distSq);
+
+} // namespace slab
+} // namespace openvdb_spheretree

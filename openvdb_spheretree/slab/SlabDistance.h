@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/SlabDistance.h
+/// @brief The exact distances of one slab, while its values are in the cache.
+///
+/// Squares along x come straight from mask words (XSteps.h) into rows along y; the passes along y
+/// and z then work on rows of 64 lanes (detail/MinPlus.h), the voxels of each leaf transposed in
+/// between.
+
+#pragma once
+
+#include "../LeafLayout.h"
+#include "../detail/EnvelopeScratch.h"
+#include "../detail/LeafRows.h"
+#include "../detail/LeafTranspose.h"
+#include "../detail/MinPlus.h"
+#include "SlabRows.h"
+#include "XSteps.h"
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// The type of steps whose squares are T.
+template <typename T>
+using StepOf = std::conditional_t<sizeof(T) == 2, uint8_t, uint16_t>;
+
+/// Memory of one thread; sees slab after slab.
+template <typename T>
+class SlabDistance {
+public:
+    /// Calls visit(run, rows) for every run of the slab along its last axis, which is z, or y where
+    /// @a dim is 2, with the squared distances as rows of that axis (detail/LeafRows.h). They are
+    /// exact as long as all stay below detail::kNarrowMax (kWideMax).
+    template <typename Visit>
+    void forEachRun(const LeafLayout& layout, uint32_t slab, const XSteps<StepOf<T>>& steps,
+        int dim, const Visit& visit)
+    {
+        if (dim == 3) mAlongZ.open(layout, slab, Axis::Z);
+        forEachAlongY(layout, slab, steps, [&](const LeafLayout::Run& run, const T* rows) {
+            if (dim == 2) {
+                visit(run, rows);
+                return;
+            }
+            for (uint32_t i = 0; i < run.count; ++i) {
+                detail::swapRows(
+                    rows + std::size_t(i) * kLeafVoxels, mAlongZ.ofLeaf(run.leaves[i]));
+            }
+        });
+        if (dim == 2) return;
+        const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Z, slab);
+        for (uint32_t index = runs.begin; index < runs.end; ++index) {
+            const LeafLayout::Run run = layout.run(Axis::Z, index);
+            const int rows = int(run.count) * kLeafDim;
+            T* out = mOut.rows(rows);
+            detail::minPlus(mAlongZ.ofRun(index), out, rows, mEnvelope);
+            visit(run, out);
+        }
+    }
+
+private:
+    template <typename Visit>
+    void forEachAlongY(
+        const LeafLayout& layout, uint32_t slab, const XSteps<StepOf<T>>& steps, const Visit& visit)
+    {
+        alignas(64) T squares[kLeafVoxels];
+        const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Y, slab);
+        for (uint32_t index = runs.begin; index < runs.end; ++index) {
+            const LeafLayout::Run run = layout.run(Axis::Y, index);
+            const int rows = int(run.count) * kLeafDim;
+            T* in = mIn.rows(rows, 1);
+            T* out = mOut.rows(rows);
+            for (uint32_t i = 0; i < run.count; ++i) {
+                steps.squares(run.leaves[i], squares);
+                detail::leafToRows(Axis::Y, squares, in + std::size_t(i) * kLeafVoxels);
+            }
+            detail::minPlus(in, out, rows, mEnvelope);
+            visit(run, out);
+        }
+    }
+
+    SlabRows<T> mAlongZ;
+    detail::RowBuffer<T> mIn, mOut;
+    detail::EnvelopeScratch mEnvelope;
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree
