@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeSettings.h"
 
+#include "detail/EnumNames.h"
+
 #include <openvdb/Exceptions.h>
 
 #include <array>
@@ -13,11 +15,10 @@ namespace openvdb_spheretree {
 
 namespace {
 
-template <typename Enum>
-struct Named {
-    Enum value;
-    const char* name;
-};
+using detail::fromName;
+using detail::Named;
+using detail::nameOf;
+using detail::quoted;
 
 constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Reversible, "reversible"},
     {TreeType::Extended, "extended"}, {TreeType::Tight, "tight"}}};
@@ -37,44 +38,6 @@ constexpr std::array<Named<RadiusScale>, 2> kRadiusScales{
     {{RadiusScale::Tight, "tight"}, {RadiusScale::Paper, "paper"}}};
 constexpr std::array<Named<DagEdges>, 2> kDagEdges{
     {{DagEdges::Shared, "shared"}, {DagEdges::Intersecting, "intersecting"}}};
-
-template <typename Enum, std::size_t N>
-const char* nameOf(const std::array<Named<Enum>, N>& names, Enum value)
-{
-    for (const auto& entry : names) {
-        if (entry.value == value) return entry.name;
-    }
-    return "?";
-}
-
-/// "a, b or c"
-template <typename Enum, std::size_t N>
-std::string list(const std::array<Named<Enum>, N>& names)
-{
-    std::string text;
-    for (std::size_t i = 0; i < N; ++i) {
-        if (i > 0) text += i + 1 < N ? ", " : " or ";
-        text += names[i].name;
-    }
-    return text;
-}
-
-/// The start of @a text, for messages: values come from command lines and from damaged files.
-std::string quoted(const std::string& text)
-{
-    constexpr std::size_t kLongest = 60;
-    return '\'' + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + '\'';
-}
-
-template <typename Enum, std::size_t N>
-Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, const std::string& text)
-{
-    for (const auto& entry : names) {
-        if (text == entry.name) return entry.value;
-    }
-    OPENVDB_THROW(openvdb::ValueError,
-        setting << "=" << quoted(text) << " is unknown: choose " << list(names));
-}
 
 const std::string kClosing = "closing:";
 

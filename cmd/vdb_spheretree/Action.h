@@ -72,7 +72,8 @@ struct ActionSpec {
 
     bool once = false;         ///< a second one on the line is a mistake
     bool quiet = false;        ///< too small for a timing line
-    bool needsInput = true;    ///< works on the stack, so a -read has to come before
+    bool isSource = false;     ///< puts on the stack what was not there, as -read does
+    bool needsInput = true;    ///< works on the stack, so a source has to come before
     ExitCode failure = kInput; ///< the code of an exception that carries none
 
     /// Everything that can be found out before any work; may be empty.

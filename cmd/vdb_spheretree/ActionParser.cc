@@ -111,7 +111,7 @@ void addMain(ActionCall& call, const std::string& token)
 /// What can be said about the order of the actions alone.
 void checkOrder(const std::vector<ActionCall>& calls)
 {
-    bool anythingRead = false;
+    bool anythingThere = false;
     std::vector<const ActionSpec*> seen;
     for (const ActionCall& call : calls) {
         const ActionSpec* const spec = &call.spec();
@@ -119,8 +119,8 @@ void checkOrder(const std::vector<ActionCall>& calls)
             throwUsage(call.label() + " is given more than once");
         }
         seen.push_back(spec);
-        if (spec->name == "read") anythingRead = true;
-        if (spec->needsInput && !anythingRead) {
+        if (spec->isSource) anythingThere = true;
+        if (spec->needsInput && !anythingThere) {
             const bool afterHelp = seen.size() > 1 && seen[seen.size() - 2]->name == "help";
             throwUsage(call.label() + " has nothing to work on: put -read before it"
                 + (afterHelp ? "; for its help: -help " + spec->name : ""));

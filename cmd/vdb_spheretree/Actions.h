@@ -10,6 +10,7 @@
 namespace command {
 
 ActionSpec readAction();
+ActionSpec generateAction();
 ActionSpec mesh2lsAction();
 ActionSpec maskAction();
 ActionSpec spheretreeAction();

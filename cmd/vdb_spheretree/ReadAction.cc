@@ -145,6 +145,7 @@ ActionSpec readAction()
     action.options = {
         list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
         list("grids", "*", "names of the grids and sphere-trees to take")};
+    action.isSource = true;
     action.needsInput = false;
     action.check = check;
     action.run = run;

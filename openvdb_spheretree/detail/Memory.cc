@@ -26,16 +26,21 @@ double physicalMemory()
 
 } // namespace
 
-void requireMemory(int64_t leaves, int64_t bytesPerLeaf)
+void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {
     constexpr double kGiB = 1 << 30;
-    const double needed = double(leaves) * double(bytesPerLeaf), there = physicalMemory();
-    if (there == 0 || needed <= there) return;
+    const double there = physicalMemory();
+    if (there == 0 || bytes <= there) return;
     OPENVDB_THROW(openvdb::ValueError,
-        "the object's " << leaves << " leaf nodes, those inside its tiles included, need about "
-                        << std::ceil(needed / kGiB) << " GiB, more than the "
-                        << std::floor(there / kGiB)
-                        << " GiB of this machine: use a larger voxel, or split the object");
+        what << " need about " << std::ceil(bytes / kGiB) << " GiB, more than the "
+             << std::floor(there / kGiB) << " GiB of this machine: " << remedy);
+}
+
+void requireMemory(int64_t leaves, int64_t bytesPerLeaf)
+{
+    requireMemory(double(leaves) * double(bytesPerLeaf),
+        "the object's " + std::to_string(leaves) + " leaf nodes, those inside its tiles included,",
+        "use a larger voxel, or split the object");
 }
 
 } // namespace detail

@@ -169,6 +169,25 @@ TEST_F(CommandWork, SpheresAsALevelSetHoldTheObject)
     EXPECT_EQ(readGrids("f.vdb").at(0)->voxelSize()[0], 0.25);
 }
 
+TEST_F(CommandWork, AnObjectIsGeneratedAsIfItHadBeenRead)
+{
+    const Result result =
+        run("-generate shape=menger voxels=8e3 voxel=0.5 -generate noise voxels=1000 seed=4 "
+            "name=dust -write two.vdb");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const auto grids = readGrids("two.vdb"); // by their names
+    ASSERT_EQ(grids.size(), 2u);
+    EXPECT_EQ(grids[0]->getName(), "dust");
+    EXPECT_NEAR(double(grids[0]->activeVoxelCount()), 1000, 100);
+    EXPECT_EQ(grids[1]->getName(), "menger");
+    EXPECT_EQ(grids[1]->activeVoxelCount(), 8000u);
+    EXPECT_EQ(grids[1]->voxelSize(), openvdb::Vec3d(0.5));
+
+    const Result tree = run("-generate ball voxels=5000 -spheretree -stats -write tree.vdb");
+    ASSERT_EQ(tree.exitCode, 0) << tree.err;
+    EXPECT_EQ(run("-generate ball voxels=5000 -read tree.vdb -check").exitCode, 0);
+}
+
 TEST_F(CommandWork, OneLevelIsKeptByNumberOrBySpheres)
 {
     const Result json = run("-read ball.vdb -spheretree reversible -stats json=-");

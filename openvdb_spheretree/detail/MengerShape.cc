@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MengerShape.h"
+
+#include "NearCube.h"
+
+#include <algorithm>
+#include <array>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+
+uint32_t onesOf(int coordinate)
+{
+    uint32_t ones = 0;
+    for (int place = 0; coordinate > 0; ++place, coordinate /= 3) {
+        ones |= uint32_t(coordinate % 3 == 1) << place;
+    }
+    return ones;
+}
+
+/// Coordinates of one digit more, by what is known of them so far: bit i is set while the digits of
+/// axis i are those of the box's side, so that the next may not be greater.
+using PrefixCounts = std::array<int64_t, 8>;
+
+PrefixCounts withNextDigit(const PrefixCounts& before, const std::array<int, 3>& limit)
+{
+    PrefixCounts after{};
+    for (int digits = 0; digits < 27; ++digits) {
+        const std::array<int, 3> digit{digits / 9, digits / 3 % 3, digits % 3};
+        if (std::count(digit.begin(), digit.end(), 1) > 1) continue;
+        for (int tight = 0; tight < 8; ++tight) {
+            int still = 0;
+            bool beyond = false;
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!(tight >> axis & 1)) continue;
+                beyond = beyond || digit[axis] > limit[axis];
+                still |= int(digit[axis] == limit[axis]) << axis;
+            }
+            if (!beyond) after[still] += before[tight];
+        }
+    }
+    return after;
+}
+
+} // namespace
+
+int64_t mengerCount(const Coord& sides)
+{
+    constexpr int kHighest = 1162261467; // 3^19, the largest power of 3 within 31 bits
+    PrefixCounts counts{};
+    counts[7] = 1; // no digit yet
+    for (int power = kHighest; power > 0; power /= 3) {
+        counts = withNextDigit(
+            counts, {sides[0] / power % 3, sides[1] / power % 3, sides[2] / power % 3});
+    }
+    return counts[0]; // below the side along each axis
+}
+
+MengerShape::MengerShape(int64_t voxels) : mBox(boxOfSides(nearCubeOf(voxels, mengerCount)))
+{
+    const int end = (mBox.max()[0] / kLeafDim + 1) * kLeafDim; // x is the longest side
+    mOnes.resize(std::size_t(end));
+    for (int i = 0; i < end; ++i) mOnes[std::size_t(i)] = onesOf(i);
+}
+
+Filling MengerShape::filling(const CoordBBox& cube) const
+{
+    std::array<uint32_t, 3> common; // digits that are 1 all along the cube
+    for (int axis = 0; axis < 3; ++axis) {
+        const int last = std::min(cube.max()[axis], mBox.max()[axis]);
+        common[axis] = ~uint32_t(0);
+        for (int i = cube.min()[axis]; i <= last; ++i) common[axis] &= mOnes[std::size_t(i)];
+    }
+    const auto [x, y, z] = common;
+    return (x & y) | (y & z) | (z & x) ? Filling::None : Filling::Part;
+}
+
+LeafMask MengerShape::leaf(const Coord& origin) const
+{
+    const auto ones = [&](int axis, int i) { return mOnes[std::size_t(origin[axis] + i)]; };
+    LeafMask mask{};
+    for (int x = 0; x < kLeafDim; ++x) {
+        for (int y = 0; y < kLeafDim; ++y) {
+            const uint32_t both = ones(0, x) & ones(1, y), any = ones(0, x) | ones(1, y);
+            if (both) continue;
+            for (int z = 0; z < kLeafDim; ++z) {
+                mask[x] |= uint64_t((any & ones(2, z)) == 0) << (8 * y + z);
+            }
+        }
+    }
+    return mask;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree
