@@ -12,9 +12,6 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-namespace {
-
-/// @return bytes; 0 if unknown.
 double physicalMemory()
 {
 #if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
@@ -23,8 +20,6 @@ double physicalMemory()
 #endif
     return 0;
 }
-
-} // namespace
 
 void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {

@@ -10,6 +10,9 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// @return the bytes of this machine; 0 if they are not known.
+double physicalMemory();
+
 /// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this
 ///        machine's physical memory (where that can be told)
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf);

@@ -2,6 +2,7 @@
 #include "LabelStream.h"
 
 #include "../detail/BallOrder.h"
+#include "../detail/Memory.h"
 #include "../detail/Parallel.h"
 #include "../detail/StageTimer.h"
 #include "ColumnPower.h"
@@ -10,6 +11,7 @@
 #include "SlabDistance.h"
 #include "SlabPower.h"
 #include "SlabPool.h"
+#include "StreamWindow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -284,18 +286,42 @@ private:
     LevelBalls mResult;
 };
 
+/// @return the bytes that a stream may take unless told.
+int64_t mostMemory()
+{
+    constexpr double kShare = 0.75;
+    const double there = detail::physicalMemory();
+    return there == 0 ? INT64_MAX : int64_t(kShare * there);
+}
+
+/// @param keeps  whether the steps of all voxels stay
+template <typename Power, typename T>
+StreamMemory memoryOf(const LeafLayout& layout, int dim, bool keeps)
+{
+    constexpr int64_t kKey = sizeof(typename Power::Key), kStep = sizeof(typename Power::Offset);
+    const int64_t steps = kLeafVoxels * dim * kStep;
+    const int64_t fixed = 2 * 64 * int64_t(sizeof(StepOf<T>)) + 2 * int64_t(sizeof(LeafMask));
+    const int64_t perLeaf = kLeafVoxels * kKey + int64_t(sizeof(LeafMask));
+    return {keeps ? perLeaf : perLeaf + steps,
+        int64_t(layout.leafCount()) * (keeps ? fixed + steps : fixed)};
+}
+
 } // namespace
 
 template <typename Power, typename T>
-LevelBalls LabelStream::runWith(NullInterrupter* interrupter)
+LevelBalls LabelStream::runWith(uint32_t largestDistSq, NullInterrupter* interrupter)
 {
+    const StreamMemory memory = memoryOf<Power, T>(mLayout, mDim, mKeep != nullptr);
+    const uint32_t window = mWindow
+        ? mWindow
+        : windowWithin(mLayout, memory, largestDistSq, mMemory ? mMemory : mostMemory());
     typename SlabPool<Power>::Steps kept{};
     for (int axis = 0; mKeep && axis < mDim; ++axis) {
         kept[axis] = (*mKeep)[axis].template make<typename Power::Offset>(
             std::size_t(mLayout.leafCount()) * kLeafVoxels);
     }
     std::vector<PowerMap::Voxel> none;
-    return Streaming<Power, T>(mLayout, mDim, mAsked ? *mAsked : none, kept, mWindow, interrupter)
+    return Streaming<Power, T>(mLayout, mDim, mAsked ? *mAsked : none, kept, window, interrupter)
         .run();
 }
 
@@ -304,9 +330,9 @@ LevelBalls LabelStream::run(NullInterrupter* interrupter)
     const uint32_t largest = largestDistSq(mLayout, mDim, interrupter);
     requireRadius(largest);
     if (largest <= detail::NarrowPower::kMaxRadiusSq) {
-        return runWith<detail::NarrowPower, uint16_t>(interrupter);
+        return runWith<detail::NarrowPower, uint16_t>(largest, interrupter);
     }
-    return runWith<detail::WidePower, uint32_t>(interrupter);
+    return runWith<detail::WidePower, uint32_t>(largest, interrupter);
 }
 
 } // namespace slab

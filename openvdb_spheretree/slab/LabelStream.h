@@ -60,22 +60,26 @@ public:
     void ask(std::vector<PowerMap::Voxel>& voxels) { mAsked = &voxels; }
     /// @param steps  receives the labels of all voxels
     void keepSteps(detail::LabelSteps& steps) { mKeep = &steps; }
-    /// @param slabs  that enter at a time, 1 or more; all of them unless said
+    /// @param slabs  that enter at a time, 1 or more; as many as memory allows unless said
     void setWindow(uint32_t slabs) { mWindow = slabs; }
+    /// @param bytes  to make do with, beside the layout, what is kept and the result; three quarters
+    ///               of the machine's memory unless said
+    void setMemory(int64_t bytes) { mMemory = bytes; }
 
-    /// @throw openvdb::ValueError if a radius exceeds 32767 voxels
+    /// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or there is too little memory
     /// @throw Interrupted if the interrupter (may be null) said so
     LevelBalls run(openvdb::util::NullInterrupter* interrupter);
 
 private:
     template <typename Power, typename T>
-    LevelBalls runWith(openvdb::util::NullInterrupter* interrupter);
+    LevelBalls runWith(uint32_t largestDistSq, openvdb::util::NullInterrupter* interrupter);
 
     const LeafLayout& mLayout;
     int mDim;
     std::vector<PowerMap::Voxel>* mAsked = nullptr;
     detail::LabelSteps* mKeep = nullptr;
-    uint32_t mWindow = UINT32_MAX;
+    uint32_t mWindow = 0; ///< 0: as memory allows
+    int64_t mMemory = 0;  ///< 0: as the machine has
 };
 
 } // namespace slab

@@ -19,6 +19,7 @@
 #include <openvdb_spheretree/SphereTree.h>
 #include <openvdb_spheretree/SphereTreePoints.h>
 #include <openvdb_spheretree/VolFile.h>
+#include <openvdb_spheretree/slab/LabelStream.h>
 
 #include <benchmark/benchmark.h>
 
@@ -122,8 +123,8 @@ struct Levels {
         for (const auto& voxels : pyramid.levels) {
             const openvdb::Coord origin = medial.empty() ? pyramid.origin : openvdb::Coord();
             steps.push_back({origin, 2, 3});
-            medial.push_back(
-                std::make_unique<st::MedialLevel>(*voxels, 3, st::Distance(), nullptr));
+            medial.push_back(std::make_unique<st::MedialLevel>(
+                *voxels, 3, st::Distance(), nullptr, nullptr, st::LevelWants{{}, true}));
         }
     }
     std::vector<std::unique_ptr<st::MedialLevel>> medial;
@@ -136,13 +137,13 @@ const Levels& levelsOf(const Input& in)
     return made.try_emplace(&in.grid, in.grid).first->second;
 }
 
-/// The power labels of the levels below @a count, beside which those of the DAG stand.
+/// The balls of the levels below @a count, beside which the edges of the DAG stand.
 void labelLevels(const Input& in, std::size_t count)
 {
     const Levels& levels = levelsOf(in);
     for (std::size_t k = 0; k < std::min(count, levels.medial.size()); ++k) {
         const st::MedialLevel& level = *levels.medial[k];
-        benchmark::DoNotOptimize(st::powerMap(level.layout, level.distances));
+        benchmark::DoNotOptimize(st::slab::LabelStream(level.layout, 3).run(nullptr));
     }
 }
 
@@ -184,10 +185,13 @@ const std::vector<std::pair<std::string, Stage>>& stages()
         {"layout", [](const Input& in) { benchmark::DoNotOptimize(st::LeafLayout(in.mask)); }},
         {"distance",
             [](const Input& in) { benchmark::DoNotOptimize(st::distanceTransform(in.layout)); }},
-        {"power+medial",
+        {"distance+power+medial",
             [](const Input& in) {
-                const auto labels = st::powerMap(in.layout, in.distances);
-                benchmark::DoNotOptimize(st::medialBalls(labels, in.distances));
+                benchmark::DoNotOptimize(st::slab::LabelStream(in.layout, 3).run(nullptr));
+            }},
+        {"labels-kept",
+            [](const Input& in) {
+                benchmark::DoNotOptimize(st::powerMap(in.layout, in.distances));
             }},
         {"medial",
             [](const Input& in) {
@@ -195,9 +199,9 @@ const std::vector<std::pair<std::string, Stage>>& stages()
             }},
         {"topology",
             [](const Input& in) { benchmark::DoNotOptimize(st::levelTopology(in.layout)); }},
-        {"power-level-0", [](const Input& in) { labelLevels(in, 1); }},
+        {"balls-level-0", [](const Input& in) { labelLevels(in, 1); }},
         {"dag-level-0", [](const Input& in) { linkLevels(in, 1); }},
-        {"power-all-levels", [](const Input& in) { labelLevels(in, 99); }},
+        {"balls-all-levels", [](const Input& in) { labelLevels(in, 99); }},
         {"dag-all-levels", [](const Input& in) { linkLevels(in, 99); }},
         {"pyramid", [](const Input& in) { buildPyramid(in, 2); }},
         {"pyramid-factor3", [](const Input& in) { buildPyramid(in, 3); }},

@@ -9,6 +9,7 @@
 
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/slab/LargestRadius.h>
+#include <openvdb_spheretree/slab/StreamWindow.h>
 
 namespace {
 
@@ -119,6 +120,33 @@ TEST(LabelStream, NothingComesOfNothing)
 {
     const LeafLayout layout{openvdb::MaskTree(false)};
     EXPECT_TRUE(LabelStream(layout, 3).run(nullptr).balls.empty());
+}
+
+TEST(LabelStream, KeepsToTheMemoryItIsGiven)
+{
+    const LeafLayout layout(*maskOf(ballsInARow({{0, 13}, {40, 9}, {90, 13}, {140, 6}})));
+    const LevelBalls all = LabelStream(layout, 3).run(nullptr);
+    LabelStream stream(layout, 3);
+    stream.setMemory(int64_t(layout.leafCount()) * 2400);
+    EXPECT_EQ(stream.run(nullptr).balls, all.balls);
+    stream.setMemory(100000);
+    EXPECT_THROW(stream.run(nullptr), openvdb::ValueError);
+}
+
+TEST(StreamWindow, IsTheLargestThatFits)
+{
+    Voxels line;
+    for (int x = 0; x < 800; ++x) line.push_back(Coord(x, 3, 5));
+    const LeafLayout layout(*maskOf(line)); // a hundred slabs of a leaf each
+    const slab::StreamMemory memory{10, 1000};
+    // Beside those that enter: two and two for the reach of a ball within a voxel of them.
+    EXPECT_EQ(slab::slabBytes(layout, memory, 1, 1), 50);
+    EXPECT_EQ(slab::slabBytes(layout, memory, 64, 1), 70);
+    EXPECT_EQ(slab::slabBytes(layout, memory, 1, 1000), 1000);
+    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 2000), 100u);
+    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 1999), 50u);
+    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 1050), 1u);
+    EXPECT_THROW(slab::windowWithin(layout, memory, 1, 1049), openvdb::ValueError);
 }
 
 TEST(LabelStream, CanBeInterrupted)
