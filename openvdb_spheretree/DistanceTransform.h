@@ -6,8 +6,9 @@
 /// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of
 /// object voxels: no value crosses background, so no background voxel is stored or visited.
 ///
-/// 1. x: steps to the background on the voxel's own line, squared (`alongX`);
-/// 2. y, then z: min over the line of value + step^2 (`alongAxis`, kernel detail/MinPlus.h).
+/// 1. x: steps to the background on the voxel's own line, squared (slab/XSteps.h);
+/// 2. y, then z: min over the line of value + step^2 (kernel detail/MinPlus.h), slab by slab
+///    (slab/SlabDistance.h).
 ///
 /// Norms have sweeps of their own, detail/NormSweep.h.
 ///

@@ -218,18 +218,6 @@ uint32_t LeafLayout::slabOf(uint32_t leaf) const
     return uint32_t(next - mSlabBegin.begin()) - 1;
 }
 
-std::optional<uint32_t> LeafLayout::touching(uint32_t leaf, Axis axis, int direction) const
-{
-    const Lines& lines = mLines[int(axis)];
-    const int64_t place = int64_t(lines.position[leaf]) + direction;
-    if (place < 0 || place >= int64_t(leafCount())) return std::nullopt;
-    const uint32_t other = lines.leaves[std::size_t(place)];
-    openvdb::Coord expected = mOrigins[leaf];
-    expected[int(axis)] += direction * kLeafDim;
-    if (mOrigins[other] != expected) return std::nullopt;
-    return other;
-}
-
 std::optional<uint32_t> LeafLayout::findLeaf(const openvdb::Coord& ijk) const
 {
     const openvdb::Coord origin = ijk & ~7;

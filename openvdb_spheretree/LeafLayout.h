@@ -101,9 +101,6 @@ public:
         return lines.leaves[lines.position[leaf] + steps];
     }
 
-    /// @return the leaf next to it along @a axis, before (-1) or behind (1), if there is one.
-    std::optional<uint32_t> touching(uint32_t leaf, Axis axis, int direction) const;
-
     /// @return the leaf that holds voxel @a ijk, on or off, if there is one; O(log leaves).
     std::optional<uint32_t> findLeaf(const openvdb::Coord& ijk) const;
 

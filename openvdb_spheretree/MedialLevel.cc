@@ -68,7 +68,6 @@ MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distanc
 void MedialLevel::findBalls(
     int dim, const LevelWants& wants, NullInterrupter* interrupter, BuildSeconds* seconds)
 {
-    const detail::Stage stage("medial balls", interrupter, nullptr);
     std::vector<PowerMap::Voxel> asked = placesOf(wants.labelsOf, layout, interrupter);
     slab::LabelStream stream(layout, dim);
     stream.ask(asked);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LabelStream.h"
 
-#include "../detail/BallOrder.h"
 #include "../detail/Memory.h"
 #include "../detail/Parallel.h"
 #include "../detail/StageTimer.h"
 #include "ColumnPower.h"
 #include "LargestRadius.h"
-#include "SiteRadius.h"
+#include "SlabBalls.h"
 #include "SlabDistance.h"
 #include "SlabPower.h"
 #include "SlabPool.h"
@@ -96,7 +95,7 @@ private:
         const uint32_t first = mEntered;
         for (uint32_t slab = first; slab < end; ++slab) mPool.open(slab);
         double seconds = 0;
-        detail::timed("", nullptr, &seconds, [&] {
+        detail::timed("distances and power labels", mInterrupter, &seconds, [&] {
             detail::parallelFor(end - first, mInterrupter, [&](std::size_t i) {
                 Scratch& scratch = mScratch.local();
                 const detail::Stage slab("", nullptr, &scratch.seconds);
@@ -149,7 +148,7 @@ private:
 
     void makeFinal(uint32_t end)
     {
-        const detail::Stage stage("", nullptr, &mResult.seconds.power);
+        const detail::Stage stage("power labels along x", mInterrupter, &mResult.seconds.power);
         detail::parallelForWithScratch<ColumnScratch>(
             mLayout.runCount(Axis::X), mInterrupter, [&](std::size_t i, ColumnScratch& scratch) {
                 if (!openColumn(uint32_t(i), end, scratch.column)) return;
@@ -200,13 +199,16 @@ private:
 
     void release()
     {
-        const detail::Stage stage("", nullptr, &mResult.seconds.medial);
+        const detail::Stage stage("medial balls", mInterrupter, &mResult.seconds.medial);
         std::vector<uint32_t> done;
         for (uint32_t slab = 0; slab < mFinal; ++slab) {
             if (mPool.isOpen(slab) && reachesNothing(slab)) done.push_back(slab);
         }
-        detail::parallelFor(
-            done.size(), mInterrupter, [&](std::size_t i) { collectBalls(done[i]); });
+        detail::parallelFor(done.size(), mInterrupter, [&](std::size_t i) {
+            const uint32_t slab = done[i];
+            LeafMask* centers = mResult.centers.data() + mLayout.slab(slab).begin;
+            mBalls[slab] = mCollect.local().collect(mLayout, slab, mPool[slab], centers);
+        });
         for (const uint32_t slab : done) mPool.close(slab);
     }
 
@@ -215,47 +217,6 @@ private:
     {
         if (mFinal == mLayout.slabCount()) return true;
         return int64_t(xOf(slab)) + 7 + rootUp(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
-    }
-
-    void collectBalls(uint32_t slab)
-    {
-        const SlabLabels<Power>& labels = mPool[slab];
-        const LeafLayout::Slab leaves = mLayout.slab(slab);
-        std::vector<LeafMask> alongY(leaves.size(), LeafMask{});
-        markSlab(Axis::Y, slab, alongY, [&](uint32_t leaf) { return labels.marksOf(leaf); });
-        std::vector<LeafMask> marks = alongY;
-        if (mDim == 3) {
-            std::fill(marks.begin(), marks.end(), LeafMask{});
-            markSlab(
-                Axis::Z, slab, marks, [&](uint32_t leaf) { return alongY[leaf - leaves.begin]; });
-        }
-        std::copy(marks.begin(), marks.end(), mResult.centers.begin() + leaves.begin);
-        const SiteRadius<Power> radius(mLayout, labels, alongY);
-        std::vector<MedialBall>& balls = mBalls[slab];
-        balls.resize(detail::countMarks(marks.data(), marks.size()));
-        detail::visitWithPlaces(
-            mLayout, slab, marks.data(), [&](uint32_t leaf, uint32_t offset, std::size_t place) {
-                balls[place] = {mLayout.voxel(leaf, offset), radius.radiusSq({leaf, offset})};
-            });
-    }
-
-    template <typename From>
-    void markSlab(Axis axis, uint32_t slab, std::vector<LeafMask>& marks, const From& from)
-    {
-        const SlabLabels<Power>& labels = mPool[slab];
-        const uint32_t first = mLayout.slab(slab).begin;
-        const LeafLayout::Slab runs = mLayout.runsOfSlab(axis, slab);
-        for (uint32_t index = runs.begin; index < runs.end; ++index) {
-            const LeafLayout::Run run = mLayout.run(axis, index);
-            const auto marksOf = [&](uint32_t i) -> LeafMask& {
-                return marks[run.leaves[i] - first];
-            };
-            for (uint32_t i = 0; i < run.count; ++i) {
-                const uint32_t leaf = run.leaves[i];
-                const auto* steps = axis == Axis::Y ? labels.dyOf(leaf) : labels.dzOf(leaf);
-                detail::markEnds(axis, i, steps, from(leaf), marksOf);
-            }
-        }
     }
 
     LevelBalls collected()
@@ -277,6 +238,7 @@ private:
     const XSteps<StepOf<T>> mSteps;
     Questions mQuestions;
     tbb::enumerable_thread_specific<Scratch> mScratch;
+    tbb::enumerable_thread_specific<SlabBalls<Power>> mCollect;
     SlabPool<Power> mPool;
     uint32_t mEntered = 0, mFinal = 0;           ///< slabs before these are
     std::vector<uint32_t> mMaxDistSq;            ///< of each slab

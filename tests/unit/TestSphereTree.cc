@@ -502,7 +502,8 @@ TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
         }
     } listener;
     buildSphereTree(*someGrid(), extendedTree(), &listener);
-    for (const char* name : {"distance transform", "power labels", "medial balls", "pyramid"}) {
+    for (const char* name :
+        {"distances and power labels", "power labels along x", "medial balls", "pyramid"}) {
         EXPECT_TRUE(listener.names.count(name)) << name;
     }
     EXPECT_EQ(listener.depth, 0);
