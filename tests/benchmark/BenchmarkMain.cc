@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 
 namespace {
 
@@ -104,7 +105,9 @@ void runBenchmarks(const BenchmarkOptions& options)
     Cases cases = casesOf(options);
     for (BenchmarkCase& one : cases) registerCase(one);
     TableReporter reporter(cases);
-    benchmark::RunSpecifiedBenchmarks(&reporter);
+    if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) {
+        throw std::runtime_error("the filter leaves no stage of any object");
+    }
     const std::vector<Growth> growths = growthOf(reporter.done());
     printGrowth(std::cout, growths);
     if (options.jsonFile.empty()) return;

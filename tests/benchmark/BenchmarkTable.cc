@@ -42,7 +42,7 @@ std::string remark(const Measurement& m)
 void printHeader(std::ostream& out)
 {
     out << formatted(
-        kHeader, "object", "Mvoxel", "stage", "threads", "ms", "Mvoxel/s", "of copy", "B/voxel");
+        kHeader, "object", "Mvoxel", "stage", "threads", "ms", "Mvoxel/s", "% of copy", "B/voxel");
 }
 
 void printLine(std::ostream& out, const Measurement& m)

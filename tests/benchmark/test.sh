@@ -50,9 +50,10 @@ for stage in sys.argv[1:]:
     assert len(growth) == 1 and growth[0]["sizes"] == 2, stage
 END
 
-expect 0 'ball-2000 ' --objects=ball-2000 --benchmark_filter='layout/threads:1$'
+expect 0 'ball-2000 ' --objects=ball-2000 --benchmark_filter=layout/threads:1
 if grep -q topology said.txt; then wrong "the filter lets topology pass"; fi
 expect 2 "unknown argument '--fast'" --fast
 expect 1 "no object 'missing'" --objects=missing
 expect 1 'voxels' --objects=gyroid-1
+expect 1 'no stage' --objects=ball-2000 --benchmark_filter=nothing
 echo "all fine"
