@@ -76,6 +76,15 @@ build_preset() {
             "${targets[@]}") </dev/null >&2
 }
 
+# Real inputs, which are not part of the project: those of the folder SPHERETREE_DATA. What needs them
+# is left out without.
+find_data() {
+    if [ -z "${SPHERETREE_DATA:-}" ] && [ -d "$project_root/../shared/data" ]; then
+        SPHERETREE_DATA="$(cd "$project_root/../shared/data" && pwd)"
+        export SPHERETREE_DATA
+    fi
+}
+
 python=(/usr/bin/python3 -B) # Debian's, whichever comes first in PATH: it has Debian's matplotlib
 
 # For scripts that draw: matplotlib, and the command, whose path becomes $program. It is built first,

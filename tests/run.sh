@@ -15,9 +15,5 @@ install_packages "${build_packages[@]}" "${test_packages[@]}"
 build_preset release vdb_spheretree
 build_preset test
 
-# Real inputs, which are not part of the project; tests that need them are skipped without.
-if [ -z "${SPHERETREE_DATA:-}" ] && [ -d "$project_root/../shared/data" ]; then
-    SPHERETREE_DATA="$(cd "$project_root/../shared/data" && pwd)"
-    export SPHERETREE_DATA
-fi
+find_data
 ctest --test-dir "$project_root/build/test" -j2 --output-on-failure "$@" </dev/null

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TransformStages.h"
+
+#include <openvdb_spheretree/DistanceTransform.h>
+#include <openvdb_spheretree/LevelTopology.h>
+#include <openvdb_spheretree/MedialAxis.h>
+#include <openvdb_spheretree/PowerMap.h>
+#include <openvdb_spheretree/slab/LabelStream.h>
+
+#include <benchmark/benchmark.h>
+
+namespace spheretree_benchmark {
+
+namespace {
+
+namespace st = openvdb_spheretree;
+
+/// @return a stage without balls.
+template <typename Function>
+Work plain(Function function)
+{
+    return [function] {
+        benchmark::DoNotOptimize(function());
+        return int64_t(0);
+    };
+}
+
+Work objectMask(const InputPtr& in)
+{
+    return plain([source = in->object.makeGrid()] { return st::objectMask(*source); });
+}
+
+Work leafLayout(const InputPtr& in)
+{
+    return plain([in] { return st::LeafLayout(in->mask); });
+}
+
+Work distances(const InputPtr& in)
+{
+    return plain([in] { return st::distanceTransform(in->layout); });
+}
+
+Work labelStream(const InputPtr& in)
+{
+    return plain([in] { return st::slab::LabelStream(in->layout, 3).run(nullptr); });
+}
+
+Work labelsKept(const InputPtr& in)
+{
+    auto map = std::make_shared<const st::DistanceMap>(st::distanceTransform(in->layout));
+    return plain([in, map] { return st::powerMap(in->layout, *map); });
+}
+
+Work medialBallsOfLabels(const InputPtr& in)
+{
+    auto map = std::make_shared<const st::DistanceMap>(st::distanceTransform(in->layout));
+    auto labels = std::make_shared<const st::PowerMap>(st::powerMap(in->layout, *map));
+    return plain([in, map, labels] { return st::medialBalls(*labels, *map); });
+}
+
+Work topology(const InputPtr& in)
+{
+    return plain([in] { return st::levelTopology(in->layout); });
+}
+
+} // namespace
+
+std::vector<BenchmarkStage> transformStages(bool more)
+{
+    std::vector<BenchmarkStage> stages{{"object-mask", objectMask, {}}, {"layout", leafLayout, {}},
+        {"distance", distances, {}}, {"distance+power+medial", labelStream, {}},
+        {"labels-kept", labelsKept, {}}, {"topology", topology, {}}};
+    if (more) stages.push_back({"medial", medialBallsOfLabels, {}});
+    return stages;
+}
+
+} // namespace spheretree_benchmark

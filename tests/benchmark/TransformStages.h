@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TransformStages.h
+/// @brief Stages of one level: mask, layout, distances, labels, medial balls, topology.
+
+#pragma once
+
+#include "BenchmarkStages.h"
+
+namespace spheretree_benchmark {
+
+std::vector<BenchmarkStage> transformStages(bool more);
+
+} // namespace spheretree_benchmark
