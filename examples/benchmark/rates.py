@@ -8,6 +8,7 @@ percent of that of the plain copy. THREADS (the fewest) is which of the numbers 
 import json
 import math
 import sys
+from collections import Counter
 from pathlib import Path
 
 import matplotlib
@@ -19,7 +20,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 
 # Okabe and Ito's colours, told apart by shape too.
 COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7a5230"]
-MARKERS = "os^Dv*PX"
+MARKERS = "os^Dvp<h"
 COLUMNS = 5
 INK, FAINT = "#23272e", "#d9dde3"
 
@@ -34,6 +35,12 @@ plt.rcParams.update({
 
 def unique(values):
     return list(dict.fromkeys(values))
+
+
+def stages_of(rows):
+    """In the order of the program: not every object has every stage, so those that have most come first."""
+    counts = Counter(m["object"] for m in rows)
+    return unique(m["stage"] for m in sorted(rows, key=lambda m: -counts[m["object"]]))
 
 
 def styles(names):
@@ -110,7 +117,7 @@ def draw_others(figure, rows, stages):
 def parts(figure, rows, threads):
     families = [m for m in rows if "family" in m]
     others = [m for m in rows if "family" not in m]
-    stages = [unique(m["stage"] for m in part) for part in (families, others)]
+    stages = [stages_of(part) for part in (families, others)]
     if families and others:
         above, below = figure.subfigures(2, 1, height_ratios=(7.2, 0.8 + 0.36 * len(stages[1])))
     else:

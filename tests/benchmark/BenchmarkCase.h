@@ -3,7 +3,7 @@
 /// @brief Measures one stage of one object on one number of threads, as a benchmark of Google
 /// Benchmark, which chooses the cases and how often each one runs.
 ///
-/// Time is that of the best run; there are two at least, if they take less than five seconds. The
+/// Time is that of the best run; there are two at least, if they take less than 30 seconds. The
 /// plain copy is made right before the runs and right after them, on as many threads, and the best
 /// one counts as well: whatever else the machine does then slows both. Memory is that of the first
 /// run. What a stage works on is made before, on all threads, and kept until the next stage has its
