@@ -2,6 +2,7 @@
 #include "InnerTree.h"
 
 #include "FlatAxis.h"
+#include "MedialLevel.h"
 #include "detail/Parallel.h"
 #include "detail/UncoveredVoxels.h"
 
@@ -147,14 +148,12 @@ std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most
     openvdb::util::NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
-    const LeafLayout layout(*flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
-    const DistanceMap distances = distanceTransform(layout, dim, interrupter);
-    const std::vector<MedialBall> balls =
-        medialBalls(powerMap(layout, distances, dim, interrupter), distances, interrupter);
+    const auto voxels = flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    const MedialLevel level(*voxels, dim, Distance(), interrupter);
     std::vector<MedialBall> inner;
-    for (const int32_t i : innerOrder(layout, balls, dim, interrupter, most).ball) {
-        inner.push_back({flat.fromZ(balls[i].center), balls[i].radiusSq});
+    for (const int32_t i : innerOrder(level.layout, level.balls, dim, interrupter, most).ball) {
+        inner.push_back({flat.fromZ(level.balls[i].center), level.balls[i].radiusSq});
     }
     return inner;
 }

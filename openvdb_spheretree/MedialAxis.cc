@@ -2,6 +2,7 @@
 #include "MedialAxis.h"
 
 #include "FlatAxis.h"
+#include "MedialLevel.h"
 #include "detail/BallOrder.h"
 #include "detail/Parallel.h"
 #include "detail/StepEnds.h"
@@ -98,11 +99,9 @@ std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim,
     NullInterrupter* interrupter, const Distance& distance)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
-    const LeafLayout layout(*flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
-    const DistanceMap distances = distanceTransform(layout, dim, interrupter, distance);
-    const PowerMap labels = powerMap(layout, distances, dim, interrupter);
-    std::vector<MedialBall> balls = medialBalls(labels, distances, interrupter);
+    const auto voxels = flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    std::vector<MedialBall> balls = MedialLevel(*voxels, dim, distance, interrupter).balls;
     for (MedialBall& ball : balls) ball.center = flat.fromZ(ball.center);
     return balls;
 }

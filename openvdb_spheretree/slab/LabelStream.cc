@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LabelStream.h"
 
+#include "../SphereTreeSettings.h"
 #include "../detail/Memory.h"
 #include "../detail/Parallel.h"
 #include "../detail/StageTimer.h"
@@ -289,6 +290,7 @@ LevelBalls LabelStream::runWith(uint32_t largestDistSq, NullInterrupter* interru
 
 LevelBalls LabelStream::run(NullInterrupter* interrupter)
 {
+    requireDim(mDim);
     const uint32_t largest = largestDistSq(mLayout, mDim, interrupter);
     requireRadius(largest);
     if (largest <= detail::NarrowPower::kMaxRadiusSq) {
