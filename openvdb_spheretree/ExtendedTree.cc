@@ -23,6 +23,7 @@
 /// radii. Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
+#include "detail/NodeChildren.h"
 #include "detail/Parallel.h"
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
@@ -30,7 +31,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -40,29 +40,6 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::MaskTree;
-
-/// The leaf balls, and the node of the current level above each of them.
-struct Leaves {
-    std::vector<Doubled> center;
-    std::vector<RootSum> radius;
-    std::vector<int32_t> ancestor;
-};
-
-LevelNodes leafNodes(const MedialLevel& medial, const LevelFrame& frame, Leaves& leaves)
-{
-    LevelNodes nodes;
-    nodes.balls = medial.balls;
-    nodes.pyramidVoxels = medial.layout.voxelCount();
-    for (const MedialBall& ball : nodes.balls) {
-        leaves.center.push_back(frame.center(ball.center));
-        leaves.radius.push_back(frame.radius(ball.radiusSq));
-        nodes.radius.push_back(leaves.radius.back().radius());
-        nodes.coverSq.push_back(leaves.radius.back().coverSq());
-    }
-    leaves.ancestor.resize(nodes.balls.size());
-    std::iota(leaves.ancestor.begin(), leaves.ancestor.end(), 0);
-    return nodes;
-}
 
 /// @return the balls of @a coarse that have children; @a links become links to these.
 LevelNodes keepParents(Links& links, const MedialLevel& coarse)
@@ -86,53 +63,69 @@ LevelNodes keepParents(Links& links, const MedialLevel& coarse)
     return kept;
 }
 
-/// The largest of some sums of two roots for each node, exactly. Roots of doubles tell nearly always
-/// which of two sums is the larger: exact arithmetic is for those that may be.
-class LargestSums {
+/// The largest of some sums of two roots, exactly. Roots of doubles tell nearly always which of two
+/// sums is the larger: exact arithmetic is for those that may be.
+class LargestSum {
 public:
-    explicit LargestSums(std::size_t nodes)
-        : mNearly(nodes, 0), mRadius(nodes, 0), mCoverSq(nodes, 0)
-    {}
+    void add(const RootSum& sum)
+    {
+        mLeast = std::max(mLeast, nearly(sum) * (1 - kDoubt));
+        mRadius = std::max(mRadius, sum.radius());
+        mCoverSq = std::max(mCoverSq, sum.coverSq());
+    }
+    /// A smaller double is of a smaller sum, which need not be added.
+    double least() const { return mLeast; }
+    double radius() const { return mRadius; }
+    int64_t coverSq() const { return mCoverSq; }
 
-    void add(std::size_t node, const RootSum& sum, double nearly)
+    /// @return twice the radius.
+    static double nearly(const RootSum& sum)
     {
-        constexpr double kDoubt = 1e-12; // of a root, and of a sum, 1e-15
-        if (nearly < mNearly[node] * (1 - kDoubt)) return;
-        mNearly[node] = std::max(mNearly[node], nearly);
-        mRadius[node] = std::max(mRadius[node], sum.radius());
-        mCoverSq[node] = std::max(mCoverSq[node], sum.coverSq());
+        return std::sqrt(double(sum.a)) + std::sqrt(double(sum.b));
     }
-    void addTo(LevelNodes& nodes) const
-    {
-        for (std::size_t t = 0; t < mRadius.size(); ++t) {
-            nodes.radius[t] = std::max(nodes.radius[t], mRadius[t]);
-            nodes.coverSq[t] = std::max(nodes.coverSq[t], mCoverSq[t]);
-        }
-    }
+    static constexpr double kDoubt = 1e-12; ///< of a root, and of a sum, 1e-15
 
 private:
-    std::vector<double> mNearly; ///< twice the radius
-    std::vector<double> mRadius;
-    std::vector<int64_t> mCoverSq;
+    double mLeast = 0, mRadius = 0;
+    int64_t mCoverSq = 0;
 };
 
 /// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
-void fitRadii(
-    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const BuildContext& context)
+/// @param levels  those below, and the nodes' own at the end
+void fitRadii(std::vector<LevelNodes>& levels, const std::vector<NodeChildren>& below,
+    const BuildContext& context)
 {
-    std::vector<Doubled> center;
-    for (const MedialBall& ball : nodes.balls) center.push_back(frame.center(ball.center));
-    tbb::enumerable_thread_specific<LargestSums> sums(nodes.balls.size());
-    parallelFor(leaves.center.size(), context.interrupter, [&](std::size_t s) {
-        const int32_t t = leaves.ancestor[s];
-        const int64_t apart = distanceSq(leaves.center[s], center[t], context.settings.dist);
-        const int64_t own = leaves.radius[s].a; // a leaf's radius is a single root
-        sums.local().add(
-            std::size_t(t), {apart, own}, std::sqrt(double(apart)) + std::sqrt(double(own)));
-    });
-    nodes.radius.assign(nodes.balls.size(), 0.0);
-    nodes.coverSq.assign(nodes.balls.size(), 0);
-    for (const LargestSums& some : sums) some.addTo(nodes);
+    const int level = int(levels.size()) - 1;
+    LevelNodes& nodes = levels.back();
+    std::vector<LevelFrame> frames;
+    for (int k = 0; k <= level; ++k) frames.push_back(context.frame(k));
+    const auto centerOf = [&](int k, int32_t node) {
+        return frames[k].center(levels[k].balls[node].center);
+    };
+    nodes.radius.resize(nodes.balls.size());
+    nodes.coverSq.resize(nodes.balls.size());
+    const auto fit = [&](std::size_t t, FarthestLeaves& leaves) {
+        const Doubled center = centerOf(level, int32_t(t));
+        const auto sumOf = [&](int32_t leaf) -> RootSum {
+            const int64_t apart = distanceSq(centerOf(0, leaf), center, context.settings.dist);
+            return {apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // it has no b
+        };
+        const auto reach = [&](int k, int32_t node) {
+            if (k == 0) return LargestSum::nearly(sumOf(node));
+            const int64_t apart = distanceSq(centerOf(k, node), center, context.settings.dist);
+            const double sum = std::sqrt(double(apart)) + 2 * levels[k].radius[node];
+            return sum * (1 + LargestSum::kDoubt);
+        };
+        LargestSum largest;
+        leaves.search(level, int32_t(t), -1, reach, [&](int32_t leaf) {
+            largest.add(sumOf(leaf));
+            return largest.least();
+        });
+        nodes.radius[t] = largest.radius();
+        nodes.coverSq[t] = largest.coverSq();
+    };
+    parallelForWith(
+        nodes.balls.size(), context.interrupter, [&] { return FarthestLeaves(below); }, fit);
 }
 
 CoordBBox parentBox(const CoordBBox& box, const PyramidStep& step)
@@ -159,14 +152,14 @@ MaskTree::Ptr reconstruct(
 {
     const double scale = double(context.frame(level).scale());
     const Distance& distance = context.settings.dist;
-    std::vector<ExactSphere> spheres;
-    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+    std::vector<ExactSphere> spheres(nodes.balls.size());
+    parallelFor(spheres.size(), context.interrupter, [&](std::size_t i) {
         const double limit = nodes.radius[i] / scale * (1 + 1e-9);
         const auto whole = int64_t(limit);
         const Coord& c = nodes.balls[i].center;
-        spheres.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)});
-    }
+        spheres[i] = {{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
+            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)};
+    });
     if (context.settings.reconstruct == Reconstruction::Free) {
         const CoordBBox free = boundingBox(spheres, distance);
         for (int axis = 0; axis < context.settings.dim; ++axis) {
@@ -178,17 +171,20 @@ MaskTree::Ptr reconstruct(
 }
 
 /// Section 4.2 switched off: the stored sphere is the reconstruction's, grown like any ball's.
-void useReconstructionRadii(
-    LevelNodes& nodes, const Leaves& leaves, const LevelFrame& frame, const Distance& distance)
+void useReconstructionRadii(std::vector<LevelNodes>& levels, const BuildContext& context)
 {
+    const LevelFrame frame = context.frame(int(levels.size()) - 1), leafFrame = context.frame(0);
     const RootSum growth = frame.growth();
+    LevelNodes& nodes = levels.back();
     for (double& radius : nodes.radius) radius = addUp(radius, growth.radius());
-    for (std::size_t s = 0; s < leaves.center.size(); ++s) {
-        const int32_t t = leaves.ancestor[s];
-        const int64_t apart =
-            distanceSq(leaves.center[s], frame.center(nodes.balls[t].center), distance);
-        nodes.coverSq[t] =
-            std::max(nodes.coverSq[t], coverSqOfRoots(apart, leaves.radius[s].a, growth.b));
+    const std::vector<MedialBall>& leaves = levels.front().balls;
+    for (std::size_t s = 0; s < leaves.size(); ++s) {
+        int32_t t = int32_t(s);
+        for (std::size_t k = 0; k + 1 < levels.size(); ++k) t = levels[k].parent[t];
+        const int64_t apart = distanceSq(leafFrame.center(leaves[s].center),
+            frame.center(nodes.balls[t].center), context.settings.dist);
+        nodes.coverSq[t] = std::max(nodes.coverSq[t],
+            coverSqOfRoots(apart, leafFrame.radius(leaves[s].radiusSq).a, growth.b));
     }
 }
 
@@ -219,32 +215,30 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
 {
     const SphereTreeSettings& settings = context.settings;
     auto fine = context.medialLevel(*voxels, 0);
-    Leaves leaves;
     Boxes boxes{context.bbox, context.bbox};
-    std::vector<LevelNodes> levels{leafNodes(*fine, context.frame(0), leaves)};
-    levels.back().topology = topologyOf(*fine, context);
+    std::vector<LevelNodes> levels;
+    levels.push_back(context.allBalls(fine));
+    std::vector<NodeChildren> below;
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return nextVoxels(*voxels, level - 1, context, boxes); });
         auto coarse = context.medialLevel(*voxels, level, &levels.back());
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
-            Links links = linkLevels(levels.back(), level - 1, *fine, *coarse, context);
+            Links links = linkLevels(levels.back(), level - 1, fine.get(), *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse);
-            for (int32_t& node : leaves.ancestor) node = links.parent[node];
-            fitRadii(nodes, leaves, context.frame(level), context);
-            if (settings.reconstruct != Reconstruction::None && nodes.balls.size() > 1) {
-                voxels = reconstruct(nodes, level, boxes.clip, context);
-            }
-            if (!settings.finalFit) {
-                useReconstructionRadii(nodes, leaves, context.frame(level), settings.dist);
-            }
+            below.emplace_back(links.parent.data(), links.parent.size(), 0, nodes.balls.size());
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));
+            fitRadii(levels, below, context);
+            if (settings.reconstruct != Reconstruction::None && levels.back().balls.size() > 1) {
+                voxels = reconstruct(levels.back(), level, boxes.clip, context);
+            }
+            if (!settings.finalFit) useReconstructionRadii(levels, context);
         });
         levels.back().topology = topologyOf(*coarse, context);
-        fine = std::move(coarse);
+        if (context.needsDag()) fine = std::move(coarse);
     }
     return levels;
 }

@@ -2,6 +2,7 @@
 #include "MedialLevel.h"
 
 #include "detail/BallIndex.h"
+#include "detail/LeafFinder.h"
 #include "detail/Parallel.h"
 #include "detail/StageTimer.h"
 #include "slab/LabelStream.h"
@@ -18,16 +19,20 @@ using openvdb::util::NullInterrupter;
 using slab::kNoLeaf;
 
 /// @return the places of voxels; those that are off have no leaf.
-std::vector<PowerMap::Voxel> placesOf(const std::vector<openvdb::Coord>& voxels,
+template <typename VoxelOf>
+std::vector<PowerMap::Voxel> placesOf(std::size_t count, const VoxelOf& voxelOf,
     const LeafLayout& layout, NullInterrupter* interrupter)
 {
-    std::vector<PowerMap::Voxel> places(voxels.size());
-    detail::parallelFor(voxels.size(), interrupter, [&](std::size_t i) {
-        const auto leaf = layout.findLeaf(voxels[i]);
-        const uint32_t offset = leafOffset(voxels[i]);
-        const bool on = leaf && isOn(layout.mask(*leaf), offset);
-        places[i] = {on ? *leaf : kNoLeaf, offset};
-    });
+    std::vector<PowerMap::Voxel> places(count);
+    detail::parallelForWith(
+        count, interrupter, [&] { return detail::LeafFinder(layout); },
+        [&](std::size_t i, detail::LeafFinder& finder) {
+            const openvdb::Coord voxel = voxelOf(i);
+            const auto leaf = finder.find(voxel);
+            const uint32_t offset = leafOffset(voxel);
+            const bool on = leaf && isOn(layout.mask(*leaf), offset);
+            places[i] = {on ? *leaf : kNoLeaf, offset};
+        });
     return places;
 }
 
@@ -42,13 +47,6 @@ std::vector<int32_t> ballsAt(const std::vector<PowerMap::Voxel>& labels, const L
         if (labels[i].leaf != kNoLeaf) balls[i] = index.ballOf(index.rankAt(labels[i]));
     });
     return balls;
-}
-
-std::vector<openvdb::Coord> centersOf(const std::vector<MedialBall>& balls)
-{
-    std::vector<openvdb::Coord> centers;
-    for (const MedialBall& ball : balls) centers.push_back(ball.center);
-    return centers;
 }
 
 } // namespace
@@ -68,7 +66,7 @@ MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distanc
 void MedialLevel::findBalls(
     int dim, const LevelWants& wants, NullInterrupter* interrupter, BuildSeconds* seconds)
 {
-    std::vector<PowerMap::Voxel> asked = placesOf(wants.labelsOf, layout, interrupter);
+    std::vector<PowerMap::Voxel> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
     slab::LabelStream stream(layout, dim);
     stream.ask(asked);
     detail::LabelSteps steps;
@@ -97,10 +95,11 @@ void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWa
     balls = detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,
         [&] { return medialBalls(labels, distances, interrupter); });
     centers.resize(layout.leafCount());
-    for (const PowerMap::Voxel& place : placesOf(centersOf(balls), layout, interrupter)) {
+    for (const PowerMap::Voxel& place : placesOf(
+             balls.size(), [&](std::size_t i) { return balls[i].center; }, layout, interrupter)) {
         centers[place.leaf][place.offset >> 6] |= uint64_t(1) << (place.offset & 63);
     }
-    std::vector<PowerMap::Voxel> asked = placesOf(wants.labelsOf, layout, interrupter);
+    std::vector<PowerMap::Voxel> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
     for (PowerMap::Voxel& voxel : asked) {
         if (voxel.leaf != kNoLeaf) voxel = labels.label(voxel);
     }

@@ -13,15 +13,18 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace openvdb_spheretree {
 
 /// What is wanted of a level beside its balls.
 struct LevelWants {
-    std::vector<openvdb::Coord> labelsOf; ///< voxels; those that are off have no label
-    bool allLabels = false;               ///< keep the label of every voxel: 3 or 6 bytes each
+    std::size_t count = 0;                              ///< of voxels whose labels are wanted
+    std::function<openvdb::Coord(std::size_t)> voxel{}; ///< each of them; asked from many threads
+    bool allLabels = false; ///< keep the label of every voxel: 3 or 6 bytes each
 };
 
 struct MedialLevel {
@@ -44,7 +47,7 @@ struct MedialLevel {
     const LeafLayout layout;
     std::vector<MedialBall> balls;    ///< ordered by centre
     std::vector<LeafMask> centers;    ///< of the balls, a mask for each leaf
-    std::vector<int32_t> wantedLabel; ///< per voxel of LevelWants, a ball; -1: the voxel is off
+    std::vector<int32_t> wantedLabel; ///< per voxel of LevelWants, a ball; -1: it is off
     PowerMap labels;                  ///< unless all were wanted, of no use
 
 private:

@@ -5,7 +5,7 @@
 /// 0 the object.
 ///
 /// For each level from the finest up: its medial balls become nodes, with the spheres of
-/// LevelFrame.h (`allBalls`); then each node of the level below gets its parent (`linkLevels`,
+/// LevelFrame.h (`BuildContext::allBalls`); then each node of the level below gets its parent (`linkLevels`,
 /// detail/TreeLevels.h: the label of the parent voxel of its centre, or the best parent in the
 /// Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after
 /// closings, which stay in the object's box; a custom model that adds voxels for ever is an error.
@@ -19,40 +19,22 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-namespace {
-
-LevelNodes allBalls(const MedialLevel& medial, const LevelFrame& frame)
-{
-    LevelNodes nodes;
-    nodes.balls = medial.balls;
-    nodes.pyramidVoxels = medial.layout.voxelCount();
-    for (const MedialBall& ball : nodes.balls) {
-        const RootSum radius = frame.radius(ball.radiusSq);
-        nodes.radius.push_back(radius.radius());
-        nodes.coverSq.push_back(radius.coverSq());
-    }
-    return nodes;
-}
-
-} // namespace
-
 std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const BuildContext& context)
 {
     auto fine = context.medialLevel(*voxels, 0);
-    std::vector<LevelNodes> levels{allBalls(*fine, context.frame(0))};
-    levels.back().topology = topologyOf(*fine, context);
+    std::vector<LevelNodes> levels;
+    levels.push_back(context.allBalls(fine));
     for (int level = 0; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
             [&] { return context.coarsened(*voxels, level); });
         auto coarse = context.medialLevel(*voxels, level + 1, &levels.back());
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             LevelNodes& nodes = levels.back();
-            Links links = linkLevels(nodes, level, *fine, *coarse, context);
+            Links links = linkLevels(nodes, level, fine.get(), *coarse, context);
             nodes.parent = std::move(links.parent);
             nodes.dag = std::move(links.dag);
-            levels.push_back(allBalls(*coarse, context.frame(level + 1)));
         });
-        levels.back().topology = topologyOf(*coarse, context);
+        levels.push_back(context.allBalls(coarse));
         fine = std::move(coarse);
     }
     return levels;

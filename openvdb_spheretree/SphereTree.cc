@@ -5,7 +5,10 @@
 #include "IntersectionDag.h"
 #include "UniformVoxels.h"
 #include "detail/InnerLevels.h"
+#include "detail/LargeArray.h"
 #include "detail/MiniballCenters.h"
+#include "detail/NodeChildren.h"
+#include "detail/Parallel.h"
 #include "detail/RoundUp.h"
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
@@ -14,8 +17,11 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace openvdb_spheretree {
 
@@ -70,66 +76,102 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     return tree;
 }
 
-/// Nodes of all levels, top level first: ids in the order of the header.
-void appendNodes(SphereTree& tree, const std::vector<LevelNodes>& levels)
+/// Makes room for some nodes. Pages are fresh: to write them the first time takes long.
+void makeRoom(SphereTree& tree, std::size_t nodes)
+{
+    tbb::parallel_invoke([&] { detail::resizeLarge(tree.center, nodes); },
+        [&] { detail::resizeLarge(tree.radius, nodes); },
+        [&] { detail::resizeLarge(tree.coverSq, nodes); },
+        [&] { detail::resizeLarge(tree.parent, nodes); },
+        [&] { detail::resizeLarge(tree.ijk, nodes); },
+        [&] { detail::resizeLarge(tree.radiusSq, nodes); });
+}
+
+/// The nodes of a level, whose place the tree knows.
+void setNodes(SphereTree& tree, const LevelNodes& nodes, const SphereTreeLevel& range,
+    int32_t firstAbove, openvdb::util::NullInterrupter* interrupter)
 {
     const FlatAxis flat(tree.settings.flatAxis);
+    const LevelFrame frame(range.level, tree.origin, tree.settings);
+    const int unit = tree.settings.dist.unit();
+    detail::parallelFor(nodes.balls.size(), interrupter, [&](std::size_t i) {
+        const MedialBall& ball = nodes.balls[i];
+        const std::size_t id = std::size_t(range.begin) + i;
+        tree.ijk[id] = flat.fromZ(ball.center);
+        tree.center[id] = frame.center(tree.ijk[id]).halved();
+        tree.radiusSq[id] = ball.radiusSq;
+        tree.parent[id] = nodes.parent.empty() ? -1 : firstAbove + nodes.parent[i];
+        if (nodes.radius.empty()) {
+            const RootSum radius = frame.radius(ball.radiusSq);
+            tree.radius[id] = detail::divideUp(radius.radius(), unit);
+            tree.coverSq[id] = radius.coverSq();
+        } else {
+            tree.radius[id] = detail::divideUp(nodes.radius[i], unit);
+            tree.coverSq[id] = nodes.coverSq[i];
+        }
+    });
+}
+
+/// Nodes of all levels, top level first: ids in the order of the header.
+void appendNodes(
+    SphereTree& tree, std::vector<LevelNodes> levels, openvdb::util::NullInterrupter* interrupter)
+{
+    std::size_t count = 0;
+    for (const LevelNodes& nodes : levels) count += nodes.balls.size();
+    makeRoom(tree, count);
     tree.levels.resize(levels.size());
+    int32_t begin = 0, firstAbove = 0;
     for (int level = int(levels.size()) - 1; level >= 0; --level) {
-        const LevelNodes& nodes = levels[level];
-        const LevelFrame frame(level, tree.origin, tree.settings);
+        LevelNodes& nodes = levels[level];
         SphereTreeLevel& range = tree.levels[level];
-        const int32_t above = level + 1 < int(levels.size()) ? tree.levels[level + 1].begin : 0;
         range.level = level;
-        range.begin = tree.size();
+        range.begin = begin;
+        range.end = begin + int32_t(nodes.balls.size());
         range.pyramidVoxels = nodes.pyramidVoxels;
         range.topology = nodes.topology;
-        for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
-            const openvdb::Coord ijk = flat.fromZ(nodes.balls[i].center);
-            tree.center.push_back(frame.center(ijk).halved());
-            tree.radius.push_back(detail::divideUp(nodes.radius[i], tree.settings.dist.unit()));
-            tree.coverSq.push_back(nodes.coverSq[i]);
-            tree.parent.push_back(nodes.parent.empty() ? -1 : above + nodes.parent[i]);
-            tree.ijk.push_back(ijk);
-            tree.radiusSq.push_back(nodes.balls[i].radiusSq);
-        }
-        range.end = tree.size();
+        setNodes(tree, nodes, range, firstAbove, interrupter);
         for (const DagEdge& edge : nodes.dag) {
-            tree.dag.push_back({above + edge.parent, range.begin + edge.child});
+            tree.dag.push_back({firstAbove + edge.parent, range.begin + edge.child});
         }
+        nodes = {};
+        firstAbove = range.begin;
+        begin = range.end;
     }
     std::sort(tree.dag.begin(), tree.dag.end());
 }
 
 /// @return radii in world units: padding added, voxels to world units, rounded up to floats.
-std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii)
+std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const double padding = tree.settings.paddingVoxels();
     const double voxel = largestStretch(*tree.transform);
     std::vector<float> stored;
-    for (const double radius : radii) {
-        const double padded = detail::addUp(radius, padding);
-        stored.push_back(detail::toFloatUp(detail::multiplyUp(padded, voxel)));
-        if (!std::isfinite(stored.back())) {
+    detail::resizeLarge(stored, radii.size());
+    detail::parallelFor(radii.size(), interrupter, [&](std::size_t i) {
+        const double padded = detail::addUp(radii[i], padding);
+        stored[i] = detail::toFloatUp(detail::multiplyUp(padded, voxel));
+        if (!std::isfinite(stored[i])) {
             OPENVDB_THROW(openvdb::ValueError,
                 "a radius of " << padded << " voxels of " << voxel
                                << " does not fit a float: use another unit of length, or less "
                                   "padding");
         }
-    }
+    });
     return stored;
 }
 
-void storeRadii(SphereTree& tree)
+void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
-    tree.radiusWorld = storedRadii(tree, tree.radius);
-    tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius);
+    tree.radiusWorld = storedRadii(tree, tree.radius, interrupter);
+    tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius, interrupter);
 }
 
 /// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
 /// rounded up by more than its ancestor's, and world-space centres are rounded too.
-void containStoredLeaves(SphereTree& tree)
+void containStoredLeaves(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
+    constexpr double kRounding = 1e-12; // more than that of a sum of bounds
     // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
     // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
     const double voxel = largestStretch(*tree.transform);
@@ -138,15 +180,33 @@ void containStoredLeaves(SphereTree& tree)
         return 1e-15 * (voxel * tree.center[id].length() + moved);
     };
     const detail::WorldDistance distance(tree);
-    const SphereTreeLevel& finest = tree.levels.front();
-    for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
-        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
-            const double apart = distance(leaf, t) * (1 + 1e-14);
-            const double needed = apart + doubt(leaf) + doubt(t) + double(tree.radiusWorld[leaf]);
-            if (double(tree.radiusWorld[t]) < needed) {
-                tree.radiusWorld[t] = detail::toFloatUp(needed);
-            }
-        }
+    std::vector<detail::NodeChildren> below;
+    for (std::size_t level = 1; level < tree.levels.size(); ++level) {
+        const SphereTreeLevel &nodes = tree.levels[level], &children = tree.levels[level - 1];
+        below.emplace_back(tree.parent.data() + children.begin, std::size_t(children.size()),
+            nodes.begin, std::size_t(nodes.size()));
+        // What a child's own sphere contains already, this one does where it contains the child's.
+        detail::parallelForWith(
+            std::size_t(nodes.size()), interrupter, [&] { return detail::FarthestLeaves(below); },
+            [&](std::size_t i, detail::FarthestLeaves& leaves) {
+                const int32_t t = nodes.begin + int32_t(i);
+                const auto needed = [&](int32_t id) {
+                    const double apart = distance(id, t) * (1 + 1e-14);
+                    return apart + doubt(id) + doubt(t) + double(tree.radiusWorld[id]);
+                };
+                float& radius = tree.radiusWorld[t];
+                leaves.search(
+                    int(level), int32_t(i), radius,
+                    [&](int k, int32_t node) {
+                        const double bound = needed(tree.levels[k].begin + node);
+                        return k == 0 ? bound : bound * (1 + kRounding);
+                    },
+                    [&](int32_t leaf) {
+                        radius = std::max(
+                            radius, detail::toFloatUp(needed(tree.levels[0].begin + leaf)));
+                        return double(radius);
+                    });
+            });
     }
 }
 
@@ -176,8 +236,8 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     const bool inner = settings.side == Side::Inner;
     if (settings.tree == TreeType::Tight && !inner) {
         tight::appendTightTree(tree, object, interrupter, seconds);
-        storeRadii(tree);
-        if (settings.cover == Cover::Balls) containStoredLeaves(tree);
+        storeRadii(tree, interrupter);
+        if (settings.cover == Cover::Balls) containStoredLeaves(tree, interrupter);
         return tree;
     }
     const FlatAxis flat(tree.settings.flatAxis);
@@ -191,9 +251,11 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         detail::appendInnerTree(tree, *voxels, context);
         return tree;
     }
-    appendNodes(tree,
-        settings.tree == TreeType::Reversible ? detail::reversibleLevels(voxels, context)
-                                              : detail::extendedLevels(voxels, context));
+    std::vector<LevelNodes> levels = settings.tree == TreeType::Reversible
+        ? detail::reversibleLevels(std::move(voxels), context)
+        : detail::extendedLevels(std::move(voxels), context);
+    detail::timed("nodes of the tree", interrupter, &context.seconds->tree,
+        [&] { appendNodes(tree, std::move(levels), interrupter); });
     if (settings.center == Center::Miniball) {
         detail::timed("miniballs", interrupter, &context.seconds->tree,
             [&] { detail::centerOnMiniballs(tree, interrupter); });
@@ -201,8 +263,10 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     if (settings.dag && settings.edges == DagEdges::Intersecting) {
         tree.dag = intersectionDag(tree, interrupter);
     }
-    storeRadii(tree);
-    if (containsLeaves(settings)) containStoredLeaves(tree);
+    detail::timed("stored radii", interrupter, &context.seconds->tree, [&] {
+        storeRadii(tree, interrupter);
+        if (containsLeaves(settings)) containStoredLeaves(tree, interrupter);
+    });
     return tree;
 }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -17,6 +18,18 @@ namespace detail {
 struct FreeLargeArray {
     void operator()(void* data) const { std::free(data); }
 };
+
+/// Asks for huge pages where memory that nobody has written to yet has room for them.
+void wishHugePages(void* data, std::size_t bytes);
+
+/// Makes an empty vector one of @a size zeros, on huge pages where the system has them.
+template <typename T>
+void resizeLarge(std::vector<T>& vector, std::size_t size)
+{
+    vector.reserve(size);
+    wishHugePages(vector.data(), size * sizeof(T));
+    vector.resize(size);
+}
 
 template <typename T>
 using LargeArray = std::unique_ptr<T[], FreeLargeArray>;

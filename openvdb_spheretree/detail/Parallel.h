@@ -54,19 +54,28 @@ void parallelFor(std::size_t count, openvdb::util::NullInterrupter* interrupter,
     });
 }
 
-/// The same with a Scratch object for each thread that takes part: body(i, scratch).
+/// The same with scratch memory, made by make(), for each thread that takes part: body(i, scratch).
+template <typename Make, typename Body>
+void parallelForWith(std::size_t count, openvdb::util::NullInterrupter* interrupter,
+    const Make& make, const Body& body)
+{
+    tbb::enumerable_thread_specific<decltype(make())> scratches(make);
+    LoopProgress progress(count, interrupter);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+        progress.check();
+        auto& scratch = scratches.local();
+        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, scratch);
+        progress.add(range.size());
+    });
+}
+
+/// The same where nothing is needed to make a Scratch.
 template <typename Scratch, typename Body>
 void parallelForWithScratch(
     std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
 {
-    tbb::enumerable_thread_specific<Scratch> scratches;
-    LoopProgress progress(count, interrupter);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        progress.check();
-        Scratch& scratch = scratches.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, scratch);
-        progress.add(range.size());
-    });
+    parallelForWith(
+        count, interrupter, [] { return Scratch(); }, body);
 }
 
 } // namespace detail

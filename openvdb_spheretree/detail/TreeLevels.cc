@@ -15,19 +15,12 @@ namespace detail {
 
 namespace {
 
-/// Whether a build looks at the labels of all voxels.
-bool needsDag(const SphereTreeSettings& settings)
-{
-    return settings.parent == ParentRule::Dag
-        || (settings.dag && settings.edges == DagEdges::Shared);
-}
-
 /// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
 /// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
 /// the clip).
-std::vector<int32_t> parentsByCentre(const MedialLevel& coarse)
+std::vector<int32_t> parentsByCentre(MedialLevel& coarse)
 {
-    std::vector<int32_t> parent = coarse.wantedLabel;
+    std::vector<int32_t> parent = std::move(coarse.wantedLabel);
     if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
     if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
     OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
@@ -111,15 +104,28 @@ std::unique_ptr<MedialLevel> BuildContext::medialLevel(
     const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
 {
     LevelWants wants;
-    wants.allLabels = needsDag(settings);
+    wants.allLabels = needsDag();
     if (children) {
-        const PyramidStep step = stepFrom(level - 1);
-        for (const MedialBall& ball : children->balls) {
-            wants.labelsOf.push_back(step.parentVoxel(ball.center));
-        }
+        wants.count = children->balls.size();
+        wants.voxel = [step = stepFrom(level - 1), &balls = children->balls](
+                          std::size_t i) { return step.parentVoxel(balls[i].center); };
     }
     return std::make_unique<MedialLevel>(
         voxels, settings.dim, settings.dist, interrupter, seconds, wants);
+}
+
+LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
+{
+    LevelNodes nodes;
+    nodes.pyramidVoxels = level->layout.voxelCount();
+    nodes.topology = topologyOf(*level, *this);
+    if (needsDag()) {
+        nodes.balls = level->balls;
+    } else {
+        nodes.balls = std::move(level->balls);
+        level.reset();
+    }
+    return nodes;
 }
 
 openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
@@ -140,14 +146,14 @@ openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, 
     return result;
 }
 
-Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
-    const MedialLevel& coarse, const BuildContext& context)
+Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
+    const BuildContext& context)
 {
     const PyramidStep step = context.stepFrom(level);
     Links links;
     links.parent = parentsByCentre(coarse);
-    if (!needsDag(context.settings)) return links;
-    links.dag = edgesToNodes(sphereDag(fine, coarse, step, context.interrupter), nodes, fine);
+    if (!context.needsDag()) return links;
+    links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
     if (context.settings.parent == ParentRule::Dag) {
         preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
     }

@@ -22,7 +22,7 @@ namespace detail {
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {
     std::vector<MedialBall> balls; ///< ordered by centre
-    std::vector<double> radius;    ///< units of the distance, on level 0
+    std::vector<double> radius;    ///< units of the distance, on level 0; empty: as the balls are
     std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
     std::vector<int32_t> parent;   ///< node of the next level; empty at the root
     std::vector<DagEdge> dag;      ///< edges to nodes of the next level, if asked for
@@ -52,6 +52,15 @@ struct BuildContext {
     /// @throw openvdb::ValueError if the model is not including, or does not come to an end
     openvdb::MaskTree::Ptr coarsened(const openvdb::MaskTree& voxels, int level) const;
     LevelFrame frame(int level) const { return LevelFrame(level, origin, settings); }
+    /// @return whether labels of all voxels are looked at, and levels for longer than their nodes
+    /// are made.
+    bool needsDag() const
+    {
+        return settings.parent == ParentRule::Dag
+            || (settings.dag && settings.edges == DagEdges::Shared);
+    }
+    /// @return all balls of a level, which keeps them only where a DAG needs it.
+    LevelNodes allBalls(std::unique_ptr<MedialLevel>& level) const;
 };
 
 /// @brief The one place that decides which model settings ask for: customModel, else a closing,
@@ -70,10 +79,11 @@ struct Links {
 /// @return the topology of a level's voxels, if the settings want it.
 std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context);
 
-/// @brief Find the parents of @a nodes, which are balls of @a fine, among the balls of @a coarse,
-/// a level that was made with them as children.
-Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel& fine,
-    const MedialLevel& coarse, const BuildContext& context);
+/// @brief Find the parents of @a nodes among the balls of @a coarse, a level that was made with them
+/// as children.
+/// @param fine  the level whose balls the nodes are; needed for a DAG alone
+Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
+    const BuildContext& context);
 
 /// @brief The two kinds of tree, level 0 first, ending with a level of one node.
 std::vector<LevelNodes> reversibleLevels(

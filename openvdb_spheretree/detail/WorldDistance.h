@@ -11,33 +11,31 @@
 #include "../SphereTree.h"
 #include "../UniformVoxels.h"
 
-#include <vector>
-
 namespace openvdb_spheretree {
 namespace detail {
 
 class WorldDistance {
 public:
-    explicit WorldDistance(const SphereTree& tree) : mDistance(tree.settings.dist)
+    /// @param tree  kept by reference
+    explicit WorldDistance(const SphereTree& tree) : mTree(tree), mDistance(tree.settings.dist)
     {
-        if (!mDistance.isEuclidean()) {
-            mCenter = tree.center;
-            mScale = largestStretch(*tree.transform) / mDistance.unit();
-            return;
-        }
-        mCenter.reserve(tree.center.size());
-        for (int32_t id = 0; id < tree.size(); ++id) mCenter.push_back(tree.centerWorld(id));
+        if (!mDistance.isEuclidean()) mScale = largestStretch(*tree.transform) / mDistance.unit();
     }
     double operator()(int32_t a, int32_t b) const
     {
-        const openvdb::Vec3d d = mCenter[a] - mCenter[b];
+        const openvdb::Vec3d d = place(a) - place(b);
         return mDistance.length(d[0], d[1], d[2]) * mScale;
     }
 
 private:
-    Distance mDistance;
+    openvdb::Vec3d place(int32_t id) const
+    {
+        return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.center[id];
+    }
+
+    const SphereTree& mTree;
+    const Distance mDistance;
     double mScale = 1;
-    std::vector<openvdb::Vec3d> mCenter;
 };
 
 } // namespace detail

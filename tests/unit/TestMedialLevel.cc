@@ -40,7 +40,7 @@ TEST(MedialLevel, FindsTheLabelOfEveryVoxel)
 {
     const Voxels voxels = randomObject(20).voxels;
     const NaiveReference naive(voxels);
-    const MedialLevel level(*maskOf(voxels), 3, {}, nullptr, nullptr, {{}, true});
+    const MedialLevel level(*maskOf(voxels), 3, {}, nullptr, nullptr, {0, {}, true});
     for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
         EXPECT_EQ(level.balls.at(level.labelOf(naive.voxels()[i])).center, naive.label(i));
     }
@@ -50,17 +50,18 @@ TEST(MedialLevel, FindsTheLabelsThatAreWanted)
 {
     const Voxels voxels = randomObject(20).voxels;
     for (const Distance& distance : {Distance(), Distance::linf()}) {
-        const MedialLevel all(*maskOf(voxels), 3, distance, nullptr, nullptr, {{}, true});
+        const MedialLevel all(*maskOf(voxels), 3, distance, nullptr, nullptr, {0, {}, true});
+        Voxels wanted(voxels.rbegin(), voxels.rend());
+        wanted.push_back(voxels.front());
+        wanted.push_back(Coord(1000, 2, 3)); // off
         LevelWants wants;
-        wants.labelsOf = voxels;
-        std::reverse(wants.labelsOf.begin(), wants.labelsOf.end());
-        wants.labelsOf.push_back(voxels.front());
-        wants.labelsOf.push_back(Coord(1000, 2, 3)); // off
+        wants.count = wanted.size();
+        wants.voxel = [&wanted](std::size_t i) { return wanted[i]; };
         const MedialLevel level(*maskOf(voxels), 3, distance, nullptr, nullptr, wants);
-        ASSERT_EQ(level.wantedLabel.size(), wants.labelsOf.size());
+        ASSERT_EQ(level.wantedLabel.size(), wanted.size());
         EXPECT_EQ(level.wantedLabel.back(), -1);
-        for (std::size_t i = 0; i + 1 < wants.labelsOf.size(); ++i) {
-            EXPECT_EQ(level.wantedLabel[i], all.labelOf(wants.labelsOf[i]));
+        for (std::size_t i = 0; i + 1 < wanted.size(); ++i) {
+            EXPECT_EQ(level.wantedLabel[i], all.labelOf(wanted[i]));
         }
     }
 }
@@ -81,7 +82,8 @@ TEST(MedialLevel, MarksTheCentresOfItsBalls)
 
 TEST(MedialLevel, RejectsAVoxelThatIsOff)
 {
-    const MedialLevel level(*maskOf(Voxels{Coord(1, 2, 3)}), 3, {}, nullptr, nullptr, {{}, true});
+    const MedialLevel level(
+        *maskOf(Voxels{Coord(1, 2, 3)}), 3, {}, nullptr, nullptr, {0, {}, true});
     EXPECT_THROW(level.labelOf(Coord(1, 2, 4)), openvdb::LookupError);
     EXPECT_THROW(level.labelOf(Coord(100, 2, 3)), openvdb::LookupError);
 }

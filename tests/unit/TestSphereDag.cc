@@ -13,7 +13,7 @@
 
 namespace {
 
-const openvdb_spheretree::LevelWants kAllLabels{{}, true};
+const openvdb_spheretree::LevelWants kAllLabels{0, {}, true};
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
