@@ -49,9 +49,8 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
 }
 
 LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
-    : mLevel(level), mDim(settings.dim), mFlatAxis(settings.flatAxis),
-      mTight(level == 0 || settings.scale == RadiusScale::Tight), mDistance(settings.dist),
-      mOrigin(level == 0 ? openvdb::Coord() : origin)
+    : mLevel(level), mTight(level == 0 || settings.scale == RadiusScale::Tight),
+      mDistance(settings.dist)
 {
     for (int k = 0; k < level; ++k) {
         mScale *= settings.factor;
@@ -62,18 +61,13 @@ LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTree
                 << ", and " << kMaxScale << " is the most: use another factor, or larger voxels");
     }
     const int64_t grown = mScale - 1;
-    mGrowthSq = mDistance.lengthSq(grown, grown, mDim == 3 ? grown : 0);
+    mGrowthSq = mDistance.lengthSq(grown, grown, settings.dim == 3 ? grown : 0);
     if (mGrowthSq == INT64_MAX) throwTooWide();
-}
-
-Doubled LevelFrame::center(const openvdb::Coord& ijk) const
-{
-    const auto along = [&](int axis) {
-        const bool scaled = mDim == 3 || axis != mFlatAxis;
-        return 2 * int64_t(mOrigin[axis])
-            + (scaled ? 2 * mScale * ijk[axis] + mScale - 1 : 2 * int64_t(ijk[axis]));
-    };
-    return {along(0), along(1), along(2)};
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool scaled = settings.dim == 3 || axis != settings.flatAxis;
+        mStep[axis] = scaled ? 2 * mScale : 2;
+        mFirst[axis] = (level == 0 ? 0 : 2 * int64_t(origin[axis])) + (scaled ? grown : 0);
+    }
 }
 
 void LevelFrame::throwTooWide() const
@@ -89,6 +83,8 @@ RootSum LevelFrame::radius(int32_t radiusSq) const
     const int64_t covered = mTight ? mDistance.closedSq(radiusSq) : int64_t(radiusSq);
     const Wide scaled = 4 * Wide(mScale) * Wide(mScale) * Wide(covered);
     // The square of the sum of both roots has to fit 63 bits.
+    constexpr int64_t kNear = Distance::kFar / 2 * (Distance::kFar / 2);
+    if (scaled < Wide(kNear) && mGrowthSq < kNear) return {int64_t(scaled), mGrowthSq};
     const long double sum = std::sqrt((long double)(scaled)) + std::sqrt((long double)(mGrowthSq));
     if (sum >= (long double)(Distance::kFar)) throwTooWide();
     return {int64_t(scaled), mGrowthSq};

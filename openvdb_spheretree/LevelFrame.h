@@ -25,6 +25,7 @@
 
 #include <openvdb/Types.h>
 
+#include <array>
 #include <cstdint>
 
 namespace openvdb_spheretree {
@@ -50,7 +51,8 @@ struct RootSum {
     /// centre c just when |2q - 2c|^2 <= D.
     int64_t coverSq() const
     {
-        return a + b + detail::integerRoot(4 * (unsigned __int128)(a) * (unsigned __int128)(b));
+        const auto product = 4 * (unsigned __int128)(a) * (unsigned __int128)(b);
+        return a + b + (product ? detail::integerRoot(product) : 0); // leaf balls have one root
     }
     /// @return the radius, rounded up.
     double radius() const
@@ -76,7 +78,11 @@ public:
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
 
     /// @return twice the centre of a voxel of the level.
-    Doubled center(const openvdb::Coord& ijk) const;
+    Doubled center(const openvdb::Coord& ijk) const
+    {
+        return {mStep[0] * ijk[0] + mFirst[0], mStep[1] * ijk[1] + mFirst[1],
+            mStep[2] * ijk[2] + mFirst[2]};
+    }
     /// @return the radius of a ball of the level, by the formula above.
     /// @throw openvdb::ValueError if its square does not fit 63 bits
     RootSum radius(int32_t radiusSq) const;
@@ -90,12 +96,11 @@ private:
     [[noreturn]] void throwTooWide() const;
 
     int mLevel;
-    int mDim, mFlatAxis;
     bool mTight;
     Distance mDistance;
     int64_t mScale = 1;
     int64_t mGrowthSq;
-    openvdb::Coord mOrigin;
+    std::array<int64_t, 3> mStep, mFirst; ///< twice: from voxel to voxel, and where voxel 0 is
 };
 
 } // namespace openvdb_spheretree

@@ -167,46 +167,82 @@ void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
     tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius, interrupter);
 }
 
-/// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
-/// rounded up by more than its ancestor's, and world-space centres are rounded too.
-void containStoredLeaves(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
-{
-    constexpr double kRounding = 1e-12; // more than that of a sum of bounds
+/// What a node's stored sphere needs to contain that of another node.
+class StoredReach {
+public:
+    explicit StoredReach(const SphereTree& tree)
+        : mTree(tree), mDistance(tree), mVoxel(largestStretch(*tree.transform)),
+          mMoved(tree.transform->indexToWorld(openvdb::Vec3d(0)).length())
+    {}
+
+    /// The node that contains others.
+    struct Node {
+        int32_t id;
+        openvdb::Vec3d place;
+        double doubt;
+    };
+    Node node(int32_t id) const { return {id, mDistance.place(id), doubt(id)}; }
+
+    /// @return the radius that @a node needs, whatever the rounding of world space.
+    double needed(const Node& node, int32_t other) const
+    {
+        const double apart = mDistance.between(mDistance.place(other), node.place) * (1 + 1e-14);
+        return apart + doubt(other) + node.doubt + double(mTree.radiusWorld[other]);
+    }
+    /// @return no less than that, without a look at the world: its centres are where those of index
+    /// space are, as far as the doubt goes.
+    double bound(const Node& node, int32_t other) const
+    {
+        constexpr double kRounding = 1e-12; // more than that of all terms
+        const Distance& distance = mTree.settings.dist;
+        const openvdb::Vec3d d = mTree.center[other] - mTree.center[node.id];
+        const double apart = mVoxel * distance.length(d[0], d[1], d[2]) / distance.unit();
+        const double away = std::abs(mTree.center[other][0]) + std::abs(mTree.center[other][1])
+            + std::abs(mTree.center[other][2]);
+        return (apart + double(mTree.radiusWorld[other])
+                   + 8 * (kUnit * (mVoxel * away + mMoved) + node.doubt))
+            * (1 + kRounding);
+    }
+
+private:
     // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
     // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
-    const double voxel = largestStretch(*tree.transform);
-    const double moved = tree.transform->indexToWorld(openvdb::Vec3d(0)).length();
-    const auto doubt = [&](int32_t id) {
-        return 1e-15 * (voxel * tree.center[id].length() + moved);
-    };
-    const detail::WorldDistance distance(tree);
+    static constexpr double kUnit = 1e-15;
+    double doubt(int32_t id) const { return kUnit * (mVoxel * mTree.center[id].length() + mMoved); }
+
+    const SphereTree& mTree;
+    const detail::WorldDistance mDistance;
+    const double mVoxel, mMoved;
+};
+
+/// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
+/// rounded up by more than its ancestor's, and world-space centres are rounded too. What a child's
+/// sphere contains already, its parent's does where it contains the child's.
+void containStoredLeaves(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
+{
+    const StoredReach reach(tree);
     std::vector<detail::NodeChildren> below;
     for (std::size_t level = 1; level < tree.levels.size(); ++level) {
         const SphereTreeLevel &nodes = tree.levels[level], &children = tree.levels[level - 1];
         below.emplace_back(tree.parent.data() + children.begin, std::size_t(children.size()),
             nodes.begin, std::size_t(nodes.size()));
-        // What a child's own sphere contains already, this one does where it contains the child's.
+        const auto contain = [&](std::size_t i, detail::FarthestLeaves& leaves) {
+            const StoredReach::Node node = reach.node(nodes.begin + int32_t(i));
+            float& radius = tree.radiusWorld[node.id];
+            leaves.search(
+                int(level), int32_t(i), radius,
+                [&](int k, int32_t other) {
+                    return reach.bound(node, tree.levels[k].begin + other);
+                },
+                [&](int32_t leaf) {
+                    const double needed = reach.needed(node, tree.levels[0].begin + leaf);
+                    radius = std::max(radius, detail::toFloatUp(needed));
+                    return double(radius);
+                });
+        };
         detail::parallelForWith(
             std::size_t(nodes.size()), interrupter, [&] { return detail::FarthestLeaves(below); },
-            [&](std::size_t i, detail::FarthestLeaves& leaves) {
-                const int32_t t = nodes.begin + int32_t(i);
-                const auto needed = [&](int32_t id) {
-                    const double apart = distance(id, t) * (1 + 1e-14);
-                    return apart + doubt(id) + doubt(t) + double(tree.radiusWorld[id]);
-                };
-                float& radius = tree.radiusWorld[t];
-                leaves.search(
-                    int(level), int32_t(i), radius,
-                    [&](int k, int32_t node) {
-                        const double bound = needed(tree.levels[k].begin + node);
-                        return k == 0 ? bound : bound * (1 + kRounding);
-                    },
-                    [&](int32_t leaf) {
-                        radius = std::max(
-                            radius, detail::toFloatUp(needed(tree.levels[0].begin + leaf)));
-                        return double(radius);
-                    });
-            });
+            contain);
     }
 }
 

@@ -4,13 +4,11 @@
 
 #pragma once
 
-#include <cstdint>
-
 namespace openvdb_spheretree {
 namespace detail {
 
 /// @param b  1 or more
-inline int floorDiv(int a, int b) { return a >= 0 ? a / b : int(-((-int64_t(a) + b - 1) / b)); }
+inline int floorDiv(int a, int b) { return a >= 0 ? a / b : -1 - (-1 - a) / b; }
 
 } // namespace detail
 } // namespace openvdb_spheretree

@@ -21,18 +21,20 @@ public:
     {
         if (!mDistance.isEuclidean()) mScale = largestStretch(*tree.transform) / mDistance.unit();
     }
-    double operator()(int32_t a, int32_t b) const
-    {
-        const openvdb::Vec3d d = place(a) - place(b);
-        return mDistance.length(d[0], d[1], d[2]) * mScale;
-    }
+    double operator()(int32_t a, int32_t b) const { return between(place(a), place(b)); }
 
-private:
+    /// @return where a node's centre is, for between().
     openvdb::Vec3d place(int32_t id) const
     {
         return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.center[id];
     }
+    double between(const openvdb::Vec3d& a, const openvdb::Vec3d& b) const
+    {
+        const openvdb::Vec3d d = a - b;
+        return mDistance.length(d[0], d[1], d[2]) * mScale;
+    }
 
+private:
     const SphereTree& mTree;
     const Distance mDistance;
     double mScale = 1;
