@@ -76,50 +76,18 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     return tree;
 }
 
-/// Makes room for some nodes. Pages are fresh: to write them the first time takes long.
-void makeRoom(SphereTree& tree, std::size_t nodes)
-{
-    tbb::parallel_invoke([&] { detail::resizeLarge(tree.center, nodes); },
-        [&] { detail::resizeLarge(tree.radius, nodes); },
-        [&] { detail::resizeLarge(tree.coverSq, nodes); },
-        [&] { detail::resizeLarge(tree.parent, nodes); },
-        [&] { detail::resizeLarge(tree.ijk, nodes); },
-        [&] { detail::resizeLarge(tree.radiusSq, nodes); });
-}
-
-/// The nodes of a level, whose place the tree knows.
-void setNodes(SphereTree& tree, const LevelNodes& nodes, const SphereTreeLevel& range,
-    int32_t firstAbove, openvdb::util::NullInterrupter* interrupter)
-{
-    const FlatAxis flat(tree.settings.flatAxis);
-    const LevelFrame frame(range.level, tree.origin, tree.settings);
-    const int unit = tree.settings.dist.unit();
-    detail::parallelFor(nodes.balls.size(), interrupter, [&](std::size_t i) {
-        const MedialBall& ball = nodes.balls[i];
-        const std::size_t id = std::size_t(range.begin) + i;
-        tree.ijk[id] = flat.fromZ(ball.center);
-        tree.center[id] = frame.center(tree.ijk[id]).halved();
-        tree.radiusSq[id] = ball.radiusSq;
-        tree.parent[id] = nodes.parent.empty() ? -1 : firstAbove + nodes.parent[i];
-        if (nodes.radius.empty()) {
-            const RootSum radius = frame.radius(ball.radiusSq);
-            tree.radius[id] = detail::divideUp(radius.radius(), unit);
-            tree.coverSq[id] = radius.coverSq();
-        } else {
-            tree.radius[id] = detail::divideUp(nodes.radius[i], unit);
-            tree.coverSq[id] = nodes.coverSq[i];
-        }
-    });
-}
-
-/// Nodes of all levels, top level first: ids in the order of the header.
-void appendNodes(
-    SphereTree& tree, std::vector<LevelNodes> levels, openvdb::util::NullInterrupter* interrupter)
+/// The digital balls of all levels and their parents, top level first: ids in the order of the
+/// header. Balls are given back as they are copied, since there may be gigabytes of them.
+void placeBalls(
+    SphereTree& tree, std::vector<LevelNodes>& levels, openvdb::util::NullInterrupter* interrupter)
 {
     std::size_t count = 0;
     for (const LevelNodes& nodes : levels) count += nodes.balls.size();
-    makeRoom(tree, count);
+    tbb::parallel_invoke([&] { detail::resizeLarge(tree.ijk, count); },
+        [&] { detail::resizeLarge(tree.radiusSq, count); },
+        [&] { detail::resizeLarge(tree.parent, count); });
     tree.levels.resize(levels.size());
+    const FlatAxis flat(tree.settings.flatAxis);
     int32_t begin = 0, firstAbove = 0;
     for (int level = int(levels.size()) - 1; level >= 0; --level) {
         LevelNodes& nodes = levels[level];
@@ -129,15 +97,49 @@ void appendNodes(
         range.end = begin + int32_t(nodes.balls.size());
         range.pyramidVoxels = nodes.pyramidVoxels;
         range.topology = nodes.topology;
-        setNodes(tree, nodes, range, firstAbove, interrupter);
+        detail::parallelFor(nodes.balls.size(), interrupter, [&](std::size_t i) {
+            const std::size_t id = std::size_t(begin) + i;
+            tree.ijk[id] = flat.fromZ(nodes.balls[i].center);
+            tree.radiusSq[id] = nodes.balls[i].radiusSq;
+            tree.parent[id] = nodes.parent.empty() ? -1 : firstAbove + nodes.parent[i];
+        });
         for (const DagEdge& edge : nodes.dag) {
             tree.dag.push_back({firstAbove + edge.parent, range.begin + edge.child});
         }
-        nodes = {};
+        std::vector<MedialBall>().swap(nodes.balls);
+        std::vector<int32_t>().swap(nodes.parent);
+        std::vector<DagEdge>().swap(nodes.dag);
         firstAbove = range.begin;
         begin = range.end;
     }
     std::sort(tree.dag.begin(), tree.dag.end());
+}
+
+/// Where the balls are in the frame of level 0, and how large.
+void measureBalls(SphereTree& tree, const std::vector<LevelNodes>& levels,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const std::size_t count = tree.ijk.size();
+    tbb::parallel_invoke([&] { detail::resizeLarge(tree.center, count); },
+        [&] { detail::resizeLarge(tree.radius, count); },
+        [&] { detail::resizeLarge(tree.coverSq, count); });
+    const int unit = tree.settings.dist.unit();
+    for (const SphereTreeLevel& range : tree.levels) {
+        const LevelNodes& nodes = levels[range.level];
+        const LevelFrame frame(range.level, tree.origin, tree.settings);
+        detail::parallelFor(std::size_t(range.size()), interrupter, [&](std::size_t i) {
+            const std::size_t id = std::size_t(range.begin) + i;
+            tree.center[id] = frame.center(tree.ijk[id]).halved();
+            if (nodes.radius.empty()) {
+                const RootSum radius = frame.radius(tree.radiusSq[id]);
+                tree.radius[id] = detail::divideUp(radius.radius(), unit);
+                tree.coverSq[id] = radius.coverSq();
+            } else {
+                tree.radius[id] = detail::divideUp(nodes.radius[i], unit);
+                tree.coverSq[id] = nodes.coverSq[i];
+            }
+        });
+    }
 }
 
 /// @return radii in world units: padding added, voxels to world units, rounded up to floats.
@@ -290,8 +292,11 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     std::vector<LevelNodes> levels = settings.tree == TreeType::Reversible
         ? detail::reversibleLevels(std::move(voxels), context)
         : detail::extendedLevels(std::move(voxels), context);
-    detail::timed("nodes of the tree", interrupter, &context.seconds->tree,
-        [&] { appendNodes(tree, std::move(levels), interrupter); });
+    detail::timed("nodes of the tree", interrupter, &context.seconds->tree, [&] {
+        placeBalls(tree, levels, interrupter);
+        measureBalls(tree, levels, interrupter);
+        levels.clear();
+    });
     if (settings.center == Center::Miniball) {
         detail::timed("miniballs", interrupter, &context.seconds->tree,
             [&] { detail::centerOnMiniballs(tree, interrupter); });

@@ -3,6 +3,8 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,11 +27,26 @@ int64_t slabBytes(
     return most * memory.perLeaf;
 }
 
+namespace {
+
+/// More slabs at a time are no faster: memory that is used again is at hand, fresh pages take
+/// longer than the passes (gyroid of 10^8 voxels: 26 Mvoxel/s with all slabs at once, 38 with few).
+uint32_t usefulWindow(const LeafLayout& layout)
+{
+    constexpr uint32_t kLeaves = 8192, kSlabsOfThread = 4;
+    const uint32_t slabs = std::max<uint32_t>(1, layout.slabCount());
+    const auto threads = uint32_t(tbb::this_task_arena::max_concurrency());
+    const uint32_t leavesOfSlab = std::max<uint32_t>(1, layout.leafCount() / slabs);
+    return std::min(slabs, std::max(kSlabsOfThread * threads, kLeaves / leavesOfSlab));
+}
+
+} // namespace
+
 uint32_t windowWithin(
     const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, int64_t bytes)
 {
     constexpr double kGiB = 1 << 30;
-    uint32_t window = std::max<uint32_t>(1, layout.slabCount());
+    uint32_t window = usefulWindow(layout);
     while (true) {
         const int64_t needed = memory.fixed + slabBytes(layout, memory, largestDistSq, window);
         if (needed <= bytes) return window;

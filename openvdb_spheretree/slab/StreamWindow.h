@@ -23,7 +23,8 @@ struct StreamMemory {
 int64_t slabBytes(
     const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, uint32_t window);
 
-/// @return all slabs, or the most of half as many, a quarter, ... that fit.
+/// @return enough slabs to keep all threads busy, or the most of half as many, a quarter, ... that
+/// fit.
 /// @throw openvdb::ValueError if even one at a time does not
 uint32_t windowWithin(
     const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, int64_t bytes);
