@@ -62,7 +62,8 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, metric);
     const detail::MaskDifference excess =
         detail::maskDifference(*covered, object.mask, interrupter);
-    const int64_t distSq = detail::farthestDistSq(excess.cells, object.nearest, interrupter);
+    const int64_t distSq =
+        detail::farthestDistSq(excess.cells, object.mask, object.nearest, interrupter);
     if (distSq >= detail::NearestVoxel::kFar2 / 4 * detail::NearestVoxel::kFar2) {
         level.errorUnknown = tooFar();
         return;

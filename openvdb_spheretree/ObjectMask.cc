@@ -3,11 +3,13 @@
 /// tile by the grid's criterion, both in parallel. tools::sdfInteriorMask is not used for level
 /// sets: it looks for the interior only near leaf nodes, and leaves out an interior root tile
 /// (4096^3 voxels) and interior tiles of internal nodes that have no leaf.
+/// Values that OpenVDB has left in the file are read leaf by leaf, and not kept (LeafValues.h); of
+/// a grid whose active states are asked for, none are.
 #include "ObjectMask.h"
 
 #include "UniformVoxels.h"
 #include "detail/DescribeGrid.h"
-
+#include "detail/LeafValues.h"
 #include "detail/Parallel.h"
 
 #include <openvdb/points/PointDataGrid.h>
@@ -90,7 +92,7 @@ struct ValueCriterion {
     template <typename LeafT>
     void leaf(const LeafT& source, LeafBits& bits) const
     {
-        const ValueT* values = source.buffer().data();
+        const detail::LeafValues<LeafT> values(source);
         for (Index w = 0; w < LeafBits::WORD_COUNT; ++w) {
             uint64_t word = 0;
             for (Index n = 0; n < 64; ++n) word |= uint64_t(inside(values[64 * w + n])) << n;
@@ -133,9 +135,10 @@ struct HoldsPointCriterion {
     template <typename LeafT>
     void leaf(const LeafT& source, LeafBits& bits) const
     {
+        const detail::LeafValues<LeafT> ends(source);
         uint64_t begin = 0;
         for (Index n = 0; n < LeafT::SIZE; ++n) {
-            const uint64_t end = uint32_t(source.getValue(n));
+            const uint64_t end = uint32_t(ends[n]);
             bits.set(n, source.isValueOn(n) && end > begin);
             begin = end;
         }

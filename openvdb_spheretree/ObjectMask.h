@@ -19,9 +19,13 @@ struct ObjectMaskSettings {
 /// Level set -> its interior, voxels far inside included; mask, bool and point grids -> topology
 /// (a voxel holding at least one point); any other scalar grid -> active and inactive values above
 /// the threshold. Tiles stay tiles.
+/// Of a grid that OpenVDB reads with delayed loading, values are read one leaf a thread at a time,
+/// and stay in the file: a grid of more values than memory becomes a mask all the same.
 /// @throw openvdb::TypeError if the grid is of a kind that bounds no object (vector, string grids)
 /// @throw openvdb::ValueError if the object is empty or unbounded, or voxels are not uniform; the
 ///        message names the grid
+/// @throw openvdb::IoError, openvdb::RuntimeError if values are left in a file that is damaged or
+///        has changed
 openvdb::BoolGrid::Ptr objectMask(const openvdb::GridBase& grid,
     const ObjectMaskSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -73,7 +73,7 @@ void runMask(const ActionCall& call, Session& session)
     settings.threshold = call.real("threshold");
     settings.values = call.flag("values");
     StackItem result;
-    result.grid = spheretree::objectMask(*item.grid, settings, &session.progress);
+    result.grid = objectOf(item, settings, session);
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -97,6 +97,20 @@ StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
         throwInput("a mesh has no inside yet: put -mesh2ls before this action");
     }
     return session.stack.select("a grid that an object can be made of", isObjectGrid, ageOrName);
+}
+
+openvdb::BoolGrid::Ptr objectOf(
+    const StackItem& item, const spheretree::ObjectMaskSettings& settings, Session& session)
+{
+    try {
+        return spheretree::objectMask(*item.grid, settings, &session.progress);
+    } catch (const openvdb::ValueError&) { // these name the grid
+        rethrowNamed("", kInput);
+    } catch (const openvdb::TypeError&) {
+        rethrowNamed("", kInput);
+    } catch (...) {
+        rethrowNamed(item.description(), kInput);
+    }
 }
 
 ActionSpec mesh2lsAction()

@@ -14,6 +14,11 @@ namespace command {
 /// @throw CommandError (input) if there is none, or more than one; for a mesh, it tells the remedy
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName);
 
+/// @brief The object of a grid of the stack, whose values may still be in its file.
+/// @throw CommandError (input) as objectMask() throws; what is wrong with the file names it
+openvdb::BoolGrid::Ptr objectOf(const StackItem& item,
+    const openvdb_spheretree::ObjectMaskSettings& settings, Session& session);
+
 /// @brief Fill in the errors of a tree whose object is known, and count the time.
 void computeErrors(StackItem& item, Session& session);
 

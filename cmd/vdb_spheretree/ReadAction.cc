@@ -79,9 +79,16 @@ StackItem treeItem(
     return item;
 }
 
-void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
+Loading loadingOf(const ActionCall& call)
 {
-    openvdb::GridPtrVec grids = readVdb(path);
+    const std::string delayed = call.text("delayed");
+    if (delayed == "auto") return Loading::Auto;
+    return delayed == "1" ? Loading::Delayed : Loading::Whole;
+}
+
+void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+{
+    openvdb::GridPtrVec grids = readVdb(path, loading);
     std::set<GridBase::Ptr> ofTrees;
     for (const GridBase::Ptr& grid : grids) {
         if (!openvdb_spheretree::isSphereTree(*grid)) continue;
@@ -102,11 +109,11 @@ void readVdbFile(const std::string& path, NameFilter& filter, Session& session)
     }
 }
 
-void readFile(const std::string& path, NameFilter& filter, Session& session)
+void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
 {
     session.stack.setSource(path);
     const FileKind kind = fileKind(path);
-    if (kind == FileKind::Vdb) return readVdbFile(path, filter, session);
+    if (kind == FileKind::Vdb) return readVdbFile(path, loading, filter, session);
     StackItem item;
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
@@ -127,9 +134,10 @@ void check(const ActionCall& call, Plan& plan)
 void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
+    const Loading loading = loadingOf(call);
     NameFilter filter(call.list("grids"));
     session.stack.beginBatch("");
-    for (const std::string& path : call.list("files")) readFile(path, filter, session);
+    for (const std::string& path : call.list("files")) readFile(path, loading, filter, session);
     filter.requireAllFound();
     session.seconds.read += watch.seconds();
     for (const auto& item : session.stack.items()) session.remark(item->description());
@@ -144,7 +152,10 @@ ActionSpec readAction()
         "(.obj, .ply, .stl, .off ...)"};
     action.options = {
         list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
-        list("grids", "*", "names of the grids and sphere-trees to take")};
+        list("grids", "*", "names of the grids and sphere-trees to take"),
+        choice("delayed", {"auto", "1", "0"},
+            "leave the values of a .vdb in the file until they are needed, and read them node by "
+            "node: grids may be larger than memory then; auto does so from 64 MiB on")};
     action.isSource = true;
     action.needsInput = false;
     action.check = check;

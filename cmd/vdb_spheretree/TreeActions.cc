@@ -21,10 +21,10 @@ using spheretree::SphereTree;
 namespace {
 
 /// The object of a grid, and how long it took to find it.
-BoolGrid::ConstPtr objectOf(const openvdb::GridBase& grid, Session& session)
+BoolGrid::ConstPtr timedObjectOf(const StackItem& item, Session& session)
 {
     const Stopwatch watch;
-    BoolGrid::ConstPtr object = spheretree::objectMask(grid, {}, &session.progress);
+    BoolGrid::ConstPtr object = objectOf(item, {}, session);
     session.seconds.mask += watch.seconds();
     return object;
 }
@@ -48,7 +48,7 @@ void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& s
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
-    const BoolGrid::ConstPtr object = objectOf(*input.grid, session);
+    const BoolGrid::ConstPtr object = timedObjectOf(input, session);
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
     result.object = object;
@@ -114,7 +114,7 @@ void runCheck(const ActionCall& call, Session& session)
     const StackItem& item = session.stack.selectTree("");
     BoolGrid::ConstPtr object = item.object;
     if (call.given("vdb") || !object) {
-        object = objectOf(*selectObjectGrid(session, call.text("vdb")).grid, session);
+        object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
     }
     const auto failures = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
     throwIfStopped();

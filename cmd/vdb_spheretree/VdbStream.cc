@@ -6,12 +6,16 @@
 #include "Progress.h"
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/Stream.h>
 
 #include <cstring>
+#include <fstream>
 #include <istream>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace command {
@@ -38,17 +42,105 @@ private:
     int mFd;
 };
 
-openvdb::GridPtrVec readGrids(std::istream& in, const std::string& path)
+/// Runs @a read; whatever goes wrong is the file's.
+template <typename Read>
+auto naming(const std::string& path, const Read& read)
 {
     try {
-        openvdb::io::Stream stream(in, /*delayLoad=*/false);
-        return *stream.getGrids();
+        return read();
     } catch (const std::ios_base::failure&) {
         throwInput(path + ": the file is truncated or damaged");
     } catch (...) {
         rethrowNamed(path, kInput);
     }
 }
+
+openvdb::GridPtrVec readWhole(const std::string& path)
+{
+    const InputFile file(path);
+    FdBuffer buffer(file.fd());
+    std::istream in(&buffer);
+    in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+    return naming(path, [&] {
+        openvdb::io::Stream stream(in, /*delayLoad=*/false);
+        return *stream.getGrids();
+    });
+}
+
+#ifdef OPENVDB_USE_DELAYED_LOADING
+
+/// Where the grids of a file are, read with every check that OpenVDB leaves out when it maps the
+/// file into memory.
+class GridIndex : public openvdb::io::Archive {
+public:
+    /// @throw std::ios_base::failure if the file ends before what it says it holds
+    explicit GridIndex(const std::string& path)
+    {
+        std::ifstream in;
+        in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+        in.open(path, std::ios::binary);
+        const std::streamoff size = in.seekg(0, std::ios::end).tellg();
+        in.seekg(0);
+        readHeader(in);
+        setFormatVersion(in);
+        setLibraryVersion(in);
+        setDataCompression(in);
+        if (!isSeekable()) return;
+        openvdb::MetaMap().readMeta(in);
+        for (int32_t left = readGridCount(in); left > 0; --left) {
+            openvdb::io::GridDescriptor grid;
+            grid.read(in);
+            const bool inOrder = grid.getGridPos() >= in.tellg()
+                && grid.getBlockPos() >= grid.getGridPos() && grid.getEndPos() >= grid.getBlockPos()
+                && grid.getEndPos() <= size;
+            if (!inOrder) throw std::ios_base::failure("truncated");
+            mNames.push_back(grid.uniqueName());
+            in.seekg(grid.getEndPos());
+        }
+    }
+
+    /// @return whether it says where its grids are; what went through a pipe does not.
+    bool isSeekable() const { return inputHasGridOffsets(); }
+    /// @return the names by which OpenVDB tells the grids apart, in the file's order.
+    const std::vector<std::string>& names() const { return mNames; }
+
+private:
+    std::vector<std::string> mNames;
+};
+
+bool worthDelaying(const std::string& path, Loading loading)
+{
+    struct stat info;
+    if (loading == Loading::Whole || path == "stdin.vdb") return false;
+    if (!openvdb::io::Archive::isDelayedLoadingEnabled()) return false;
+    if (stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
+    return loading == Loading::Delayed || int64_t(info.st_size) >= kLargeFile;
+}
+
+/// @return nothing if the file does not say where its grids are.
+openvdb::GridPtrVec readDelayed(const std::string& path)
+{
+    return naming(path, [&] {
+        openvdb::GridPtrVec grids;
+        const GridIndex index(path);
+        if (!index.isSeekable()) return grids;
+        openvdb::io::File file(path);
+        file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
+        file.open(/*delayLoad=*/true);
+        for (const std::string& name : index.names()) {
+            throwIfStopped();
+            grids.push_back(file.readGrid(name));
+        }
+        return grids;
+    });
+}
+
+#else // later versions of OpenVDB can be built without
+
+bool worthDelaying(const std::string&, Loading) { return false; }
+openvdb::GridPtrVec readDelayed(const std::string&) { return {}; }
+
+#endif
 
 /// The mask words of a leaf may be damaged without any length being wrong.
 void checkVoxelCount(const openvdb::GridBase& grid, const std::string& path)
@@ -131,13 +223,11 @@ void replaceTag(std::iostream& stream, const std::string& tag)
 
 } // namespace
 
-openvdb::GridPtrVec readVdb(const std::string& path)
+openvdb::GridPtrVec readVdb(const std::string& path, Loading loading)
 {
-    const InputFile file(path);
-    FdBuffer buffer(file.fd());
-    std::istream in(&buffer);
-    in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-    openvdb::GridPtrVec grids = readGrids(in, path);
+    openvdb::GridPtrVec grids;
+    if (worthDelaying(path, loading)) grids = readDelayed(path);
+    if (grids.empty()) grids = readWhole(path);
     if (grids.empty()) throwInput(path + ": the file holds no grid");
     for (const auto& grid : grids) {
         throwIfStopped();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WritePicture.h"
 
+#include "ObjectChoice.h"
+
 #include <openvdb_spheretree/Camera.h>
-#include <openvdb_spheretree/ObjectMask.h>
 #include <openvdb_spheretree/SpherePicture.h>
 
 #include <algorithm>
@@ -97,7 +98,7 @@ Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& s
     return spheretree::renderLevel(tree, level, camera, settingsOf(call), &session.progress);
 }
 
-Picture pictureOfObject(const ActionCall& call, const openvdb::GridBase& grid, Session& session)
+Picture pictureOfObject(const ActionCall& call, const StackItem& item, Session& session)
 {
     const PictureSettings settings = settingsOf(call);
     if (call.given("level")) throwInput("level is for sphere-trees, and a grid is drawn");
@@ -105,12 +106,7 @@ Picture pictureOfObject(const ActionCall& call, const openvdb::GridBase& grid, S
         throwInput("color=" + call.text("color")
             + " is for sphere-trees, and a grid is drawn: it takes red,green,blue");
     }
-    openvdb::BoolGrid::ConstPtr object;
-    try {
-        object = spheretree::objectMask(grid, {}, &session.progress);
-    } catch (...) {
-        rethrowNamed("", kInput);
-    }
+    const openvdb::BoolGrid::ConstPtr object = objectOf(item, {}, session);
     const openvdb::CoordBBox box = object->evalActiveVoxelBoundingBox();
     const Camera camera = cameraOf(call, box, object->transform());
     return spheretree::renderObject(*object, camera, settings, &session.progress);
@@ -163,7 +159,7 @@ Picture pictureOf(const ActionCall& call, const std::string& path,
 {
     const StackItem& item = itemToDraw(items, path);
     return item.tree ? pictureOfTree(call, *item.tree, session)
-                     : pictureOfObject(call, *item.grid, session);
+                     : pictureOfObject(call, item, session);
 }
 
 } // namespace command

@@ -2,17 +2,23 @@
 /// @file detail/FarthestVoxel.cc
 /// @brief Branch and bound over cells of voxels, with one best distance B for all threads.
 ///
-/// 1. Seed B: exact distances of one voxel each of a sample of cells, then the best cell in full.
-/// 2. Every cell, in parallel. A box of voxels with centre c and half diagonal r is dismissed when
-///    an object voxel lies within B - r of c, for then no voxel of the box is farther than B.
-///    Otherwise it is split in eight, each part shrunk to the box of its voxels, down to single
-///    ones, whose exact distance may raise B.
+/// A box of voxels with centre c and half diagonal r is dismissed when an object voxel lies within
+/// B - r of c, for then no voxel of the box is farther than B.
+///
+/// 1. seed: exact distances of one voxel each of a sample of cells, then the best cell in full.
+/// 2. sortIntoGroups: cells of eight by the block of 128 that they are in, along a Morton curve, so
+///    that those of any cube stand together.
+/// 3. Every group, in parallel: its box is dismissed, or split in eight, down to single cells. In
+///    those, voxels within B are taken off by words (LeafReach.h), which decides where B is a few
+///    voxels; what is left is split on, each part shrunk to the box of its voxels, down to single
+///    ones, whose exact distance may raise B. Tiles are split likewise.
 ///
 /// The order decides how much is dismissed, not the result: a maximum. Distances are doubled and
 /// squared integers; the one place with rounding, B - r, is rounded down, which dismisses less.
 
 #include "FarthestVoxel.h"
 
+#include "LeafReach.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -29,9 +35,30 @@ struct CellBox {
     int32_t lo[3], hi[3]; // inclusive
 };
 
+/// A cell of eight, and its place in its block of 128.
+struct PlacedCell {
+    const VoxelCell* cell;
+    uint32_t morton; ///< of 12 bits
+
+    /// @return which eighth of a cube of @a size it is in.
+    uint32_t partOf(int32_t size) const
+    {
+        const uint32_t half = uint32_t(size) / 16; // in leaves
+        return morton / (half * half * half) & 7;
+    }
+};
+
+/// Cells of eight in one block of 128; or one that is larger.
+struct Group {
+    Coord block;
+    std::vector<PlacedCell> cells;
+};
+
 class FarthestSearch {
 public:
-    explicit FarthestSearch(const NearestVoxel& object) : mObject(object) {}
+    FarthestSearch(const openvdb::MaskTree& mask, const NearestVoxel& object)
+        : mMask(mask), mObject(object)
+    {}
 
     int64_t bestSq2() const { return mBestSq2.load(std::memory_order_relaxed); }
 
@@ -46,12 +73,29 @@ public:
         return sq2;
     }
 
-    void visit(const VoxelCell& cell)
+    void visit(const VoxelCell& cell, LeafReach& reach)
     {
         if (cell.size > 8) {
-            visitTile(cell.origin, cell.size);
+            visitTile(cell.origin, cell.size, reach);
         } else {
-            visitLeafPart(cell, {{0, 0, 0}, {7, 7, 7}}, 8);
+            visitLeaf(cell, reach);
+        }
+    }
+
+    /// Visits cells of eight that are in one cube of @a size, in the order of sortIntoGroups().
+    /// Recursion: from 128 to 8 in four halvings.
+    void visitGroup(const PlacedCell* begin, const PlacedCell* end, int32_t size, LeafReach& reach)
+    {
+        if (end - begin == 1 || size == 8) {
+            for (; begin != end; ++begin) visit(*begin->cell, reach);
+            return;
+        }
+        if (dismissed(boxOf(begin, end))) return;
+        while (begin != end) {
+            const uint32_t part = begin->partOf(size);
+            const PlacedCell* const first = begin;
+            while (begin != end && begin->partOf(size) == part) ++begin;
+            visitGroup(first, begin, size / 2, reach);
         }
     }
 
@@ -72,21 +116,42 @@ private:
         return mObject.anyWithin(center2, int64_t(reach * reach * kLess));
     }
 
+    void visitLeaf(VoxelCell cell, LeafReach& reach)
+    {
+        const Coord& lo = cell.origin;
+        if (dismissed({{lo[0], lo[1], lo[2]}, {lo[0] + 7, lo[1] + 7, lo[2] + 7}})) return;
+        reach.takeNear(mMask, mObject.distance(), bestSq2() / 4, cell);
+        visitLeafPart(cell, {{0, 0, 0}, {7, 7, 7}}, 8);
+    }
+
+    static CellBox boxOf(const PlacedCell* begin, const PlacedCell* end)
+    {
+        CellBox box{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+        for (; begin != end; ++begin) {
+            for (int a = 0; a < 3; ++a) {
+                box.lo[a] = std::min(box.lo[a], begin->cell->origin[a]);
+                box.hi[a] = std::max(box.hi[a], begin->cell->origin[a] + 7);
+            }
+        }
+        return box;
+    }
+
     /// Recursion: from 4096 to 8 in nine halvings.
-    void visitTile(const Coord& origin, int32_t size)
+    void visitTile(const Coord& origin, int32_t size, LeafReach& reach)
     {
         if (size == 8) {
             VoxelCell cell;
             cell.origin = origin;
             std::fill(cell.words, cell.words + 8, ~uint64_t(0));
-            visit(cell);
+            visitLeaf(cell, reach);
             return;
         }
         const Coord last = origin.offsetBy(size - 1);
         if (dismissed({{origin[0], origin[1], origin[2]}, {last[0], last[1], last[2]}})) return;
         const int32_t half = size / 2;
         for (int i = 0; i < 8; ++i) {
-            visitTile(origin.offsetBy(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0), half);
+            const Coord corner(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0);
+            visitTile(origin + corner, half, reach);
         }
     }
 
@@ -148,7 +213,8 @@ private:
         }
     }
 
-    const NearestVoxel& mObject;
+    const openvdb::MaskTree& mMask;
+    const NearestVoxel& mObject; ///< the same, as an index
     std::atomic<int64_t> mBestSq2{0};
 };
 
@@ -161,18 +227,52 @@ void seed(FarthestSearch& search, const std::vector<VoxelCell>& cells)
         const int64_t before = search.bestSq2();
         if (search.visitVoxel(cells[i].first()) > before) best = i;
     }
-    search.visit(cells[best]);
+    LeafReach reach;
+    search.visit(cells[best], reach);
+}
+
+/// Bits x, y, z of a place in a block, from the highest: three of Morton's code at a time.
+uint32_t mortonOf(const Coord& origin)
+{
+    uint32_t code = 0;
+    for (int bit = 6; bit >= 3; --bit) {
+        for (int a = 0; a < 3; ++a) code = code << 1 | (uint32_t(origin[a]) >> bit & 1);
+    }
+    return code;
+}
+
+std::vector<Group> sortIntoGroups(
+    const std::vector<VoxelCell>& cells, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<Group> groups; // cells of a block stand together
+    for (const VoxelCell& cell : cells) {
+        const Coord block = cell.origin & ~127;
+        if (groups.empty() || groups.back().block != block || cell.size > 8) {
+            groups.push_back({block, {}});
+        }
+        groups.back().cells.push_back({&cell, mortonOf(cell.origin)});
+    }
+    parallelFor(groups.size(), interrupter, [&](std::size_t i) {
+        std::sort(groups[i].cells.begin(), groups[i].cells.end(),
+            [](const PlacedCell& a, const PlacedCell& b) { return a.morton < b.morton; });
+    });
+    return groups;
 }
 
 } // namespace
 
-int64_t farthestDistSq(const std::vector<VoxelCell>& cells, const NearestVoxel& object,
-    openvdb::util::NullInterrupter* interrupter)
+int64_t farthestDistSq(const std::vector<VoxelCell>& cells, const openvdb::MaskTree& mask,
+    const NearestVoxel& object, openvdb::util::NullInterrupter* interrupter)
 {
     if (cells.empty()) return 0;
-    FarthestSearch search(object);
+    FarthestSearch search(mask, object);
     seed(search, cells);
-    parallelFor(cells.size(), interrupter, [&](std::size_t i) { search.visit(cells[i]); });
+    const std::vector<Group> groups = sortIntoGroups(cells, interrupter);
+    parallelForWithScratch<LeafReach>(
+        groups.size(), interrupter, [&](std::size_t i, LeafReach& reach) {
+            const PlacedCell* const begin = groups[i].cells.data();
+            search.visitGroup(begin, begin + groups[i].cells.size(), 128, reach);
+        });
     return search.bestSq2() / 4;
 }
 

@@ -102,9 +102,22 @@ TEST_F(CommandInput, AVdbTruncatedAnywhere)
         command_test::writeText(path("cut.vdb"), whole.substr(0, length));
         SCOPED_TRACE(length);
         expectInputError("-read cut.vdb -spheretree -write t.vdb", "cut.vdb");
+        expectInputError("-read cut.vdb delayed=1 -spheretree -write t.vdb", "cut.vdb");
     }
     command_test::writeText(path("cut.vdb"), whole.substr(0, whole.size() - 1));
     expectInputError("-read cut.vdb -spheretree -write t.vdb", "cut.vdb");
+    expectInputError("-read cut.vdb delayed=1 -spheretree -write t.vdb", "cut.vdb");
+}
+
+TEST_F(CommandInput, ValuesThatAreDamagedAndStillInTheFile)
+{
+    writeGrids("damaged.vdb", {sphereGrid("ball")});
+    std::string bytes = command_test::readText(path("damaged.vdb"));
+    for (size_t i = bytes.size() / 2; i < bytes.size(); ++i) bytes[i] = '\x55';
+    command_test::writeText(path("damaged.vdb"), bytes);
+    for (const char* action : {"-spheretree -write t.vdb", "-mask -write t.vdb", "-write t.png"}) {
+        expectInputError(std::string("-read damaged.vdb delayed=1 ") + action, "damaged.vdb");
+    }
 }
 
 TEST_F(CommandInput, ATruncatedPipe)

@@ -264,6 +264,28 @@ TEST_F(CommandWork, AGridReadFromAFileIsWrittenBack)
     EXPECT_EQ(ball->getName(), "ball");
 }
 
+TEST_F(CommandWork, AGridWhoseValuesStayInTheFileBecomesTheSameTreeAndIsWrittenBackTheSame)
+{
+    writeGrids("two.vdb", {sphereGrid("second", 7), sphereGrid("first")});
+    for (const char* delayed : {"0", "1"}) {
+        const std::string in = std::string("-read two.vdb delayed=") + delayed;
+        const std::string out = std::string(" -write ") + delayed;
+        EXPECT_EQ(run(in + out + "-grids.vdb").exitCode, 0);
+        EXPECT_EQ(run(in + " -spheretree vdb=first" + out + "-tree.vdb").exitCode, 0);
+    }
+    using command_test::readText;
+    EXPECT_EQ(readText(path("0-grids.vdb")), readText(path("1-grids.vdb")));
+    EXPECT_EQ(readText(path("0-tree.vdb")), readText(path("1-tree.vdb")));
+}
+
+TEST_F(CommandWork, AFileThatDoesNotSayWhereItsGridsAreIsReadWhole)
+{
+    writeGrids("whole.vdb", {sphereGrid("ball")});
+    EXPECT_EQ(shell("$VDB_SPHERETREE -read whole.vdb -write stdout.vdb > piped.vdb").exitCode, 0);
+    const Result result = run("-read piped.vdb delayed=1 -spheretree -write tree.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+}
+
 TEST_F(CommandWork, AFileWrittenOnTheLineCanBeReadOnIt)
 {
     EXPECT_EQ(run("-read a.vol -spheretree -write t.vdb -clear -read t.vdb -stats").exitCode, 0);

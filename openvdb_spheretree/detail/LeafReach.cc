@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LeafReach.h"
+
+#include <openvdb/tree/ValueAccessor.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::Coord;
+using openvdb::MaskTree;
+
+constexpr uint64_t kEveryByte = 0x0101010101010101u;
+
+/// Bytes of which the upper n bits are on, or the lower ones.
+constexpr uint64_t upper(int n) { return kEveryByte * (0xffu & (0xff00u >> n)); }
+constexpr uint64_t lower(int n) { return kEveryByte * (0xffu & ~(0xffu << n)); }
+
+} // namespace
+
+/// The rows that the ball reaches, for as long as distance and limit stay the same.
+void LeafReach::order(const Distance& distance, int64_t limitSq)
+{
+    limitSq = std::min(limitSq, distance.lengthSq(kReach + 1, 0, 0) - 1);
+    if (limitSq == mLimitSq && distance == mDistance) return;
+    mLimitSq = limitSq;
+    mDistance = distance;
+    mOffsets.clear();
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+        for (int dy = -kReach; dy <= kReach; ++dy) {
+            const int64_t reach = distance.reach(dx, dy, limitSq);
+            if (reach < 0) continue;
+            // A norm may leave z free where another coordinate is larger.
+            mOffsets.push_back({dx, dy, int(std::min<int64_t>(reach, kReach))});
+        }
+    }
+    std::sort(mOffsets.begin(), mOffsets.end(), [&](const Offset& a, const Offset& b) {
+        return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy;
+    });
+}
+
+/// @return whether the object has anything around.
+bool LeafReach::gather(const MaskTree& object, const Coord& origin)
+{
+    const openvdb::tree::ValueAccessor<const MaskTree, false> accessor(object);
+    Rows* const planes[3] = {&mBelow, &mMiddle, &mAbove};
+    bool any = false;
+    for (int n = 0; n < 27; ++n) {
+        const int x = n / 9, y = n / 3 % 3, z = n % 3;
+        const Coord at = origin.offsetBy(8 * (x - 1), 8 * (y - 1), 8 * (z - 1));
+        const MaskTree::LeafNodeType* leaf = accessor.probeConstLeaf(at);
+        const uint64_t tile = !leaf && accessor.isValueOn(at) ? ~uint64_t(0) : 0;
+        any = any || leaf || tile;
+        for (int i = 0; i < 8; ++i) {
+            const uint64_t word = leaf ? leaf->getValueMask().getWord<uint64_t>(i) : tile;
+            (*planes[z])[kSide / 8 * (8 * x + i) + y] = word;
+        }
+    }
+    return any;
+}
+
+void LeafReach::widen()
+{
+    const int far = mOffsets.front().reach;
+    std::copy(mMiddle, mMiddle + kRows / 8, mWidened[0]);
+    for (int n = 1; n <= far; ++n) {
+        const uint64_t up = upper(8 - n), down = lower(8 - n), in = lower(n), out = upper(n);
+        for (int i = 0; i < kRows / 8; ++i) {
+            const uint64_t towardsUp =
+                n == 8 ? mBelow[i] : (mMiddle[i] << n & up) | (mBelow[i] >> (8 - n) & in);
+            const uint64_t towardsDown =
+                n == 8 ? mAbove[i] : (mMiddle[i] >> n & down) | (mAbove[i] << (8 - n) & out);
+            mWidened[n][i] = mWidened[n - 1][i] | towardsUp | towardsDown;
+        }
+    }
+}
+
+uint64_t LeafReach::slice(int x, const Offset& offset) const
+{
+    uint64_t word;
+    const int row = kSide * (kReach + x + offset.dx) + kReach + offset.dy;
+    std::memcpy(&word, reinterpret_cast<const char*>(mWidened[offset.reach]) + row, sizeof(word));
+    return word;
+}
+
+void LeafReach::takeNear(
+    const MaskTree& object, const Distance& distance, int64_t limitSq, VoxelCell& cell)
+{
+    if (limitSq < 0) return;
+    order(distance, limitSq);
+    if (!gather(object, cell.origin)) return;
+    widen();
+    uint64_t left[8];
+    std::copy(cell.words, cell.words + 8, left);
+    for (std::size_t i = 0; i < mOffsets.size(); ++i) {
+        uint64_t any = 0;
+        for (int x = 0; x < 8; ++x) {
+            left[x] &= ~slice(x, mOffsets[i]);
+            any |= left[x];
+        }
+        if (!any) break;
+    }
+    std::copy(left, left + 8, cell.words);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree
