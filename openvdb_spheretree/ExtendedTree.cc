@@ -19,8 +19,8 @@
 /// leaves it, the box grows to what the model made, so that kept centres stay on, and a model that
 /// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
 /// alone, so every level covers the object whatever the model. Radii are integers under square
-/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in
-/// the nodes for the radii (NodeChildren.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
+/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for the
+/// radii (NodeChildren.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
 #include "detail/NodeChildren.h"
@@ -29,6 +29,7 @@
 #include "detail/TreeLevels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 
@@ -42,18 +43,23 @@ using openvdb::CoordBBox;
 using openvdb::MaskTree;
 
 /// @return the balls of @a coarse that have children; @a links become links to these.
-LevelNodes keepParents(Links& links, const MedialLevel& coarse)
+LevelNodes keepParents(
+    Links& links, const MedialLevel& coarse, openvdb::util::NullInterrupter* interrupter)
 {
+    std::vector<std::atomic<bool>> isParent(coarse.balls.size());
+    parallelFor(links.parent.size(), interrupter, [&](std::size_t i) {
+        isParent[std::size_t(links.parent[i])].store(true, std::memory_order_relaxed);
+    });
     std::vector<int32_t> nodeOfBall(coarse.balls.size(), -1);
-    for (const int32_t ball : links.parent) nodeOfBall[ball] = 0;
     LevelNodes kept;
     kept.pyramidVoxels = coarse.layout.voxelCount();
     for (std::size_t ball = 0; ball < nodeOfBall.size(); ++ball) {
-        if (nodeOfBall[ball] < 0) continue;
+        if (!isParent[ball]) continue;
         nodeOfBall[ball] = int32_t(kept.balls.size());
         kept.balls.push_back(coarse.balls[ball]);
     }
-    for (int32_t& parent : links.parent) parent = nodeOfBall[parent];
+    parallelFor(links.parent.size(), interrupter,
+        [&](std::size_t i) { links.parent[i] = nodeOfBall[std::size_t(links.parent[i])]; });
     std::vector<DagEdge> dag;
     for (const DagEdge& edge : links.dag) {
         const int32_t parent = nodeOfBall[edge.parent];
@@ -226,7 +232,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
         auto coarse = context.medialLevel(*voxels, level, &levels.back());
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, fine.get(), *coarse, context);
-            LevelNodes nodes = keepParents(links, *coarse);
+            LevelNodes nodes = keepParents(links, *coarse, context.interrupter);
             below.emplace_back(links.parent.data(), links.parent.size(), 0, nodes.balls.size());
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);
