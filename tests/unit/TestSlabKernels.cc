@@ -7,10 +7,13 @@
 #include "../support/RandomObjects.h"
 
 #include <openvdb_spheretree/detail/BallOrder.h>
+#include <openvdb_spheretree/detail/LargestValue.h>
 #include <openvdb_spheretree/detail/LeafTranspose.h>
 #include <openvdb_spheretree/detail/StepEnds.h>
 #include <openvdb_spheretree/slab/SlabRows.h>
 #include <openvdb_spheretree/slab/XSteps.h>
+
+#include <hwy/cache_control.h>
 
 #include <array>
 
@@ -36,9 +39,10 @@ void expectSquares(const Voxels& voxels, int64_t most)
     const std::set<Coord> all(voxels.begin(), voxels.end());
     const LeafLayout layout(*maskOf(voxels));
     const slab::XSteps<Step> steps(layout, nullptr);
-    std::array<Square, kLeafVoxels> squares;
+    std::array<Square, kLeafVoxels> rows, squares;
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
-        steps.squares(leaf, squares.data());
+        steps.squares(leaf, rows.data());
+        detail::rowsToLeaf(Axis::Y, rows.data(), squares.data());
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
             const int64_t expected = std::min(most, stepsAlongX(all, layout.voxel(leaf, k)));
             ASSERT_EQ(int64_t(squares[k]), expected * expected) << layout.voxel(leaf, k);
@@ -67,7 +71,7 @@ template <typename T>
 void expectTranspositions()
 {
     alignas(64) std::array<T, kLeafVoxels> rows, result, expected;
-    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = T(i * 7 + 3);
+    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = T(i * 131 + 3); // 16 bits of any value
     detail::swapRows(rows.data(), result.data());
     for (int u = 0; u < 8; ++u) {
         for (int x = 0; x < 8; ++x) {
@@ -79,7 +83,17 @@ void expectTranspositions()
     detail::rowsZToLeaf(rows.data(), result.data());
     detail::rowsToLeaf(Axis::Z, rows.data(), expected.data());
     ASSERT_EQ(result, expected);
+    result.fill(0);
+    detail::streamRowsZToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
+    ASSERT_EQ(result, expected);
+    alignas(64) std::array<int32_t, kLeafVoxels> wide{}, expectedWide;
+    std::copy(expected.begin(), expected.end(), expectedWide.begin());
+    detail::streamRowsZToLeaf(rows.data(), wide.data());
+    hwy::FlushStream();
+    ASSERT_EQ(wide, expectedWide);
     detail::streamRowsYToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
     detail::rowsToLeaf(Axis::Y, rows.data(), expected.data());
     ASSERT_EQ(result, expected);
 }
@@ -91,6 +105,27 @@ TEST(LeafTranspose, IsThatOfPlainLoops)
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<uint32_t>());
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<int32_t>());
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<int64_t>());
+}
+
+template <typename T>
+void expectLargest(T value)
+{
+    alignas(64) std::array<T, 128> values;
+    for (std::size_t at = 0; at < values.size(); ++at) {
+        values.fill(T(value - 1));
+        values[at] = value;
+        ASSERT_EQ(detail::largestValue(values.data(), values.size()), value) << at;
+    }
+    ASSERT_EQ(detail::largestValue(values.data(), 64), uint32_t(value - 1));
+    ASSERT_EQ(detail::largestValue(values.data(), 0), 0u);
+}
+
+TEST(LargestValue, IsFoundWhereverItIs)
+{
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(1));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(65535));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(70000));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(UINT32_MAX));
 }
 
 TEST(SlabRows, KeepZerosAroundRunsThatDoNotOverlap)
