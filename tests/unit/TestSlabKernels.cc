@@ -196,6 +196,60 @@ TEST(StepEnds, AreMarkedOfEveryVoxelThatIsOn)
     }
 }
 
+/// Steps from some rows of a column, which may lead to all others.
+template <typename Step>
+void expectRowEnds(int most, double density, Random& random)
+{
+    constexpr int kRows = 40, kFirst = 8, kLast = 32;
+    std::array<Step, kRows * 64> steps{};
+    std::array<uint64_t, kRows> on{}, marks{}, expected{};
+    for (int row = kFirst; row < kLast; ++row) {
+        for (int lane = 0; lane < 64; ++lane) {
+            const int end = std::max(0, std::min(kRows - 1, row + random.between(-most, most)));
+            steps[row * 64 + lane] = Step(end - row);
+            if (!random.chance(density)) continue;
+            on[row] |= uint64_t(1) << lane;
+            expected[end] |= uint64_t(1) << lane;
+        }
+    }
+    detail::markRowEnds(&steps[kFirst * 64], &on[kFirst], kLast - kFirst, &marks[kFirst]);
+    ASSERT_EQ(marks, expected);
+}
+
+template <typename Step>
+void expectZeros(Random& random)
+{
+    std::array<Step, kLeafVoxels> steps;
+    LeafMask mask{}, expected{};
+    for (int k = 0; k < kLeafVoxels; ++k) {
+        steps[k] = Step(random.between(-1, 1) * random.between(0, 127));
+        if (k >> 6 == 3 || random.chance(0.5)) continue;
+        mask[k >> 6] |= uint64_t(1) << (k & 63);
+        if (steps[k] == 0) expected[k >> 6] |= uint64_t(1) << (k & 63);
+    }
+    ASSERT_EQ(detail::zeroSteps(steps.data(), mask), expected);
+}
+
+TEST(RowEnds, StepsOfZeroEndWhereTheyStart)
+{
+    Random random(5);
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_NO_FATAL_FAILURE(expectZeros<int8_t>(random));
+        ASSERT_NO_FATAL_FAILURE(expectZeros<int16_t>(random));
+    }
+}
+
+TEST(RowEnds, AreMarkedOfEveryLaneThatIsOn)
+{
+    Random random(4);
+    for (const int most : {0, 1, 3, 40}) {
+        for (const double density : {0.0, 0.02, 0.5, 1.0}) {
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int8_t>(most, density, random));
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int16_t>(most, density, random));
+        }
+    }
+}
+
 TEST(BallOrder, IsThatOfCoordinates)
 {
     for (uint32_t seed = 0; seed < 20; ++seed) {
