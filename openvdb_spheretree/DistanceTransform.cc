@@ -3,6 +3,7 @@
 
 #include "FlatAxis.h"
 #include "SphereTreeSettings.h"
+#include "detail/LargestValue.h"
 #include "detail/LeafTranspose.h"
 #include "detail/Memory.h"
 #include "detail/MinPlus.h"
@@ -10,7 +11,8 @@
 #include "detail/Parallel.h"
 #include "slab/SlabDistance.h"
 
-#include <algorithm>
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <atomic>
 #include <memory>
@@ -24,37 +26,53 @@ using openvdb::util::NullInterrupter;
 template <typename T>
 constexpr uint32_t kLimit = sizeof(T) == 2 ? detail::kNarrowMax : detail::kWideMax;
 
-template <typename T>
-uint32_t largest(const T* values, std::size_t leaves, NullInterrupter* interrupter)
-{
-    std::atomic<uint32_t> result{0};
-    detail::parallelFor(leaves, interrupter, [&](std::size_t leaf) {
-        const T* first = values + leaf * kLeafVoxels;
-        const uint32_t here = *std::max_element(first, first + kLeafVoxels);
-        uint32_t seen = result.load();
-        while (here > seen && !result.compare_exchange_weak(seen, here)) {}
-    });
-    return result;
-}
+/// The largest of what many threads see.
+class Largest {
+public:
+    void see(uint32_t value)
+    {
+        uint32_t seen = mValue.load(std::memory_order_relaxed);
+        while (value > seen && !mValue.compare_exchange_weak(seen, value)) {}
+    }
+    uint32_t value() const { return mValue; }
 
+private:
+    std::atomic<uint32_t> mValue{0};
+};
+
+/// @tparam T  computes
 /// @return the largest value; the values are exact if it is below kLimit<T>.
-template <typename T>
-uint32_t transform(const LeafLayout& layout, int dim, T* values, NullInterrupter* interrupter)
+template <typename T, typename Value>
+uint32_t transform(const LeafLayout& layout, int dim, Value* values, NullInterrupter* interrupter)
 {
     const slab::XSteps<slab::StepOf<T>> steps(layout, interrupter);
     using Slab = slab::SlabDistance<T>;
+    Largest largest;
     detail::parallelForWithScratch<Slab>(
         layout.slabCount(), interrupter, [&](std::size_t index, Slab& distances) {
             const auto store = [&](const LeafLayout::Run& run, const T* rows) {
+                largest.see(detail::largestValue(rows, std::size_t(run.count) * kLeafVoxels));
                 for (uint32_t i = 0; i < run.count; ++i, rows += kLeafVoxels) {
-                    T* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
-                    if (dim == 3) detail::rowsZToLeaf(rows, leaf);
-                    else detail::rowsToLeaf(Axis::Y, rows, leaf);
+                    Value* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
+                    if (dim == 3) detail::streamRowsZToLeaf(rows, leaf);
+                    else detail::rowsToLeafAs(Axis::Y, rows, leaf);
                 }
             };
             distances.forEachRun(layout, uint32_t(index), steps, dim, store);
+            hwy::FlushStream(); // what went past the cache is there for other threads
         });
-    return largest(values, layout.leafCount(), interrupter);
+    return largest.value();
+}
+
+/// In 32 bits, where 16 are not enough.
+uint32_t wideTransform(
+    const LeafLayout& layout, int dim, uint32_t* values, NullInterrupter* interrupter)
+{
+    const uint32_t largest = transform<uint32_t>(layout, dim, values, interrupter);
+    if (largest < kLimit<uint32_t>) return largest;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object holds a ball of 46340 voxels radius or more, whose "
+        "square does not fit 32 bits: use a larger voxel");
 }
 
 /// Balls of a norm have squared radii too.
@@ -84,21 +102,27 @@ DistanceMap distanceTransform(
         detail::requireMemory(layout.leafCount(), kLeafVoxels * 2 * sizeof(uint32_t) + 128);
         map.mWide = detail::makeLargeArray<uint32_t>(size);
         detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
-        map.mMaxDistSq = largest(map.mWide.get(), layout.leafCount(), interrupter);
+        map.mMaxDistSq = detail::largestValue(map.mWide.get(), size);
         requireSquareFits(map.mMaxDistSq, distance);
         return map;
     }
     map.mNarrow = detail::makeLargeArray<uint16_t>(size);
-    map.mMaxDistSq = transform(layout, dim, map.mNarrow.get(), interrupter);
+    map.mMaxDistSq = transform<uint16_t>(layout, dim, map.mNarrow.get(), interrupter);
     if (map.mMaxDistSq < kLimit<uint16_t>) return map;
 
     map.mNarrow.reset();
     map.mWide = detail::makeLargeArray<uint32_t>(size);
-    map.mMaxDistSq = transform(layout, dim, map.mWide.get(), interrupter);
-    if (map.mMaxDistSq < kLimit<uint32_t>) return map;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object holds a ball of 46340 voxels radius or more, whose "
-        "square does not fit 32 bits: use a larger voxel");
+    map.mMaxDistSq = wideTransform(layout, dim, map.mWide.get(), interrupter);
+    return map;
+}
+
+uint32_t distanceTransform(
+    const LeafLayout& layout, int32_t* values, int dim, NullInterrupter* interrupter)
+{
+    requireDim(dim);
+    const uint32_t largest = transform<uint16_t>(layout, dim, values, interrupter);
+    if (largest < kLimit<uint16_t>) return largest;
+    return wideTransform(layout, dim, reinterpret_cast<uint32_t*>(values), interrupter);
 }
 
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim,

@@ -64,6 +64,14 @@ private:
 DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
 
+/// @brief The same, Euclidean, into memory of the caller's, which may be used again from object to
+/// object: as 32 bits, and as fast as the map.
+/// @param values  512 a leaf, in leaf order; aligned to 16 bytes. All are written, those of
+///                background with 0.
+/// @return the largest of them.
+uint32_t distanceTransform(const LeafLayout& layout, int32_t* values, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
 /// @brief The same for people who come for just this: the values of DistanceMap for the active
 /// voxels of @a object, as a grid of its own with the object's transform and background 0.
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim = 3,

@@ -10,16 +10,19 @@
 ///
 /// 1. `reach`   of every block of 8 rows: how far away a better row can be at all; those of none
 ///              are copied;
-/// 2. `window`  blocks of short reach look at every row in reach;
-/// 3. `divide` longer stretches: search the middle row, remembering where each lane found its best;
+/// 2. `window`  blocks of short reach look at every row in reach, both ways at once;
+/// 3. `divide`  longer stretches: search the middle row, remembering where each lane found its best;
 ///              the rows before need not look beyond the last of these places, the rows behind not
 ///              before the first. Depth is log2(rows), so at most 31 (rows are counted in an int).
 ///
 /// Of equally good rows the first one wins. That choice is monotone too, so it survives step 3.
 /// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
-/// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype).
+/// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype). To
+/// go from one block to the next, finding the best of its first row outwards until no lane can gain,
+/// was as fast on dragon-512 and 7% slower on fandisk-512.
 ///
-/// An Op supplies: Value, penalty(d), candidate(), better(), best(), load(), store(), blockReach(),
+/// An Op supplies: Value, penalty(d), candidate(), better(), best(), bestOfThree() for one row on
+/// either side, load(), store(), blockReach(),
 /// and whether store() wants steps: kTracksStep for steps beside the values, kStepInKey where the
 /// values hold them and step() extracts them; see MinPlus.cc and MaxPlus.cc. This header is
 /// compiled once per instruction set.
@@ -94,8 +97,8 @@ private:
     /// Vectors side by side that are searched together: one waits for its own last step, several
     /// do not wait for each other's.
     static constexpr int kVectors = kLanes / kWidth < 4 ? kLanes / kWidth : 4;
-    /// Beyond this reach, dividing beats looking at every row (measured: 3 to 6 are alike).
-    static constexpr int kWindowReach = 4;
+    /// Beyond this reach, dividing beats looking at every row (measured: 4 to 6 are alike).
+    static constexpr int kWindowReach = 6;
     /// A span of candidates this short is not worth dividing (measured: 8 to 12 are alike).
     static constexpr int kDirectSpan = 10;
 
@@ -112,10 +115,42 @@ private:
         }
     }
 
+    /// Rows that look at every row in reach.
     void window(int block)
     {
-        for (int row = kBlockRows * block; row < kBlockRows * (block + 1); row += 4) {
-            searchRows<4>(row, -1, mRows);
+        const int first = kBlockRows * block, last = first + kBlockRows - 1, reach = mReach[block];
+        if (!Op::kTracksStep && first - reach >= -1 && last + reach <= mRows) {
+            switch (reach) {
+            case 1: return around<1>(first);
+            case 2: return around<2>(first);
+            case 3: return around<3>(first);
+            case 4: return around<4>(first);
+            case 5: return around<5>(first);
+            default: return around<6>(first);
+            }
+        }
+        for (int row = first; row <= last; row += 4) searchRows<4>(row, -1, mRows);
+    }
+
+    /// The rows of a block, each of which looks kReach rows both ways, all of them there.
+    template <int kReach>
+    void around(int first)
+    {
+        const D d;
+        V before[kReach], behind[kReach]; // what rows pay that are before, or behind, by k + 1
+        for (int k = 0; k < kReach; ++k) {
+            before[k] = hn::Set(d, mOp.penalty(k + 1));
+            behind[k] = hn::Set(d, mOp.penalty(-k - 1));
+        }
+        for (int row = first; row < first + kBlockRows; ++row) {
+            for (int v = 0; v < kVectors; ++v) {
+                V best = load(row, v);
+                for (int k = 0; k < kReach; ++k) {
+                    best = mOp.bestOfThree(
+                        best, load(row - k - 1, v), before[k], load(row + k + 1, v), behind[k]);
+                }
+                mOp.store(row, mLane + v * kWidth, best, mOp.step(best));
+            }
         }
     }
 

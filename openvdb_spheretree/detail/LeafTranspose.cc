@@ -17,7 +17,8 @@ namespace HWY_NAMESPACE {
 void SwapRows16(const uint16_t* rows, uint16_t* swapped) { swapRowsPlainly(rows, swapped); }
 void SwapRows32(const int32_t* rows, int32_t* swapped) { swapRowsPlainly(rows, swapped); }
 void RowsZToLeaf8(const int8_t* rows, int8_t* leaf) { rowsToLeaf(Axis::Z, rows, leaf); }
-void RowsZToLeaf16(const uint16_t* rows, uint16_t* leaf) { rowsToLeaf(Axis::Z, rows, leaf); }
+void StreamRowsZToLeaf16(const uint16_t* rows, uint16_t* leaf) { rowsToLeaf(Axis::Z, rows, leaf); }
+void StreamRowsZToLeaf32(const uint16_t* rows, int32_t* leaf) { rowsToLeafAs(Axis::Z, rows, leaf); }
 void StreamRowsYToLeaf(const int32_t* rows, int32_t* leaf) { rowsToLeaf(Axis::Y, rows, leaf); }
 
 #else
@@ -28,12 +29,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <typename T>
 using Block = hn::FixedTag<T, 16 / sizeof(T)>;
 
-/// Interleaves eight vectors: 16 bytes of each become 128 bytes in a row, value by value.
-template <typename T>
-HWY_INLINE void Interleave8(const T* in, std::size_t stride, T* out)
+/// Interleaves eight vectors: 16 bytes of each become 128 bytes in a row, value by value, which
+/// store(i, vector) gets in eight pieces.
+template <typename T, typename Store>
+HWY_INLINE void Interleave8(const T* in, std::size_t stride, const Store& store)
 {
     const Block<T> d;
-    constexpr std::size_t kWidth = 16 / sizeof(T);
     hn::Vec<Block<T>> a[8], b[8];
     for (int i = 0; i < 8; ++i) a[i] = hn::LoadU(d, in + i * stride);
     const auto interleave = [&](const hn::Vec<Block<T>>* from, hn::Vec<Block<T>>* to) {
@@ -45,7 +46,7 @@ HWY_INLINE void Interleave8(const T* in, std::size_t stride, T* out)
     interleave(a, b);
     interleave(b, a);
     interleave(a, b);
-    for (int i = 0; i < 8; ++i) hn::StoreU(b[i], d, out + i * kWidth);
+    for (int i = 0; i < 8; ++i) store(i, b[i]);
 }
 
 /// Transposes 4 x 4 values of 32 bits.
@@ -64,13 +65,11 @@ HWY_INLINE void Transpose4(const int32_t* in, int32_t* out)
 
 void SwapRows16(const uint16_t* rows, uint16_t* swapped)
 {
-    HWY_ALIGN uint16_t block[64];
     const Block<uint16_t> d;
     for (int x = 0; x < 8; ++x) {
-        Interleave8(rows + 8 * x, 64, block);
-        for (int v = 0; v < 8; ++v) {
-            hn::StoreU(hn::Load(d, block + 8 * v), d, swapped + 64 * v + 8 * x);
-        }
+        Interleave8(rows + 8 * x, 64, [&](int v, hn::Vec<Block<uint16_t>> values) {
+            hn::StoreU(values, d, swapped + 64 * v + 8 * x);
+        });
     }
 }
 
@@ -87,12 +86,35 @@ void SwapRows32(const int32_t* rows, int32_t* swapped)
 
 void RowsZToLeaf8(const int8_t* rows, int8_t* leaf)
 {
-    for (int lane = 0; lane < 64; lane += 16) Interleave8(rows + lane, 64, leaf + 8 * lane);
+    const Block<int8_t> d;
+    for (int lane = 0; lane < 64; lane += 16) {
+        Interleave8(rows + lane, 64, [&](int i, hn::Vec<Block<int8_t>> values) {
+            hn::StoreU(values, d, leaf + 8 * lane + 16 * i);
+        });
+    }
 }
 
-void RowsZToLeaf16(const uint16_t* rows, uint16_t* leaf)
+void StreamRowsZToLeaf16(const uint16_t* rows, uint16_t* leaf)
 {
-    for (int lane = 0; lane < 64; lane += 8) Interleave8(rows + lane, 64, leaf + 8 * lane);
+    const Block<uint16_t> d;
+    for (int lane = 0; lane < 64; lane += 8) {
+        Interleave8(rows + lane, 64, [&](int i, hn::Vec<Block<uint16_t>> values) {
+            hn::Stream(values, d, leaf + 8 * lane + 8 * i);
+        });
+    }
+}
+
+void StreamRowsZToLeaf32(const uint16_t* rows, int32_t* leaf)
+{
+    const hn::Half<Block<uint16_t>> half;
+    const Block<int32_t> wide;
+    for (int lane = 0; lane < 64; lane += 8) {
+        Interleave8(rows + lane, 64, [&](int i, hn::Vec<Block<uint16_t>> values) {
+            int32_t* to = leaf + 8 * lane + 8 * i;
+            hn::Stream(hn::PromoteTo(wide, hn::LowerHalf(half, values)), wide, to);
+            hn::Stream(hn::PromoteTo(wide, hn::UpperHalf(half, values)), wide, to + 4);
+        });
+    }
 }
 
 void StreamRowsYToLeaf(const int32_t* rows, int32_t* leaf)
@@ -121,7 +143,8 @@ namespace detail {
 HWY_EXPORT(SwapRows16);
 HWY_EXPORT(SwapRows32);
 HWY_EXPORT(RowsZToLeaf8);
-HWY_EXPORT(RowsZToLeaf16);
+HWY_EXPORT(StreamRowsZToLeaf16);
+HWY_EXPORT(StreamRowsZToLeaf32);
 HWY_EXPORT(StreamRowsYToLeaf);
 
 template <>
@@ -140,9 +163,14 @@ void rowsZToLeaf(const int8_t* rows, int8_t* leaf)
     HWY_DYNAMIC_DISPATCH(RowsZToLeaf8)(rows, leaf);
 }
 template <>
-void rowsZToLeaf(const uint16_t* rows, uint16_t* leaf)
+void streamRowsZToLeaf(const uint16_t* rows, uint16_t* leaf)
 {
-    HWY_DYNAMIC_DISPATCH(RowsZToLeaf16)(rows, leaf);
+    HWY_DYNAMIC_DISPATCH(StreamRowsZToLeaf16)(rows, leaf);
+}
+template <>
+void streamRowsZToLeaf(const uint16_t* rows, int32_t* leaf)
+{
+    HWY_DYNAMIC_DISPATCH(StreamRowsZToLeaf32)(rows, leaf);
 }
 
 template <>

@@ -6,6 +6,7 @@
 
 #include "LeafRows.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace openvdb_spheretree {
@@ -39,11 +40,29 @@ void rowsZToLeaf(const T* rows, T* leaf)
 }
 template <>
 void rowsZToLeaf(const int8_t* rows, int8_t* leaf);
-template <>
-void rowsZToLeaf(const uint16_t* rows, uint16_t* leaf);
 
-/// @brief Rows across y to the leaf's own order, past the cache: for results that are read much
-/// later. @a leaf is aligned to 16 bytes.
+/// @brief rowsToLeaf() to values of another type.
+template <typename T, typename Value>
+void rowsToLeafAs(Axis axis, const T* rows, Value* leaf)
+{
+    T values[kLeafVoxels];
+    rowsToLeaf(axis, rows, values);
+    std::copy(values, values + kLeafVoxels, leaf);
+}
+
+/// @brief rowsToLeafAs(Axis::Z), past the cache: for results that are read much later. @a leaf is
+/// aligned to 16 bytes.
+template <typename T, typename Value>
+void streamRowsZToLeaf(const T* rows, Value* leaf)
+{
+    rowsToLeafAs(Axis::Z, rows, leaf);
+}
+template <>
+void streamRowsZToLeaf(const uint16_t* rows, uint16_t* leaf);
+template <>
+void streamRowsZToLeaf(const uint16_t* rows, int32_t* leaf);
+
+/// @brief rowsToLeaf(Axis::Y), past the cache as well.
 template <typename T>
 void streamRowsYToLeaf(const T* rows, T* leaf)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MaxPlus.h"
 
+#include "LargestValue.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "openvdb_spheretree/detail/MaxPlus.cc"
 #include <hwy/foreach_target.h>
@@ -56,6 +58,10 @@ struct MaxPlusOp {
     static HWY_INLINE V candidate(V key, V penalty) { return hn::Sub(key, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Gt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Max(a, b); }
+    static HWY_INLINE V bestOfThree(V own, V before, V paysBefore, V behind, V paysBehind)
+    {
+        return best(own, best(candidate(before, paysBefore), candidate(behind, paysBehind)));
+    }
     static HWY_INLINE V step(V key)
     {
         if constexpr (kStepInKey) {
@@ -186,23 +192,12 @@ void MaxPlusNarrow(const int32_t* inKey, int32_t* outKey, int8_t* offset, const 
     EnvelopeSearch<MaxPlusOp<PlainKeys<NarrowPower>>>({inKey, outKey, offset}, rows, scratch).run();
 }
 
-template <typename T>
-uint32_t Largest(const T* values, int rows)
-{
-    const hn::CappedTag<T, kLanes> d;
-    auto largest = hn::Zero(d);
-    for (std::ptrdiff_t i = 0; i < at(rows, 0); i += int(hn::Lanes(d))) {
-        largest = hn::Max(largest, hn::Load(d, values + i));
-    }
-    return uint32_t(hn::GetLane(hn::MaxOfLanes(d, largest)));
-}
-
 uint32_t FirstNarrow(
     const uint16_t* distances, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
 {
     const hn::CappedTag<int32_t, kLanes> d;
     const hn::Rebind<uint16_t, decltype(d)> narrow;
-    const uint32_t largest = Largest(distances, rows);
+    const uint32_t largest = largestValue(distances, std::size_t(at(rows, 0)));
     const bool small = largest <= SmallKeys::kMaxRadiusSq;
     int32_t* keys = scratch.keys.rows(std::size_t(rows), 1);
     for (std::ptrdiff_t i = 0; i < at(rows, 0); i += int(hn::Lanes(d))) {
@@ -235,7 +230,7 @@ uint32_t FirstWide(
         keys[i] = powerKey<WidePower>(distances[i], distances[i]);
     }
     MaxPlusWide(keys, outKey, offset, {0, rows, rows}, scratch);
-    return Largest(distances, rows);
+    return largestValue(distances, std::size_t(at(rows, 0)));
 }
 
 } // namespace HWY_NAMESPACE

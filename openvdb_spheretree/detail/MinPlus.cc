@@ -14,30 +14,6 @@ namespace openvdb_spheretree {
 namespace detail {
 namespace HWY_NAMESPACE {
 
-void StepsToBackground(const uint64_t* words, int rows, uint16_t* steps)
-{
-    const hn::CappedTag<uint16_t, kLanes> d;
-    const auto one = hn::Set(d, uint16_t(1));
-    for (int lane = 0; lane < kLanes; lane += int(hn::Lanes(d))) {
-        const auto mask = [&](int row) {
-            const uint64_t bits = words[row] >> lane;
-            return hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
-        };
-        uint16_t* column = steps + lane;
-        auto count = hn::Zero(d);
-        for (int row = 0; row < rows; ++row) {
-            count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
-            hn::Store(count, d, column + at(row, 0));
-        }
-        count = hn::Zero(d);
-        for (int row = rows - 1; row >= 0; --row) {
-            count = hn::IfThenElseZero(mask(row), hn::SaturatedAdd(count, one));
-            const auto before = hn::Load(d, column + at(row, 0));
-            hn::Store(hn::Min(before, count), d, column + at(row, 0));
-        }
-    }
-}
-
 template <typename T>
 struct MinPlusOp {
     using Value = T;
@@ -67,6 +43,11 @@ struct MinPlusOp {
     static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
+    /// Two rows as far away on either side pay the same.
+    static HWY_INLINE V bestOfThree(V own, V before, V penalty, V behind, V)
+    {
+        return hn::Min(own, add(hn::Min(before, behind), penalty));
+    }
     static HWY_INLINE V step(V value) { return value; } // values hold none
     HWY_INLINE void store(int row, int lane, V value, V) const
     {
@@ -111,14 +92,8 @@ HWY_AFTER_NAMESPACE();
 namespace openvdb_spheretree {
 namespace detail {
 
-HWY_EXPORT(StepsToBackground);
 HWY_EXPORT(MinPlus16);
 HWY_EXPORT(MinPlus32);
-
-void stepsToBackground(const uint64_t* words, int rows, uint16_t* steps)
-{
-    HWY_DYNAMIC_DISPATCH(StepsToBackground)(words, rows, steps);
-}
 
 void minPlus(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch)
 {

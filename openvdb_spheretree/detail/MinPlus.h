@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/MinPlus.h
-/// @brief The two kernels of the distance transform, on rows of 64 lines (see LeafRows.h).
+/// @brief The kernel of the distance transform, on rows of 64 lines (see LeafRows.h).
 
 #pragma once
 
@@ -16,12 +16,7 @@ namespace detail {
 constexpr uint32_t kNarrowMax = 255 * 255;     ///< of 16-bit values
 constexpr uint32_t kWideMax = 46340u * 46340u; ///< of 32-bit values: two of them still add up
 
-/// @brief First axis: for every voxel, the steps to the nearest background voxel on its line, 0 for
-/// background, at most 65535. Beyond both ends of the run is background.
-/// @param words  masks of the rows, bit = lane
-void stepsToBackground(const uint64_t* words, int rows, uint16_t* steps);
-
-/// @brief Further axes: out(i) = min over j of in(j) + (i - j)^2.
+/// @brief out(i) = min over j of in(j) + (i - j)^2.
 /// @param in     row -1 and row `rows` are readable and zero, as the background there
 /// @param rows   a multiple of 8
 void minPlus(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch);

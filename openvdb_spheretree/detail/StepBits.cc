@@ -17,31 +17,36 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Sets word x of all masks.
-/// @param before of the first lane in use: the 64 values that stand before the row's along the axis
+/// @return the lanes of a row that pass a test of the vector at each lane.
+template <class D, typename Test>
+HWY_INLINE uint64_t LanesThat(D d, const Test& test)
+{
+    uint64_t all = 0;
+    for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
+        uint64_t word = 0;
+        hn::StoreMaskBits(d, test(lane), reinterpret_cast<uint8_t*>(&word));
+        all |= word << lane;
+    }
+    return all;
+}
+
 template <typename T>
-HWY_INLINE void RowBits(const T* row, const T* before, std::size_t x, StepBits& bits)
+HWY_INLINE uint64_t EqualTo(const T* row, int step)
 {
     const hn::CappedTag<T, 64> d;
-    const auto one = hn::Set(d, T(1)), back = hn::Set(d, T(-1));
-    const auto wordOf = [&](auto lanes) {
-        uint64_t word = 0;
-        hn::StoreMaskBits(d, lanes, reinterpret_cast<uint8_t*>(&word));
-        return word;
-    };
-    uint64_t stays = 0, asBefore = 0, forward = 0, backward = 0;
-    for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
+    const auto value = hn::Set(d, T(step));
+    return LanesThat(d, [&](std::size_t lane) { return hn::Eq(hn::LoadU(d, row + lane), value); });
+}
+
+/// @param before  of the first lane in use: the 64 values that stand before the row's along the axis
+template <typename T>
+HWY_INLINE uint64_t EndAsBefore(const T* row, const T* before)
+{
+    const hn::CappedTag<T, 64> d;
+    return LanesThat(d, [&](std::size_t lane) {
         const auto step = hn::LoadU(d, row + lane);
-        const auto previous = hn::LoadU(d, before + lane);
-        stays |= wordOf(hn::Eq(step, hn::Zero(d))) << lane;
-        asBefore |= wordOf(hn::Eq(hn::Add(step, one), previous)) << lane;
-        forward |= wordOf(hn::Eq(step, one)) << lane;
-        backward |= wordOf(hn::Eq(step, back)) << lane;
-    }
-    bits.stays[x] = stays;
-    bits.asBefore[x] = asBefore;
-    bits.forward[x] = forward;
-    bits.back[x] = backward;
+        return hn::Eq(hn::Add(step, hn::Set(d, T(1))), hn::LoadU(d, before + lane));
+    });
 }
 
 template <typename T>
@@ -59,13 +64,51 @@ StepBits Bits(const T* steps, Axis axis, const LeafMask& mask)
     for (std::size_t x = 0; x < 8; ++x) {
         if (mask[x] == 0) continue;
         const T* row = x == 0 ? firstWord + kMargin : steps + 64 * x;
-        RowBits(row, row - stride, x, bits);
-        bits.asBefore[x] &= kNotFirst[int(axis)];
+        bits.stays[x] = EqualTo(row, 0);
+        bits.asBefore[x] = EndAsBefore(row, row - stride) & kNotFirst[int(axis)];
+        bits.forward[x] = EqualTo(row, 1);
+        bits.back[x] = EqualTo(row, -1);
     }
     if (axis == Axis::X) bits.asBefore[0] = 0;
     return bits;
 }
 
+template <typename T>
+LeafMask Zeros(const T* steps, const LeafMask& mask)
+{
+    LeafMask zeros{};
+    for (int x = 0; x < 8; ++x) {
+        if (mask[x] != 0) zeros[x] = mask[x] & EqualTo(steps + at(x, 0), 0);
+    }
+    return zeros;
+}
+
+template <typename T>
+void MarkEnds(const T* steps, const uint64_t* on, int rows, uint64_t* marks)
+{
+    for (int i = 0; i < rows; ++i) {
+        const T* row = steps + at(i, 0);
+        uint64_t left = on[i];
+        if (left && i > 0) left &= ~(on[i - 1] & EndAsBefore(row, row - kLanes));
+        while (left) { // few rounds: neighbours mostly have equal steps
+            const int step = row[hwy::Num0BitsBelowLS1Bit_Nonzero64(left)];
+            const uint64_t same = left & EqualTo(row, step);
+            marks[i + step] |= same;
+            left &= ~same;
+        }
+    }
+}
+
+LeafMask Zeros8(const int8_t* steps, const LeafMask& mask) { return Zeros(steps, mask); }
+LeafMask Zeros16(const int16_t* steps, const LeafMask& mask) { return Zeros(steps, mask); }
+void MarkEnds8(const int8_t* steps, const uint64_t* on, int rows, uint64_t* marks)
+{
+    MarkEnds(steps, on, rows, marks);
+}
+void MarkEnds16(const int16_t* steps, const uint64_t* on, int rows, uint64_t* marks)
+{
+    MarkEnds(steps, on, rows, marks);
+}
 StepBits Bits8(const int8_t* steps, Axis axis, const LeafMask& mask)
 {
     return Bits(steps, axis, mask);
@@ -86,6 +129,10 @@ namespace detail {
 
 HWY_EXPORT(Bits8);
 HWY_EXPORT(Bits16);
+HWY_EXPORT(Zeros8);
+HWY_EXPORT(Zeros16);
+HWY_EXPORT(MarkEnds8);
+HWY_EXPORT(MarkEnds16);
 
 StepBits stepBits(const int8_t* steps, Axis axis, const LeafMask& mask)
 {
@@ -94,6 +141,24 @@ StepBits stepBits(const int8_t* steps, Axis axis, const LeafMask& mask)
 StepBits stepBits(const int16_t* steps, Axis axis, const LeafMask& mask)
 {
     return HWY_DYNAMIC_DISPATCH(Bits16)(steps, axis, mask);
+}
+
+LeafMask zeroSteps(const int8_t* steps, const LeafMask& mask)
+{
+    return HWY_DYNAMIC_DISPATCH(Zeros8)(steps, mask);
+}
+LeafMask zeroSteps(const int16_t* steps, const LeafMask& mask)
+{
+    return HWY_DYNAMIC_DISPATCH(Zeros16)(steps, mask);
+}
+
+void markRowEnds(const int8_t* steps, const uint64_t* on, int rows, uint64_t* marks)
+{
+    HWY_DYNAMIC_DISPATCH(MarkEnds8)(steps, on, rows, marks);
+}
+void markRowEnds(const int16_t* steps, const uint64_t* on, int rows, uint64_t* marks)
+{
+    HWY_DYNAMIC_DISPATCH(MarkEnds16)(steps, on, rows, marks);
 }
 
 } // namespace detail

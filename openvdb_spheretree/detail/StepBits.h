@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/StepBits.h
-/// @brief Which voxels of a leaf have a step that needs no walking, as mask words.
+/// @brief Steps of power labels as mask words: which need no walking, and where they lead.
 
 #pragma once
 
 #include "../LeafLayout.h"
+#include "LeafRows.h"
 
 #include <cstdint>
 
@@ -22,6 +23,16 @@ struct StepBits {
 /// @param mask   words without a voxel that is on are left undefined
 StepBits stepBits(const int8_t* steps, Axis axis, const LeafMask& mask);
 StepBits stepBits(const int16_t* steps, Axis axis, const LeafMask& mask);
+
+/// @return the voxels of @a mask whose step is 0: stepBits().stays of those that are on.
+LeafMask zeroSteps(const int8_t* steps, const LeafMask& mask);
+LeafMask zeroSteps(const int16_t* steps, const LeafMask& mask);
+
+/// @brief Marks where steps from row to row (LeafRows.h) lead.
+/// @param on     the lanes of each row that have a step
+/// @param marks  a word a row; lanes may lead to rows before the first and behind the last
+void markRowEnds(const int8_t* steps, const uint64_t* on, int rows, uint64_t* marks);
+void markRowEnds(const int16_t* steps, const uint64_t* on, int rows, uint64_t* marks);
 
 } // namespace detail
 } // namespace openvdb_spheretree

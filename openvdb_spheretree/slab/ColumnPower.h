@@ -7,9 +7,11 @@
 #include "../LeafLayout.h"
 #include "../detail/LeafRows.h"
 #include "../detail/MaxPlus.h"
-#include "../detail/StepEnds.h"
+#include "../detail/StepBits.h"
 #include "SlabLabels.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -53,24 +55,26 @@ public:
         const detail::RowRange wanted{
             int(column.first) * kLeafDim, int(column.last) * kLeafDim, rows};
         detail::maxPlus<Power>(keys, nullptr, steps, wanted, mEnvelope);
-        mMarks.assign(column.count(), LeafMask{});
-        const auto marksOf = [this](uint32_t i) -> LeafMask& { return mMarks[i]; };
+        mOn.resize(std::size_t(rows));
         for (uint32_t i = column.first; i < column.last; ++i) {
-            const Offset* own = steps + std::size_t(i) * kLeafVoxels;
-            std::memcpy(
-                column.labels[i]->dxOf(column.leaves[i]), own, kLeafVoxels * sizeof(Offset));
-            detail::markEnds(Axis::X, i, own, layout.mask(column.leaves[i]), marksOf);
+            const LeafMask& mask = layout.mask(column.leaves[i]);
+            std::copy(mask.begin(), mask.end(), mOn.begin() + std::ptrdiff_t(i) * kLeafDim);
+            std::memcpy(column.labels[i]->dxOf(column.leaves[i]),
+                steps + std::size_t(i) * kLeafVoxels, kLeafVoxels * sizeof(Offset));
         }
+        mMarks.assign(std::size_t(rows), 0);
+        detail::markRowEnds(steps + detail::at(wanted.first, 0), mOn.data() + wanted.first,
+            wanted.last - wanted.first, mMarks.data() + wanted.first);
         for (uint32_t i = 0; i < column.count(); ++i) {
             LeafMask& marks = column.labels[i]->marksOf(column.leaves[i]);
-            for (int x = 0; x < kLeafDim; ++x) marks[x] |= mMarks[i][x];
+            for (int x = 0; x < kLeafDim; ++x) marks[x] |= mMarks[std::size_t(i) * kLeafDim + x];
         }
     }
 
 private:
     detail::RowBuffer<Key> mKeys;
     detail::RowBuffer<Offset> mSteps;
-    std::vector<LeafMask> mMarks; ///< of the column
+    std::vector<uint64_t> mOn, mMarks; ///< of the column, a word a row
     detail::EnvelopeScratch mEnvelope;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LargestRadius.h"
 
+#include "../detail/LargestValue.h"
 #include "../detail/MaxPlus.h"
 #include "../detail/Parallel.h"
 #include "SlabDistance.h"
@@ -40,13 +41,13 @@ template <typename T>
 uint32_t largest(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
 {
     const XSteps<StepOf<T>> steps(layout, interrupter);
-    std::vector<T> ofSlab(layout.slabCount(), 0);
+    std::vector<uint32_t> ofSlab(layout.slabCount(), 0);
     detail::parallelForWithScratch<SlabDistance<T>>(
         layout.slabCount(), interrupter, [&](std::size_t slab, SlabDistance<T>& distances) {
             distances.forEachRun(
                 layout, uint32_t(slab), steps, dim, [&](const LeafLayout::Run& run, const T* rows) {
-                    const T* end = rows + std::size_t(run.count) * kLeafVoxels;
-                    ofSlab[slab] = std::max(ofSlab[slab], *std::max_element(rows, end));
+                    const std::size_t count = std::size_t(run.count) * kLeafVoxels;
+                    ofSlab[slab] = std::max(ofSlab[slab], detail::largestValue(rows, count));
                 });
         });
     return ofSlab.empty() ? 0 : *std::max_element(ofSlab.begin(), ofSlab.end());

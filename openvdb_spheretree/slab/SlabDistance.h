@@ -63,7 +63,6 @@ private:
     void forEachAlongY(
         const LeafLayout& layout, uint32_t slab, const XSteps<StepOf<T>>& steps, const Visit& visit)
     {
-        alignas(64) T squares[kLeafVoxels];
         const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Y, slab);
         for (uint32_t index = runs.begin; index < runs.end; ++index) {
             const LeafLayout::Run run = layout.run(Axis::Y, index);
@@ -71,8 +70,7 @@ private:
             T* in = mIn.rows(rows, 1);
             T* out = mOut.rows(rows);
             for (uint32_t i = 0; i < run.count; ++i) {
-                steps.squares(run.leaves[i], squares);
-                detail::leafToRows(Axis::Y, squares, in + std::size_t(i) * kLeafVoxels);
+                steps.squares(run.leaves[i], in + std::size_t(i) * kLeafVoxels);
             }
             detail::minPlus(in, out, rows, mEnvelope);
             visit(run, out);

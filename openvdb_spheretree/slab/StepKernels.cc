@@ -57,42 +57,43 @@ void BackThrough16(const LeafMask& mask, const uint16_t* behind, uint16_t* first
 }
 
 template <typename Step, typename Square>
-HWY_INLINE void Squares(
-    const LeafMask& mask, const Step* before, const Step* behind, Square* squares)
+HWY_INLINE void Squares(const LeafMask& mask, const Step* before, const Step* behind, Square* rows)
 {
     const Lanes64<Step> d;
-    const hn::Rebind<Step, hn::CappedTag<Square, 64>> half; // as many lanes as squares in a vector
-    const hn::CappedTag<Square, 64> wide;
-    constexpr Square kMost = sizeof(Square) == 2 ? 255 : 46340;
-    HWY_ALIGN Step forward[512];
+    HWY_ALIGN Step nearest[512]; // in leaf order
     for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
         auto steps = hn::LoadU(d, before + lane);
         for (int x = 0; x < 8; ++x) {
             steps = stepOn(d, steps, mask[x], lane);
-            hn::Store(steps, d, forward + 64 * x + lane);
+            hn::Store(steps, d, nearest + 64 * x + lane);
         }
         steps = hn::LoadU(d, behind + lane);
         for (int x = 7; x >= 0; --x) {
             steps = stepOn(d, steps, mask[x], lane);
-            Step* nearest = forward + 64 * x + lane;
-            hn::Store(hn::Min(steps, hn::Load(d, nearest)), d, nearest);
+            Step* other = nearest + 64 * x + lane;
+            hn::Store(hn::Min(steps, hn::Load(d, other)), d, other);
         }
     }
-    for (std::size_t k = 0; k < 512; k += hn::Lanes(wide)) {
-        auto steps = hn::PromoteTo(wide, hn::LoadU(half, forward + k));
-        steps = hn::Min(steps, hn::Set(wide, kMost));
-        hn::StoreU(hn::Mul(steps, steps), wide, squares + k);
+    const hn::CappedTag<Square, 8> wide;
+    const hn::Rebind<Step, decltype(wide)> narrow;
+    for (std::size_t x = 0; x < 8; ++x) {
+        for (std::size_t y = 0; y < 8; ++y) {
+            for (std::size_t z = 0; z < 8; z += hn::Lanes(wide)) {
+                auto steps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
+                if (sizeof(Square) > 2) steps = hn::Min(steps, hn::Set(wide, Square(46340)));
+                hn::StoreU(hn::Mul(steps, steps), wide, rows + 64 * y + 8 * x + z);
+            }
+        }
     }
 }
 
-void Squares8(const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* squares)
+void Squares8(const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
 {
-    Squares(mask, before, behind, squares);
+    Squares(mask, before, behind, rows);
 }
-void Squares16(
-    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* squares)
+void Squares16(const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows)
 {
-    Squares(mask, before, behind, squares);
+    Squares(mask, before, behind, rows);
 }
 
 } // namespace HWY_NAMESPACE
@@ -128,14 +129,14 @@ void stepsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* fi
     HWY_DYNAMIC_DISPATCH(BackThrough16)(mask, behind, first);
 }
 void squaresOfSteps(
-    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* squares)
+    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
 {
-    HWY_DYNAMIC_DISPATCH(Squares8)(mask, before, behind, squares);
+    HWY_DYNAMIC_DISPATCH(Squares8)(mask, before, behind, rows);
 }
 void squaresOfSteps(
-    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* squares)
+    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows)
 {
-    HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, squares);
+    HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, rows);
 }
 
 } // namespace slab

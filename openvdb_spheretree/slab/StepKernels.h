@@ -19,12 +19,12 @@ void stepsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last);
 void stepsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first);
 void stepsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first);
 
-/// @param squares  512 in leaf order: of the shorter way to the background, 0 for background. At
-///                 most 255^2, or 46340^2.
+/// @param rows  receives the squares of the shorter way to the background, 0 for background, as rows
+///              across y (detail/LeafRows.h). At most 255^2, or 46340^2.
 void squaresOfSteps(
-    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* squares);
+    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows);
 void squaresOfSteps(
-    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* squares);
+    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows);
 
 } // namespace slab
 } // namespace openvdb_spheretree

@@ -34,9 +34,9 @@ void XSteps<Step>::sweep(LeafLayout::Run run)
 
 template <typename Step>
 template <typename Square>
-void XSteps<Step>::squares(uint32_t leaf, Square* squares) const
+void XSteps<Step>::squares(uint32_t leaf, Square* rows) const
 {
-    squaresOfSteps(mLayout.mask(leaf), below(leaf), above(leaf), squares);
+    squaresOfSteps(mLayout.mask(leaf), below(leaf), above(leaf), rows);
 }
 
 template class XSteps<uint8_t>;

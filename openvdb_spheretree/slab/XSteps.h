@@ -27,9 +27,10 @@ public:
     XSteps(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter);
 
     /// @brief The squared distance to the background on a voxel's own line along x.
-    /// @param squares  512 in leaf order, 0 for background; Square is twice as wide as Step
+    /// @param rows  receives them as rows across y (detail/LeafRows.h), 0 for background; Square is
+    ///              twice as wide as Step
     template <typename Square>
-    void squares(uint32_t leaf, Square* squares) const;
+    void squares(uint32_t leaf, Square* rows) const;
 
 private:
     /// Steps from the last voxel before the leaf, and from the first one behind it, a lane 8 y + z.

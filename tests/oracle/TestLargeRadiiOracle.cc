@@ -113,8 +113,8 @@ TEST(LargeRadiiOracle, MatchesOnDiscsOnBothSidesOfEverySwitchOfWidth)
 {
     struct {
         int radiusSq, holes;
-    } const cases[] = {
-        {127 * 127, 0}, {127 * 127 + 1, 0}, {150 * 150, 3}, {65000, 0}, {255 * 255, 2}};
+    } const cases[] = {{60 * 60, 1}, {60 * 60 + 1, 1}, {127 * 127, 0}, {127 * 127 + 1, 0},
+        {150 * 150, 3}, {65000, 0}, {255 * 255, 2}};
     for (const auto& c : cases) {
         const Voxels voxels = withHoles(disc(c.radiusSq, 3), c.holes, 5);
         const CoreStages stages(*maskOf(voxels), 2);

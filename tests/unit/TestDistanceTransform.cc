@@ -137,6 +137,34 @@ TEST(DistanceTransform, ValuesAreStoredIn16BitsWhereTheyFit)
     EXPECT_EQ(wide.maxDistSq(), 255u * 255u);
 }
 
+void expectValuesOfMap(const LeafLayout& layout, int dim)
+{
+    const DistanceMap map = distanceTransform(layout, dim);
+    std::vector<int32_t> values(std::size_t(layout.leafCount()) * kLeafVoxels, -1);
+    ASSERT_EQ(distanceTransform(layout, values.data(), dim), map.maxDistSq());
+    for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
+        for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+            ASSERT_EQ(values[std::size_t(leaf) * kLeafVoxels + k], int32_t(map.at(leaf, k)));
+        }
+    }
+}
+
+TEST(DistanceTransform, GivesTheValuesOfTheMapInTheCallersMemory)
+{
+    for (uint32_t seed = 0; seed < 22; ++seed) {
+        const LeafLayout layout(*maskOf(randomObject(seed).voxels));
+        for (const int dim : {2, 3}) {
+            ASSERT_NO_FATAL_FAILURE(expectValuesOfMap(layout, dim)) << seed;
+        }
+    }
+    for (const int radius : {181, 182, 254, 255, 256}) { // 16 bits with and without a sign, and 32
+        const CoordBBox box(Coord(0, 0, 0), Coord(2 * radius - 2, 2 * radius - 2, 0));
+        ASSERT_NO_FATAL_FAILURE(expectValuesOfMap(LeafLayout(*maskOf(box)), 2)) << radius;
+    }
+    const LeafLayout empty((MaskTree(false)));
+    EXPECT_EQ(distanceTransform(empty, nullptr), 0u);
+}
+
 TEST(DistanceTransform, TheGridHasTheObjectsVoxelsAndTransform)
 {
     const RandomObject object = randomObject(9);

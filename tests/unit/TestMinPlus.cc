@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestMinPlus.cc
-/// @brief The kernels of the distance transform against plain loops.
+/// @brief The kernel of the distance transform against plain loops.
 
 #include "../support/RandomObjects.h"
 
@@ -222,45 +222,6 @@ TEST(MinPlus, OneScratchServesRunsOfAnyLength)
         minPlus(inRows, outRows, rows, scratch);
         ASSERT_TRUE(Rows(outRows, outRows + in.size()) == naiveMinPlus(in)) << rows;
     }
-}
-
-TEST(StepsToBackground, CountsAlongBothDirections)
-{
-    Random random(5);
-    for (double rate : {0.0, 0.3, 0.9, 0.99, 1.0}) {
-        for (int rows : {8, 16, 64, 512}) {
-            std::vector<uint64_t> words(rows, 0);
-            for (int bit = 0; bit < rows * kLanes; ++bit) {
-                if (random.chance(rate)) words[bit / kLanes] |= uint64_t(1) << bit % kLanes;
-            }
-            RowBuffer<uint16_t> buffer;
-            uint16_t* steps = buffer.rows(rows);
-            stepsToBackground(words.data(), rows, steps);
-            for (int lane = 0; lane < kLanes; ++lane) {
-                const auto on = [&](int row) {
-                    return row >= 0 && row < rows && (words[row] >> lane & 1);
-                };
-                for (int row = 0; row < rows; ++row) {
-                    int count = 0;
-                    while (on(row - count) && on(row + count)) ++count;
-                    ASSERT_EQ(int(steps[row * kLanes + lane]), count) << rate << ", row " << row;
-                }
-            }
-        }
-    }
-}
-
-TEST(StepsToBackground, StopsAt65535)
-{
-    constexpr int kRows = 8 * 16500; // the middle is 66000 steps from both ends
-    const std::vector<uint64_t> words(kRows, ~uint64_t(0));
-    RowBuffer<uint16_t> buffer;
-    uint16_t* steps = buffer.rows(kRows);
-    stepsToBackground(words.data(), kRows, steps);
-    EXPECT_EQ(steps[0], 1);
-    EXPECT_EQ(steps[65533 * kLanes], 65534);
-    EXPECT_EQ(steps[(kRows / 2) * kLanes + 63], 65535);
-    EXPECT_EQ(steps[std::size_t(kRows - 1) * kLanes], 1);
 }
 
 } // namespace

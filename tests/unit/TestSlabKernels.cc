@@ -7,10 +7,13 @@
 #include "../support/RandomObjects.h"
 
 #include <openvdb_spheretree/detail/BallOrder.h>
+#include <openvdb_spheretree/detail/LargestValue.h>
 #include <openvdb_spheretree/detail/LeafTranspose.h>
 #include <openvdb_spheretree/detail/StepEnds.h>
 #include <openvdb_spheretree/slab/SlabRows.h>
 #include <openvdb_spheretree/slab/XSteps.h>
+
+#include <hwy/cache_control.h>
 
 #include <array>
 
@@ -36,9 +39,10 @@ void expectSquares(const Voxels& voxels, int64_t most)
     const std::set<Coord> all(voxels.begin(), voxels.end());
     const LeafLayout layout(*maskOf(voxels));
     const slab::XSteps<Step> steps(layout, nullptr);
-    std::array<Square, kLeafVoxels> squares;
+    std::array<Square, kLeafVoxels> rows, squares;
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
-        steps.squares(leaf, squares.data());
+        steps.squares(leaf, rows.data());
+        detail::rowsToLeaf(Axis::Y, rows.data(), squares.data());
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
             const int64_t expected = std::min(most, stepsAlongX(all, layout.voxel(leaf, k)));
             ASSERT_EQ(int64_t(squares[k]), expected * expected) << layout.voxel(leaf, k);
@@ -67,7 +71,7 @@ template <typename T>
 void expectTranspositions()
 {
     alignas(64) std::array<T, kLeafVoxels> rows, result, expected;
-    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = T(i * 7 + 3);
+    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = T(i * 131 + 3); // 16 bits of any value
     detail::swapRows(rows.data(), result.data());
     for (int u = 0; u < 8; ++u) {
         for (int x = 0; x < 8; ++x) {
@@ -79,7 +83,17 @@ void expectTranspositions()
     detail::rowsZToLeaf(rows.data(), result.data());
     detail::rowsToLeaf(Axis::Z, rows.data(), expected.data());
     ASSERT_EQ(result, expected);
+    result.fill(0);
+    detail::streamRowsZToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
+    ASSERT_EQ(result, expected);
+    alignas(64) std::array<int32_t, kLeafVoxels> wide{}, expectedWide;
+    std::copy(expected.begin(), expected.end(), expectedWide.begin());
+    detail::streamRowsZToLeaf(rows.data(), wide.data());
+    hwy::FlushStream();
+    ASSERT_EQ(wide, expectedWide);
     detail::streamRowsYToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
     detail::rowsToLeaf(Axis::Y, rows.data(), expected.data());
     ASSERT_EQ(result, expected);
 }
@@ -91,6 +105,27 @@ TEST(LeafTranspose, IsThatOfPlainLoops)
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<uint32_t>());
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<int32_t>());
     ASSERT_NO_FATAL_FAILURE(expectTranspositions<int64_t>());
+}
+
+template <typename T>
+void expectLargest(T value)
+{
+    alignas(64) std::array<T, 128> values;
+    for (std::size_t at = 0; at < values.size(); ++at) {
+        values.fill(T(value - 1));
+        values[at] = value;
+        ASSERT_EQ(detail::largestValue(values.data(), values.size()), value) << at;
+    }
+    ASSERT_EQ(detail::largestValue(values.data(), 64), uint32_t(value - 1));
+    ASSERT_EQ(detail::largestValue(values.data(), 0), 0u);
+}
+
+TEST(LargestValue, IsFoundWhereverItIs)
+{
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(1));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(65535));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(70000));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(UINT32_MAX));
 }
 
 TEST(SlabRows, KeepZerosAroundRunsThatDoNotOverlap)
@@ -157,6 +192,60 @@ TEST(StepEnds, AreMarkedOfEveryVoxelThatIsOn)
                 ASSERT_NO_FATAL_FAILURE(expectEnds<int8_t>(axis, most, density, random));
                 ASSERT_NO_FATAL_FAILURE(expectEnds<int16_t>(axis, most, density, random));
             }
+        }
+    }
+}
+
+/// Steps from some rows of a column, which may lead to all others.
+template <typename Step>
+void expectRowEnds(int most, double density, Random& random)
+{
+    constexpr int kRows = 40, kFirst = 8, kLast = 32;
+    std::array<Step, kRows * 64> steps{};
+    std::array<uint64_t, kRows> on{}, marks{}, expected{};
+    for (int row = kFirst; row < kLast; ++row) {
+        for (int lane = 0; lane < 64; ++lane) {
+            const int end = std::max(0, std::min(kRows - 1, row + random.between(-most, most)));
+            steps[row * 64 + lane] = Step(end - row);
+            if (!random.chance(density)) continue;
+            on[row] |= uint64_t(1) << lane;
+            expected[end] |= uint64_t(1) << lane;
+        }
+    }
+    detail::markRowEnds(&steps[kFirst * 64], &on[kFirst], kLast - kFirst, &marks[kFirst]);
+    ASSERT_EQ(marks, expected);
+}
+
+template <typename Step>
+void expectZeros(Random& random)
+{
+    std::array<Step, kLeafVoxels> steps;
+    LeafMask mask{}, expected{};
+    for (int k = 0; k < kLeafVoxels; ++k) {
+        steps[k] = Step(random.between(-1, 1) * random.between(0, 127));
+        if (k >> 6 == 3 || random.chance(0.5)) continue;
+        mask[k >> 6] |= uint64_t(1) << (k & 63);
+        if (steps[k] == 0) expected[k >> 6] |= uint64_t(1) << (k & 63);
+    }
+    ASSERT_EQ(detail::zeroSteps(steps.data(), mask), expected);
+}
+
+TEST(RowEnds, StepsOfZeroEndWhereTheyStart)
+{
+    Random random(5);
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_NO_FATAL_FAILURE(expectZeros<int8_t>(random));
+        ASSERT_NO_FATAL_FAILURE(expectZeros<int16_t>(random));
+    }
+}
+
+TEST(RowEnds, AreMarkedOfEveryLaneThatIsOn)
+{
+    Random random(4);
+    for (const int most : {0, 1, 3, 40}) {
+        for (const double density : {0.0, 0.02, 0.5, 1.0}) {
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int8_t>(most, density, random));
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int16_t>(most, density, random));
         }
     }
 }
