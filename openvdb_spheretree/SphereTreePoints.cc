@@ -361,37 +361,63 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
     return cuts;
 }
 
+/// What becomes of an array of a tree once it has been written.
+struct Keep {
+    template <typename T>
+    void operator()(const std::vector<T>&) const
+    {}
+};
+struct Release {
+    template <typename T>
+    void operator()(std::vector<T>& values) const
+    {
+        std::vector<T>().swap(values);
+    }
+};
+
 /// Attributes that nodes of trees and of cuts have in common.
-template <typename Nodes>
-void addSpheres(detail::PointWriter& writer, const Nodes& nodes)
+template <typename Nodes, typename Written>
+void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& written)
 {
     writer.addAttribute<float>("pscale", [&](uint32_t id) { return nodes.radiusWorld[id]; });
+    written(nodes.radiusWorld);
     writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
     writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return nodes.parent[id]; });
+    written(nodes.parent);
     writer.addAttribute<double>("radius", [&](uint32_t id) { return nodes.radius[id]; });
+    written(nodes.radius);
     writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return nodes.coverSq[id]; });
+    written(nodes.coverSq);
 }
 
-} // namespace
-
-PointDataGrid::Ptr toPoints(const SphereTree& tree)
+/// Attribute by attribute, so that there is one array at most both in the tree and in the grid, if
+/// @a written releases it.
+template <typename Tree, typename Written>
+PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 {
     checkLayout(tree);
-    const std::vector<int32_t> levels = levelNumbers(tree);
-
-    const int lowest = tree.levels.front().level;
-
     detail::PointWriter writer(tree.center);
-    addSpheres(writer, tree);
-    writer.addAttribute<int32_t>("level", [&](uint32_t id) { return levels[id]; });
+    written(tree.center);
+    addSpheres(writer, tree, written);
+    const auto levelOf = [&](uint32_t id) { return tree.levelOf(int32_t(id)); };
+    writer.addAttribute<int32_t>("level", levelOf);
     writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
+    written(tree.radiusSq);
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
-    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levels[id] - lowest; });
+    written(tree.ijk);
+    const int lowest = tree.levels.front().level;
+    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levelOf(id) - lowest; });
 
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
     detail::writeTreeMetadata(*grid, tree, writer.scale());
     return grid;
 }
+
+} // namespace
+
+PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, Keep()); }
+
+PointDataGrid::Ptr toPoints(SphereTree&& tree) { return writeTree(tree, Release()); }
 
 PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {
@@ -423,7 +449,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
         inconsistent(std::string("in its cuts, ") + messageOf(error));
     }
     detail::PointWriter writer(tree.cuts.center);
-    addSpheres(writer, tree.cuts);
+    addSpheres(writer, tree.cuts, Keep());
     writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
     writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
 

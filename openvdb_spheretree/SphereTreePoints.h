@@ -29,6 +29,12 @@ constexpr int kPointsFormat = 1;
 ///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 
+/// @brief The same grid, in about half the memory: the tree's arrays of nodes are released one by
+/// one, as soon as they are in the grid. What else the tree has stays: levels, settings, edges and
+/// cuts (whose grids are to be made before, since they take positions from the nodes).
+/// @throw openvdb::ValueError as above; the tree is then unchanged
+openvdb::points::PointDataGrid::Ptr toPoints(SphereTree&& tree);
+
 /// @brief The tree's DAG edges as a point grid; null if it has none.
 openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);
 

@@ -26,6 +26,7 @@ void Session::run(const std::vector<ActionCall>& line)
 {
     for (const ActionCall& call : line) {
         throwIfStopped();
+        mIsLast = &call == &line.back();
         runOne(call);
     }
 }

@@ -44,6 +44,10 @@ struct Session {
     /// @throw CommandError, Interrupted: by the first action that fails
     void run(const std::vector<ActionCall>& line);
 
+    /// @return whether the action that runs is the line's last: nothing can ask for what is on the
+    /// stack any more.
+    bool isLastAction() const { return mIsLast; }
+
     /// Where tables and lists go: stdout, unless that carries data.
     std::ostream& textOut() const;
     /// Puts @a text there, or to another stream. A reader that has seen enough (`| head`) is no
@@ -70,7 +74,7 @@ private:
     void runOne(const ActionCall& call);
     void reportTime(const std::string& what, double seconds);
 
-    bool mReaderIsGone = false;
+    bool mReaderIsGone = false, mIsLast = false;
 };
 
 /// @brief Look at everything that can be checked before any work.

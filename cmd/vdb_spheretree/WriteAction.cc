@@ -78,17 +78,23 @@ void check(const ActionCall& call, Plan& plan)
     checkPictureOptions(call);
 }
 
-openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items)
+/// @param giveUp  whether trees are not needed any more: a tree and its grid together would be twice
+///                as much memory
+openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
 {
+    namespace st = openvdb_spheretree;
     openvdb::GridCPtrVec grids;
-    for (const StackItem* item : items) {
+    for (StackItem* item : items) {
         if (item->grid) {
             grids.push_back(item->grid);
             continue;
         }
-        grids.push_back(openvdb_spheretree::toPoints(*item->tree));
-        if (const auto dag = openvdb_spheretree::dagToPoints(*item->tree)) grids.push_back(dag);
-        if (const auto cuts = openvdb_spheretree::cutsToPoints(*item->tree)) grids.push_back(cuts);
+        st::SphereTree& tree = *item->tree;
+        const auto dag = st::dagToPoints(tree), cuts = st::cutsToPoints(tree);
+        if (giveUp) item->object = nullptr;
+        grids.push_back(giveUp ? st::toPoints(std::move(tree)) : st::toPoints(tree));
+        if (dag) grids.push_back(dag);
+        if (cuts) grids.push_back(cuts);
     }
     return grids;
 }
@@ -195,7 +201,15 @@ private:
     {
         if (!mGrids.empty()) return mGrids;
         requireDistinctTrees(mItems);
-        return mGrids = gridsOf(mItems);
+        return mGrids = gridsOf(mItems, mSession.isLastAction() && !needsTrees());
+    }
+
+    /// Whether a file is written of the trees themselves.
+    bool needsTrees() const
+    {
+        const std::vector<std::string> paths = mCall.list("files");
+        return std::any_of(paths.begin(), paths.end(),
+            [](const std::string& path) { return fileKind(path) != FileKind::Vdb; });
     }
 
     const ActionCall& mCall;

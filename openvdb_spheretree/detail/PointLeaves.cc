@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PointLeaves.h"
 
+#include "LargeArray.h"
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -23,14 +26,38 @@ Coord leafOrigin(const Coord& voxel) { return voxel & ~int32_t(PointLeaf::DIM - 
 /// Division by a power of two is exact.
 Vec3d pointSpace(const Vec3d& position, int scale) { return position / double(scale); }
 
-std::size_t countVoxels(const std::vector<Vec3d>& positions, int scale, std::vector<Coord>& voxels)
+/// @return the lowest index that is wrong, or @a count: of several it is always the same one.
+template <typename Wrong>
+std::size_t firstWrong(std::size_t count, const Wrong& wrong)
 {
-    voxels.resize(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        voxels[i] = Coord::round(pointSpace(positions[i], scale));
-    }
-    tbb::parallel_sort(voxels.begin(), voxels.end());
-    return std::size_t(std::unique(voxels.begin(), voxels.end()) - voxels.begin());
+    std::atomic<std::size_t> first{count};
+    parallelFor(count, nullptr, [&](std::size_t i) {
+        std::size_t lowest = first.load(std::memory_order_relaxed);
+        if (i >= lowest || !wrong(i)) return;
+        while (i < lowest && !first.compare_exchange_weak(lowest, i)) {}
+    });
+    return first;
+}
+
+/// @return how many voxels the first @a count points are in.
+std::size_t countVoxels(const std::vector<Vec3d>& positions, std::size_t count, int scale)
+{
+    const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
+    parallelFor(count, nullptr,
+        [&](std::size_t i) { voxels[i] = Coord::round(pointSpace(positions[i], scale)); });
+    tbb::parallel_sort(voxels.get(), voxels.get() + count);
+    return std::size_t(std::unique(voxels.get(), voxels.get() + count) - voxels.get());
+}
+
+/// Whether a voxel holds too few points on average. On fine scales some of the points have more
+/// voxels than all of them should, and need no others to be counted.
+bool isTooFine(const std::vector<Vec3d>& positions, int scale)
+{
+    constexpr std::size_t kPointsPerVoxel = 4;
+    const auto tooMany = [&](std::size_t count) {
+        return countVoxels(positions, count, scale) * kPointsPerVoxel > positions.size();
+    };
+    return tooMany(positions.size() / 3) || tooMany(positions.size());
 }
 
 void checkRange(const std::vector<Vec3d>& positions)
@@ -41,25 +68,22 @@ void checkRange(const std::vector<Vec3d>& positions)
                                 "hold (2^31 - 1): use a larger voxel, or split the object");
     }
     const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
         const Vec3d& p = positions[i];
-        if (std::abs(p[0]) < limit && std::abs(p[1]) < limit && std::abs(p[2]) < limit) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "point " << i << " at " << p << " is out of the range of voxel coordinates (2^31)");
-    }
+        return !(std::abs(p[0]) < limit && std::abs(p[1]) < limit && std::abs(p[2]) < limit);
+    });
+    if (wrong == positions.size()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "point " << wrong << " at " << positions[wrong]
+                 << " is out of the range of voxel coordinates (2^31)");
 }
 
 } // namespace
 
 int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
 {
-    constexpr std::size_t kPointsPerVoxel = 4;
-    std::vector<Coord> voxels;
     int scale = 1;
-    while (scale < kMaxPointScale
-        && countVoxels(positions, scale, voxels) * kPointsPerVoxel > positions.size()) {
-        scale *= 2;
-    }
+    while (scale < kMaxPointScale && isTooFine(positions, scale)) scale *= 2;
     return scale;
 }
 
@@ -86,16 +110,17 @@ PointWriter::PointWriter(const std::vector<Vec3d>& positions)
 std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& positions) const
 {
     std::vector<Place> places(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
         const Vec3d position = pointSpace(positions[i], mScale);
         const Coord voxel = Coord::round(position);
         const Vec3f offset(position - voxel.asVec3d());
-        if ((voxel.asVec3d() + Vec3d(offset)) * double(mScale) != positions[i]) {
-            OPENVDB_THROW(openvdb::ValueError,
-                "point " << i << " at " << positions[i]
-                         << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
-        }
         places[i] = {voxel, uint32_t(i)};
+        return (voxel.asVec3d() + Vec3d(offset)) * double(mScale) != positions[i];
+    });
+    if (wrong != positions.size()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "point " << wrong << " at " << positions[wrong]
+                     << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
     }
     tbb::parallel_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
         const Coord leafA = leafOrigin(a.voxel), leafB = leafOrigin(b.voxel);

@@ -229,6 +229,19 @@ TEST_F(CommandWork, WhatIsWrittenLeavesWhenTheNextThingArrives)
     EXPECT_EQ(readGrids("two.vdb").size(), 2u);
 }
 
+TEST_F(CommandWork, WhatIsWrittenLastIsTheSameAsWhatIsStillNeeded)
+{
+    const std::string tree = "-read ball.vdb -spheretree tree=extended dag=1";
+    ASSERT_EQ(run(tree + " -write last.vdb").exitCode, 0);
+    ASSERT_EQ(run(tree + " -write needed.vdb -stats").exitCode, 0);
+    ASSERT_EQ(run(tree + " -write beside.vdb beside.csv").exitCode, 0);
+    using command_test::readText;
+    EXPECT_EQ(readText(path("last.vdb")), readText(path("needed.vdb")));
+    EXPECT_EQ(readText(path("last.vdb")), readText(path("beside.vdb")));
+    EXPECT_GT(readText(path("beside.csv")).size(), 200u);
+    EXPECT_EQ(run("-read ball.vdb last.vdb -check").exitCode, 0);
+}
+
 TEST_F(CommandWork, TwoTreesOfOneNameAreNotWrittenToOneFile)
 {
     const Result result = run("-read a.vol -spheretree -read ball.vdb -spheretree -write t.vdb");

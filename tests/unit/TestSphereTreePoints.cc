@@ -312,6 +312,29 @@ TEST(SphereTreePoints, TheGridDoesNotDependOnThreads)
 
 // ---- The grid as other programs see it
 
+TEST(SphereTreePoints, ATreeThatIsGivenUpMakesTheSameGridAndIsReleased)
+{
+    for (const SphereTree& tree : {sampleTree(), tightSampleTree()}) {
+        SphereTree given = tree;
+        const std::string expected = bytesOf(toPoints(tree));
+        EXPECT_TRUE(bytesOf(toPoints(std::move(given))) == expected);
+        EXPECT_EQ(given.center.capacity() + given.radius.capacity() + given.coverSq.capacity()
+                + given.radiusWorld.capacity() + given.parent.capacity() + given.ijk.capacity()
+                + given.radiusSq.capacity(),
+            0u);
+        EXPECT_EQ(given.levels.size(), tree.levels.size());
+        EXPECT_EQ(given.cuts.size(), tree.cuts.size());
+    }
+}
+
+TEST(SphereTreePoints, ATreeThatCannotBeWrittenIsNotReleased)
+{
+    SphereTree given = sampleTree();
+    given.center[0][0] += 0.01;
+    EXPECT_THROW(toPoints(std::move(given)), openvdb::ValueError);
+    EXPECT_EQ(given.size(), sampleTree().size());
+}
+
 TEST(SphereTreePoints, WorldPositionsOfThePointsAreTheCentres)
 {
     const SphereTree tree = sampleTree();
