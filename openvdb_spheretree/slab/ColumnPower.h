@@ -8,7 +8,6 @@
 #include "../detail/LeafRows.h"
 #include "../detail/MaxPlus.h"
 #include "../detail/StepEnds.h"
-#include "SlabLabels.h"
 
 #include <cstdint>
 #include <cstring>
@@ -17,18 +16,23 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Leaves of a run along x that are in the window, one behind the other, and which of them are to
-/// get their labels: [first, last).
+/// Leaves of a run along x whose keys are there, one behind the other, and which of them are to get
+/// their labels: [first, last).
 template <typename Power>
 struct Column {
     std::vector<uint32_t> leaves;
-    std::vector<const SlabLabels<Power>*> labels; ///< of the slab of each
+    std::vector<const typename Power::Key*> keys; ///< 512 of each
     uint32_t first = 0, last = 0;
 
     void clear()
     {
         leaves.clear();
-        labels.clear();
+        keys.clear();
+    }
+    void add(uint32_t leaf, const typename Power::Key* keysOfLeaf)
+    {
+        leaves.push_back(leaf);
+        keys.push_back(keysOfLeaf);
     }
     uint32_t count() const { return uint32_t(leaves.size()); }
 };
@@ -40,14 +44,18 @@ class ColumnPower {
     using Offset = typename Power::Offset;
 
 public:
-    /// Finds the steps along x and marks where they lead.
-    void run(const Column<Power>& column, const LeafLayout& layout)
+    /// Finds the steps along x, marks where they lead, and calls visit(leaf, steps) for each leaf
+    /// that gets them, with its 512.
+    /// @param marks  one mask for each leaf of the layout, to be added to
+    template <typename Visit>
+    void run(
+        const Column<Power>& column, const LeafLayout& layout, LeafMask* marks, const Visit& visit)
     {
         const int rows = int(column.count()) * kLeafDim;
         Key* keys = mKeys.rows(rows, 1);
         for (uint32_t i = 0; i < column.count(); ++i) {
-            std::memcpy(keys + std::size_t(i) * kLeafVoxels,
-                column.labels[i]->keysOf(column.leaves[i]), kLeafVoxels * sizeof(Key));
+            std::memcpy(
+                keys + std::size_t(i) * kLeafVoxels, column.keys[i], kLeafVoxels * sizeof(Key));
         }
         Offset* steps = mSteps.rows(rows);
         const detail::RowRange wanted{
@@ -57,13 +65,12 @@ public:
         const auto marksOf = [this](uint32_t i) -> LeafMask& { return mMarks[i]; };
         for (uint32_t i = column.first; i < column.last; ++i) {
             const Offset* own = steps + std::size_t(i) * kLeafVoxels;
-            std::memcpy(
-                column.labels[i]->dxOf(column.leaves[i]), own, kLeafVoxels * sizeof(Offset));
             detail::markEnds(Axis::X, i, own, layout.mask(column.leaves[i]), marksOf);
+            visit(column.leaves[i], own);
         }
         for (uint32_t i = 0; i < column.count(); ++i) {
-            LeafMask& marks = column.labels[i]->marksOf(column.leaves[i]);
-            for (int x = 0; x < kLeafDim; ++x) marks[x] |= mMarks[i][x];
+            LeafMask& ofLeaf = marks[column.leaves[i]];
+            for (int x = 0; x < kLeafDim; ++x) ofLeaf[x] |= mMarks[i][x];
         }
     }
 

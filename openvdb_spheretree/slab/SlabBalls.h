@@ -30,16 +30,20 @@ class SlabBalls {
     using Voxel = PowerMap::Voxel;
 
 public:
-    /// @param centers  receives the centres of balls: one mask for each leaf of the slab
+    /// @param labels   those of leaves without a mark may be undefined
+    /// @param centers  one mask for each leaf of the slab: where labels lead to along x; receives
+    ///                 the centres of balls
     /// @return the balls, ordered by centre.
     std::vector<MedialBall> collect(
         const LeafLayout& layout, uint32_t slab, const SlabLabels<Power>& labels, LeafMask* centers)
     {
         const LeafLayout::Slab leaves = layout.slab(slab);
+        mMarks.assign(centers, centers + leaves.size());
         std::fill(centers, centers + leaves.size(), LeafMask{});
         mWays.clear();
         for (uint32_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
-            followLeaf(layout, leaf, labels, centers);
+            const LeafMask& marks = mMarks[leaf - leaves.begin];
+            if (detail::hasMarks(marks)) followLeaf(layout, leaf, marks, labels, centers);
         }
         countRanks(centers, leaves.size());
         for (const Way& way : mWays)
@@ -69,10 +73,9 @@ private:
     }
 
     /// Marks the centres that labels lead to from a leaf.
-    void followLeaf(
-        const LeafLayout& layout, uint32_t leaf, const SlabLabels<Power>& labels, LeafMask* centers)
+    void followLeaf(const LeafLayout& layout, uint32_t leaf, const LeafMask& marks,
+        const SlabLabels<Power>& labels, LeafMask* centers)
     {
-        const LeafMask& marks = labels.marksOf(leaf);
         const LeafMask staysY = detail::stepBits(labels.dyOf(leaf), Axis::Y, marks).stays;
         LeafMask staysZ;
         staysZ.fill(~uint64_t(0));
@@ -83,19 +86,12 @@ private:
             centers[leaf - labels.firstLeaf][x] |= own;
             for (uint64_t left = marks[x] & ~own; left; left &= left - 1) {
                 const Voxel voxel{leaf, 64 * x + openvdb::util::FindLowestOn(left)};
-                const Voxel center = centerOf(layout, voxel, labels);
+                const Voxel center = labels.center(layout, voxel);
                 centers[center.leaf - labels.firstLeaf][center.offset >> 6] |= uint64_t(1)
                     << (center.offset & 63);
                 mWays.push_back({center, radiusSqAt(voxel, labels)});
             }
         }
-    }
-
-    static Voxel centerOf(const LeafLayout& layout, Voxel voxel, const SlabLabels<Power>& labels)
-    {
-        voxel = PowerMap::moved(layout, Axis::Y, voxel, labels.dyOf(voxel.leaf)[voxel.offset]);
-        if (!labels.dz) return voxel;
-        return PowerMap::moved(layout, Axis::Z, voxel, labels.dzOf(voxel.leaf)[voxel.offset]);
     }
 
     /// Numbers the centres leaf by leaf, and makes room for their radii.
@@ -119,6 +115,7 @@ private:
             + openvdb::util::CountOn(centers[leaf][x] & before);
     }
 
+    std::vector<LeafMask> mMarks; ///< of the slab
     std::vector<Way> mWays;
     std::vector<uint32_t> mFirstRank; ///< of the words of leaves
     std::vector<int32_t> mRadiusSq;   ///< of centres that ways lead to; 0: its own key has it
