@@ -22,7 +22,11 @@ namespace openvdb_spheretree {
 struct LevelWants {
     std::vector<openvdb::Coord> labelsOf; ///< voxels; those that are off have no label
     bool allLabels = false;               ///< keep the label of every voxel: 3 or 6 bytes each
+    int64_t memory = 0;                   ///< as SphereTreeSettings::memory
 };
+
+/// @return the bytes that the labels of a norm take, which have no stream: all are in memory.
+int64_t normBytes(const LeafLayout& layout);
 
 struct MedialLevel {
     /// @param distance  what the balls are balls of

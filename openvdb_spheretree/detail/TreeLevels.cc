@@ -13,14 +13,13 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-namespace {
-
-/// Whether a build looks at the labels of all voxels.
 bool needsDag(const SphereTreeSettings& settings)
 {
     return settings.parent == ParentRule::Dag
         || (settings.dag && settings.edges == DagEdges::Shared);
 }
+
+namespace {
 
 /// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
 /// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
@@ -112,6 +111,7 @@ std::unique_ptr<MedialLevel> BuildContext::medialLevel(
 {
     LevelWants wants;
     wants.allLabels = needsDag(settings);
+    wants.memory = settings.memory;
     if (children) {
         const PyramidStep step = stepFrom(level - 1);
         for (const MedialBall& ball : children->balls) {

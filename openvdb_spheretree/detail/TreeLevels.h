@@ -30,6 +30,9 @@ struct LevelNodes {
     std::optional<LevelTopology> topology; ///< of these voxels, if asked for
 };
 
+/// @return whether a build looks at the labels of all voxels.
+bool needsDag(const SphereTreeSettings& settings);
+
 /// What a build is given, and where it reports to.
 struct BuildContext {
     const SphereTreeSettings& settings;

@@ -50,7 +50,8 @@ StreamPlan packedPlan(
     const int64_t more = std::min<int64_t>((bytes - needed) / thread, threads - 1);
     plan.slabs = uint32_t(std::min<int64_t>(1 + more, layout.slabCount()));
     plan.packedBytes = int64_t(layout.leafCount()) * memory.packed;
-    plan.storedBytes = bytes - needed - (plan.slabs - 1) * thread;
+    const int64_t uncounted = bytes / 16; // rows of runs, what allocations take beside their bytes
+    plan.storedBytes = std::max<int64_t>(0, bytes - needed - (plan.slabs - 1) * thread - uncounted);
     plan.bandBytes = std::max(memory.steps, leastBand) + (plan.slabs - 1) * slab;
     plan.bytes = bytes;
     return plan;
