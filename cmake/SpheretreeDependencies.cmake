@@ -10,6 +10,7 @@ set(missing "")
 foreach(dependency IN ITEMS
         "OpenVDB::openvdb|OpenVDB|libopenvdb-dev libboost-iostreams-dev libblosc-dev"
         "TBB::tbb|oneTBB|libtbb-dev"
+        "Blosc::blosc|Blosc|libblosc-dev"
         "ZLIB::ZLIB|zlib|zlib1g-dev"
         "PNG::PNG|libpng|libpng-dev"
         "hwy::hwy|Highway|libhwy-dev")

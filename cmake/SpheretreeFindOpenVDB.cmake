@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds OpenVDB, and the TBB that it uses: the targets OpenVDB::openvdb and TBB::tbb.
+# Finds OpenVDB, and the TBB and the Blosc that it uses: the targets OpenVDB::openvdb, TBB::tbb and
+# Blosc::blosc.
 #
 # OpenVDB installs a find module, FindOpenVDB.cmake, in a folder that CMake does not search by itself.
 # We look for that folder; a folder that the user has put in CMAKE_MODULE_PATH comes first, and a
@@ -37,6 +38,9 @@ function(spheretree_find_openvdb)
                 "(Debian, Ubuntu: apt-get install libboost-iostreams-dev)")
         endif()
         find_package(OpenVDB QUIET COMPONENTS openvdb)
+    endif()
+    if(NOT TARGET Blosc::blosc) # an OpenVDB without it does not find it
+        find_package(Blosc QUIET)
     endif()
     set(OpenVDB_VERSION "${OpenVDB_VERSION}" PARENT_SCOPE)
 endfunction()

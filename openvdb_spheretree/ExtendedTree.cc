@@ -244,7 +244,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
             if (!settings.finalFit) useReconstructionRadii(levels, context);
         });
         levels.back().topology = topologyOf(*coarse, context);
-        if (context.needsDag()) fine = std::move(coarse);
+        if (needsDag(settings)) fine = std::move(coarse);
     }
     return levels;
 }

@@ -103,8 +103,8 @@ void requireRoom(int64_t leaves)
                 << " leaf nodes, those inside its tiles included, more than 2^31: use a "
                    "larger voxel, or split the object");
     }
-    // The layout itself, twice while it is sorted, and at least the distances.
-    detail::requireMemory(leaves, 2 * 100 + kLeafVoxels * sizeof(uint16_t));
+    // The layout itself, twice while it is sorted, and at least the steps along x.
+    detail::requireMemory(leaves, 2 * 100 + 2 * 64);
 }
 
 } // namespace

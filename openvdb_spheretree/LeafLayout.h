@@ -58,6 +58,8 @@ public:
     explicit LeafLayout(const openvdb::MaskTree& level);
 
     uint32_t leafCount() const { return uint32_t(mOrigins.size()); }
+    /// @return the memory that it takes.
+    int64_t bytes() const { return 100 * int64_t(leafCount()); }
     int64_t voxelCount() const { return mVoxelCount; }
 
     /// Leaves are numbered in the order of their origins (x first).

@@ -3,6 +3,7 @@
 
 #include "detail/BallIndex.h"
 #include "detail/LeafFinder.h"
+#include "detail/Memory.h"
 #include "detail/Parallel.h"
 #include "detail/StageTimer.h"
 #include "slab/LabelStream.h"
@@ -51,6 +52,13 @@ std::vector<int32_t> ballsAt(const std::vector<PowerMap::Voxel>& labels, const L
 
 } // namespace
 
+int64_t normBytes(const LeafLayout& layout)
+{
+    constexpr int64_t kDistance = sizeof(uint32_t), kSite = sizeof(uint32_t);
+    const int64_t perLeaf = kLeafVoxels * (kDistance + kSite) + int64_t(sizeof(LeafMask));
+    return layout.bytes() + int64_t(layout.leafCount()) * perLeaf;
+}
+
 MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
     NullInterrupter* interrupter, BuildSeconds* seconds, const LevelWants& wants)
     : layout(detail::timed("layout of leaves", interrupter, seconds ? &seconds->distance : nullptr,
@@ -69,6 +77,7 @@ void MedialLevel::findBalls(
     std::vector<PowerMap::Voxel> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
     slab::LabelStream stream(layout, dim);
     stream.ask(asked);
+    stream.setMemory(wants.memory);
     detail::LabelSteps steps;
     if (wants.allLabels) stream.keepSteps(steps);
     slab::LevelBalls found = stream.run(interrupter);
@@ -87,6 +96,8 @@ void MedialLevel::findBalls(
 void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWants& wants,
     NullInterrupter* interrupter, BuildSeconds* seconds)
 {
+    detail::requireAllowed(
+        layout.leafCount(), normBytes(layout), detail::allowedMemory(wants.memory));
     const DistanceMap distances =
         detail::timed("distance transform", interrupter, seconds ? &seconds->distance : nullptr,
             [&] { return distanceTransform(layout, dim, interrupter, distance); });

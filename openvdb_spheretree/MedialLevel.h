@@ -25,7 +25,11 @@ struct LevelWants {
     std::size_t count = 0;                              ///< of voxels whose labels are wanted
     std::function<openvdb::Coord(std::size_t)> voxel{}; ///< each of them; asked from many threads
     bool allLabels = false; ///< keep the label of every voxel: 3 or 6 bytes each
+    int64_t memory = 0;     ///< as SphereTreeSettings::memory
 };
+
+/// @return the bytes that the labels of a norm take, which have no stream: all are in memory.
+int64_t normBytes(const LeafLayout& layout);
 
 struct MedialLevel {
     /// @param distance  what the balls are balls of

@@ -117,7 +117,9 @@ struct BuildSeconds {
 /// @param interrupter  may be null; asked from many threads
 /// @param seconds      may be null; receives the time each stage took
 /// @throw openvdb::ValueError if the object is empty or too wide, its voxels are not uniform, a
-///        setting is out of range, or a radius does not fit (32767 voxels)
+///        setting is out of range, a radius does not fit (32767 voxels), or there is too little
+///        memory (MemoryPlan.h)
+/// @throw openvdb::IoError if a temporary file is needed, and cannot be made or has no room
 /// @throw Interrupted if the interrupter said so
 /// @note Cost is linear in active voxels per level (each level has about 1/factor^dim of the one
 ///       before), whatever the bounding box. The result is the same to the last bit for any number

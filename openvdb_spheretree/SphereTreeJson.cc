@@ -185,7 +185,6 @@ void writeObject(JsonWriter& json, const SphereTree& tree)
 
 void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
 {
-    json.beginObject("settings");
     json.value("tree", toString(settings.tree));
     json.value("factor", settings.factor);
     json.value("dim", settings.dim);
@@ -207,7 +206,6 @@ void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
     json.value("side", toString(settings.side));
     json.value("cuts", settings.cuts);
     json.value("name", settings.name);
-    json.endObject();
 }
 
 void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
@@ -247,7 +245,9 @@ void writeJson(const SphereTree& tree, std::ostream& out)
     json.beginObject();
     json.value("format", "vdb_spheretree.tree.1");
     writeObject(json, tree);
+    json.beginObject("settings");
     writeSettings(json, tree.settings);
+    json.endObject();
     writeTransform(json, tree);
     json.value("subdivision", tree.subdivision);
     writeLevels(json, tree);

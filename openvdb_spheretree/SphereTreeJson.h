@@ -43,6 +43,7 @@ void writeJson(const SphereTree& tree, std::ostream& out);
 /// @name Members which -stats has as well: "object", "settings", and a level's topology and error
 /// @{
 void writeObject(JsonWriter& json, const SphereTree& tree);
+/// The members of "settings", which the caller has begun.
 void writeSettings(JsonWriter& json, const SphereTreeSettings& settings);
 void writeTopology(JsonWriter& json, const SphereTreeLevel& level);
 void writeError(JsonWriter& json, const SphereTreeLevel& level);

@@ -2,10 +2,12 @@
 #include "SphereTreeSettings.h"
 
 #include "detail/EnumNames.h"
+#include "detail/Memory.h"
 
 #include <openvdb/Exceptions.h>
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -40,6 +42,27 @@ constexpr std::array<Named<DagEdges>, 2> kDagEdges{
     {{DagEdges::Shared, "shared"}, {DagEdges::Intersecting, "intersecting"}}};
 
 const std::string kClosing = "closing:";
+
+/// A unit of memory, as small letters, and its bytes.
+struct MemoryUnit {
+    const char* name;
+    double bytes;
+};
+constexpr double kKiB = 1024, kMiB = 1024 * kKiB, kGiB = 1024 * kMiB, kTiB = 1024 * kGiB;
+constexpr std::array<MemoryUnit, 14> kMemoryUnits{{{"", 1}, {"b", 1}, {"kb", 1e3}, {"mb", 1e6},
+    {"gb", 1e9}, {"tb", 1e12}, {"kib", kKiB}, {"mib", kMiB}, {"gib", kGiB}, {"tib", kTiB},
+    {"k", kKiB}, {"m", kMiB}, {"g", kGiB}, {"t", kTiB}}};
+
+/// @return the bytes of so many units; NaN if there is no such unit, or no such share.
+double bytesOf(double value, std::string unit)
+{
+    if (unit == "%") return value > 100 ? std::nan("") : value / 100 * detail::physicalMemory();
+    for (char& c : unit) c = char(std::tolower(static_cast<unsigned char>(c)));
+    for (const MemoryUnit& entry : kMemoryUnits) {
+        if (unit == entry.name) return value * entry.bytes;
+    }
+    return std::nan("");
+}
 
 /// A setting that would change nothing is a mistake: whoever made it expects something of it.
 void refusePyramidSetting(bool given, const std::string& what)
@@ -147,6 +170,11 @@ void SphereTreeSettings::validate() const
     }
     requireMiniballSettings(*this);
     requireInnerSettings(*this);
+    if (memory < 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "memory=" << memory << " is out of range: it must be a number of bytes, or 0 for "
+                      << memoryToString(0) << " of the machine's memory");
+    }
     if (padding != kPadCubes && !(padding >= 0 && padding <= kMaxPadding)) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << padding
@@ -198,6 +226,17 @@ std::string paddingToString(double padding)
     return std::string(text.data(), end);
 }
 
+std::string memoryToString(int64_t memory)
+{
+    if (memory == 0) return std::to_string(int(100 * SphereTreeSettings::kMemoryShare)) + '%';
+    constexpr std::array<Named<int64_t>, 4> kUnits{{{int64_t(1) << 40, "TiB"},
+        {int64_t(1) << 30, "GiB"}, {int64_t(1) << 20, "MiB"}, {int64_t(1) << 10, "KiB"}}};
+    for (const auto& unit : kUnits) {
+        if (memory % unit.value == 0) return std::to_string(memory / unit.value) + unit.name;
+    }
+    return std::to_string(memory);
+}
+
 std::string modelToString(const SphereTreeSettings& settings)
 {
     if (settings.customModel || settings.hadCustomModel) return "custom";
@@ -247,6 +286,23 @@ double paddingFromString(const std::string& text)
                        << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
     }
     return std::abs(value); // -0 is 0
+}
+
+int64_t memoryFromString(const std::string& text)
+{
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    const std::string unit(parsed.ptr, end);
+    if (parsed.ec == std::errc() && unit == "%" && value == 100 * SphereTreeSettings::kMemoryShare)
+        return 0;
+    const double bytes = parsed.ec == std::errc() ? bytesOf(value, unit) : std::nan("");
+    if (bytes >= 1 && bytes < double(INT64_MAX)) return int64_t(bytes);
+    const char* what = std::isnan(bytes) ? "unknown" : bytes < 1 ? "too little" : "too much";
+    OPENVDB_THROW(openvdb::ValueError,
+        "memory=" << quoted(text) << " is " << what
+                  << ": choose a number of bytes such as 4GiB, 500MB or 4e9, or a share of the "
+                     "machine's memory, above 0% and up to 100%, such as 75%");
 }
 
 int closingFromString(const std::string& text)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTreeSettings.h
 /// @brief What the builder of a sphere-tree can be asked for. Every field is recorded in the tree
-/// it builds, and in the files written from it.
+/// it builds, and all but `memory` in the files written from it.
 
 #pragma once
 
@@ -9,6 +9,7 @@
 #include "PyramidModel.h"
 #include "SphereBudget.h"
 
+#include <cstdint>
 #include <string>
 
 namespace openvdb_spheretree {
@@ -116,11 +117,17 @@ struct SphereTreeSettings {
     DagEdges edges = DagEdges::Shared; ///< which ones; parent=dag always goes by shared voxels
     /// Name of the tree, and of the grid it is stored in.
     std::string name = "spheretree";
+    /// Bytes that the labels of a level and what they are made from may take while they are
+    /// computed; 0 for three quarters of the machine's memory. Where they need more, they are
+    /// compressed, and then go to a temporary file (docs/algorithm.md, "Less memory than that").
+    /// The tree is the same whatever it is, so no file records it.
+    int64_t memory = 0;
 
     static constexpr double kPadCubes = -1.0;
     static constexpr double kMaxPadding = 1e9;
     static constexpr int kMaxFactor = 1 << 15;
     static constexpr int kMaxClosing = 64;
+    static constexpr double kMemoryShare = 0.75; ///< of the machine's, unless `memory` says more
     /// @return the padding in voxels of level 0.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
@@ -149,6 +156,8 @@ const char* toString(Cover);
 const char* toString(Quality);
 /// @return "cubes", "voxels", or the number as text.
 std::string paddingToString(double padding);
+/// @return "75%" for 0, else the bytes, in GiB and so on where they come to a whole number.
+std::string memoryToString(int64_t memory);
 /// @return "or", "closing:2" and so on, or "custom".
 std::string modelToString(const SphereTreeSettings&);
 /// @throw openvdb::ValueError naming the value and the values there are.
@@ -163,6 +172,9 @@ Center centerFromString(const std::string&);
 Cover coverFromString(const std::string&);
 Quality qualityFromString(const std::string&);
 double paddingFromString(const std::string&);
+/// @return the bytes of "4GiB", "500MB", "4e9" or, as a share of the machine's memory, "50%"; 0 for
+///         "75%".
+int64_t memoryFromString(const std::string&);
 /// @return the radius of "closing:R", 0 for "or".
 int closingFromString(const std::string&);
 /// @}

@@ -124,11 +124,6 @@ OptionSpec choice(
     return option;
 }
 
-OptionSpec later(const std::string& name)
-{
-    return {name, OptionKind::Later, "", "not available in this version"};
-}
-
 OptionSpec vdbOption(const std::string& what)
 {
     return text("vdb", "",
@@ -231,9 +226,6 @@ std::optional<std::array<double, 3>> parseVector(const std::string& text)
 void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value)
 {
     const std::string where = "-" + action.name + ": ";
-    if (option.kind == OptionKind::Later) {
-        throwUsage(where + "option " + option.name + " is not available in this version");
-    }
     if (value.empty()) throwUsage(where + "option " + option.name + " has no value");
     const bool emptyItem =
         value.front() == ',' || value.back() == ',' || value.find(",,") != std::string::npos;

@@ -30,8 +30,7 @@ enum class OptionKind {
     Integer, ///< within [lowest, highest]
     Real,    ///< within [lowest, highest]
     Vector,  ///< three numbers, a comma between
-    Choice,  ///< one of `choices`
-    Later    ///< reserved: has a meaning in a later version only
+    Choice   ///< one of `choices`
 };
 
 struct OptionSpec {
@@ -56,7 +55,6 @@ OptionSpec real(const std::string& name, const std::string& fallback, double low
 OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc);
 OptionSpec choice(const std::string& name, const std::vector<std::string>& choices,
     const std::string& doc); ///< the first choice is the default
-OptionSpec later(const std::string& name);
 /// The options that nearly every action has.
 OptionSpec vdbOption(const std::string& what);
 OptionSpec keepOption();

@@ -69,18 +69,9 @@ void printBrief(std::ostream& out, const ActionSpec& action)
 void printAction(std::ostream& out, const ActionSpec& action)
 {
     printBrief(out, action);
-    std::string laterNames;
     for (const OptionSpec& option : action.options) {
-        if (option.kind == OptionKind::Later) {
-            laterNames += (laterNames.empty() ? "" : ", ") + option.name;
-            continue;
-        }
         out << "    " << padded(option.name + "=", kIndent - 4);
         printWrapped(out, docOf(action, option), kIndent);
-    }
-    if (!laterNames.empty()) {
-        out << "    " << padded("(later)", kIndent - 4);
-        printWrapped(out, "not available in this version: " + laterNames, kIndent);
     }
     out << "\n";
 }

@@ -95,7 +95,10 @@ std::string statsJson(const SphereTree& tree, const Session& session)
     json.beginObject();
     json.value("format", "vdb_spheretree.stats.1");
     writeObject(json, tree);
+    json.beginObject("settings");
     writeSettings(json, tree.settings);
+    json.value("memory", openvdb_spheretree::memoryToString(tree.settings.memory));
+    json.endObject();
     writeLevels(json, tree);
     writeDag(json, tree);
     writeSeconds(json, session);

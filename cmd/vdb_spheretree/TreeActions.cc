@@ -3,10 +3,12 @@
 /// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
 
 #include "Actions.h"
+#include "Errors.h"
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
 
 #include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/MemoryPlan.h>
 #include <openvdb_spheretree/TreeCheck.h>
 
 #include <algorithm>
@@ -45,6 +47,20 @@ void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& s
     noteIfAll(*most, tree.levels.front().size(), session);
 }
 
+SphereTree treeOf(
+    const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
+{
+    if (session.verbosity >= Verbosity::Verbose) { // it costs something
+        session.remark(toString(spheretree::memoryPlan(object, settings, &session.progress)));
+    }
+    try {
+        return spheretree::buildSphereTree(
+            object, settings, &session.progress, &session.seconds.build);
+    } catch (const openvdb::IoError&) { // of its temporary file
+        rethrowNamed("", kOutput);
+    }
+}
+
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
@@ -53,8 +69,7 @@ void runSpheretree(const ActionCall& call, Session& session)
     StackItem result;
     result.object = object;
     const auto settings = settingsOf(call);
-    result.tree = std::make_shared<SphereTree>(
-        spheretree::buildSphereTree(*object, settings, &session.progress, &session.seconds.build));
+    result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
     session.remark(std::to_string(result.tree->size()) + " spheres on "
         + std::to_string(result.tree->levels.size()) + " levels");
     noteOnBudget(settings.budget, *result.tree, session);

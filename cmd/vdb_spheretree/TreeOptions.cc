@@ -131,7 +131,10 @@ std::vector<OptionSpec> spheretreeOptions()
         {flag("topology", true, "count components, tunnels and cavities of every level's voxels"),
             flag("errors", true, "count the exact error of every level, and store it"),
             vdbOption("the grid"), keepOption(), nameOption("spheretree", "name of the tree"),
-            later("memory")}) {
+            text("memory", "75%",
+                "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
+                "500MB, or a share of the machine's; more are compressed, and go to a temporary "
+                "file in $TMPDIR where they must; the tree is the same")}) {
         options.push_back(option);
     }
     return options;
@@ -161,6 +164,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     settings.edges = spheretree::dagEdgesFromString(call.text("edges"));
     settings.topology = call.flag("topology");
     settings.name = call.text("name");
+    settings.memory = spheretree::memoryFromString(call.text("memory"));
     return settings;
 }
 

@@ -15,6 +15,13 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+inline bool hasMarks(const LeafMask& mask)
+{
+    uint64_t words = 0;
+    for (const uint64_t word : mask) words |= word;
+    return words != 0;
+}
+
 /// @return the voxels that some masks have on.
 inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
 {

@@ -37,6 +37,7 @@ public:
     {
         const std::size_t needed = (count + 2 * margin) * kLanes;
         if (needed > mCapacity) {
+            mData.reset(); // before there is more
             mData.reset(static_cast<T*>(::operator new[](needed * sizeof(T), kAlignment)));
             mCapacity = needed;
         }

@@ -10,8 +10,17 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @return the bytes of this machine; 0 if they are not known.
+/// @return the bytes of this machine, or of the container; 0 if they are not known.
 double physicalMemory();
+
+/// @return the bytes that SphereTreeSettings::memory stands for; INT64_MAX if nobody knows.
+int64_t allowedMemory(int64_t memory);
+
+/// @return bytes for messages: as GiB with one decimal, or MiB, rounded up (or down).
+std::string asText(double bytes, bool up = true);
+
+/// @throw openvdb::ValueError if @a leaves leaf nodes need more for their labels than is allowed
+void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed);
 
 /// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this
 ///        machine's physical memory (where that can be told)

@@ -12,7 +12,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 
@@ -76,6 +78,29 @@ void parallelForWithScratch(
 {
     parallelForWith(
         count, interrupter, [] { return Scratch(); }, body);
+}
+
+/// Calls body(i, slot) for i in [0, count), at most @a slots at a time: each has a number below
+/// @a slots of its own while it runs, and with it whatever there is not enough of for every thread.
+template <typename Body>
+void parallelForWithSlots(std::size_t count, std::size_t slots,
+    openvdb::util::NullInterrupter* interrupter, const Body& body)
+{
+    LoopProgress progress(count, interrupter);
+    std::atomic<std::size_t> next{0};
+    const auto work = [&](std::size_t slot) {
+        try {
+            for (std::size_t i = next++; i < count; i = next++) {
+                progress.check();
+                body(i, slot);
+                progress.add(1);
+            }
+        } catch (...) {
+            next = count; // nothing more for the others either
+            throw;
+        }
+    };
+    tbb::parallel_for(std::size_t(0), std::min(slots, count), work, tbb::simple_partitioner());
 }
 
 } // namespace detail

@@ -13,6 +13,12 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+bool needsDag(const SphereTreeSettings& settings)
+{
+    return settings.parent == ParentRule::Dag
+        || (settings.dag && settings.edges == DagEdges::Shared);
+}
+
 namespace {
 
 /// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
@@ -104,7 +110,8 @@ std::unique_ptr<MedialLevel> BuildContext::medialLevel(
     const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
 {
     LevelWants wants;
-    wants.allLabels = needsDag();
+    wants.allLabels = needsDag(settings);
+    wants.memory = settings.memory;
     if (children) {
         wants.count = children->balls.size();
         wants.voxel = [step = stepFrom(level - 1), &balls = children->balls](
@@ -119,7 +126,7 @@ LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
     LevelNodes nodes;
     nodes.pyramidVoxels = level->layout.voxelCount();
     nodes.topology = topologyOf(*level, *this);
-    if (needsDag()) {
+    if (needsDag(settings)) {
         nodes.balls = level->balls;
     } else {
         nodes.balls = std::move(level->balls);
@@ -152,7 +159,7 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
     const PyramidStep step = context.stepFrom(level);
     Links links;
     links.parent = parentsByCentre(coarse);
-    if (!context.needsDag()) return links;
+    if (!needsDag(context.settings)) return links;
     links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
     if (context.settings.parent == ParentRule::Dag) {
         preferDagParents(links.parent, links.dag, nodes, level, coarse, context);

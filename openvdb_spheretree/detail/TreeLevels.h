@@ -30,6 +30,9 @@ struct LevelNodes {
     std::optional<LevelTopology> topology; ///< of these voxels, if asked for
 };
 
+/// @return whether a build looks at the labels of all voxels.
+bool needsDag(const SphereTreeSettings& settings);
+
 /// What a build is given, and where it reports to.
 struct BuildContext {
     const SphereTreeSettings& settings;
@@ -52,13 +55,6 @@ struct BuildContext {
     /// @throw openvdb::ValueError if the model is not including, or does not come to an end
     openvdb::MaskTree::Ptr coarsened(const openvdb::MaskTree& voxels, int level) const;
     LevelFrame frame(int level) const { return LevelFrame(level, origin, settings); }
-    /// @return whether labels of all voxels are looked at, and levels for longer than their nodes
-    /// are made.
-    bool needsDag() const
-    {
-        return settings.parent == ParentRule::Dag
-            || (settings.dag && settings.edges == DagEdges::Shared);
-    }
     /// @return all balls of a level, which keeps them only where a DAG needs it.
     LevelNodes allBalls(std::unique_ptr<MedialLevel>& level) const;
 };

@@ -8,7 +8,6 @@
 #include "../detail/LeafRows.h"
 #include "../detail/MaxPlus.h"
 #include "../detail/StepBits.h"
-#include "SlabLabels.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,18 +18,23 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Leaves of a run along x that are in the window, one behind the other, and which of them are to
-/// get their labels: [first, last).
+/// Leaves of a run along x whose keys are there, one behind the other, and which of them are to get
+/// their labels: [first, last).
 template <typename Power>
 struct Column {
     std::vector<uint32_t> leaves;
-    std::vector<const SlabLabels<Power>*> labels; ///< of the slab of each
+    std::vector<const typename Power::Key*> keys; ///< 512 of each
     uint32_t first = 0, last = 0;
 
     void clear()
     {
         leaves.clear();
-        labels.clear();
+        keys.clear();
+    }
+    void add(uint32_t leaf, const typename Power::Key* keysOfLeaf)
+    {
+        leaves.push_back(leaf);
+        keys.push_back(keysOfLeaf);
     }
     uint32_t count() const { return uint32_t(leaves.size()); }
 };
@@ -42,14 +46,18 @@ class ColumnPower {
     using Offset = typename Power::Offset;
 
 public:
-    /// Finds the steps along x and marks where they lead.
-    void run(const Column<Power>& column, const LeafLayout& layout)
+    /// Finds the steps along x, marks where they lead, and calls visit(leaf, steps) for each leaf
+    /// that gets them, with its 512.
+    /// @param marks  one mask for each leaf of the layout, to be added to
+    template <typename Visit>
+    void run(
+        const Column<Power>& column, const LeafLayout& layout, LeafMask* marks, const Visit& visit)
     {
         const int rows = int(column.count()) * kLeafDim;
         Key* keys = mKeys.rows(rows, 1);
         for (uint32_t i = 0; i < column.count(); ++i) {
-            std::memcpy(keys + std::size_t(i) * kLeafVoxels,
-                column.labels[i]->keysOf(column.leaves[i]), kLeafVoxels * sizeof(Key));
+            std::memcpy(
+                keys + std::size_t(i) * kLeafVoxels, column.keys[i], kLeafVoxels * sizeof(Key));
         }
         Offset* steps = mSteps.rows(rows);
         const detail::RowRange wanted{
@@ -59,15 +67,14 @@ public:
         for (uint32_t i = column.first; i < column.last; ++i) {
             const LeafMask& mask = layout.mask(column.leaves[i]);
             std::copy(mask.begin(), mask.end(), mOn.begin() + std::ptrdiff_t(i) * kLeafDim);
-            std::memcpy(column.labels[i]->dxOf(column.leaves[i]),
-                steps + std::size_t(i) * kLeafVoxels, kLeafVoxels * sizeof(Offset));
+            visit(column.leaves[i], steps + std::size_t(i) * kLeafVoxels);
         }
         mMarks.assign(std::size_t(rows), 0);
         detail::markRowEnds(steps + detail::at(wanted.first, 0), mOn.data() + wanted.first,
             wanted.last - wanted.first, mMarks.data() + wanted.first);
         for (uint32_t i = 0; i < column.count(); ++i) {
-            LeafMask& marks = column.labels[i]->marksOf(column.leaves[i]);
-            for (int x = 0; x < kLeafDim; ++x) marks[x] |= mMarks[std::size_t(i) * kLeafDim + x];
+            LeafMask& ofLeaf = marks[column.leaves[i]];
+            for (int x = 0; x < kLeafDim; ++x) ofLeaf[x] |= mMarks[std::size_t(i) * kLeafDim + x];
         }
     }
 

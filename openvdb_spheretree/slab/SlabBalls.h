@@ -36,7 +36,9 @@ class SlabBalls {
     using RadiusSq = std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t>;
 
 public:
-    /// @param centers  receives the centres of balls: one mask for each leaf of the slab
+    /// @param labels   those of leaves without a mark may be undefined
+    /// @param centers  one mask for each leaf of the slab: where labels lead to along x; receives
+    ///                 the centres of balls
     /// @return the balls, ordered by centre.
     std::vector<MedialBall> collect(
         const LeafLayout& layout, uint32_t slab, const Labels& labels, LeafMask* centers)
@@ -44,7 +46,8 @@ public:
         const auto ofKey = [&](uint32_t leaf, uint32_t offset) {
             return RadiusSq(detail::siteSqOf<Power>(labels.keysOf(leaf)[offset]));
         };
-        const Ways alongY{Axis::Y, labels.marks, labels.dy};
+        mMarks.assign(centers, centers + layout.slab(slab).size());
+        const Ways alongY{Axis::Y, mMarks.data(), labels.dy};
         const RadiusSq* radiusSq = nullptr; // of centres, 512 a leaf
         if (labels.dz) {
             mEnds.resize(layout.slab(slab).size());
@@ -52,7 +55,12 @@ public:
             const auto before = [&](uint32_t leaf, uint32_t offset) {
                 return ofEnd[std::size_t(leaf - labels.firstLeaf) * kLeafVoxels + offset];
             };
-            const Ways alongZ{Axis::Z, mEnds.data(), labels.dz};
+            const auto dz = [&](uint32_t leaf, uint32_t offset) {
+                return labels.dzOf(leaf)[offset];
+            };
+            const Ways alongZ{Axis::Z, mEnds.data(),
+                labels.dzFollowsDy ? follow(layout, slab, alongY, dz, mEnds.data(), mDzOfEnds)
+                                   : labels.dz};
             radiusSq = follow(layout, slab, alongZ, before, centers, mOfCenters);
         } else {
             radiusSq = follow(layout, slab, alongY, ofKey, centers, mOfCenters);
@@ -75,35 +83,37 @@ private:
     };
 
     /// What ways along one axis lead to, in all leaves of the slab.
+    template <typename Value>
     struct Ends {
         LeafMask* marks;
-        RadiusSq* radiusSq; ///< of what is marked, 512 a leaf
+        Value* values; ///< of what is marked, 512 a leaf
     };
 
-    /// Marks where the ways end, and takes the radii along: ways with one end are of one ball.
-    /// @param radiusSqOf  of a voxel that is marked
-    /// @return the radii at the ends, 512 a leaf, elsewhere undefined; they are in `memory`.
-    template <typename RadiusSqOf>
-    static const RadiusSq* follow(const LeafLayout& layout, uint32_t slab, const Ways& ways,
-        const RadiusSqOf& radiusSqOf, LeafMask* marks, std::vector<RadiusSq>& memory)
+    /// Marks where the ways end, and takes a value along that is the same for all ways of one end:
+    /// the radius, as they are of one ball, or what follows.
+    /// @param valueOf  of a voxel that is marked
+    /// @return the values at the ends, 512 a leaf, elsewhere undefined; they are in `memory`.
+    template <typename Value, typename ValueOf>
+    static const Value* follow(const LeafLayout& layout, uint32_t slab, const Ways& ways,
+        const ValueOf& valueOf, LeafMask* marks, std::vector<Value>& memory)
     {
         const LeafLayout::Slab leaves = layout.slab(slab);
         memory.resize(std::max(memory.size(), std::size_t(leaves.size()) * kLeafVoxels));
         std::fill(marks, marks + leaves.size(), LeafMask{});
-        const Ends ends{marks, memory.data()};
+        const Ends<Value> ends{marks, memory.data()};
         const LeafLayout::Slab runs = layout.runsOfSlab(ways.axis, slab);
         for (uint32_t index = runs.begin; index < runs.end; ++index) {
             const LeafLayout::Run run = layout.run(ways.axis, index);
             for (uint32_t i = 0; i < run.count; ++i) {
-                followLeaf(run, i, leaves.begin, ways, radiusSqOf, ends);
+                followLeaf(run, i, leaves.begin, ways, valueOf, ends);
             }
         }
-        return ends.radiusSq;
+        return ends.values;
     }
 
-    template <typename RadiusSqOf>
+    template <typename Value, typename ValueOf>
     static void followLeaf(const LeafLayout::Run& run, uint32_t i, uint32_t firstLeaf,
-        const Ways& ways, const RadiusSqOf& radiusSqOf, const Ends& ends)
+        const Ways& ways, const ValueOf& valueOf, const Ends<Value>& ends)
     {
         const uint32_t leaf = run.leaves[i], place = leaf - firstLeaf;
         const std::size_t first = std::size_t(place) * kLeafVoxels;
@@ -114,15 +124,15 @@ private:
             go[x] = ways.marks[place][x] & ~stay[x];
             ends.marks[place][x] |= stay[x];
         }
-        visitOn(stay,
-            [&](uint32_t offset) { ends.radiusSq[first + offset] = radiusSqOf(leaf, offset); });
+        visitOn(
+            stay, [&](uint32_t offset) { ends.values[first + offset] = valueOf(leaf, offset); });
         const int shift = 6 - 3 * int(ways.axis);
         visitOn(go, [&](uint32_t offset) {
             const int here = int(offset) >> shift & 7, end = here + steps[offset];
             const uint32_t there = run.leaves[int(i) + (end >> 3)] - firstLeaf;
             const uint32_t at = uint32_t(int(offset) + ((end & 7) - here) * (1 << shift));
             ends.marks[there][at >> 6] |= uint64_t(1) << (at & 63);
-            ends.radiusSq[std::size_t(there) * kLeafVoxels + at] = radiusSqOf(leaf, offset);
+            ends.values[std::size_t(there) * kLeafVoxels + at] = valueOf(leaf, offset);
         });
     }
 
@@ -136,8 +146,9 @@ private:
         }
     }
 
-    std::vector<LeafMask> mEnds;               ///< along y, of the slab
-    std::vector<RadiusSq> mOfEnds, mOfCenters; ///< 512 a leaf
+    std::vector<LeafMask> mEnds;                   ///< along y, of the slab
+    std::vector<RadiusSq> mOfEnds, mOfCenters;     ///< 512 a leaf
+    std::vector<typename Power::Offset> mDzOfEnds; ///< the same, where dz follows dy
 };
 
 } // namespace slab

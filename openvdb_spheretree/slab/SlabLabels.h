@@ -1,36 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file slab/SlabLabels.h
-/// @brief Where the power labels of a slab are kept while others may still ask for them.
+/// @brief Where the power labels of a slab are while others may still ask for them.
 
 #pragma once
 
 #include "../LeafLayout.h"
+#include "../PowerMap.h"
+#include "../detail/LargeArray.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace openvdb_spheretree {
 namespace slab {
 
+/// Where the steps of all leaves along x, y and z go to stay, 512 a leaf; nulls: nowhere.
+template <typename Power>
+using KeptSteps = std::array<typename Power::Offset*, 3>;
+
 /// 512 entries a leaf, in leaf order.
 template <typename Power>
 struct SlabLabels {
     using Key = typename Power::Key;
     using Offset = typename Power::Offset;
+    using Voxel = PowerMap::Voxel;
 
     uint32_t firstLeaf = 0;
-    Key* keys = nullptr;                                ///< after the passes along z and y
-    Offset *dx = nullptr, *dy = nullptr, *dz = nullptr; ///< dz is null in two dimensions
-    LeafMask* marks = nullptr; ///< one a leaf: where labels lead to along x
+    Key* keys = nullptr;                 ///< after the passes along z and y
+    Offset *dy = nullptr, *dz = nullptr; ///< dz is null in two dimensions
+    /// Whether dz is what comes after a voxel's own dy, as in packed labels, and not the step of
+    /// the voxel that this leads to.
+    bool dzFollowsDy = false;
 
     Key* keysOf(uint32_t leaf) const { return keys + place(leaf); }
-    Offset* dxOf(uint32_t leaf) const { return dx + place(leaf); }
     Offset* dyOf(uint32_t leaf) const { return dy + place(leaf); }
     Offset* dzOf(uint32_t leaf) const { return dz + place(leaf); }
-    LeafMask& marksOf(uint32_t leaf) const { return marks[leaf - firstLeaf]; }
+
+    /// @return the end of a voxel's way along y and z.
+    Voxel center(const LeafLayout& layout, Voxel voxel) const
+    {
+        const Voxel there = PowerMap::moved(layout, Axis::Y, voxel, dyOf(voxel.leaf)[voxel.offset]);
+        return PowerMap::moved(layout, Axis::Z, there, dzAfter(voxel, there));
+    }
+    /// @return the step along z from @a there, to where @a voxel leads along y.
+    int dzAfter(Voxel voxel, Voxel there) const
+    {
+        if (!dz) return 0;
+        const Voxel& from = dzFollowsDy ? voxel : there;
+        return dzOf(from.leaf)[from.offset];
+    }
 
 private:
     std::size_t place(uint32_t leaf) const { return std::size_t(leaf - firstLeaf) * kLeafVoxels; }
+};
+
+/// Memory for the labels of a slab, used again from slab to slab.
+template <typename Power>
+class SlabMemory {
+    using Offset = typename Power::Offset;
+
+public:
+    /// @return the leaves that there is room for.
+    uint32_t leaves() const { return mLeaves; }
+
+    /// @return labels, undefined so far, of the slab that has the leaves @a range.
+    SlabLabels<Power> open(LeafLayout::Slab range, int dim, const KeptSteps<Power>& kept)
+    {
+        if (mLeaves < range.size()) makeRoom(range.size(), kept[0] ? 0 : dim - 1);
+        SlabLabels<Power> labels;
+        labels.firstLeaf = range.begin;
+        labels.keys = mKeys.get();
+        const std::size_t before = std::size_t(range.begin) * kLeafVoxels;
+        labels.dy = kept[1] ? kept[1] + before : mOffsets.get();
+        if (dim == 2) return labels;
+        labels.dz =
+            kept[2] ? kept[2] + before : mOffsets.get() + std::size_t(range.size()) * kLeafVoxels;
+        return labels;
+    }
+
+private:
+    void makeRoom(uint32_t leaves, int offsets)
+    {
+        const std::size_t size = std::size_t(leaves) * kLeafVoxels;
+        mKeys.reset(); // before there is more
+        mOffsets.reset();
+        mKeys = detail::makeLargeArray<typename Power::Key>(size);
+        if (offsets) mOffsets = detail::makeLargeArray<Offset>(size * std::size_t(offsets));
+        mLeaves = leaves;
+    }
+
+    uint32_t mLeaves = 0;
+    detail::LargeArray<typename Power::Key> mKeys;
+    detail::LargeArray<Offset> mOffsets;
 };
 
 } // namespace slab

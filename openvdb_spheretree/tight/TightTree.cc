@@ -135,7 +135,9 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const FlatAxis flat(settings.flatAxis);
     const auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
-    const MedialLevel level(*voxels, settings.dim, settings.dist, interrupter, seconds);
+    LevelWants wants;
+    wants.memory = settings.memory;
+    const MedialLevel level(*voxels, settings.dim, settings.dist, interrupter, seconds, wants);
     const SampledObject samples(level.layout);
     const TreeLeaves leaves = timed("leaves", interrupter, &seconds->tree,
         [&] { return leavesOf(level, samples, settings.leaves, interrupter); });

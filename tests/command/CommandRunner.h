@@ -84,6 +84,7 @@ public:
     }
 
     void send(int signal) { kill(mProcess, signal); }
+    pid_t process() const { return mProcess; }
 
     /// @return whether @a text has come on stderr, waiting for it half a minute at most.
     bool waitForError(const std::string& text)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestLabelStream.cc
-/// @brief Labels and balls slab by slab: the same as voxel by voxel, however few slabs enter at a
-/// time.
+/// @brief Labels and balls slab by slab: the same as voxel by voxel, in however little memory.
 
 #include <openvdb_spheretree/slab/LabelStream.h>
 
 #include "../support/BuiltTrees.h"
+#include "../support/Messages.h"
+#include "../support/TemporaryFolder.h"
 
 #include <openvdb_spheretree/Interrupted.h>
 #include <openvdb_spheretree/slab/LargestRadius.h>
-#include <openvdb_spheretree/slab/StreamWindow.h>
+#include <tbb/global_control.h>
 
 namespace {
 
@@ -18,7 +19,45 @@ using namespace spheretree_test;
 using slab::LabelStream;
 using slab::LevelBalls;
 
-constexpr uint32_t kWindows[] = {1, 2, 3, 7, UINT32_MAX};
+using slab::StreamPlan;
+
+StreamPlan windowOf(uint32_t slabs)
+{
+    StreamPlan plan;
+    plan.slabs = slabs;
+    return plan;
+}
+
+/// @param stored  bytes that stay in memory
+StreamPlan packedPlan(int64_t bandBytes, int64_t stored, uint32_t slabs = 2)
+{
+    StreamPlan plan;
+    plan.packed = true;
+    plan.slabs = slabs;
+    plan.bandBytes = bandBytes;
+    plan.storedBytes = stored;
+    return plan;
+}
+
+/// Windows of few slabs and many, and labels packed: in memory, in a file, and in both.
+std::vector<StreamPlan> somePlans()
+{
+    constexpr int64_t kLeaf = kLeafVoxels * sizeof(int32_t);
+    std::vector<StreamPlan> plans;
+    for (const uint32_t slabs : {1u, 2u, 3u, 7u, UINT32_MAX}) plans.push_back(windowOf(slabs));
+    plans.push_back(packedPlan(1, INT64_MAX, 1)); // a band for every run
+    plans.push_back(packedPlan(3 * kLeaf, INT64_MAX));
+    plans.push_back(packedPlan(INT64_MAX, 0));
+    plans.push_back(packedPlan(2 * kLeaf, 1000));
+    return plans;
+}
+
+std::string nameOf(const StreamPlan& plan)
+{
+    if (!plan.packed) return "window " + std::to_string(plan.slabs);
+    return "packed, band " + std::to_string(plan.bandBytes) + ", in memory "
+        + std::to_string(plan.storedBytes);
+}
 
 /// Voxels of a layout, and those that label them.
 struct Labelled {
@@ -34,7 +73,7 @@ struct Labelled {
 };
 
 /// Balls, answers and kept labels are those of the reference.
-void expectReference(const NaiveReference& naive, int dim, uint32_t window)
+void expectReference(const NaiveReference& naive, int dim, const StreamPlan& plan)
 {
     const LeafLayout layout(*maskOf(naive.voxels()));
     Labelled labelled(layout);
@@ -42,7 +81,7 @@ void expectReference(const NaiveReference& naive, int dim, uint32_t window)
     LabelStream stream(layout, dim);
     stream.ask(labelled.asked);
     stream.keepSteps(steps);
-    stream.setWindow(window);
+    stream.setPlan(plan);
     const LevelBalls found = stream.run(nullptr);
     const PowerMap labels(layout, std::move(steps));
     ASSERT_TRUE(agreeOnBalls(naive.balls(), found.balls));
@@ -58,14 +97,14 @@ void expectReference(const NaiveReference& naive, int dim, uint32_t window)
     }
 }
 
-TEST(LabelStream, IsTheReferenceForAnyWindow)
+TEST(LabelStream, IsTheReferenceForAnyPlan)
 {
     for (const RandomObject& object : someObjects(0, 22)) {
         for (const int dim : {2, 3}) {
             const NaiveReference naive(object.voxels, dim);
-            for (const uint32_t window : kWindows) {
-                SCOPED_TRACE(object.name + ", window " + std::to_string(window));
-                ASSERT_NO_FATAL_FAILURE(expectReference(naive, dim, window));
+            for (const StreamPlan& plan : somePlans()) {
+                SCOPED_TRACE(object.name + ", " + nameOf(plan));
+                ASSERT_NO_FATAL_FAILURE(expectReference(naive, dim, plan));
             }
         }
     }
@@ -93,25 +132,67 @@ TEST(LabelStream, BallsReachOverSlabsBeforeAndBehind)
     for (const Voxels& voxels : {ballsInARow({{0, 7}, {10, 4}}), ballsInARow({{0, 4}, {10, 7}}),
              ballsInARow({{-7, 7}, {2, 3}, {7, 3}, {40, 6}, {41, 6}})}) {
         const NaiveReference naive(voxels);
-        for (const uint32_t window : kWindows) {
-            SCOPED_TRACE(window);
-            ASSERT_NO_FATAL_FAILURE(expectReference(naive, 3, window));
+        for (const StreamPlan& plan : somePlans()) {
+            SCOPED_TRACE(nameOf(plan));
+            ASSERT_NO_FATAL_FAILURE(expectReference(naive, 3, plan));
         }
     }
 }
 
+/// Balls, and the answers to all voxels.
+struct Streamed {
+    Streamed(const LeafLayout& layout, int dim, const StreamPlan& plan) : labelled(layout)
+    {
+        LabelStream stream(layout, dim);
+        stream.ask(labelled.asked);
+        stream.setPlan(plan);
+        level = stream.run(nullptr);
+    }
+    Labelled labelled;
+    LevelBalls level;
+};
+
+void expectSame(const Streamed& some, const Streamed& all)
+{
+    EXPECT_EQ(some.level.balls, all.level.balls);
+    EXPECT_EQ(some.level.centers, all.level.centers);
+    ASSERT_EQ(some.labelled.asked.size(), all.labelled.asked.size());
+    for (std::size_t i = 0; i < all.labelled.asked.size(); ++i) {
+        const PowerMap::Voxel &one = some.labelled.asked[i], &other = all.labelled.asked[i];
+        ASSERT_TRUE(one.leaf == other.leaf && one.offset == other.offset) << i;
+    }
+}
+
 /// Against the stream of all slabs at once, on discs too large for the reference.
-TEST(LabelStream, LargeBallsAreTheSameForAnyWindow)
+TEST(LabelStream, LargeBallsAreTheSameForAnyPlan)
 {
     for (const int radius : {59, 62, 129, 260}) { // keys with steps, plain ones, wide ones
         const LeafLayout layout(*maskOf(ballsInARow({{0, radius}, {radius + 9, radius / 3}}, 2)));
-        const LevelBalls all = LabelStream(layout, 2).run(nullptr);
-        for (const uint32_t window : {1, 5}) {
-            LabelStream stream(layout, 2);
-            stream.setWindow(window);
+        const Streamed all(layout, 2, windowOf(UINT32_MAX));
+        for (const int threads : {1, 2}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            for (const StreamPlan& plan : somePlans()) {
+                SCOPED_TRACE(std::to_string(radius) + ", " + nameOf(plan));
+                ASSERT_NO_FATAL_FAILURE(expectSame(Streamed(layout, 2, plan), all));
+            }
+        }
+    }
+}
+
+/// A solid, with blocks of more leaves than are packed together, and one that is wide.
+TEST(LabelStream, LargeSolidsAreTheSameForAnyPlan)
+{
+    for (const Coord size : {Coord(20, 290, 270), Coord(280, 260, 262)}) {
+        const LeafLayout layout(*maskOf(CoordBBox(Coord(3, -5, 1), size)));
+        LabelStream stream(layout, 3);
+        stream.setPlan(windowOf(UINT32_MAX));
+        const LevelBalls all = stream.run(nullptr);
+        for (const StreamPlan& plan :
+            {windowOf(1), packedPlan(10 << 20, 100000), packedPlan(1 << 20, INT64_MAX, 1)}) {
+            stream.setPlan(plan);
             const LevelBalls some = stream.run(nullptr);
-            EXPECT_EQ(some.balls, all.balls) << radius << ", window " << window;
-            EXPECT_EQ(some.centers, all.centers) << radius << ", window " << window;
+            EXPECT_EQ(some.balls, all.balls) << size << nameOf(plan);
+            EXPECT_EQ(some.centers, all.centers) << size << nameOf(plan);
         }
     }
 }
@@ -120,43 +201,71 @@ TEST(LabelStream, NothingComesOfNothing)
 {
     const LeafLayout layout{openvdb::MaskTree(false)};
     EXPECT_TRUE(LabelStream(layout, 3).run(nullptr).balls.empty());
+    LabelStream stream(layout, 3);
+    stream.setPlan(packedPlan(1, 0));
+    EXPECT_TRUE(stream.run(nullptr).balls.empty());
 }
+
+/// A ball, for which all slabs are open at once.
+LeafLayout ballLayout() { return LeafLayout(*maskOf(ballsInARow({{0, 45}}))); }
 
 TEST(LabelStream, KeepsToTheMemoryItIsGiven)
 {
-    const LeafLayout layout(*maskOf(ballsInARow({{0, 13}, {40, 9}, {90, 13}, {140, 6}})));
-    const LevelBalls all = LabelStream(layout, 3).run(nullptr);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+    const LeafLayout layout = ballLayout();
     LabelStream stream(layout, 3);
-    stream.setMemory(int64_t(layout.leafCount()) * 3700);
-    EXPECT_EQ(stream.run(nullptr).balls, all.balls);
+    const StreamPlan all = stream.plan(nullptr);
+    EXPECT_FALSE(all.packed);
+    EXPECT_GE(all.slabs, layout.slabCount());
+    const LevelBalls expected = stream.run(nullptr);
+    bool isPacked = false;
+    for (int64_t memory = all.bytes; memory > all.bytes / 5 * 2; memory -= all.bytes / 12) {
+        stream.setMemory(memory);
+        const StreamPlan plan = stream.plan(nullptr);
+        EXPECT_LE(plan.bytes, memory);
+        EXPECT_GE(plan.packed, isPacked) << "more memory, but packed";
+        isPacked = plan.packed;
+        EXPECT_EQ(stream.run(nullptr).balls, expected.balls) << memory;
+    }
+    EXPECT_TRUE(isPacked);
     stream.setMemory(100000);
-    EXPECT_THROW(stream.run(nullptr), openvdb::ValueError);
+    const std::string why = messageOf<openvdb::ValueError>([&] { stream.run(nullptr); });
+    EXPECT_TRUE(mentions(why, "the object's " + std::to_string(layout.leafCount())));
+    EXPECT_TRUE(mentions(why, " MiB for their power labels, and memory= allows 0 MiB"));
 }
 
-TEST(StreamWindow, IsTheLargestThatFits)
+TEST(LabelStream, SaysWhenThereIsNoRoomForItsFile)
 {
-    Voxels line;
-    for (int x = 0; x < 800; ++x) line.push_back(Coord(x, 3, 5));
-    const LeafLayout layout(*maskOf(line)); // a hundred slabs of a leaf each
-    const slab::StreamMemory memory{10, 1000};
-    // Beside those that enter: two and two for the reach of a ball within a voxel of them.
-    EXPECT_EQ(slab::slabBytes(layout, memory, 1, 1), 50);
-    EXPECT_EQ(slab::slabBytes(layout, memory, 64, 1), 70);
-    EXPECT_EQ(slab::slabBytes(layout, memory, 1, 1000), 1000);
-    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 2000), 100u);
-    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 1999), 50u);
-    EXPECT_EQ(slab::windowWithin(layout, memory, 1, 1050), 1u);
-    EXPECT_THROW(slab::windowWithin(layout, memory, 1, 1049), openvdb::ValueError);
+    const LeafLayout layout = ballLayout();
+    const TemporaryFolder folder;
+    LabelStream stream(layout, 3);
+    stream.setPlan(packedPlan(1 << 20, 10000));
+    {
+        const FileSizeLimit full(4096);
+        EXPECT_THROW(stream.run(nullptr), openvdb::IoError);
+    }
+    EXPECT_EQ(folder.openFiles(), 0);
+    EXPECT_NO_THROW(stream.run(nullptr));
+    EXPECT_EQ(folder.openFiles(), 0);
+    const TemporaryDirectory none(folder.path() + "/nowhere");
+    EXPECT_THROW(stream.run(nullptr), openvdb::IoError);
+    stream.setPlan(packedPlan(1 << 20, INT64_MAX));
+    EXPECT_NO_THROW(stream.run(nullptr)) << "a file that is not needed";
 }
 
 TEST(LabelStream, CanBeInterrupted)
 {
+    const TemporaryFolder folder;
     const LeafLayout layout(*maskOf(shapes::box(Coord(60, 20, 20))));
-    for (const int after : {0, 1, 3, 6}) {
-        StopAfter stop(after);
-        LabelStream stream(layout, 3);
-        stream.setWindow(2);
-        EXPECT_THROW(stream.run(&stop), Interrupted) << after;
+    for (const StreamPlan& plan : {windowOf(2), packedPlan(1, 0)}) {
+        for (const int after : {0, 1, 3, 6, 12, 20}) {
+            StopAfter stop(after);
+            LabelStream stream(layout, 3);
+            stream.setPlan(plan);
+            EXPECT_THROW(stream.run(&stop), Interrupted) << after << nameOf(plan);
+            EXPECT_EQ(folder.openFiles(), 0);
+            EXPECT_EQ(folder.files(), 0);
+        }
     }
 }
 
@@ -178,6 +287,15 @@ TEST(LargestDistSq, IsNeverTooSmall)
             EXPECT_EQ(bound, uint32_t(radius * radius));
         }
     }
+}
+
+TEST(LargestDistSq, BeyondWhatLabelsHoldIsAnError)
+{
+    EXPECT_NO_THROW(slab::requireRadius(32767u * 32767u));
+    const std::string why =
+        messageOf<openvdb::ValueError>([] { slab::requireRadius(32767u * 32767u + 1); });
+    EXPECT_TRUE(mentions(why, "more than 32767 voxels radius"));
+    EXPECT_TRUE(mentions(why, "use a larger voxel"));
 }
 
 } // namespace

@@ -265,6 +265,58 @@ TEST(SphereTreeSettings, APaddingThatIsNotWhollyANumberIsAnError)
     }
 }
 
+TEST(SphereTreeSettings, MemoryIsBytesOrAShare)
+{
+    EXPECT_EQ(memoryFromString("4000000000"), 4000000000);
+    EXPECT_EQ(memoryFromString("4e9"), 4000000000);
+    EXPECT_EQ(memoryFromString("1B"), 1);
+    EXPECT_EQ(memoryFromString("4GiB"), int64_t(4) << 30);
+    EXPECT_EQ(memoryFromString("4G"), int64_t(4) << 30);
+    EXPECT_EQ(memoryFromString("0.5gib"), int64_t(1) << 29);
+    EXPECT_EQ(memoryFromString("4GB"), 4000000000);
+    EXPECT_EQ(memoryFromString("500MiB"), int64_t(500) << 20);
+    EXPECT_EQ(memoryFromString("1TB"), 1000000000000);
+    EXPECT_EQ(memoryFromString("75%"), 0);
+    EXPECT_NEAR(double(memoryFromString("50%")), double(memoryFromString("100%")) / 2, 1);
+    EXPECT_GT(memoryFromString("0.1%"), 1 << 20);
+}
+
+TEST(SphereTreeSettings, MemoryReadsBack)
+{
+    EXPECT_EQ(memoryToString(0), "75%");
+    EXPECT_EQ(memoryToString(int64_t(4) << 30), "4GiB");
+    EXPECT_EQ(memoryToString(1536 << 20), "1536MiB");
+    EXPECT_EQ(memoryToString(4000000001), "4000000001");
+    for (const int64_t bytes : {int64_t(0), int64_t(1), int64_t(1024), int64_t(3) << 20,
+             int64_t(5) << 40, int64_t(1) << 52}) {
+        EXPECT_EQ(memoryFromString(memoryToString(bytes)), bytes);
+    }
+}
+
+TEST(SphereTreeSettings, AMemoryThatIsNoneIsAnError)
+{
+    const auto whyNot = [](const char* text) {
+        const std::string why = messageOf<openvdb::ValueError>([&] { memoryFromString(text); });
+        EXPECT_TRUE(mentions(why, "memory='" + std::string(text) + "' is "));
+        EXPECT_TRUE(
+            mentions(why, "choose a number of bytes such as 4GiB, 500MB or 4e9, or a share"));
+        return why;
+    };
+    for (const char* text : {"", "abc", "GiB", "4 GiB", "4GiBs", "4,5GiB", "nan", "%", "101%",
+             "75%%", "0x10", "1e999", "--1"}) {
+        EXPECT_TRUE(mentions(whyNot(text), "' is unknown: "));
+    }
+    for (const char* text : {"0", "-0", "-1", "0%", "-5%", "0GiB", "0.9", "1e-300%", "-inf"}) {
+        EXPECT_TRUE(mentions(whyNot(text), "' is too little: "));
+    }
+    for (const char* text : {"1e19", "9223372036854775808", "1e8TiB", "inf"}) {
+        EXPECT_TRUE(mentions(whyNot(text), "' is too much: "));
+    }
+    EXPECT_LT(
+        messageOf<openvdb::ValueError>([] { memoryFromString(std::string(100000, '9')); }).size(),
+        300u);
+}
+
 TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
 {
     SphereTreeSettings settings;

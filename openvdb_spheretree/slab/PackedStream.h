@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/PackedStream.h
+/// @brief A stream of labels that has few slabs in memory at a time, and all others compressed.
+///
+/// For objects with balls so large that most slabs wait for others. What takes turns in a window
+/// comes one after the other here:
+///
+/// 1. *enter*: slab by slab, the labels along z and y, which are then packed (PackedLabels.h) in
+///    blocks (StreamPlan.h) and stored (BlockStore.h);
+/// 2. *along x*: band by band, the keys of all its blocks, then the columns of its runs;
+/// 3. *finish*: slab by slab, the blocks to which a label leads, for the medial balls and answers.
+///
+/// So a block is unpacked twice at most.
+
+#pragma once
+
+#include "../detail/LargeArray.h"
+#include "BlockStore.h"
+#include "PackedLabels.h"
+#include "StreamPlan.h"
+#include "StreamWork.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+template <typename Power, typename T>
+class PackedStream {
+    using Work = StreamWork<Power, T>;
+    using Key = typename Power::Key;
+    using Packed = PackedLabel<Power>;
+
+public:
+    /// @param work  kept by reference
+    PackedStream(Work& work, const StreamPlan& plan)
+        : mWork(work), mLayout(work.layout), mPlan(plan),
+          mCut(mLayout, kLeafVoxels * sizeof(Key), plan.bandBytes),
+          mStore(mCut.blocks.size(), plan.storedBytes), mKeysOf(mLayout.slabCount())
+    {}
+
+    void run()
+    {
+        enterAll();
+        mWork.allEntered();
+        labelAlongX();
+        finishAll();
+    }
+
+private:
+    /// Memory of one thread for a block.
+    struct BlockScratch {
+        std::vector<Packed> labels;
+        BlockStore::Bytes bytes;
+    };
+    struct SlabScratch {
+        SlabMemory<Power> memory;
+        BlockScratch block;
+        SlabBalls<Power> balls;
+    };
+    struct ColumnScratch {
+        Column<Power> column;
+        ColumnPower<Power> power;
+    };
+
+    void enterAll()
+    {
+        std::vector<typename Work::Entry> entries(mPlan.slabs);
+        std::vector<SlabScratch> scratches(mPlan.slabs);
+        double seconds = 0;
+        detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
+            forEachSlab([&](uint32_t slab, std::size_t slot) {
+                SlabScratch& scratch = scratches[slot];
+                const auto labels = scratch.memory.open(mLayout.slab(slab), mWork.dim, mWork.kept);
+                mWork.enter(slab, labels, entries[slot]);
+                const detail::Stage all("", nullptr, &entries[slot].seconds);
+                const detail::Stage power("", nullptr, &entries[slot].powerSeconds);
+                pack(slab, labels, scratch.block);
+            });
+        });
+        mWork.share(seconds, entries);
+    }
+
+    template <typename Body>
+    void forEachSlab(const Body& body)
+    {
+        detail::parallelForWithSlots(mLayout.slabCount(), mPlan.slabs, mWork.interrupter,
+            [&](std::size_t slab, std::size_t slot) { body(uint32_t(slab), slot); });
+    }
+
+    void pack(uint32_t slab, const SlabLabels<Power>& labels, BlockScratch& scratch)
+    {
+        for (const uint32_t index : mCut.ofSlab[slab]) {
+            const PackedBlock& block = mCut.blocks[index];
+            const std::size_t size = std::size_t(block.end - block.begin) * kLeafVoxels;
+            scratch.labels.resize(size);
+            for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+                packLeaf(mLayout, leaf, labels, placeOf(leaf, block, scratch));
+            }
+            mStore.put(
+                index, scratch.labels.data(), size * sizeof(Packed), sizeof(Packed), scratch.bytes);
+        }
+    }
+
+    static Packed* placeOf(uint32_t leaf, const PackedBlock& block, BlockScratch& scratch)
+    {
+        return scratch.labels.data() + std::size_t(leaf - block.begin) * kLeafVoxels;
+    }
+
+    void unpack(uint32_t index, BlockScratch& scratch) const
+    {
+        const PackedBlock& block = mCut.blocks[index];
+        const std::size_t size = std::size_t(block.end - block.begin) * kLeafVoxels;
+        scratch.labels.resize(size);
+        mStore.get(index, scratch.labels.data(), size * sizeof(Packed), scratch.bytes);
+    }
+
+    void labelAlongX()
+    {
+        const detail::Stage stage(
+            "power labels along x", mWork.interrupter, &mWork.seconds().power);
+        for (std::size_t band = 0; band + 1 < mCut.firstOfBand.size(); ++band) {
+            unpackBand(mCut.firstOfBand[band], mCut.firstOfBand[band + 1]);
+            const uint32_t run = mCut.firstRunOfBand[band];
+            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - run,
+                mWork.interrupter, [&](std::size_t i, ColumnScratch& scratch) {
+                    openColumn(run + uint32_t(i), scratch.column);
+                    mWork.labelColumn(scratch.column, scratch.power);
+                });
+        }
+        mKeys.reset();
+    }
+
+    /// The keys of the blocks [first, end), one behind the other.
+    void unpackBand(uint32_t first, uint32_t end)
+    {
+        int64_t leaves = 0;
+        for (uint32_t index = first; index < end; ++index) {
+            const PackedBlock& block = mCut.blocks[index];
+            mKeysOf[block.slab] = leaves - block.begin; // those of a slab are neighbours
+            leaves += block.end - block.begin;
+        }
+        makeRoom(leaves);
+        std::vector<BlockScratch> scratches(mPlan.slabs);
+        detail::parallelForWithSlots(
+            end - first, mPlan.slabs, mWork.interrupter, [&](std::size_t i, std::size_t slot) {
+                const PackedBlock& block = mCut.blocks[first + i];
+                unpack(first + uint32_t(i), scratches[slot]);
+                for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+                    unpackKeys<Power>(
+                        placeOf(leaf, block, scratches[slot]), keysOf(block.slab, leaf));
+                }
+            });
+    }
+
+    void makeRoom(int64_t leaves)
+    {
+        if (leaves <= mRoom) return;
+        mKeys.reset(); // before there is more
+        mKeys = detail::makeLargeArray<Key>(std::size_t(leaves) * kLeafVoxels);
+        mRoom = leaves;
+    }
+    Key* keysOf(uint32_t slab, uint32_t leaf) const
+    {
+        return mKeys.get() + std::ptrdiff_t(mKeysOf[slab] + leaf) * kLeafVoxels;
+    }
+
+    void openColumn(uint32_t i, Column<Power>& column) const
+    {
+        const LeafLayout::Run run = mLayout.run(Axis::X, i);
+        const uint32_t slab = mWork.firstSlab(i);
+        column.clear();
+        for (uint32_t k = 0; k < run.count; ++k) {
+            column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
+        }
+        column.last = run.count;
+    }
+
+    void finishAll()
+    {
+        const detail::Stage stage("medial balls", mWork.interrupter, &mWork.seconds().medial);
+        std::vector<SlabScratch> scratches(mPlan.slabs);
+        forEachSlab([&](uint32_t slab, std::size_t slot) {
+            SlabScratch& scratch = scratches[slot];
+            auto labels = scratch.memory.open(mLayout.slab(slab), mWork.dim, {});
+            labels.dzFollowsDy = true;
+            for (const uint32_t index : mCut.ofSlab[slab]) {
+                if (!hasMarks(mCut.blocks[index])) continue;
+                unpack(index, scratch.block);
+                unpackLeaves(mCut.blocks[index], labels, scratch.block);
+            }
+            mWork.finish(slab, labels, scratch.balls);
+        });
+    }
+
+    bool hasMarks(const PackedBlock& block) const
+    {
+        uint32_t leaf = block.begin;
+        while (leaf < block.end && !mWork.hasMarks(leaf)) ++leaf;
+        return leaf < block.end;
+    }
+
+    static void unpackLeaves(
+        const PackedBlock& block, const SlabLabels<Power>& labels, BlockScratch& scratch)
+    {
+        for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+            unpackLeaf<Power>(placeOf(leaf, block, scratch), leaf, labels);
+        }
+    }
+
+    Work& mWork;
+    const LeafLayout& mLayout;
+    const StreamPlan mPlan;
+    const PackedBlocks mCut;
+    BlockStore mStore;
+    detail::LargeArray<Key> mKeys; ///< of a band
+    int64_t mRoom = 0;             ///< leaves that they are for
+    std::vector<int64_t> mKeysOf;  ///< of a slab: where they are, less the leaf's number
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/StreamPlan.h
+/// @brief How a stream of labels keeps to its memory: known before it starts.
+
+#pragma once
+
+#include "../LeafLayout.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// What a stream takes, in bytes.
+struct StreamMemory {
+    int64_t fixed;   ///< whatever the plan: layout, masks, questions, steps that are kept
+    int64_t steps;   ///< those along x of all leaves, while slabs enter
+    int64_t scratch; ///< per leaf of a slab that a thread works on
+    int64_t labels;  ///< per leaf of a slab in memory
+    int64_t keys;    ///< per leaf whose keys alone are in memory
+    int64_t packed;  ///< per leaf of packed labels, before they are compressed
+};
+
+struct StreamPlan {
+    bool packed = false;           ///< PackedStream.h; else WindowStream.h
+    uint32_t slabs = 1;            ///< that enter at a time; packed: that are worked on at a time
+    int64_t packedBytes = 0;       ///< packed: of all labels, before they are compressed
+    int64_t storedBytes = 0;       ///< packed: of compressed labels in memory
+    int64_t bandBytes = INT64_MAX; ///< packed: of keys that are unpacked for the pass along x
+    int64_t bytes = 0;             ///< at most, all in all
+};
+
+/// Packed labels are compressed so many leaves at a time, or fewer: 2 or 4 MiB.
+constexpr uint32_t kBlockLeaves = 1024;
+
+/// @param largestDistSq  no ball has a larger squared radius
+/// @return the most bytes that slabs take at a time when @a window of them enter together.
+int64_t windowBytes(
+    const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, uint32_t window);
+
+/// @return a window of as many slabs as keep the threads busy, or the most of half as many, a
+///         quarter, ... that fit; else labels packed, on as many of @a threads as fit.
+/// @param bytes  that it may take
+/// @throw openvdb::ValueError if nothing fits
+StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq,
+    int64_t bytes, uint32_t threads);
+
+/// Leaves of a slab, [begin, end), that are packed together.
+struct PackedBlock {
+    uint32_t slab, begin, end;
+};
+
+/// @brief How slabs are cut into blocks.
+///
+/// A *band* is some of the runs along x, next to each other in the order of y, then z. Leaves of a
+/// slab have the same order, so those in a band are neighbours too: a band's runs need the blocks of
+/// the band, one or more of each slab that they pass, and no others.
+struct PackedBlocks {
+    /// @param bandBytes  of keys that a band may have; a single run may have more
+    PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes);
+
+    std::vector<PackedBlock> blocks;           ///< by band
+    std::vector<uint32_t> firstOfBand;         ///< and their number at the end
+    std::vector<uint32_t> firstRunOfBand;      ///< the same of runs along x
+    std::vector<std::vector<uint32_t>> ofSlab; ///< the blocks of each slab
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree

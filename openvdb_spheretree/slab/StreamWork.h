@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/StreamWork.h
+/// @brief What is done to slabs and columns, whichever way they are kept in between.
+
+#pragma once
+
+#include "../detail/Parallel.h"
+#include "ColumnPower.h"
+#include "LevelBalls.h"
+#include "Questions.h"
+#include "SlabBalls.h"
+#include "SlabEntry.h"
+#include "SlabLabels.h"
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// @tparam Power  of detail/MaxPlus.h
+/// @tparam T      of squared distances
+template <typename Power, typename T>
+class StreamWork {
+public:
+    using Key = typename Power::Key;
+    using Entry = SlabEntry<Power, T>;
+
+    StreamWork(const LeafLayout& layoutOfLevel, int dimension, std::vector<PowerMap::Voxel>* asked,
+        const KeptSteps<Power>& steps, openvdb::util::NullInterrupter* stop)
+        : layout(layoutOfLevel), dim(dimension), kept(steps), interrupter(stop),
+          mQuestions(layout, asked), mSteps(std::make_unique<Steps>(layout, stop)),
+          mBalls(layout.slabCount())
+    {
+        mResult.centers.resize(layout.leafCount());
+        for (uint32_t i = 0; i < layout.runCount(Axis::X); ++i) {
+            mFirstSlab.push_back(layout.slabOf(layout.run(Axis::X, i).leaves[0]));
+        }
+    }
+
+    /// @return the slab's largest squared distance.
+    uint32_t enter(uint32_t slab, const SlabLabels<Power>& labels, Entry& entry) const
+    {
+        return entry.enter(layout, slab, *mSteps, dim, labels);
+    }
+    /// What only enter() needs goes.
+    void allEntered() { mSteps.reset(); }
+
+    /// The labels of a column along x; its voxels that are asked for move on.
+    void labelColumn(const Column<Power>& column, ColumnPower<Power>& power)
+    {
+        power.run(column, layout, mResult.centers.data(), [&](uint32_t leaf, const auto* steps) {
+            constexpr std::size_t kBytes = kLeafVoxels * sizeof(*steps);
+            if (kept[0]) std::memcpy(kept[0] + std::size_t(leaf) * kLeafVoxels, steps, kBytes);
+            mQuestions.moveAlongX(leaf, steps);
+        });
+    }
+
+    /// The balls of a slab, and answers that are in it, when all labels that lead to it are known.
+    void finish(uint32_t slab, const SlabLabels<Power>& labels, SlabBalls<Power>& balls)
+    {
+        mQuestions.moveToCenters(slab, labels);
+        LeafMask* centers = mResult.centers.data() + layout.slab(slab).begin;
+        mBalls[slab] = balls.collect(layout, slab, labels, centers);
+    }
+
+    /// @return the balls of all slabs.
+    LevelBalls collected()
+    {
+        std::size_t count = 0;
+        for (const auto& balls : mBalls) count += balls.size();
+        mResult.balls.reserve(count);
+        for (auto& balls : mBalls) {
+            mResult.balls.insert(mResult.balls.end(), balls.begin(), balls.end());
+            std::vector<MedialBall>().swap(balls);
+        }
+        return std::move(mResult);
+    }
+
+    /// @return whether a label leads to a leaf along x.
+    bool hasMarks(uint32_t leaf) const { return detail::hasMarks(mResult.centers[leaf]); }
+    /// @return the slab of the first leaf of a run along x.
+    uint32_t firstSlab(uint32_t run) const { return mFirstSlab[run]; }
+    StreamSeconds& seconds() { return mResult.seconds; }
+
+    /// Distances and power run in turns: they share the time as the threads' times say.
+    template <typename Entries>
+    void share(double passed, Entries& entries)
+    {
+        double all = 0, power = 0;
+        for (Entry& entry : entries) {
+            all += std::exchange(entry.seconds, 0);
+            power += std::exchange(entry.powerSeconds, 0);
+        }
+        const double part = all > 0 ? passed * power / all : 0;
+        mResult.seconds.power += part;
+        mResult.seconds.distance += passed - part;
+    }
+
+    const LeafLayout& layout;
+    const int dim;
+    const KeptSteps<Power> kept;
+    openvdb::util::NullInterrupter* const interrupter;
+
+private:
+    using Steps = XSteps<StepOf<T>>;
+
+    Questions mQuestions;
+    std::unique_ptr<Steps> mSteps;
+    std::vector<uint32_t> mFirstSlab;            ///< of each run along x
+    std::vector<std::vector<MedialBall>> mBalls; ///< of each slab
+    LevelBalls mResult; ///< its centres are where labels lead along x, until the slab is finished
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file slab/WindowStream.h
+/// @brief A stream of labels that has a window of slabs in memory.
+///
+/// Slabs go through three states:
+///
+/// 1. *entered*: distances and the passes along z and y (SlabEntry.h), many slabs in parallel; what
+///    stays are keys and steps;
+/// 2. *final*: no ball of a slab that has not entered reaches it. Then its labels are found by the
+///    pass along x, run by run, over the slabs of the window (ColumnPower.h), and what it is asked
+///    moves to the slabs that they lead to (Questions.h);
+/// 3. *released*: none of its balls reaches a slab that is not final. Then its medial balls are
+///    known, and its answers; its memory goes to the next one that enters.
+///
+/// Distances change by at most 1 from a voxel to the next. So if M is the largest distance in the
+/// last slab that has entered, whose voxels end at x = e, no later ball reaches x <= e - M; where
+/// slabs do not touch, none at all. A slab with largest distance m whose voxels end at x reaches
+/// nothing from x + m on.
+
+#pragma once
+
+#include "SlabPool.h"
+#include "StreamWork.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+template <typename Power, typename T>
+class WindowStream {
+    using Work = StreamWork<Power, T>;
+
+public:
+    /// @param work    kept by reference
+    /// @param window  slabs that enter at a time
+    WindowStream(Work& work, uint32_t window)
+        : mWork(work), mLayout(work.layout), mWindow(std::min(window, mLayout.slabCount())),
+          mPool(mLayout, work.dim, work.kept), mMaxDistSq(mLayout.slabCount()),
+          mNextOfRun(mLayout.runCount(Axis::X), 0)
+    {}
+
+    void run()
+    {
+        while (mFinal < mLayout.slabCount()) {
+            enter(std::min(mEntered + mWindow, mLayout.slabCount()));
+            const uint32_t end = firstInDoubt();
+            if (end == mFinal) continue;
+            makeFinal(end);
+            release();
+        }
+    }
+
+private:
+    struct ColumnScratch {
+        Column<Power> column;
+        ColumnPower<Power> power;
+    };
+
+    int32_t xOf(uint32_t slab) const { return mLayout.origin(mLayout.slab(slab).begin)[0]; }
+    bool touchesNext(uint32_t slab) const
+    {
+        return slab + 1 < mLayout.slabCount() && xOf(slab) + kLeafDim == xOf(slab + 1);
+    }
+    static int64_t rootUp(uint32_t square) { return int64_t(std::ceil(std::sqrt(double(square)))); }
+
+    void enter(uint32_t end)
+    {
+        const uint32_t first = mEntered;
+        for (uint32_t slab = first; slab < end; ++slab) mPool.open(slab);
+        double seconds = 0;
+        detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
+            detail::parallelFor(end - first, mWork.interrupter, [&](std::size_t i) {
+                const uint32_t slab = first + uint32_t(i);
+                mMaxDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries.local());
+            });
+        });
+        mEntered = end;
+        mWork.share(seconds, mEntries);
+    }
+
+    /// @return the first slab that a ball to come may reach.
+    uint32_t firstInDoubt() const
+    {
+        if (!touchesNext(mEntered - 1)) return mEntered;
+        const int64_t end = int64_t(xOf(mEntered - 1)) + 7 - rootUp(mMaxDistSq[mEntered - 1]);
+        uint32_t slab = mFinal;
+        while (slab < mEntered && int64_t(xOf(slab)) + 7 <= end) ++slab;
+        return slab;
+    }
+
+    void makeFinal(uint32_t end)
+    {
+        const detail::Stage stage(
+            "power labels along x", mWork.interrupter, &mWork.seconds().power);
+        detail::parallelForWithScratch<ColumnScratch>(mLayout.runCount(Axis::X), mWork.interrupter,
+            [&](std::size_t i, ColumnScratch& scratch) {
+                if (!openColumn(uint32_t(i), end, scratch.column)) return;
+                mWork.labelColumn(scratch.column, scratch.power);
+            });
+        mFinal = end;
+    }
+
+    /// @param column  receives the leaves of run @a i in slabs that can matter
+    /// @return whether it has leaves that become final.
+    bool openColumn(uint32_t i, uint32_t end, Column<Power>& column)
+    {
+        const LeafLayout::Run run = mLayout.run(Axis::X, i);
+        const uint32_t slab = mWork.firstSlab(i), next = mNextOfRun[i];
+        if (next == run.count || slab + next >= end) return false;
+        uint32_t begin = next;
+        while (begin > 0 && mPool.isOpen(slab + begin - 1)) --begin;
+        column.clear();
+        column.first = next - begin;
+        for (uint32_t k = begin; k < run.count && slab + k < mEntered; ++k) {
+            if (slab + k < end) mNextOfRun[i] = k + 1;
+            column.add(run.leaves[k], mPool[slab + k].keysOf(run.leaves[k]));
+        }
+        column.last = mNextOfRun[i] - begin;
+        return true;
+    }
+
+    void release()
+    {
+        const detail::Stage stage("medial balls", mWork.interrupter, &mWork.seconds().medial);
+        std::vector<uint32_t> done;
+        for (uint32_t slab = 0; slab < mFinal; ++slab) {
+            if (mPool.isOpen(slab) && reachesNothing(slab)) done.push_back(slab);
+        }
+        detail::parallelFor(done.size(), mWork.interrupter,
+            [&](std::size_t i) { mWork.finish(done[i], mPool[done[i]], mCollect.local()); });
+        for (const uint32_t slab : done) mPool.close(slab);
+    }
+
+    /// Whether no ball of a slab holds a voxel whose label is still to be found.
+    bool reachesNothing(uint32_t slab) const
+    {
+        if (mFinal == mLayout.slabCount()) return true;
+        return int64_t(xOf(slab)) + 7 + rootUp(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
+    }
+
+    Work& mWork;
+    const LeafLayout& mLayout;
+    const uint32_t mWindow;
+    tbb::enumerable_thread_specific<typename Work::Entry> mEntries;
+    tbb::enumerable_thread_specific<SlabBalls<Power>> mCollect;
+    SlabPool<Power> mPool;
+    uint32_t mEntered = 0, mFinal = 0; ///< slabs before these are
+    std::vector<uint32_t> mMaxDistSq;  ///< of each slab
+    std::vector<uint32_t> mNextOfRun;  ///< its first leaf that is not final
+};
+
+} // namespace slab
+} // namespace openvdb_spheretree
