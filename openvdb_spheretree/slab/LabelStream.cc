@@ -34,7 +34,8 @@ StreamMemory LabelStream::memory() const
     StreamMemory memory;
     memory.fixed = mLayout.bytes() + leaves * (int64_t(sizeof(LeafMask)) + kept + asked);
     memory.steps = leaves * 2 * 64 * int64_t(sizeof(StepOf<T>));
-    memory.scratch = kLeafVoxels * int64_t(sizeof(T) + kKey); // rows of SlabDistance and SlabPower
+    // Rows of SlabDistance and SlabPower; radii, of half a key, and steps of SlabBalls.
+    memory.scratch = kLeafVoxels * (int64_t(sizeof(T)) + kKey + 2 * (kKey / 2) + kStep);
     memory.labels = kLeafVoxels * (kKey + (mKeep ? 0 : (mDim - 1) * kStep));
     memory.keys = kLeafVoxels * kKey;
     memory.packed = kLeafVoxels * int64_t(sizeof(PackedLabel<Power>));
