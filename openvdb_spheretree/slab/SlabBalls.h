@@ -146,6 +146,7 @@ private:
         }
     }
 
+    std::vector<LeafMask> mMarks;                  ///< along x, of the slab
     std::vector<LeafMask> mEnds;                   ///< along y, of the slab
     std::vector<RadiusSq> mOfEnds, mOfCenters;     ///< 512 a leaf
     std::vector<typename Power::Offset> mDzOfEnds; ///< the same, where dz follows dy
