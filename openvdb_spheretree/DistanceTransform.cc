@@ -75,6 +75,17 @@ uint32_t wideTransform(
         "square does not fit 32 bits: use a larger voxel");
 }
 
+uint32_t largestOf(const LeafLayout& layout, const uint32_t* values, NullInterrupter* interrupter)
+{
+    Largest largest;
+    detail::parallelFor(layout.slabCount(), interrupter, [&](std::size_t index) {
+        const LeafLayout::Slab slab = layout.slab(uint32_t(index));
+        const uint32_t* first = values + std::size_t(slab.begin) * kLeafVoxels;
+        largest.see(detail::largestValue(first, std::size_t(slab.size()) * kLeafVoxels));
+    });
+    return largest.value();
+}
+
 /// Balls of a norm have squared radii too.
 void requireSquareFits(uint32_t largest, const Distance& distance)
 {
@@ -102,7 +113,7 @@ DistanceMap distanceTransform(
         detail::requireMemory(layout.leafCount(), kLeafVoxels * 2 * sizeof(uint32_t) + 128);
         map.mWide = detail::makeLargeArray<uint32_t>(size);
         detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
-        map.mMaxDistSq = detail::largestValue(map.mWide.get(), size);
+        map.mMaxDistSq = largestOf(layout, map.mWide.get(), interrupter);
         requireSquareFits(map.mMaxDistSq, distance);
         return map;
     }
@@ -120,6 +131,9 @@ uint32_t distanceTransform(
     const LeafLayout& layout, int32_t* values, int dim, NullInterrupter* interrupter)
 {
     requireDim(dim);
+    if (reinterpret_cast<std::uintptr_t>(values) % 16 != 0) {
+        OPENVDB_THROW(openvdb::ValueError, "distances go to memory that is aligned to 16 bytes");
+    }
     const uint32_t largest = transform<uint16_t>(layout, dim, values, interrupter);
     if (largest < kLimit<uint16_t>) return largest;
     return wideTransform(layout, dim, reinterpret_cast<uint32_t*>(values), interrupter);

@@ -69,6 +69,8 @@ DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3,
 /// @param values  512 a leaf, in leaf order; aligned to 16 bytes. All are written, those of
 ///                background with 0.
 /// @return the largest of them.
+/// @throw openvdb::ValueError if memory is not aligned, or a radius is 46340 voxels or more
+/// @throw Interrupted
 uint32_t distanceTransform(const LeafLayout& layout, int32_t* values, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -163,6 +163,8 @@ TEST(DistanceTransform, GivesTheValuesOfTheMapInTheCallersMemory)
     }
     const LeafLayout empty((MaskTree(false)));
     EXPECT_EQ(distanceTransform(empty, nullptr), 0u);
+    alignas(16) int32_t values[2];
+    EXPECT_THROW(distanceTransform(empty, values + 1), openvdb::ValueError);
 }
 
 TEST(DistanceTransform, TheGridHasTheObjectsVoxelsAndTransform)
