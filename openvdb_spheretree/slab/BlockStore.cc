@@ -58,17 +58,17 @@ bool BlockStore::takesRoom(int64_t bytes)
     return false;
 }
 
-/// @return the file, which a block of @a size bytes goes to. When it is made, the blocks so far
-/// tell how large it is about to become.
+/// @return the file, which a block of @a size bytes goes to. When the first one does, the blocks so
+/// far tell how large it is about to become.
 SpillFile& BlockStore::file(std::size_t size)
 {
     const std::lock_guard<std::mutex> lock(mFileMutex);
-    if (mFile) return *mFile;
-    auto made = std::make_unique<SpillFile>();
+    if (!mFile) makeFile();
+    if (mHasRoom) return *mFile;
     const double average = double(mInMemory + int64_t(size)) / double(mCount + 1);
     constexpr double kDoubt = 0.5; // blocks to come may be smaller
-    made->requireRoom(kDoubt * average * double(mBlocks.size() - mCount));
-    mFile = std::move(made);
+    mFile->requireRoom(kDoubt * average * double(mBlocks.size() - mCount));
+    mHasRoom = true;
     return *mFile;
 }
 

@@ -25,6 +25,10 @@ public:
     /// @param memory  bytes that compressed blocks may take in memory
     BlockStore(std::size_t blocks, int64_t memory) : mBlocks(blocks), mMemory(memory) {}
 
+    /// Makes the temporary file before it is needed, so that an error comes early.
+    /// @throw openvdb::IoError if it cannot be made
+    void makeFile() { mFile = std::make_unique<SpillFile>(); }
+
     /// @param bytes  less than 2^31 - 16
     /// @param typeSize  bytes of each number
     /// @throw openvdb::IoError if the temporary file cannot be made, or has no room
@@ -53,6 +57,7 @@ private:
     std::atomic<std::size_t> mCount{0}; ///< of blocks put
     std::mutex mFileMutex;
     std::unique_ptr<SpillFile> mFile; ///< once it is needed
+    bool mHasRoom = false;            ///< as far as that is known
 };
 
 } // namespace slab

@@ -43,6 +43,8 @@ public:
 
     void run()
     {
+        constexpr int64_t kMostCompressed = 8; // few labels are by more
+        if (mPlan.packedBytes / kMostCompressed > mPlan.storedBytes) mStore.makeFile();
         enterAll();
         mWork.allEntered();
         labelAlongX();

@@ -80,6 +80,19 @@ TEST(BlockStore, LeavesNoFile)
     EXPECT_EQ(folder.files(), 0);
 }
 
+TEST(BlockStore, CanMakeItsFileBeforeItIsNeeded)
+{
+    const TemporaryFolder folder;
+    BlockStore store(2, 0);
+    store.makeFile();
+    EXPECT_EQ(folder.openFiles(), 1);
+    put(store, 1, numbersOf(1));
+    EXPECT_EQ(folder.openFiles(), 1);
+    EXPECT_EQ(got(store, 1, 3001), numbersOf(1));
+    const TemporaryDirectory none(folder.path() + "/nowhere");
+    EXPECT_THROW(BlockStore(1, 0).makeFile(), openvdb::IoError);
+}
+
 TEST(BlockStore, AFolderThatIsNoneIsAnError)
 {
     const TemporaryFolder folder;

@@ -249,8 +249,13 @@ TEST(LabelStream, SaysWhenThereIsNoRoomForItsFile)
     EXPECT_EQ(folder.openFiles(), 0);
     const TemporaryDirectory none(folder.path() + "/nowhere");
     EXPECT_THROW(stream.run(nullptr), openvdb::IoError);
-    stream.setPlan(packedPlan(1 << 20, INT64_MAX));
+    StreamPlan inMemory = packedPlan(1 << 20, INT64_MAX);
+    stream.setPlan(inMemory);
     EXPECT_NO_THROW(stream.run(nullptr)) << "a file that is not needed";
+    inMemory.packedBytes = INT64_MAX; // it is about to be
+    inMemory.storedBytes = 100 << 20;
+    stream.setPlan(inMemory);
+    EXPECT_THROW(stream.run(nullptr), openvdb::IoError);
 }
 
 TEST(LabelStream, CanBeInterrupted)
