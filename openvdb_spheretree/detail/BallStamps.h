@@ -26,7 +26,8 @@ struct BallStamp {
     std::array<std::array<uint64_t, 4>, kSide> slices = {};
 };
 
-/// Stamps as they are asked for. All balls must be of one distance and unit.
+/// Stamps as they are asked for. All balls must be of one distance and unit. A level has some
+/// hundred to some thousand of them, and there are no more than 10^5 Euclidean ones (30 MB).
 class BallStamps {
 public:
     /// @return whether a ball has one: it is not clipped, and its box no wider than a leaf.
@@ -49,8 +50,8 @@ public:
 
 private:
     /// Which ball it is, from the corner of the leaf that its box begins in along y and z, and from
-    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its coverSq is below 2^32 in any
-    /// distance's units.
+    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its coverSq is
+    /// below 2^32 in any distance's units.
     static uint64_t keyOf(const Ball& ball)
     {
         uint64_t key = uint64_t(ball.coverSq);
@@ -62,8 +63,14 @@ private:
     {
         BallStamp stamp;
         const openvdb::Coord corner(ball.lo[0], ball.lo[1] & ~7, ball.lo[2] & ~7);
-        forEachRow(
-            ball, corner, 2 * BallStamp::kSide, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
+        Ball local = ball; // in place of the corner of the leaf, which may be the last of all
+        for (int a = 0; a < 3; ++a) {
+            local.lo[a] -= corner[a];
+            local.hi[a] -= corner[a];
+            local.center[a] -= inUnits(corner[a], ball.shift);
+        }
+        forEachRow(local, openvdb::Coord(0), 2 * BallStamp::kSide,
+            [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
                 for (int32_t z = lo; z <= hi; ++z) {
                     uint64_t& word = stamp.slices[x][(y >> 3) << 1 | z >> 3];
                     word |= uint64_t(1) << (8 * (y & 7) + (z & 7));
