@@ -78,8 +78,8 @@ void check(const ActionCall& call, Plan& plan)
     checkPictureOptions(call);
 }
 
-/// @param giveUp  whether trees are not needed any more: a tree and its grid together would be twice
-///                as much memory
+/// @param giveUp  whether trees are not needed any more: a tree and its grid together would be
+///                twice as much memory
 openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
 {
     namespace st = openvdb_spheretree;

@@ -7,6 +7,7 @@
 
 #pragma once
 
+#include "BallStamps.h"
 #include "BallWords.h"
 
 #include <algorithm>
@@ -44,9 +45,13 @@ public:
     bool isFull(int cell) const { return mFull[cell] == kAllOn; }
     bool isFull(int cell, int leaf) const { return mFull[cell] & bit(leaf); }
 
-    /// Draws a ball, wherever it is in the block, by rows.
+    /// Draws a ball, wherever it is in the block.
     void drawSmall(const Ball& ball)
     {
+        if (BallStamps::has(ball)) {
+            drawStamp(ball, mStamps.of(ball));
+            return;
+        }
         forEachRow(ball, mOrigin, 1 << kLog2,
             [this](int32_t x, int32_t y, int32_t lo, int32_t hi) { drawRow(x, y, lo, hi); });
     }
@@ -94,6 +99,26 @@ private:
         return origin.offsetBy(x << log2, y << log2, z << log2);
     }
 
+    /// A stamp may begin or end in another block.
+    void drawStamp(const Ball& ball, const BallStamp& stamp)
+    {
+        const int32_t y0 = (ball.lo[1] - mOrigin[1]) >> kLeafLog2; // in leaves
+        const int32_t z0 = (ball.lo[2] - mOrigin[2]) >> kLeafLog2;
+        const auto isOut = [](int32_t i, int log2) { return uint32_t(i) >> log2 != 0; };
+        for (int32_t i = 0; i <= ball.hi[0] - ball.lo[0]; ++i) {
+            const int32_t x = ball.lo[0] + i - mOrigin[0];
+            if (isOut(x, kLog2)) continue;
+            for (int n = 0; n < 4; ++n) {
+                const int32_t y = y0 + (n >> 1), z = z0 + (n & 1);
+                const uint64_t word = stamp.slices[i][n];
+                if (!word || isOut(y, kLog2 - kLeafLog2) || isOut(z, kLog2 - kLeafLog2)) continue;
+                const int cell = inFours(x >> 5, y >> 2, z >> 2), leaf = inFours(x >> 3, y, z);
+                mDrawn[cell] |= bit(leaf);
+                mWords[(64 * cell + leaf) * 8 + (x & 7)] |= word;
+            }
+        }
+    }
+
     /// Draws a row of z, which may be empty or cross leaves; coordinates from the block's corner.
     void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
     {
@@ -107,6 +132,7 @@ private:
     }
 
     openvdb::Coord mOrigin;
+    BallStamps mStamps;
     std::vector<uint64_t> mWords;
     uint64_t mFull[64] = {}, mDrawn[64] = {};
 };

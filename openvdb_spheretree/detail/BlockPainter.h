@@ -2,7 +2,7 @@
 /// @file detail/BlockPainter.h
 /// @brief Draws balls into a block of 128^3 voxels.
 ///
-/// 1. Balls smaller than a leaf are drawn at once, row by row.
+/// 1. Balls smaller than a leaf are drawn at once, as stamps or row by row.
 /// 2. The others are sorted into cells of 32^3, and from there into leaves; a cell or leaf inside
 ///    one of them is full, and nothing else is drawn there. In each, balls that add nothing to
 ///    others are left out (PowerCull.h).

@@ -10,14 +10,15 @@
 ///    that those of any cube stand together.
 /// 3. Every group, in parallel: its box is dismissed, or split in eight, down to single cells. In
 ///    those, voxels within B are taken off by words (LeafReach.h), which decides where B is a few
-///    voxels; what is left is split on, each part shrunk to the box of its voxels, down to single
-///    ones, whose exact distance may raise B. Tiles are split likewise.
+///    voxels. Of what is left, one voxel at a time has its exact distance taken, which may raise B,
+///    and all go that are within B of the object voxel nearest to it. Tiles are split likewise.
 ///
 /// The order decides how much is dismissed, not the result: a maximum. Distances are doubled and
 /// squared integers; the one place with rounding, B - r, is rounded down, which dismisses less.
 
 #include "FarthestVoxel.h"
 
+#include "BallWords.h"
 #include "LeafReach.h"
 #include "Parallel.h"
 
@@ -67,9 +68,8 @@ public:
     {
         const int64_t point2[3] = {
             2 * int64_t(voxel[0]), 2 * int64_t(voxel[1]), 2 * int64_t(voxel[2])};
-        int64_t best = bestSq2();
-        const int64_t sq2 = mObject.distSq(point2, best);
-        while (sq2 > best && !mBestSq2.compare_exchange_weak(best, sq2)) {}
+        const int64_t sq2 = mObject.distSq(point2, bestSq2());
+        raise(sq2);
         return sq2;
     }
 
@@ -100,6 +100,12 @@ public:
     }
 
 private:
+    void raise(int64_t sq2)
+    {
+        int64_t best = bestSq2();
+        while (sq2 > best && !mBestSq2.compare_exchange_weak(best, sq2)) {}
+    }
+
     /// @return whether no voxel of the box can be farther than B.
     bool dismissed(const CellBox& box) const
     {
@@ -121,7 +127,7 @@ private:
         const Coord& lo = cell.origin;
         if (dismissed({{lo[0], lo[1], lo[2]}, {lo[0] + 7, lo[1] + 7, lo[2] + 7}})) return;
         reach.takeNear(mMask, mObject.distance(), bestSq2() / 4, cell);
-        visitLeafPart(cell, {{0, 0, 0}, {7, 7, 7}}, 8);
+        visitVoxels(cell);
     }
 
     static CellBox boxOf(const PlacedCell* begin, const PlacedCell* end)
@@ -155,62 +161,42 @@ private:
         }
     }
 
-    /// @return false if none of the cell's voxels is in the box; otherwise the box is shrunk to
-    /// them.
-    static bool shrink(const VoxelCell& cell, CellBox& box)
+    /// Visits voxels until none is left, each with all that are within B of the object voxel that
+    /// is nearest to it: that settles a patch of them, where one after the other would take a
+    /// question each.
+    void visitVoxels(VoxelCell& cell)
     {
-        const int32_t first = box.lo[0], last = box.hi[0];
-        uint64_t rows = 0; // of z, wherever they are in x
-        const uint64_t window = yzWindow(box);
-        for (int32_t x = first, found = false; x <= last; ++x) {
-            const uint64_t word = cell.words[x] & window;
-            if (!word) continue;
-            if (!found) box.lo[0] = x;
-            box.hi[0] = x;
-            found = true;
-            rows |= word;
+        while (!isEmpty(cell)) {
+            const Coord voxel = cell.first();
+            Coord nearest;
+            raise(mObject.nearest(voxel, nearest));
+            const Coord at = voxel - cell.origin;
+            cell.words[at[0]] &= ~(uint64_t(1) << (8 * at[1] + at[2])); // however far it is
+            takeWithin(nearest, cell);
         }
-        if (!rows) return false;
-        box.lo[1] = int32_t(openvdb::util::FindLowestOn(openvdb::Index64(rows))) >> 3;
-        while (!(rows >> (8 * box.hi[1]) & 0xff)) --box.hi[1];
-        uint64_t row = rows | rows >> 32;
-        row |= row >> 16;
-        row |= row >> 8;
-        while (!(row >> box.lo[2] & 1)) ++box.lo[2];
-        while (!(row >> box.hi[2] & 1)) --box.hi[2];
-        return true;
     }
 
-    static uint64_t yzWindow(const CellBox& box)
+    static bool isEmpty(const VoxelCell& cell)
     {
-        const uint64_t row = (0xffu >> (7 - box.hi[2])) & (0xffu << box.lo[2]);
-        uint64_t window = 0;
-        for (int32_t y = box.lo[1]; y <= box.hi[1]; ++y) window |= row << (8 * y);
-        return window;
+        return std::all_of(cell.words, cell.words + 8, [](uint64_t word) { return word == 0; });
     }
 
-    /// @param box   a cube of @a size in the leaf, in local coordinates
-    /// Recursion: from 8 to 1 in three halvings.
-    void visitLeafPart(const VoxelCell& cell, const CellBox& cube, int32_t size)
+    /// Takes off the voxels within B of an object voxel.
+    void takeWithin(const Coord& voxel, VoxelCell& cell) const
     {
-        CellBox box = cube;
-        if (!shrink(cell, box)) return;
-        const Coord lo = cell.origin.offsetBy(box.lo[0], box.lo[1], box.lo[2]);
-        const Coord hi = cell.origin.offsetBy(box.hi[0], box.hi[1], box.hi[2]);
-        if (lo == hi) {
-            visitVoxel(lo);
-            return;
+        Ball ball;
+        for (int a = 0; a < 3; ++a) {
+            ball.center[a] = 2 * int64_t(voxel[a]);
+            ball.lo[a] = INT32_MIN;
+            ball.hi[a] = INT32_MAX;
         }
-        if (dismissed({{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}})) return;
-        const int32_t half = size / 2;
-        for (int i = 0; i < 8; ++i) {
-            CellBox part;
-            for (int a = 0; a < 3; ++a) {
-                part.lo[a] = cube.lo[a] + (i >> (2 - a) & 1 ? half : 0);
-                part.hi[a] = part.lo[a] + half - 1;
-            }
-            visitLeafPart(cell, part, half);
-        }
+        ball.coverSq = bestSq2();
+        ball.distance = mObject.distance();
+        ball.clipped = ball.plain = false;
+        ball.shift = 1; // doubled coordinates
+        uint64_t within[8] = {};
+        orBallIntoWords(ball, cell.origin, within);
+        for (int x = 0; x < 8; ++x) cell.words[x] &= ~within[x];
     }
 
     const openvdb::MaskTree& mMask;

@@ -3,9 +3,9 @@
 /// @brief The values of a leaf node, also where OpenVDB has left them in the file (delayed
 /// loading).
 ///
-/// Asking such a leaf for a value would read all of its values and keep them, leaf after leaf, until
-/// the whole grid is in memory. The copy of a leaf's buffer is in the file likewise, so a copy is
-/// read in its place, and let go.
+/// Asking such a leaf for a value would read all of its values and keep them, leaf after leaf,
+/// until the whole grid is in memory. The copy of a leaf's buffer is in the file likewise, so a
+/// copy is read in its place, and let go.
 
 #pragma once
 

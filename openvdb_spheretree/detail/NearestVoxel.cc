@@ -40,15 +40,26 @@ int64_t clamped(int64_t distance) { return std::min(distance, NearestVoxel::kFar
 int lowestBit(uint32_t byte) { return int(openvdb::util::FindLowestOn(openvdb::Byte(byte))); }
 int highestBit(uint32_t byte) { return int(openvdb::util::FindHighestOn(byte)); }
 
-/// @return the smallest |2 z - point2| over the bits z of a row that is not empty.
-int64_t rowDistance(uint32_t row, int64_t point2)
+/// @return the bit z of a row, which is not empty, with the smallest |2 z - point2|.
+int nearestBit(uint32_t row, int64_t point2)
 {
     const int split = point2 < 0 ? 0 : int(std::min<int64_t>(point2 / 2 + 1, 8));
     const uint32_t below = row & ((1u << split) - 1), above = row & ~((1u << split) - 1);
-    int64_t distance = std::numeric_limits<int64_t>::max();
-    if (below) distance = point2 - 2 * highestBit(below);
-    if (above) distance = std::min(distance, 2 * lowestBit(above) - point2);
-    return distance;
+    if (!below) return lowestBit(above);
+    if (!above) return highestBit(below);
+    const int lower = highestBit(below), upper = lowestBit(above);
+    return point2 - 2 * lower <= 2 * upper - point2 ? lower : upper;
+}
+
+/// A voxel of the box that is nearest to the point.
+Coord nearestOf(const int32_t lo[3], const int32_t hi[3], const int64_t point2[3])
+{
+    Coord voxel;
+    for (int a = 0; a < 3; ++a) {
+        const int64_t from = lo[a], to = hi[a];
+        voxel[a] = int32_t(std::max(from, std::min(point2[a] >> 1, to)));
+    }
+    return voxel;
 }
 
 } // namespace
@@ -150,6 +161,15 @@ int64_t NearestVoxel::distSq(const int64_t point2[3], int64_t enough) const
     return query.best;
 }
 
+int64_t NearestVoxel::nearest(const Coord& voxel, Coord& nearest) const
+{
+    const int64_t point2[3] = {2 * int64_t(voxel[0]), 2 * int64_t(voxel[1]), 2 * int64_t(voxel[2])};
+    Query query{point2, -1, std::numeric_limits<int64_t>::max()};
+    searchNode(mLevels.size() - 1, 0, query);
+    nearest = query.voxel;
+    return query.best;
+}
+
 bool NearestVoxel::anyWithin(const int64_t point2[3], int64_t limit) const
 {
     if (limit < 0 || mItems.empty()) return false;
@@ -191,7 +211,10 @@ void NearestVoxel::searchNode(std::size_t level, std::size_t node, Query& query)
 void NearestVoxel::searchItem(const Item& item, Query& query) const
 {
     if (item.solid) {
-        query.best = std::min(query.best, nearSq(item.box, query.point2));
+        const int64_t sq = nearSq(item.box, query.point2);
+        if (sq >= query.best) return;
+        query.best = sq;
+        query.voxel = nearestOf(item.box.lo, item.box.hi, query.point2);
         return;
     }
     int64_t local2[3]; // the point, from the leaf's corner
@@ -203,8 +226,12 @@ void NearestVoxel::searchItem(const Item& item, Query& query) const
             const uint32_t row = (item.words[x] >> (8 * y)) & 0xff;
             const int64_t dy = clamped(std::abs(2 * y - local2[1]));
             if (!row || mDistance.lengthSq(dx, dy, 0) >= query.best) continue;
-            const int64_t dz = clamped(rowDistance(row, local2[2]));
-            query.best = std::min(query.best, mDistance.lengthSq(dx, dy, dz));
+            const int z = nearestBit(row, local2[2]);
+            const int64_t dz = clamped(std::abs(2 * z - local2[2]));
+            const int64_t sq = mDistance.lengthSq(dx, dy, dz);
+            if (sq >= query.best) continue;
+            query.best = sq;
+            query.voxel = item.origin.offsetBy(x, y, z);
         }
     }
 }

@@ -39,6 +39,10 @@ public:
     ///         anything up to @a enough that is no less than it: the search stops there.
     int64_t distSq(const int64_t point2[3], int64_t enough) const;
 
+    /// @return the squared distance (in doubled coordinates) of @a voxel to the nearest voxel of
+    ///         the mask, which @a nearest becomes; the mask must have one.
+    int64_t nearest(const openvdb::Coord& voxel, openvdb::Coord& nearest) const;
+
     /// @return whether a voxel is within the squared distance @a limit.
     bool anyWithin(const int64_t point2[3], int64_t limit) const;
 
@@ -56,7 +60,8 @@ private:
     struct Query {
         const int64_t* point2;
         int64_t enough;
-        int64_t best; ///< nothing at or beyond this distance is of interest any more
+        int64_t best;              ///< nothing at or beyond this distance is of interest any more
+        openvdb::Coord voxel = {}; ///< which is at that distance, where one was found in an item
     };
     static constexpr int kFanout = 8;
 

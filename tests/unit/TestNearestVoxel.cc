@@ -15,6 +15,7 @@ namespace {
 
 using namespace spheretree_test;
 using openvdb::MaskTree;
+using openvdb_spheretree::Distance;
 using openvdb_spheretree::detail::NearestVoxel;
 
 /// |2 q - point2|^2 of the voxel that is nearest.
@@ -56,7 +57,14 @@ void expectLikeBruteForce(const MaskTree& mask, Random& random, int around, int 
         }
         SCOPED_TRACE(
             testing::Message() << point2[0] << ' ' << point2[1] << ' ' << point2[2] << " / 2");
-        expectAnswers(nearest, point2, nearestByHand(voxels, point2));
+        const int64_t expected = nearestByHand(voxels, point2);
+        expectAnswers(nearest, point2, expected);
+        const Coord point(int32_t(point2[0] / 2), int32_t(point2[1] / 2), int32_t(point2[2] / 2));
+        Coord voxel;
+        ASSERT_EQ(nearest.nearest(point, voxel), expected);
+        ASSERT_TRUE(mask.isValueOn(voxel));
+        const Coord d = voxel - point;
+        ASSERT_EQ(4 * Distance().lengthSq(d[0], d[1], d[2]), expected);
     }
 }
 
@@ -119,6 +127,12 @@ TEST(NearestVoxel, TilesAreAllOfTheirVoxels)
     large.addTile(2, Coord(128, 0, 0), true, true); // 128^3
     const int64_t before[3] = {2 * 127, 2 * 127, 0}, behind[3] = {2 * 256, 2 * 128, -2};
     expectAnswers(NearestVoxel(large), before, 4);
+    Coord voxel;
+    const Coord at(int32_t(before[0] / 2), int32_t(before[1] / 2), int32_t(before[2] / 2));
+    EXPECT_EQ(NearestVoxel(large).nearest(at, voxel), 4);
+    const Coord step = voxel - at;
+    EXPECT_EQ(Distance().lengthSq(step[0], step[1], step[2]), 1);
+    EXPECT_TRUE(large.isValueOn(voxel));
     expectAnswers(NearestVoxel(large), behind, 12);
 }
 
