@@ -83,7 +83,9 @@ class ForcedTarget : public testing::Environment {
     void TearDown() override
     {
         const char* name = std::getenv(kVariable);
-        if (name) EXPECT_EQ(runningTarget(), name);
+        if (name) {
+            EXPECT_EQ(runningTarget(), name);
+        }
     }
 };
 
