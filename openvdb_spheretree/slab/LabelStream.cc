@@ -30,7 +30,7 @@ StreamMemory LabelStream::memory() const
     constexpr int64_t kKey = sizeof(typename Power::Key), kStep = sizeof(typename Power::Offset);
     const int64_t leaves = mLayout.leafCount();
     const int64_t kept = mKeep ? kLeafVoxels * mDim * kStep : 0;
-    const int64_t asked = mAsked && !mAsked->empty() ? sizeof(uint32_t) : 0;
+    const int64_t asked = mAsked && !mAsked->empty() ? 2 * sizeof(uint32_t) : 0;
     StreamMemory memory;
     memory.fixed = mLayout.bytes() + leaves * (int64_t(sizeof(LeafMask)) + kept + asked);
     memory.steps = leaves * 2 * 64 * int64_t(sizeof(StepOf<T>));

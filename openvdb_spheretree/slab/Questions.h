@@ -3,10 +3,11 @@
 /// @brief The voxels whose labels are asked for, on their way there.
 ///
 /// A voxel first waits in the list of its leaf. When the leaf's steps along x are known, it moves
-/// to where they lead, and waits in the list of that slab for the other two. Lists are chains of
-/// numbers: a question is in one at a time.
+/// to where they lead, and waits in a list of that leaf for the other two. Both leaves are in one
+/// run, so threads that look at different runs have nothing to do with each other. Lists are chains
+/// of numbers: a question is in one at a time.
 ///
-/// Cost: 4 bytes a leaf, if anything is asked, and 4 a question.
+/// Cost: 8 bytes a leaf, if anything is asked, and 4 a question.
 
 #pragma once
 
@@ -14,7 +15,6 @@
 #include "../PowerMap.h"
 #include "SlabLabels.h"
 
-#include <atomic>
 #include <cassert>
 #include <cstdint>
 #include <utility>
@@ -36,8 +36,7 @@ public:
         if (!asked || asked->empty()) return;
         assert(asked->size() < kEnd);
         mOfLeaf.assign(layout.leafCount(), kEnd);
-        mOfSlab = std::vector<std::atomic<uint32_t>>(layout.slabCount());
-        for (auto& first : mOfSlab) first = kEnd;
+        mMoved.assign(layout.leafCount(), kEnd);
         mNext.resize(asked->size());
         for (uint32_t i = 0; i < mNext.size(); ++i) {
             const uint32_t leaf = (*asked)[i].leaf;
@@ -46,7 +45,7 @@ public:
     }
 
     /// @param steps  along x, 512 of the leaf
-    /// @note Thread-safe for different leaves.
+    /// @note Thread-safe for leaves of different runs along x.
     template <typename Step>
     void moveAlongX(uint32_t leaf, const Step* steps)
     {
@@ -55,7 +54,7 @@ public:
             next = mNext[i];
             PowerMap::Voxel& voxel = (*mAsked)[i];
             voxel = PowerMap::moved(mLayout, Axis::X, voxel, steps[voxel.offset]);
-            mNext[i] = mOfSlab[mLayout.slabOf(voxel.leaf)].exchange(i);
+            mNext[i] = std::exchange(mMoved[voxel.leaf], i);
         }
     }
 
@@ -64,10 +63,13 @@ public:
     template <typename Power>
     void moveToCenters(uint32_t slab, const SlabLabels<Power>& labels)
     {
-        if (mOfSlab.empty()) return;
-        for (uint32_t i = mOfSlab[slab]; i != kEnd; i = mNext[i]) {
-            PowerMap::Voxel& voxel = (*mAsked)[i];
-            voxel = labels.center(mLayout, voxel);
+        if (mMoved.empty()) return;
+        const LeafLayout::Slab leaves = mLayout.slab(slab);
+        for (uint32_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+            for (uint32_t i = mMoved[leaf]; i != kEnd; i = mNext[i]) {
+                PowerMap::Voxel& voxel = (*mAsked)[i];
+                voxel = labels.center(mLayout, voxel);
+            }
         }
     }
 
@@ -76,9 +78,9 @@ private:
 
     const LeafLayout& mLayout;
     std::vector<PowerMap::Voxel>* mAsked;
-    std::vector<uint32_t> mOfLeaf;              ///< the first one
-    std::vector<std::atomic<uint32_t>> mOfSlab; ///< the same
-    std::vector<uint32_t> mNext;                ///< in the list that a question is in
+    std::vector<uint32_t> mOfLeaf; ///< the first one that waits for a leaf's steps along x
+    std::vector<uint32_t> mMoved;  ///< the same, for those along y and z
+    std::vector<uint32_t> mNext;   ///< in the list that a question is in
 };
 
 } // namespace slab
