@@ -5,12 +5,14 @@
 /// Per level: the sparse union of its spheres; what it has and the object has not, node by node;
 /// the farthest voxel of that. Missing voxels follow from the counts:
 ///     |O \ U| = |O| - (|U| - |U \ O|).
+/// The many balls of a solid's level 0 are not drawn where they are its medial balls.
 
 #include "LevelErrors.h"
 
 #include "SphereUnion.h"
 #include "detail/FarthestVoxel.h"
 #include "detail/MaskDifference.h"
+#include "detail/MedialCover.h"
 #include "detail/NearestVoxel.h"
 #include "detail/Parallel.h"
 #include "detail/StageTimer.h"
@@ -53,6 +55,12 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
         return;
     }
     const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    if (detail::areMedialBalls(spheres, tree, level, object.mask, object.voxels, interrupter)) {
+        LevelError none;
+        none.covered = object.voxels;
+        level.error = none;
+        return;
+    }
     const openvdb::CoordBBox box = levelBox(tree, spheres);
     const SphereMetric metric = metricOf(tree);
     if (crossedRows(spheres, box, metric) > double(kMaxUnionRows)) {
@@ -60,17 +68,17 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
         return;
     }
     const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, metric);
-    const detail::MaskDifference excess =
-        detail::maskDifference(*covered, object.mask, interrupter);
+    const detail::MaskMinus excess(*covered, object.mask);
+    const detail::VoxelCount count = detail::countVoxels(excess, interrupter);
     const int64_t distSq =
-        detail::farthestDistSq(excess.cells, object.mask, object.nearest, interrupter);
+        detail::farthestDistSq(excess, count.samples, object.mask, object.nearest, interrupter);
     if (distSq >= detail::NearestVoxel::kFar2 / 4 * detail::NearestVoxel::kFar2) {
         level.errorUnknown = tooFar();
         return;
     }
     LevelError error;
     error.covered = detail::countVoxels(*covered);
-    error.excess = excess.voxels;
+    error.excess = count.voxels;
     error.missing = object.voxels - (error.covered - error.excess);
     error.hammingPercent = 100.0 * double(error.excess + error.missing) / double(object.voxels);
     error.hausdorff = std::sqrt(double(distSq)) / metric.distance.unit();

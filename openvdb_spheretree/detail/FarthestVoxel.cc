@@ -5,11 +5,10 @@
 /// A box of voxels with centre c and half diagonal r is dismissed when an object voxel lies within
 /// B - r of c, for then no voxel of the box is farther than B.
 ///
-/// 1. seed: exact distances of one voxel each of a sample of cells, then the best cell in full.
-/// 2. sortIntoGroups: cells of eight by the block of 128 that they are in, along a Morton curve, so
-///    that those of any cube stand together.
-/// 3. Every group, in parallel: its box is dismissed, or split in eight, down to single cells. In
-///    those, voxels within B are taken off by words (LeafReach.h), which decides where B is a few
+/// 1. seed: exact distances of some samples, then the cell of the best one in full.
+/// 2. Every node, in parallel (NodeSearch): its cells, sorted along a Morton curve, so that those of
+///    any cube stand together. The cube's box is dismissed, or split in eight, down to single cells.
+///    In those, voxels within B are taken off by words (LeafReach.h), which decides where B is a few
 ///    voxels. Of what is left, one voxel at a time has its exact distance taken, which may raise B,
 ///    and all go that are within B of the object voxel nearest to it. Tiles are split likewise.
 ///
@@ -49,12 +48,6 @@ struct PlacedCell {
     }
 };
 
-/// Cells of eight in one block of 128; or one that is larger.
-struct Group {
-    Coord block;
-    std::vector<PlacedCell> cells;
-};
-
 class FarthestSearch {
 public:
     FarthestSearch(const openvdb::MaskTree& mask, const NearestVoxel& object)
@@ -82,7 +75,7 @@ public:
         }
     }
 
-    /// Visits cells of eight that are in one cube of @a size, in the order of sortIntoGroups().
+    /// Visits cells of eight that are in one cube of @a size, sorted by their places.
     /// Recursion: from 128 to 8 in four halvings.
     void visitGroup(const PlacedCell* begin, const PlacedCell* end, int32_t size, LeafReach& reach)
     {
@@ -204,19 +197,6 @@ private:
     std::atomic<int64_t> mBestSq2{0};
 };
 
-void seed(FarthestSearch& search, const std::vector<VoxelCell>& cells)
-{
-    constexpr std::size_t kSamples = 512;
-    const std::size_t step = cells.size() / kSamples + 1;
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < cells.size(); i += step) {
-        const int64_t before = search.bestSq2();
-        if (search.visitVoxel(cells[i].first()) > before) best = i;
-    }
-    LeafReach reach;
-    search.visit(cells[best], reach);
-}
-
 /// Bits x, y, z of a place in a block, from the highest: three of Morton's code at a time.
 uint32_t mortonOf(const Coord& origin)
 {
@@ -227,38 +207,119 @@ uint32_t mortonOf(const Coord& origin)
     return code;
 }
 
-std::vector<Group> sortIntoGroups(
-    const std::vector<VoxelCell>& cells, openvdb::util::NullInterrupter* interrupter)
-{
-    std::vector<Group> groups; // cells of a block stand together
-    for (const VoxelCell& cell : cells) {
-        const Coord block = cell.origin & ~127;
-        if (groups.empty() || groups.back().block != block || cell.size > 8) {
-            groups.push_back({block, {}});
+/// Visits nodes of a set. Memory of one thread.
+class NodeSearch {
+public:
+    void visit(FarthestSearch& search, const MaskMinus& set, std::size_t node)
+    {
+        set.cells(node, mCells);
+        for (std::size_t begin = 0, end; begin < mCells.size(); begin = end) {
+            end = endOfBlock(begin);
+            if (mCells[begin].size > 8) {
+                search.visit(mCells[begin], mReach);
+                continue;
+            }
+            sort(begin, end);
+            search.visitGroup(mPlaced.data(), mPlaced.data() + mPlaced.size(), 128, mReach);
         }
-        groups.back().cells.push_back({&cell, mortonOf(cell.origin)});
     }
-    parallelFor(groups.size(), interrupter, [&](std::size_t i) {
-        std::sort(groups[i].cells.begin(), groups[i].cells.end(),
-            [](const PlacedCell& a, const PlacedCell& b) { return a.morton < b.morton; });
-    });
-    return groups;
+
+    /// Visits the cell of a sample alone.
+    void visit(FarthestSearch& search, const MaskMinus& set, const VoxelCount::Sample& sample)
+    {
+        set.cells(sample.node, mCells);
+        const auto cell = std::find_if(mCells.begin(), mCells.end(),
+            [&](const VoxelCell& c) { return c.origin == (sample.voxel & ~(c.size - 1)); });
+        search.visit(*cell, mReach);
+    }
+
+private:
+    /// @return behind the cells of eight that are in one block of 128; or behind one larger cell.
+    std::size_t endOfBlock(std::size_t begin) const
+    {
+        const auto blockOf = [](const VoxelCell& cell) { return cell.origin & ~127; };
+        std::size_t end = begin + 1;
+        if (mCells[begin].size > 8) return end;
+        while (end < mCells.size() && mCells[end].size == 8
+            && blockOf(mCells[end]) == blockOf(mCells[begin])) {
+            ++end;
+        }
+        return end;
+    }
+
+    void sort(std::size_t begin, std::size_t end)
+    {
+        mAt.assign(kPlaces, nullptr);
+        for (std::size_t i = begin; i < end; ++i) mAt[mortonOf(mCells[i].origin)] = &mCells[i];
+        mPlaced.clear();
+        for (uint32_t place = 0; place < kPlaces; ++place) {
+            if (mAt[place]) mPlaced.push_back({mAt[place], place});
+        }
+    }
+
+    static constexpr uint32_t kPlaces = 16 * 16 * 16;
+    std::vector<VoxelCell> mCells;
+    std::vector<const VoxelCell*> mAt; ///< by place
+    std::vector<PlacedCell> mPlaced;
+    LeafReach mReach;
+};
+
+void seed(
+    FarthestSearch& search, const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples)
+{
+    constexpr std::size_t kSamples = 512;
+    const std::size_t step = samples.size() / kSamples + 1;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+        const int64_t before = search.bestSq2();
+        if (search.visitVoxel(samples[i].voxel) > before) best = i;
+    }
+    NodeSearch().visit(search, set, samples[best]);
 }
+
+/// Counts nodes. Memory of one thread.
+class NodeCount {
+public:
+    void count(const MaskMinus& set, std::size_t node, VoxelCount& result)
+    {
+        set.cells(node, mCells);
+        uint32_t seen = 0; // eighths
+        for (const VoxelCell& cell : mCells) {
+            result.voxels += cell.voxels();
+            const uint32_t eighth = 1u << (mortonOf(cell.origin) >> 9);
+            if (!(seen & eighth)) result.samples.push_back({node, cell.first()});
+            seen |= eighth;
+        }
+    }
+
+private:
+    std::vector<VoxelCell> mCells;
+};
 
 } // namespace
 
-int64_t farthestDistSq(const std::vector<VoxelCell>& cells, const openvdb::MaskTree& mask,
-    const NearestVoxel& object, openvdb::util::NullInterrupter* interrupter)
+VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* interrupter)
 {
-    if (cells.empty()) return 0;
+    std::vector<VoxelCount> counts(set.nodeCount());
+    parallelForWithScratch<NodeCount>(counts.size(), interrupter,
+        [&](std::size_t node, NodeCount& scratch) { scratch.count(set, node, counts[node]); });
+    VoxelCount all;
+    for (const VoxelCount& count : counts) {
+        all.voxels += count.voxels;
+        all.samples.insert(all.samples.end(), count.samples.begin(), count.samples.end());
+    }
+    return all;
+}
+
+int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples,
+    const openvdb::MaskTree& mask, const NearestVoxel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    if (samples.empty()) return 0;
     FarthestSearch search(mask, object);
-    seed(search, cells);
-    const std::vector<Group> groups = sortIntoGroups(cells, interrupter);
-    parallelForWithScratch<LeafReach>(
-        groups.size(), interrupter, [&](std::size_t i, LeafReach& reach) {
-            const PlacedCell* const begin = groups[i].cells.data();
-            search.visitGroup(begin, begin + groups[i].cells.size(), 128, reach);
-        });
+    seed(search, set, samples);
+    parallelForWithScratch<NodeSearch>(set.nodeCount(), interrupter,
+        [&](std::size_t node, NodeSearch& scratch) { scratch.visit(search, set, node); });
     return search.bestSq2() / 4;
 }
 

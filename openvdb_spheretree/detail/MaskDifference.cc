@@ -2,8 +2,7 @@
 /// @file detail/MaskDifference.cc
 /// @brief Difference of two masks: leaf words against leaf words, tiles against whatever is there.
 ///
-/// Parallel over the 128^3 nodes of the first mask, each into its own slot; its larger tiles are
-/// few and come last.
+/// The 128^3 nodes of the first mask come first; its larger tiles are few, and come last.
 
 #include "MaskDifference.h"
 
@@ -21,12 +20,11 @@ using openvdb::MaskTree;
 
 constexpr uint64_t kAllOn = ~uint64_t(0);
 
-void append(MaskDifference& result, const VoxelCell& cell)
+bool isEmpty(const VoxelCell& cell)
 {
-    const int64_t voxels = cell.voxels();
-    if (voxels == 0) return;
-    result.voxels += voxels;
-    result.cells.push_back(cell);
+    uint64_t any = 0;
+    for (const uint64_t word : cell.words) any |= word;
+    return any == 0;
 }
 
 VoxelCell tileCell(const Coord& origin, int32_t size)
@@ -50,7 +48,7 @@ void leafWords(const BlockNode& block, openvdb::Index n, uint64_t words[8])
 }
 
 /// A 128^3 node minus what the other mask has there.
-void subtractBlock(const BlockNode& a, const MaskTree& b, MaskDifference& result)
+void subtractBlock(const BlockNode& a, const MaskTree& b, std::vector<VoxelCell>& result)
 {
     const BlockNode* other = b.probeConstNode<BlockNode>(a.origin());
     if (!other && b.isValueOn(a.origin())) return; // a tile over all of it
@@ -64,16 +62,16 @@ void subtractBlock(const BlockNode& a, const MaskTree& b, MaskDifference& result
             leafWords(*other, n, words);
             for (int x = 0; x < 8; ++x) cell.words[x] &= ~words[x];
         }
-        append(result, cell);
+        if (!isEmpty(cell)) result.push_back(cell);
     }
 }
 
 /// A tile of 128^3 minus what the other mask has there.
-void subtractBlockTile(const Coord& origin, const MaskTree& b, MaskDifference& result)
+void subtractBlockTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCell>& result)
 {
     const BlockNode* other = b.probeConstNode<BlockNode>(origin);
     if (!other) {
-        if (!b.isValueOn(origin)) append(result, tileCell(origin, BlockNode::DIM));
+        if (!b.isValueOn(origin)) result.push_back(tileCell(origin, BlockNode::DIM));
         return;
     }
     for (openvdb::Index n = 0; n < BlockNode::NUM_VALUES; ++n) {
@@ -81,32 +79,20 @@ void subtractBlockTile(const Coord& origin, const MaskTree& b, MaskDifference& r
         cell.origin = other->offsetToGlobalCoord(n);
         leafWords(*other, n, cell.words);
         for (uint64_t& word : cell.words) word = ~word;
-        append(result, cell);
+        if (!isEmpty(cell)) result.push_back(cell);
     }
 }
 
 /// A tile of 4096^3 minus what the other mask has there.
-void subtractRootTile(const Coord& origin, const MaskTree& b, MaskDifference& result)
+void subtractRootTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCell>& result)
 {
     const RootCellNode* other = b.probeConstNode<RootCellNode>(origin);
     if (!other) {
-        if (!b.isValueOn(origin)) append(result, tileCell(origin, RootCellNode::DIM));
+        if (!b.isValueOn(origin)) result.push_back(tileCell(origin, RootCellNode::DIM));
         return;
     }
     for (openvdb::Index n = 0; n < RootCellNode::NUM_VALUES; ++n) {
         subtractBlockTile(other->offsetToGlobalCoord(n), b, result);
-    }
-}
-
-void join(MaskDifference& result, std::vector<MaskDifference>& parts)
-{
-    std::size_t count = 0;
-    for (const MaskDifference& part : parts) count += part.cells.size();
-    result.cells.reserve(count);
-    for (MaskDifference& part : parts) {
-        result.voxels += part.voxels;
-        result.cells.insert(result.cells.end(), part.cells.begin(), part.cells.end());
-        part.cells = {};
     }
 }
 
@@ -115,8 +101,11 @@ void join(MaskDifference& result, std::vector<MaskDifference>& parts)
 int64_t VoxelCell::voxels() const
 {
     if (size > 8) return int64_t(size) * size * size;
+    uint64_t all = kAllOn;
+    for (const uint64_t word : words) all &= word;
+    if (all == kAllOn) return 512;
     int64_t count = 0;
-    for (uint64_t word : words) count += openvdb::util::CountOn(openvdb::Index64(word));
+    for (const uint64_t word : words) count += openvdb::util::CountOn(openvdb::Index64(word));
     return count;
 }
 
@@ -130,24 +119,53 @@ Coord VoxelCell::first() const
     return origin;
 }
 
+MaskMinus::MaskMinus(const MaskTree& a, const MaskTree& b) : mA(a), mB(b)
+{
+    constexpr int32_t kBlock = BlockNode::DIM;
+    std::vector<Node> tiles;
+    for (auto cell = a.root().cbeginChildOn(); cell; ++cell) {
+        for (auto block = cell->cbeginChildOn(); block; ++block) {
+            mNodes.push_back({block->origin(), kBlock, false});
+        }
+        for (auto tile = cell->cbeginValueOn(); tile; ++tile) {
+            tiles.push_back({tile.getCoord(), kBlock, true});
+        }
+    }
+    mNodes.insert(mNodes.end(), tiles.begin(), tiles.end());
+    for (auto tile = a.root().cbeginValueOn(); tile; ++tile) {
+        mNodes.push_back({tile.getCoord(), int32_t(RootCellNode::DIM), true});
+    }
+}
+
+void MaskMinus::cells(std::size_t index, std::vector<VoxelCell>& result) const
+{
+    result.clear();
+    const Node& node = mNodes[index];
+    if (!node.tile) {
+        subtractBlock(*mA.probeConstNode<BlockNode>(node.origin), mB, result);
+    } else if (node.size == int32_t(BlockNode::DIM)) {
+        subtractBlockTile(node.origin, mB, result);
+    } else {
+        subtractRootTile(node.origin, mB, result);
+    }
+}
+
 MaskDifference maskDifference(
     const MaskTree& a, const MaskTree& b, openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<const BlockNode*> blocks;
-    std::vector<Coord> blockTiles;
-    for (auto cell = a.root().cbeginChildOn(); cell; ++cell) {
-        for (auto block = cell->cbeginChildOn(); block; ++block) blocks.push_back(&*block);
-        for (auto tile = cell->cbeginValueOn(); tile; ++tile) blockTiles.push_back(tile.getCoord());
-    }
-    std::vector<MaskDifference> parts(blocks.size() + 1);
+    const MaskMinus minus(a, b);
+    std::vector<std::vector<VoxelCell>> parts(minus.nodeCount());
     parallelFor(
-        blocks.size(), interrupter, [&](std::size_t i) { subtractBlock(*blocks[i], b, parts[i]); });
-    for (const Coord& origin : blockTiles) subtractBlockTile(origin, b, parts.back());
-    for (auto tile = a.root().cbeginValueOn(); tile; ++tile) {
-        subtractRootTile(tile.getCoord(), b, parts.back());
-    }
+        parts.size(), interrupter, [&](std::size_t node) { minus.cells(node, parts[node]); });
     MaskDifference result;
-    join(result, parts);
+    std::size_t count = 0;
+    for (const auto& part : parts) count += part.size();
+    result.cells.reserve(count);
+    for (auto& part : parts) {
+        for (const VoxelCell& cell : part) result.voxels += cell.voxels();
+        result.cells.insert(result.cells.end(), part.begin(), part.end());
+        part = {};
+    }
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,12 +26,37 @@ struct VoxelCell {
     openvdb::Coord first() const;
 };
 
+/// What one mask has and another has not, node by node of the first: nodes of 128 and larger tiles.
+/// Nothing of it is in memory; a node's cells are made when they are asked for.
+class MaskMinus {
+public:
+    /// Both are kept by reference.
+    MaskMinus(const openvdb::MaskTree& a, const openvdb::MaskTree& b);
+
+    std::size_t nodeCount() const { return mNodes.size(); }
+    /// @param result  becomes the cells of a node, each with voxels in it, those of a block of 128
+    ///                together. Tiles are compared as tiles: one is descended only where the other
+    ///                mask has nodes.
+    void cells(std::size_t node, std::vector<VoxelCell>& result) const;
+
+private:
+    /// A node of 128, or a tile.
+    struct Node {
+        openvdb::Coord origin;
+        int32_t size;
+        bool tile;
+    };
+
+    const openvdb::MaskTree &mA, &mB;
+    std::vector<Node> mNodes;
+};
+
 struct MaskDifference {
     int64_t voxels = 0;
     std::vector<VoxelCell> cells; ///< in node order of the first mask
 };
 
-/// @return a \ b. Tiles are compared as tiles; a tile is descended only where the other has nodes.
+/// @return a \ b, as it comes from MaskMinus.
 MaskDifference maskDifference(const openvdb::MaskTree& a, const openvdb::MaskTree& b,
     openvdb::util::NullInterrupter* interrupter);
 

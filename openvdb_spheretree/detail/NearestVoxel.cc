@@ -6,6 +6,7 @@
 #include "NearestVoxel.h"
 
 #include "MaskNodes.h"
+#include "Parallel.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -75,7 +76,12 @@ void NearestVoxel::Box::expand(const Box& other)
 NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask, const Distance& distance)
     : mDistance(distance)
 {
-    for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) addLeaf(*leaf);
+    std::vector<const LeafNode*> leaves;
+    for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) {
+        if (!leaf->isEmpty()) leaves.push_back(&*leaf);
+    }
+    mItems.resize(leaves.size());
+    parallelFor(leaves.size(), nullptr, [&](std::size_t i) { mItems[i] = itemOf(*leaves[i]); });
     forEachTile(mask, [&](const openvdb::CoordBBox& box) { addTile(box.min(), box.dim().x()); });
     group();
 }
@@ -92,20 +98,31 @@ void NearestVoxel::addTile(const Coord& origin, int32_t size)
     mItems.push_back(item);
 }
 
-void NearestVoxel::addLeaf(const openvdb::MaskTree::LeafNodeType& leaf)
+NearestVoxel::Item NearestVoxel::itemOf(const openvdb::MaskTree::LeafNodeType& leaf)
 {
-    if (leaf.isEmpty()) return;
     Item item;
     item.origin = leaf.origin();
-    openvdb::CoordBBox box;
-    leaf.evalActiveBoundingBox(box);
-    for (int a = 0; a < 3; ++a) {
-        item.box.lo[a] = box.min()[a];
-        item.box.hi[a] = box.max()[a];
+    uint64_t anyX = 0; // bit 8 y + z
+    uint32_t xs = 0, ys = 0, zs = 0;
+    for (int x = 0; x < 8; ++x) {
+        item.words[x] = leaf.getValueMask().getWord<uint64_t>(x);
+        anyX |= item.words[x];
+        if (item.words[x]) xs |= 1u << x;
     }
-    item.solid = leaf.onVoxelCount() == box.volume();
-    for (int x = 0; x < 8; ++x) item.words[x] = leaf.getValueMask().getWord<uint64_t>(x);
-    mItems.push_back(item);
+    for (int y = 0; y < 8; ++y) {
+        const uint32_t row = anyX >> (8 * y) & 0xff;
+        zs |= row;
+        if (row) ys |= 1u << y;
+    }
+    const uint32_t along[3] = {xs, ys, zs};
+    int64_t volume = 1;
+    for (int a = 0; a < 3; ++a) {
+        item.box.lo[a] = item.origin[a] + lowestBit(along[a]);
+        item.box.hi[a] = item.origin[a] + highestBit(along[a]);
+        volume *= item.box.hi[a] - item.box.lo[a] + 1;
+    }
+    item.solid = int64_t(leaf.onVoxelCount()) == volume;
+    return item;
 }
 
 void NearestVoxel::group()

@@ -68,7 +68,7 @@ private:
     int64_t nearSq(const Box& box, const int64_t point2[3]) const;
     int64_t faceSq(const Box& box, const int64_t point2[3]) const;
     void addTile(const openvdb::Coord& origin, int32_t size);
-    void addLeaf(const openvdb::MaskTree::LeafNodeType& leaf);
+    static Item itemOf(const openvdb::MaskTree::LeafNodeType& leaf); ///< which is not empty
     void group();
     void searchNode(std::size_t level, std::size_t node, Query& query) const;
     void searchItem(const Item& item, Query& query) const;

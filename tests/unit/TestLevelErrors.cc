@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/SphereUnion.h>
 
 #include <openvdb_spheretree/Interrupted.h>
+#include <openvdb_spheretree/detail/FarthestVoxel.h>
 #include <openvdb_spheretree/detail/MaskDifference.h>
 
 #include <gtest/gtest.h>
@@ -264,6 +265,28 @@ TEST_F(LevelErrors, TheDifferenceOfMasksIsOpenVdbsForNodesOfEveryLevelAgainstEac
             EXPECT_EQ(voxels, actual.voxels);
         }
     }
+}
+
+TEST_F(LevelErrors, FindTheFarthestOfManyBlocksOfALargeTile)
+{
+    openvdb::MaskTree tile(false);
+    tile.addTile(3, Coord(0), true, true); // of 4096
+    openvdb::MaskTree object(tile);
+    const auto hole = [&](const Coord& middle, int reach) {
+        CoordBBox box(middle, middle);
+        box.expand(reach);
+        object.fill(box, false, false);
+    };
+    hole(Coord(20, 20, 20), 1);
+    hole(Coord(1300, 20, 30), 2);
+    hole(Coord(1300, 700, 30), 5); // over several leaves
+    hole(Coord(4000, 4000, 4000), 3);
+    const detail::MaskMinus holes(tile, object);
+    const detail::VoxelCount count = detail::countVoxels(holes, nullptr);
+    EXPECT_EQ(count.voxels, 27 + 125 + 1331 + 343);
+    EXPECT_EQ(
+        detail::farthestDistSq(holes, count.samples, object, detail::NearestVoxel(object), nullptr),
+        36);
 }
 
 TEST_F(LevelErrors, CompareWholeSphereTilesWithAnObjectFarSmaller)

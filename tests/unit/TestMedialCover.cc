@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestMedialCover.cc
+/// @brief A level whose spheres are the object's medial balls is known to be one, and none else is.
+
+#include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/SphereUnion.h>
+#include <openvdb_spheretree/detail/MaskDifference.h>
+#include <openvdb_spheretree/detail/MedialCover.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using openvdb::BoolGrid;
+using openvdb::Coord;
+
+/// A solid with a corner, so that it has balls of many sizes.
+BoolGrid::Ptr solid()
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    object->tree().fill(openvdb::CoordBBox(Coord(-7, 2, 3), Coord(20, 19, 17)), true);
+    object->tree().fill(openvdb::CoordBBox(Coord(-3, 2, 3), Coord(5, 40, 11)), true);
+    object->tree().voxelizeActiveTiles();
+    return object;
+}
+
+bool areMedial(
+    const std::vector<ExactSphere>& spheres, const SphereTree& tree, const BoolGrid& object)
+{
+    const openvdb::MaskTree mask = detail::maskOf(object.tree());
+    return detail::areMedialBalls(
+        spheres, tree, tree.levels[0], mask, detail::countVoxels(mask), nullptr);
+}
+
+class MedialCover : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() { openvdb::initialize(); }
+
+    static SphereTree treeOf(const BoolGrid& object, TreeType type)
+    {
+        SphereTreeSettings settings;
+        settings.tree = type;
+        return buildSphereTree(object, settings);
+    }
+};
+
+TEST_F(MedialCover, IsThatOfLevelZero)
+{
+    const BoolGrid::Ptr object = solid();
+    for (const TreeType type : {TreeType::Extended, TreeType::Reversible}) {
+        SphereTree tree = treeOf(*object, type);
+        EXPECT_TRUE(areMedial(levelSpheres(tree, tree.levels[0]), tree, *object));
+        computeLevelErrors(tree, *object);
+        ASSERT_TRUE(tree.levels[0].error);
+        EXPECT_EQ(tree.levels[0].error->covered, int64_t(object->activeVoxelCount()));
+        EXPECT_EQ(tree.levels[0].error->excess, 0);
+        EXPECT_EQ(tree.levels[0].error->missing, 0);
+        EXPECT_EQ(tree.levels[0].error->hausdorff, 0);
+    }
+}
+
+TEST_F(MedialCover, EverySphereCounts)
+{
+    const BoolGrid::Ptr object = solid();
+    const SphereTree tree = treeOf(*object, TreeType::Extended);
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels[0]);
+    ASSERT_GT(spheres.size(), 20u);
+    for (std::size_t i = 0; i < spheres.size(); i += 7) {
+        std::vector<ExactSphere> other = spheres;
+        other[i].coverSq += 1;
+        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
+        other[i] = spheres[i];
+        other[i].center[i % 3] += 1;
+        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
+        other.erase(other.begin() + std::ptrdiff_t(i));
+        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
+    }
+    std::vector<ExactSphere> more = spheres;
+    more.push_back(spheres.back());
+    EXPECT_FALSE(areMedial(more, tree, *object));
+}
+
+TEST_F(MedialCover, EveryVoxelOfTheObjectCounts)
+{
+    const BoolGrid::Ptr object = solid();
+    SphereTree tree = treeOf(*object, TreeType::Extended);
+    object->tree().setValueOff(Coord(0, 10, 10));
+    EXPECT_FALSE(areMedial(levelSpheres(tree, tree.levels[0]), tree, *object));
+    computeLevelErrors(tree, *object);
+    ASSERT_TRUE(tree.levels[0].error);
+    EXPECT_EQ(tree.levels[0].error->excess, 1);
+    EXPECT_EQ(tree.levels[0].error->missing, 0);
+
+    object->tree().setValueOn(Coord(0, 10, 10));
+    object->tree().setValueOn(Coord(40, 10, 10));
+    computeLevelErrors(tree, *object);
+    EXPECT_EQ(tree.levels[0].error->excess, 0);
+    EXPECT_EQ(tree.levels[0].error->missing, 1);
+}
+
+TEST_F(MedialCover, OtherLevelsAndTreesAreDrawn)
+{
+    const BoolGrid::Ptr object = solid();
+    const SphereTree tree = treeOf(*object, TreeType::Extended);
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels[1]);
+    const openvdb::MaskTree mask = detail::maskOf(object->tree());
+    EXPECT_FALSE(detail::areMedialBalls(spheres, tree, tree.levels[1], mask, 1, nullptr));
+
+    // One ball is drawn before any transform is done.
+    const std::vector<ExactSphere> ball{{{0, 0, 0}, 4}};
+    EXPECT_FALSE(detail::areMedialBalls(ball, tree, tree.levels[0], mask, 1000, nullptr));
+}
+
+} // namespace
