@@ -7,17 +7,17 @@
 #include "detail/InnerLevels.h"
 #include "detail/LargeArray.h"
 #include "detail/MiniballCenters.h"
-#include "detail/NodeChildren.h"
 #include "detail/Parallel.h"
 #include "detail/RoundUp.h"
 #include "detail/StageTimer.h"
 #include "detail/TreeLevels.h"
-#include "detail/WorldDistance.h"
 #include "tight/TightTree.h"
 
 #include <openvdb/Exceptions.h>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,83 +169,92 @@ void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
     tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius, interrupter);
 }
 
-/// What a node's stored sphere needs to contain that of another node.
-class StoredReach {
+/// How much larger than its radius a node's stored sphere is made, to contain the stored leaf
+/// spheres below it, which were rounded up too, and centres in the world are rounded: about two
+/// units in a float's last place. To search for the leaf that decides took longer than all else
+/// that is done to radii.
+class StoredSlack {
 public:
-    explicit StoredReach(const SphereTree& tree)
-        : mTree(tree), mDistance(tree), mVoxel(largestStretch(*tree.transform)),
-          mMoved(tree.transform->indexToWorld(openvdb::Vec3d(0)).length())
-    {}
-
-    /// The node that contains others.
-    struct Node {
-        int32_t id;
-        openvdb::Vec3d place;
-        double doubt;
-    };
-    Node node(int32_t id) const { return {id, mDistance.place(id), doubt(id)}; }
-
-    /// @return the radius that @a node needs, whatever the rounding of world space.
-    double needed(const Node& node, int32_t other) const
+    StoredSlack(const SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
+        : mVoxel(largestStretch(*tree.transform)), mPadding(tree.settings.paddingVoxels())
     {
-        const double apart = mDistance.between(mDistance.place(other), node.place) * (1 + 1e-14);
-        return apart + doubt(other) + node.doubt + double(mTree.radiusWorld[other]);
+        const SphereTreeLevel& leaves = tree.levels.front();
+        Most most = tbb::parallel_reduce(
+            tbb::blocked_range<int32_t>(leaves.begin, leaves.end), Most(),
+            [&](const tbb::blocked_range<int32_t>& range, Most result) {
+                for (int32_t id = range.begin(); id < range.end(); ++id) {
+                    const openvdb::Vec3d& c = tree.center[id];
+                    const double away = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]);
+                    const double excess = double(tree.radiusWorld[id]) - world(tree.radius[id]);
+                    result = larger(result, {excess, away});
+                }
+                return result;
+            },
+            larger);
+        detail::checkInterrupt(interrupter);
+        const double moved = tree.transform->indexToWorld(openvdb::Vec3d(0)).length();
+        mExcess = most.excess;
+        mDoubt = 16 * kUnit * (mVoxel * most.away + moved);
     }
-    /// @return no less than that, without a look at the world: its centres are where those of index
-    /// space are, as far as the doubt goes.
-    double bound(const Node& node, int32_t other) const
+
+    /// @param radius  that contains the leaf balls below, in voxels
+    /// @return a radius for the stored sphere.
+    float radius(double radius) const
     {
-        constexpr double kRounding = 1e-12; // more than that of all terms
-        const Distance& distance = mTree.settings.dist;
-        const openvdb::Vec3d d = mTree.center[other] - mTree.center[node.id];
-        const double apart = mVoxel * distance.length(d[0], d[1], d[2]) / distance.unit();
-        const double away = std::abs(mTree.center[other][0]) + std::abs(mTree.center[other][1])
-            + std::abs(mTree.center[other][2]);
-        return (apart + double(mTree.radiusWorld[other])
-                   + 8 * (kUnit * (mVoxel * away + mMoved) + node.doubt))
-            * (1 + kRounding);
+        // A float is rounded up by no more than 2^-23 of it, a leaf ball's is not the larger one.
+        const double exact = world(radius);
+        const double excess = std::min(mExcess, exact * 0x1p-23 + kLeastFloat);
+        return detail::toFloatUp((exact + excess + mDoubt) * (1 + kRounding));
     }
 
 private:
+    struct Most {
+        double excess = 0, away = 0;
+    };
+    static Most larger(const Most& a, const Most& b)
+    {
+        return {std::max(a.excess, b.excess), std::max(a.away, b.away)};
+    }
+    double world(double radius) const { return (radius + mPadding) * mVoxel; }
+
     // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
     // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
     static constexpr double kUnit = 1e-15;
-    double doubt(int32_t id) const { return kUnit * (mVoxel * mTree.center[id].length() + mMoved); }
+    static constexpr double kRounding = 1e-12; // more than that of all terms here
+    static constexpr double kLeastFloat = 0x1p-149;
 
-    const SphereTree& mTree;
-    const detail::WorldDistance mDistance;
-    const double mVoxel, mMoved;
+    const double mVoxel, mPadding;
+    double mExcess = 0; ///< of a leaf's stored radius over what it stands for
+    double mDoubt = 0;  ///< of distances in the world, of any two centres
 };
 
-/// Makes stored spheres contain the stored leaf spheres below them: a leaf's radius may have been
-/// rounded up by more than its ancestor's, and world-space centres are rounded too. What a child's
-/// sphere contains already, its parent's does where it contains the child's.
-void containStoredLeaves(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
+/// Makes stored spheres contain the stored leaf spheres below them.
+/// @param radii  of nodes: they contain the leaf balls below; of leaves, they do not matter
+void containStoredLeaves(
+    SphereTree& tree, const std::vector<double>& radii, openvdb::util::NullInterrupter* interrupter)
 {
-    const StoredReach reach(tree);
-    std::vector<detail::NodeChildren> below;
-    for (std::size_t level = 1; level < tree.levels.size(); ++level) {
-        const SphereTreeLevel &nodes = tree.levels[level], &children = tree.levels[level - 1];
-        below.emplace_back(tree.parent.data() + children.begin, std::size_t(children.size()),
-            nodes.begin, std::size_t(nodes.size()));
-        const auto contain = [&](std::size_t i, detail::FarthestLeaves& leaves) {
-            const StoredReach::Node node = reach.node(nodes.begin + int32_t(i));
-            float& radius = tree.radiusWorld[node.id];
-            leaves.search(
-                int(level), int32_t(i), radius,
-                [&](int k, int32_t other) {
-                    return reach.bound(node, tree.levels[k].begin + other);
-                },
-                [&](int32_t leaf) {
-                    const double needed = reach.needed(node, tree.levels[0].begin + leaf);
-                    radius = std::max(radius, detail::toFloatUp(needed));
-                    return double(radius);
-                });
-        };
-        detail::parallelForWith(
-            std::size_t(nodes.size()), interrupter, [&] { return detail::FarthestLeaves(below); },
-            contain);
+    const StoredSlack slack(tree, interrupter);
+    const int32_t leaves = tree.levels.front().begin;
+    detail::parallelFor(std::size_t(leaves), interrupter, [&](std::size_t id) {
+        tree.radiusWorld[id] = std::max(tree.radiusWorld[id], slack.radius(radii[id]));
+    });
+}
+
+/// The radii of a tight tree that contain the balls of its level 0, which may be a cut: nodes were
+/// made to contain the leaves below it. Such trees are small.
+std::vector<double> radiiAroundCut(const SphereTree& tree)
+{
+    const Distance& distance = tree.settings.dist;
+    std::vector<double> radii = tree.radius;
+    const SphereTreeLevel& cut = tree.levels.front();
+    for (int32_t id = cut.begin; id < cut.end; ++id) {
+        for (int32_t t = tree.parent[id]; t >= 0; t = tree.parent[t]) {
+            const openvdb::Vec3d d = tree.center[t] - tree.center[id];
+            const double apart = distance.length(d[0], d[1], d[2]) / distance.unit();
+            radii[t] = std::max(radii[t], apart + tree.radius[id]);
+        }
     }
+    return radii;
 }
 
 /// Whether every node contains the leaf balls below it.
@@ -275,7 +284,9 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     if (settings.tree == TreeType::Tight && !inner) {
         tight::appendTightTree(tree, object, interrupter, seconds);
         storeRadii(tree, interrupter);
-        if (settings.cover == Cover::Balls) containStoredLeaves(tree, interrupter);
+        if (settings.cover == Cover::Balls) {
+            containStoredLeaves(tree, radiiAroundCut(tree), interrupter);
+        }
         return tree;
     }
     const FlatAxis flat(tree.settings.flatAxis);
@@ -306,7 +317,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     }
     detail::timed("stored radii", interrupter, &context.seconds->tree, [&] {
         storeRadii(tree, interrupter);
-        if (containsLeaves(settings)) containStoredLeaves(tree, interrupter);
+        if (containsLeaves(settings)) containStoredLeaves(tree, tree.radius, interrupter);
     });
     return tree;
 }
