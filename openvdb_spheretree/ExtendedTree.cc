@@ -53,6 +53,7 @@ LevelNodes keepParents(
     std::vector<int32_t> nodeOfBall(coarse.balls.size(), -1);
     LevelNodes kept;
     kept.pyramidVoxels = coarse.layout.voxelCount();
+    kept.balls.reserve(std::size_t(std::count(isParent.begin(), isParent.end(), true)));
     for (std::size_t ball = 0; ball < nodeOfBall.size(); ++ball) {
         if (!isParent[ball]) continue;
         nodeOfBall[ball] = int32_t(kept.balls.size());

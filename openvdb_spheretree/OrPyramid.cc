@@ -199,8 +199,10 @@ void requireIncluding(
 
 Coord PyramidStep::parentVoxel(const Coord& ijk) const
 {
-    return Coord(floorDiv(ijk[0] - origin[0], factor), floorDiv(ijk[1] - origin[1], factor),
-        dim == 2 ? ijk[2] - origin[2] : floorDiv(ijk[2] - origin[2], factor));
+    const Coord from = ijk - origin;
+    if (factor == 2) return Coord(from[0] >> 1, from[1] >> 1, dim == 2 ? from[2] : from[2] >> 1);
+    return Coord(floorDiv(from[0], factor), floorDiv(from[1], factor),
+        dim == 2 ? from[2] : floorDiv(from[2], factor));
 }
 
 MaskTree::Ptr coarsen(const MaskTree& level, const PyramidStep& step, NullInterrupter* interrupter)
