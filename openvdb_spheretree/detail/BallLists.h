@@ -16,11 +16,18 @@ namespace detail {
 /// these lists is most of the work for small spheres.
 class BallLists {
 public:
+    /// Children along an axis, first and last.
+    struct Range {
+        int32_t first, last;
+    };
+
     /// @param origin, log2    the cell
     /// @param childLog2       its children's size; children are numbered x slowest, as in OpenVDB
+    /// @param alongX          those wanted; others get no ball
     void build(const std::vector<Ball>& balls, const int32_t* begin, const int32_t* end,
-        const openvdb::Coord& origin, int log2, int childLog2)
+        const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
     {
+        mAlongX = alongX;
         mOrigin = origin;
         mLog2 = log2;
         mChildLog2 = childLog2;
@@ -62,6 +69,8 @@ private:
             first[a] = (std::max(ball.lo[a], mOrigin[a]) - mOrigin[a]) >> mChildLog2;
             last[a] = (std::min(ball.hi[a], mOrigin[a] + (size - 1)) - mOrigin[a]) >> mChildLog2;
         }
+        first[0] = std::max(first[0], mAlongX.first);
+        last[0] = std::min(last[0], mAlongX.last);
         for (int32_t x = first[0]; x <= last[0]; ++x) {
             for (int32_t y = first[1]; y <= last[1]; ++y) {
                 for (int32_t z = first[2]; z <= last[2]; ++z) enterChild(ball, index, x, y, z);
@@ -86,6 +95,7 @@ private:
 
     openvdb::Coord mOrigin;
     int mLog2 = 0, mChildLog2 = 0;
+    Range mAlongX{0, INT32_MAX};
     std::vector<char> mFull;
     std::vector<int32_t> mOffset, mItems;
     std::vector<Entry> mEntries;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/BlockCanvas.h
-/// @brief The 128^3 voxels of a block as mask words, to draw balls into.
+/// @brief The 128^3 voxels of a block as mask words, to draw balls into, slab by slab.
 ///
-/// Words are kept by cells of 32^3 and leaves of 8^3, with a bit for leaves that are full: nothing
-/// is drawn to these.
+/// A slab is a quarter of the block, 32 voxels thick along x: threads may share a block, since slabs
+/// have no leaf in common, nor a word of the block's masks. Words are kept by cells of 32^3 and
+/// leaves of 8^3, with a bit for leaves that are full: nothing is drawn to these.
 
 #pragma once
 
@@ -20,6 +21,7 @@ class BlockCanvas {
 public:
     static constexpr int kLog2 = 7; ///< a block is OpenVDB's lower internal node
     static constexpr int kCellLog2 = 5, kLeafLog2 = 3;
+    static constexpr int kSlabs = 4, kSlabCells = 16;
 
     /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or
     /// more away along each axis.
@@ -31,8 +33,22 @@ public:
 
     BlockCanvas() : mWords(64 * 64 * 8, 0) {}
 
-    /// Starts on another block; the canvas must be clean.
-    void begin(const openvdb::Coord& origin) { mOrigin = origin; }
+    /// Starts on a slab of a block; the canvas must be clean.
+    void begin(const openvdb::Coord& origin, int slab)
+    {
+        mOrigin = origin;
+        mSlab = slab;
+    }
+    int slab() const { return mSlab; }
+    /// Its cells are [firstCell, endCell), x slowest.
+    int firstCell() const { return kSlabCells * mSlab; }
+    int endCell() const { return kSlabCells * (mSlab + 1); }
+    /// @return whether the ball's box reaches into the slab.
+    bool touches(const Ball& ball) const
+    {
+        const int32_t slab = (mOrigin[0] >> kCellLog2) + mSlab; // of all of space
+        return ball.lo[0] >> kCellLog2 <= slab && ball.hi[0] >> kCellLog2 >= slab;
+    }
 
     /// Has balls pass over a leaf, as if it were full.
     void exclude(int cell, int leaf) { mFull[cell] |= bit(leaf); }
@@ -45,7 +61,7 @@ public:
     bool isFull(int cell) const { return mFull[cell] == kAllOn; }
     bool isFull(int cell, int leaf) const { return mFull[cell] & bit(leaf); }
 
-    /// Draws a ball, wherever it is in the block.
+    /// Draws what of a ball is in the slab.
     void drawSmall(const Ball& ball)
     {
         if (BallStamps::has(ball)) {
@@ -78,7 +94,7 @@ public:
         return at(at(mOrigin, cell >> 4, cell >> 2 & 3, cell & 3, kCellLog2), leaf >> 4,
             leaf >> 2 & 3, leaf & 3, kLeafLog2);
     }
-    /// Wipes a cell, for the next block.
+    /// Wipes a cell, for the next slab.
     void clean(int cell)
     {
         for (int leaf = 0; leaf < 64; ++leaf) {
@@ -107,7 +123,7 @@ private:
         const auto isOut = [](int32_t i, int log2) { return uint32_t(i) >> log2 != 0; };
         for (int32_t i = 0; i <= ball.hi[0] - ball.lo[0]; ++i) {
             const int32_t x = ball.lo[0] + i - mOrigin[0];
-            if (isOut(x, kLog2)) continue;
+            if (x >> kCellLog2 != mSlab) continue;
             for (int n = 0; n < 4; ++n) {
                 const int32_t y = y0 + (n >> 1), z = z0 + (n & 1);
                 const uint64_t word = stamp.slices[i][n];
@@ -122,6 +138,7 @@ private:
     /// Draws a row of z, which may be empty or cross leaves; coordinates from the block's corner.
     void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
     {
+        if (x >> kCellLog2 != mSlab) return;
         for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) {
             const int cell = inFours(x >> 5, y >> 5, z >> 5);
             const int leaf = inFours(x >> 3, y >> 3, z >> 3);
@@ -132,6 +149,7 @@ private:
     }
 
     openvdb::Coord mOrigin;
+    int mSlab = 0;
     BallStamps mStamps;
     std::vector<uint64_t> mWords;
     uint64_t mFull[64] = {}, mDrawn[64] = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/BlockPainter.h
-/// @brief Draws balls into a block of 128^3 voxels.
+/// @brief Draws balls into a slab of a block of 128^3 voxels.
 ///
 /// 1. Balls smaller than a leaf are drawn at once, as stamps or row by row.
 /// 2. The others are sorted into cells of 32^3, and from there into leaves; a cell or leaf inside
@@ -8,7 +8,7 @@
 ///    others are left out (PowerCull.h).
 /// 3. What is left is drawn leaf by leaf, on mask words.
 ///
-/// Kept from block to block by a thread, as its memory is reused.
+/// Kept from slab to slab by a thread, as its memory is reused.
 
 #pragma once
 
@@ -23,18 +23,19 @@ namespace detail {
 
 class BlockPainter {
 public:
-    /// The block must have been begun on the canvas.
+    /// The slab must have been begun on the canvas.
     void draw(const std::vector<Ball>& balls, const std::vector<int32_t>& ofBlock)
     {
         mLarge.clear();
         for (const int32_t i : ofBlock) {
+            if (!canvas.touches(balls[i])) continue;
             if (BlockCanvas::isSmall(balls[i])) canvas.drawSmall(balls[i]);
             else mLarge.push_back(i);
         }
         if (mLarge.empty()) return;
         mCells.build(balls, mLarge.data(), mLarge.data() + mLarge.size(), canvas.origin(),
-            BlockCanvas::kLog2, BlockCanvas::kCellLog2);
-        for (int cell = 0; cell < 64; ++cell) drawCell(balls, cell);
+            BlockCanvas::kLog2, BlockCanvas::kCellLog2, {canvas.slab(), canvas.slab()});
+        for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) drawCell(balls, cell);
     }
 
     BlockCanvas canvas;

@@ -4,7 +4,7 @@
 ///
 /// 1. clipSpheres, sortLargerFirst: the spheres' boxes, clipped; empty ones dropped
 /// 2. sortIntoRootCells, sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
-/// 3. drawBlock, in parallel over 128^3 cells: see BlockPainter.h
+/// 3. drawSlab, in parallel over quarters of 128^3 cells: see BlockPainter.h
 ///
 /// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
 /// descended; a leaf does when it is full. Clipping needs no step of its own, since every sphere's
@@ -37,7 +37,7 @@ struct Block {
     Coord origin;
     bool full = false;
     std::vector<int32_t> balls;
-    std::unique_ptr<BlockNode> node; ///< stays null if the block turns out empty
+    std::unique_ptr<BlockNode> node; ///< of its own voxels; null if it is full
 };
 
 struct RootCell {
@@ -156,7 +156,7 @@ std::vector<Block> sortIntoBlocks(const RootCells& cells, const std::vector<Ball
 void excludeUnwanted(BlockCanvas& canvas, const Wanted& wanted)
 {
     if (wanted.everywhere()) return;
-    for (int cell = 0; cell < 64; ++cell) {
+    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) {
         for (int leaf = 0; leaf < 64; ++leaf) {
             if (!wanted.has<LeafNode>(canvas.leafOrigin(cell, leaf))) canvas.exclude(cell, leaf);
         }
@@ -173,12 +173,11 @@ bool allOff(const uint64_t words[8])
     return std::all_of(words, words + 8, [](uint64_t word) { return word == 0; });
 }
 
-/// The canvas as a node; null if it is empty. A full leaf is a tile.
-std::unique_ptr<BlockNode> toNode(
-    const BlockCanvas& canvas, const Coord& blockOrigin, const Wanted& wanted)
+/// Moves the slab on the canvas to its node. A full leaf is a tile. Slabs of a node have no word of
+/// its masks in common, so several threads may do this.
+void storeSlab(const BlockCanvas& canvas, const Wanted& wanted, BlockNode& node)
 {
-    auto node = std::make_unique<BlockNode>(blockOrigin, false, false);
-    for (int cell = 0; cell < 64; ++cell) {
+    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) {
         for (int l = 0; l < 64; ++l) {
             const bool full = canvas.full(cell) >> l & 1, drawn = canvas.drawn(cell) >> l & 1;
             if (!full && !drawn) continue;
@@ -186,29 +185,46 @@ std::unique_ptr<BlockNode> toNode(
             if (!wanted.has<LeafNode>(origin)) continue;
             const uint64_t* words = canvas.words(cell, l);
             if (full || allOn(words)) {
-                node->addTile(BlockNode::coordToOffset(origin), true, true);
+                node.addTile(BlockNode::coordToOffset(origin), true, true);
                 continue;
             }
             if (allOff(words)) continue; // a sphere came near, but holds no voxel of it
             auto leaf = std::make_unique<LeafNode>(origin);
             for (int x = 0; x < 8; ++x) leaf->getValueMask().getWord<uint64_t>(x) = words[x];
-            node->addLeaf(leaf.release());
+            node.addLeaf(leaf.release());
         }
     }
-    if (node->isChildMaskOff() && node->isValueMaskOff()) return nullptr;
-    return node;
 }
 
-void drawBlock(
-    Block& block, const std::vector<Ball>& balls, const Wanted& wanted, BlockPainter& painter)
+void drawSlab(const Block& block, int slab, const std::vector<Ball>& balls, const Wanted& wanted,
+    BlockPainter& painter)
 {
     BlockCanvas& canvas = painter.canvas;
-    canvas.begin(block.origin);
+    canvas.begin(block.origin, slab);
     excludeUnwanted(canvas, wanted);
     painter.draw(balls, block.balls);
-    block.node = toNode(canvas, block.origin, wanted);
-    for (int cell = 0; cell < 64; ++cell) canvas.clean(cell);
-    block.balls = {}; // no longer needed, and there may be many
+    storeSlab(canvas, wanted, *block.node);
+    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) canvas.clean(cell);
+}
+
+void drawBlocks(std::vector<Block>& blocks, const std::vector<Ball>& balls, const Wanted& wanted,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    constexpr std::size_t kSlabs = BlockCanvas::kSlabs;
+    parallelFor(blocks.size(), interrupter, [&](std::size_t i) {
+        Block& block = blocks[i];
+        if (!block.full) block.node = std::make_unique<BlockNode>(block.origin, false, false);
+    });
+    parallelForWithScratch<BlockPainter>(
+        kSlabs * blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
+            const Block& block = blocks[i / kSlabs];
+            if (!block.full) drawSlab(block, int(i % kSlabs), balls, wanted, painter);
+        });
+}
+
+bool isEmpty(const Block& block)
+{
+    return !block.full && block.node->isChildMaskOff() && block.node->isValueMaskOff();
 }
 
 MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
@@ -219,7 +235,7 @@ MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
     }
     RootCellNode* parent = nullptr; // blocks of a root cell stand together
     for (Block& block : blocks) {
-        if (!block.full && !block.node) continue;
+        if (isEmpty(block)) continue;
         const Coord origin = block.origin & ~((1 << kRootCellLog2) - 1);
         if (!parent || parent->origin() != origin) {
             parent = new RootCellNode(origin, false, false);
@@ -245,10 +261,7 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Spher
     sortLargerFirst(balls);
     const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
     std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);
-    parallelForWithScratch<BlockPainter>(
-        blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
-            if (!blocks[i].full) drawBlock(blocks[i], balls, wanted, painter);
-        });
+    drawBlocks(blocks, balls, wanted, interrupter);
     return assemble(cells, blocks);
 }
 
