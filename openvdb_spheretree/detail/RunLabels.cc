@@ -42,7 +42,7 @@ namespace {
 template <typename Step>
 LeafMask repeatsOf(const Step* steps, const Step* before, const LeafMask& mask)
 {
-    LeafMask repeats = stepBits(steps, Axis::X, mask).asBefore;
+    LeafMask repeats = endsAsBefore(steps, Axis::X, mask);
     if (!before) return repeats;
     const Step* last = before + 7 * 64;
     for (int lane = 0; lane < 64; ++lane) {

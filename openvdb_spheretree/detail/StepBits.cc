@@ -49,8 +49,10 @@ HWY_INLINE uint64_t EndAsBefore(const T* row, const T* before)
     });
 }
 
-template <typename T>
-StepBits Bits(const T* steps, Axis axis, const LeafMask& mask)
+/// Calls visit(x, row, same) for words of @a mask with a voxel: their 64 steps, and which end as the
+/// step before them along the axis does.
+template <typename T, typename Visit>
+HWY_INLINE void ForEachWord(const T* steps, Axis axis, const LeafMask& mask, const Visit& visit)
 {
     // Voxels at the leaf's own border have none before them; reading there stays in `firstWord`.
     constexpr std::size_t kMargin = 64;
@@ -60,27 +62,41 @@ StepBits Bits(const T* steps, Axis axis, const LeafMask& mask)
     const std::size_t stride = std::size_t(64) >> (3 * int(axis));
     constexpr uint64_t kNotFirst[3] = {
         ~uint64_t(0), ~uint64_t(0xff), ~uint64_t(0x0101010101010101)};
-    StepBits bits;
     for (std::size_t x = 0; x < 8; ++x) {
         if (mask[x] == 0) continue;
         const T* row = x == 0 ? firstWord + kMargin : steps + 64 * x;
-        bits.stays[x] = EqualTo(row, 0);
-        bits.asBefore[x] = EndAsBefore(row, row - stride) & kNotFirst[int(axis)];
-        bits.forward[x] = EqualTo(row, 1);
-        bits.back[x] = EqualTo(row, -1);
+        const bool first = axis == Axis::X && x == 0;
+        const uint64_t same = first ? 0 : EndAsBefore(row, row - stride) & kNotFirst[int(axis)];
+        visit(x, row, same);
     }
-    if (axis == Axis::X) bits.asBefore[0] = 0;
-    return bits;
 }
 
 template <typename T>
-LeafMask Zeros(const T* steps, const LeafMask& mask)
+LeafMask AsBefore(const T* steps, Axis axis, const LeafMask& mask)
 {
-    LeafMask zeros{};
-    for (int x = 0; x < 8; ++x) {
-        if (mask[x] != 0) zeros[x] = mask[x] & EqualTo(steps + at(x, 0), 0);
-    }
-    return zeros;
+    LeafMask result;
+    ForEachWord(
+        steps, axis, mask, [&](std::size_t x, const T*, uint64_t same) { result[x] = same; });
+    return result;
+}
+
+/// The voxels of word x of a mask moved on by one along an axis.
+HWY_INLINE uint64_t MovedOn(const LeafMask& mask, Axis axis, std::size_t x)
+{
+    if (axis == Axis::X) return x > 0 ? mask[x - 1] : 0;
+    return mask[x] << (axis == Axis::Y ? 8 : 1);
+}
+
+template <typename T>
+FreshSteps Fresh(const T* steps, Axis axis, const LeafMask& mask)
+{
+    FreshSteps fresh{};
+    ForEachWord(steps, axis, mask, [&](std::size_t x, const T* row, uint64_t same) {
+        const uint64_t own = mask[x] & ~(same & MovedOn(mask, axis, x));
+        fresh.stay[x] = own & EqualTo(row, 0);
+        fresh.go[x] = own & ~fresh.stay[x];
+    });
+    return fresh;
 }
 
 template <typename T>
@@ -99,8 +115,6 @@ void MarkEnds(const T* steps, const uint64_t* on, int rows, uint64_t* marks)
     }
 }
 
-LeafMask Zeros8(const int8_t* steps, const LeafMask& mask) { return Zeros(steps, mask); }
-LeafMask Zeros16(const int16_t* steps, const LeafMask& mask) { return Zeros(steps, mask); }
 void MarkEnds8(const int8_t* steps, const uint64_t* on, int rows, uint64_t* marks)
 {
     MarkEnds(steps, on, rows, marks);
@@ -109,13 +123,21 @@ void MarkEnds16(const int16_t* steps, const uint64_t* on, int rows, uint64_t* ma
 {
     MarkEnds(steps, on, rows, marks);
 }
-StepBits Bits8(const int8_t* steps, Axis axis, const LeafMask& mask)
+LeafMask AsBefore8(const int8_t* steps, Axis axis, const LeafMask& mask)
 {
-    return Bits(steps, axis, mask);
+    return AsBefore(steps, axis, mask);
 }
-StepBits Bits16(const int16_t* steps, Axis axis, const LeafMask& mask)
+LeafMask AsBefore16(const int16_t* steps, Axis axis, const LeafMask& mask)
 {
-    return Bits(steps, axis, mask);
+    return AsBefore(steps, axis, mask);
+}
+FreshSteps Fresh8(const int8_t* steps, Axis axis, const LeafMask& mask)
+{
+    return Fresh(steps, axis, mask);
+}
+FreshSteps Fresh16(const int16_t* steps, Axis axis, const LeafMask& mask)
+{
+    return Fresh(steps, axis, mask);
 }
 
 } // namespace HWY_NAMESPACE
@@ -127,29 +149,29 @@ HWY_AFTER_NAMESPACE();
 namespace openvdb_spheretree {
 namespace detail {
 
-HWY_EXPORT(Bits8);
-HWY_EXPORT(Bits16);
-HWY_EXPORT(Zeros8);
-HWY_EXPORT(Zeros16);
+HWY_EXPORT(AsBefore8);
+HWY_EXPORT(AsBefore16);
+HWY_EXPORT(Fresh8);
+HWY_EXPORT(Fresh16);
 HWY_EXPORT(MarkEnds8);
 HWY_EXPORT(MarkEnds16);
 
-StepBits stepBits(const int8_t* steps, Axis axis, const LeafMask& mask)
+LeafMask endsAsBefore(const int8_t* steps, Axis axis, const LeafMask& mask)
 {
-    return HWY_DYNAMIC_DISPATCH(Bits8)(steps, axis, mask);
+    return HWY_DYNAMIC_DISPATCH(AsBefore8)(steps, axis, mask);
 }
-StepBits stepBits(const int16_t* steps, Axis axis, const LeafMask& mask)
+LeafMask endsAsBefore(const int16_t* steps, Axis axis, const LeafMask& mask)
 {
-    return HWY_DYNAMIC_DISPATCH(Bits16)(steps, axis, mask);
+    return HWY_DYNAMIC_DISPATCH(AsBefore16)(steps, axis, mask);
 }
 
-LeafMask zeroSteps(const int8_t* steps, const LeafMask& mask)
+FreshSteps freshSteps(const int8_t* steps, Axis axis, const LeafMask& mask)
 {
-    return HWY_DYNAMIC_DISPATCH(Zeros8)(steps, mask);
+    return HWY_DYNAMIC_DISPATCH(Fresh8)(steps, axis, mask);
 }
-LeafMask zeroSteps(const int16_t* steps, const LeafMask& mask)
+FreshSteps freshSteps(const int16_t* steps, Axis axis, const LeafMask& mask)
 {
-    return HWY_DYNAMIC_DISPATCH(Zeros16)(steps, mask);
+    return HWY_DYNAMIC_DISPATCH(Fresh16)(steps, axis, mask);
 }
 
 void markRowEnds(const int8_t* steps, const uint64_t* on, int rows, uint64_t* marks)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/StepBits.h
-/// @brief Steps of power labels as mask words: which need no walking, and where they lead.
+/// @brief Steps of power labels as mask words: which are worth following, and where they lead.
 
 #pragma once
 
@@ -12,21 +12,21 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-struct StepBits {
-    LeafMask stays;    ///< the step is 0: the voxel is its own end
-    LeafMask asBefore; ///< ends where the step of the voxel before it along the axis ends
-    LeafMask forward;  ///< the step is 1
-    LeafMask back;     ///< the step is -1
+/// @return voxels whose step ends where that of the voxel before them along the axis ends, in the
+///         same leaf. Words of @a mask without a voxel that is on are left undefined.
+/// @param steps  512 steps of a leaf along @a axis, in leaf order
+LeafMask endsAsBefore(const int8_t* steps, Axis axis, const LeafMask& mask);
+LeafMask endsAsBefore(const int16_t* steps, Axis axis, const LeafMask& mask);
+
+/// Voxels with an end of their own: no voxel before them along the axis has it.
+struct FreshSteps {
+    LeafMask stay; ///< the step is 0: the voxel is its end
+    LeafMask go;
 };
 
-/// @param steps  512 steps of a leaf along @a axis, in leaf order
-/// @param mask   words without a voxel that is on are left undefined
-StepBits stepBits(const int8_t* steps, Axis axis, const LeafMask& mask);
-StepBits stepBits(const int16_t* steps, Axis axis, const LeafMask& mask);
-
-/// @return the voxels of @a mask whose step is 0: stepBits().stays of those that are on.
-LeafMask zeroSteps(const int8_t* steps, const LeafMask& mask);
-LeafMask zeroSteps(const int16_t* steps, const LeafMask& mask);
+/// @return those of @a mask, held against others of it in the same leaf.
+FreshSteps freshSteps(const int8_t* steps, Axis axis, const LeafMask& mask);
+FreshSteps freshSteps(const int16_t* steps, Axis axis, const LeafMask& mask);
 
 /// @brief Marks where steps from row to row (LeafRows.h) lead.
 /// @param on     the lanes of each row that have a step

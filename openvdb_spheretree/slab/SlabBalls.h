@@ -118,16 +118,12 @@ private:
         const uint32_t leaf = run.leaves[i], place = leaf - firstLeaf;
         const std::size_t first = std::size_t(place) * kLeafVoxels;
         const auto* steps = ways.steps + first;
-        const LeafMask stay = detail::zeroSteps(steps, ways.marks[place]);
-        LeafMask go;
-        for (uint32_t x = 0; x < 8; ++x) {
-            go[x] = ways.marks[place][x] & ~stay[x];
-            ends.marks[place][x] |= stay[x];
-        }
-        visitOn(
-            stay, [&](uint32_t offset) { ends.values[first + offset] = valueOf(leaf, offset); });
+        const detail::FreshSteps fresh = detail::freshSteps(steps, ways.axis, ways.marks[place]);
+        for (uint32_t x = 0; x < 8; ++x) ends.marks[place][x] |= fresh.stay[x];
+        visitOn(fresh.stay,
+            [&](uint32_t offset) { ends.values[first + offset] = valueOf(leaf, offset); });
         const int shift = 6 - 3 * int(ways.axis);
-        visitOn(go, [&](uint32_t offset) {
+        visitOn(fresh.go, [&](uint32_t offset) {
             const int here = int(offset) >> shift & 7, end = here + steps[offset];
             const uint32_t there = run.leaves[int(i) + (end >> 3)] - firstLeaf;
             const uint32_t at = uint32_t(int(offset) + ((end & 7) - here) * (1 << shift));

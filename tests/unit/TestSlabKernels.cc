@@ -216,26 +216,47 @@ void expectRowEnds(int most, double density, Random& random)
     ASSERT_EQ(marks, expected);
 }
 
+/// The steps that are worth following, one by one.
 template <typename Step>
-void expectZeros(Random& random)
+detail::FreshSteps freshOneByOne(
+    const std::array<Step, kLeafVoxels>& steps, Axis axis, LeafMask mask)
 {
-    std::array<Step, kLeafVoxels> steps;
-    LeafMask mask{}, expected{};
-    for (int k = 0; k < kLeafVoxels; ++k) {
-        steps[k] = Step(random.between(-1, 1) * random.between(0, 127));
-        if (k >> 6 == 3 || random.chance(0.5)) continue;
-        mask[k >> 6] |= uint64_t(1) << (k & 63);
-        if (steps[k] == 0) expected[k >> 6] |= uint64_t(1) << (k & 63);
+    const uint32_t shift = 6 - 3 * uint32_t(axis);
+    detail::FreshSteps fresh{};
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+        if (!isOn(mask, k)) continue;
+        const uint32_t before = k - (1u << shift);
+        const bool hasBefore = (k >> shift & 7) > 0 && isOn(mask, before);
+        if (hasBefore && steps[before] == steps[k] + 1) continue;
+        (steps[k] == 0 ? fresh.stay : fresh.go)[k >> 6] |= uint64_t(1) << (k & 63);
     }
-    ASSERT_EQ(detail::zeroSteps(steps.data(), mask), expected);
+    return fresh;
 }
 
-TEST(RowEnds, StepsOfZeroEndWhereTheyStart)
+template <typename Step>
+void expectFresh(Axis axis, Random& random)
+{
+    std::array<Step, kLeafVoxels> steps;
+    LeafMask mask{};
+    for (int k = 0; k < kLeafVoxels; ++k) {
+        steps[k] = Step(random.chance(0.1) ? random.between(-128, 127) : random.between(-1, 1));
+        if (k >> 6 == 3 || random.chance(0.3)) continue;
+        mask[k >> 6] |= uint64_t(1) << (k & 63);
+    }
+    const detail::FreshSteps actual = detail::freshSteps(steps.data(), axis, mask);
+    const detail::FreshSteps expected = freshOneByOne(steps, axis, mask);
+    ASSERT_EQ(actual.stay, expected.stay);
+    ASSERT_EQ(actual.go, expected.go);
+}
+
+TEST(StepEnds, AreFollowedOnceWhereNeighboursShareThem)
 {
     Random random(5);
-    for (int i = 0; i < 10; ++i) {
-        ASSERT_NO_FATAL_FAILURE(expectZeros<int8_t>(random));
-        ASSERT_NO_FATAL_FAILURE(expectZeros<int16_t>(random));
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        for (int i = 0; i < 10; ++i) {
+            ASSERT_NO_FATAL_FAILURE(expectFresh<int8_t>(axis, random));
+            ASSERT_NO_FATAL_FAILURE(expectFresh<int16_t>(axis, random));
+        }
     }
 }
 
