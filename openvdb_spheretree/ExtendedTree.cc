@@ -109,19 +109,26 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<NodeChildren>& 
     const auto centerOf = [&](int k, int32_t node) {
         return frames[k].center(levels[k].balls[node].center);
     };
+    const Distance& distance = context.settings.dist;
+    const auto widthOf = [&](const MedialBall& leaf) { // twice the radius, nearly
+        return distance.isEuclidean() ? 2 * std::sqrt(double(leaf.radiusSq - 1))
+                                      : std::sqrt(double(frames[0].radius(leaf.radiusSq).a));
+    };
     nodes.radius.resize(nodes.balls.size());
     nodes.coverSq.resize(nodes.balls.size());
     const auto fit = [&](std::size_t t, FarthestLeaves& leaves) {
         const Doubled center = centerOf(level, int32_t(t));
         const auto sumOf = [&](int32_t leaf) -> RootSum {
-            const int64_t apart = distanceSq(centerOf(0, leaf), center, context.settings.dist);
+            const int64_t apart = distanceSq(centerOf(0, leaf), center, distance);
             return {apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // it has no b
         };
         const auto reach = [&](int k, int32_t node) {
-            if (k == 0) return LargestSum::nearly(sumOf(node));
-            const int64_t apart = distanceSq(centerOf(k, node), center, context.settings.dist);
-            const double sum = std::sqrt(double(apart)) + 2 * levels[k].radius[node];
-            return sum * (1 + LargestSum::kDoubt);
+            const Doubled c = centerOf(k, node);
+            const double apart = distance.length(
+                double(c.x - center.x), double(c.y - center.y), double(c.z - center.z));
+            const double width =
+                k == 0 ? widthOf(levels[0].balls[node]) : 2 * levels[k].radius[node];
+            return (apart + width) * (1 + LargestSum::kDoubt);
         };
         LargestSum largest;
         leaves.search(level, int32_t(t), -1, reach, [&](int32_t leaf) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/NodeChildren.h
-/// @brief The way down a tree: nodes of a level by their parent, and the leaf balls below a node that
-/// reach farthest.
+/// @brief The way down a tree: nodes of a level by their parent, and the leaf balls below a node
+/// that reach farthest.
 
 #pragma once
 
@@ -69,6 +69,7 @@ private:
     template <typename Reach, typename Visit>
     void descend(int level, int32_t node, const Reach& reach, const Visit& visit)
     {
+        if (level == 1) return lookAtLeaves(node, reach, visit);
         // The child that reaches farthest comes first: its leaf balls rule out most others.
         const std::size_t begin = mChildren.size();
         std::size_t farthest = begin;
@@ -82,18 +83,33 @@ private:
         if (begin < end) std::swap(mChildren[begin], mChildren[farthest]);
         for (std::size_t i = begin; i < end; ++i) {
             const Child child = mChildren[i]; // the list may move
-            if (child.reach <= mMost) continue;
-            if (level == 1) {
-                mMost = visit(child.node);
-            } else {
-                descend(level - 1, child.node, reach, visit);
-            }
+            if (child.reach > mMost) descend(level - 1, child.node, reach, visit);
         }
         mChildren.resize(begin);
     }
 
+    /// The leaf that reaches farthest, then those that the visit leaves in doubt.
+    template <typename Reach, typename Visit>
+    void lookAtLeaves(int32_t node, const Reach& reach, const Visit& visit)
+    {
+        const NodeChildren::Range leaves = mBelow[0].of(node);
+        const std::size_t count = std::size_t(leaves.end() - leaves.begin());
+        if (mReaches.size() < count) mReaches.resize(count);
+        std::size_t farthest = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            mReaches[i] = reach(0, leaves.begin()[i]);
+            if (mReaches[i] > mReaches[farthest]) farthest = i;
+        }
+        if (count == 0 || mReaches[farthest] <= mMost) return;
+        mMost = visit(leaves.begin()[farthest]);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves.begin()[i]);
+        }
+    }
+
     const std::vector<NodeChildren>& mBelow;
     std::vector<Child> mChildren; ///< those that are waiting, of all levels on the way
+    std::vector<double> mReaches; ///< of the leaves of one node
     double mMost = 0;
 };
 
