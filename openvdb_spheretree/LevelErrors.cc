@@ -54,13 +54,13 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
         level.errorUnknown = "the object is empty";
         return;
     }
-    const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
-    if (detail::areMedialBalls(spheres, tree, level, object.mask, object.voxels, interrupter)) {
+    if (detail::areMedialBalls(tree, level, object.mask, object.voxels, interrupter)) {
         LevelError none;
         none.covered = object.voxels;
         level.error = none;
         return;
     }
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     const openvdb::CoordBBox box = levelBox(tree, spheres);
     const SphereMetric metric = metricOf(tree);
     if (crossedRows(spheres, box, metric) > double(kMaxUnionRows)) {

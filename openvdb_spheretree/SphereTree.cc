@@ -115,8 +115,8 @@ void placeBalls(
     std::sort(tree.dag.begin(), tree.dag.end());
 }
 
-/// Where the balls are in the frame of level 0, and how large.
-void measureBalls(SphereTree& tree, const std::vector<LevelNodes>& levels,
+/// Where the balls are in the frame of level 0, and how large. Levels are used up.
+void measureBalls(SphereTree& tree, std::vector<LevelNodes> levels,
     openvdb::util::NullInterrupter* interrupter)
 {
     const std::size_t count = tree.ijk.size();
@@ -125,7 +125,7 @@ void measureBalls(SphereTree& tree, const std::vector<LevelNodes>& levels,
         [&] { detail::resizeLarge(tree.coverSq, count); });
     const int unit = tree.settings.dist.unit();
     for (const SphereTreeLevel& range : tree.levels) {
-        const LevelNodes& nodes = levels[range.level];
+        const LevelNodes nodes = std::move(levels[range.level]);
         const LevelFrame frame(range.level, tree.origin, tree.settings);
         detail::parallelFor(std::size_t(range.size()), interrupter, [&](std::size_t i) {
             const std::size_t id = std::size_t(range.begin) + i;
@@ -305,8 +305,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         : detail::extendedLevels(std::move(voxels), context);
     detail::timed("nodes of the tree", interrupter, &context.seconds->tree, [&] {
         placeBalls(tree, levels, interrupter);
-        measureBalls(tree, levels, interrupter);
-        levels.clear();
+        measureBalls(tree, std::move(levels), interrupter);
     });
     if (settings.center == Center::Miniball) {
         detail::timed("miniballs", interrupter, &context.seconds->tree,

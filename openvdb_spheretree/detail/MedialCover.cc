@@ -3,8 +3,9 @@
 
 #include "../LevelFrame.h"
 #include "../MedialLevel.h"
+#include "Parallel.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace openvdb_spheretree {
@@ -16,43 +17,45 @@ bool mayBeMedial(const SphereTree& tree, const SphereTreeLevel& level)
 {
     const SphereTreeSettings& settings = tree.settings;
     return level.level == 0 && settings.dim == 3 && settings.dist.isEuclidean()
-        && settings.tree != TreeType::Tight && settings.side == Side::Outer;
+        && settings.tree != TreeType::Tight && settings.side == Side::Outer
+        && tree.subdivision == 2;
 }
 
 /// @return the rows of voxels that are drawn, each ball by itself.
-double drawnRows(const std::vector<ExactSphere>& spheres, const SphereMetric& metric)
+double drawnRows(const SphereTree& tree, const SphereTreeLevel& level)
 {
-    const double unitSq = double(metric.subdivision) * metric.subdivision;
     double rows = 0;
-    for (const ExactSphere& sphere : spheres) rows += 1 + M_PI / unitSq * double(sphere.coverSq);
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        rows += 1 + M_PI / 4 * double(tree.coverSq[id]);
+    }
     return rows;
 }
 
-bool isBall(const ExactSphere& sphere, const MedialBall& ball, const LevelFrame& frame)
+bool isBall(const SphereTree& tree, int32_t id, const MedialBall& ball, const LevelFrame& frame)
 {
-    const Doubled center = frame.center(ball.center);
-    return sphere.center[0] == center.x && sphere.center[1] == center.y
-        && sphere.center[2] == center.z && sphere.coverSq == frame.radius(ball.radiusSq).coverSq();
+    return tree.center[id] == frame.center(ball.center).halved()
+        && tree.coverSq[id] == frame.radius(ball.radiusSq).coverSq();
 }
 
 } // namespace
 
-bool areMedialBalls(const std::vector<ExactSphere>& spheres, const SphereTree& tree,
-    const SphereTreeLevel& level, const openvdb::MaskTree& object, int64_t voxels,
-    openvdb::util::NullInterrupter* interrupter)
+bool areMedialBalls(const SphereTree& tree, const SphereTreeLevel& level,
+    const openvdb::MaskTree& object, int64_t voxels, openvdb::util::NullInterrupter* interrupter)
 {
-    const SphereMetric metric = metricOf(tree);
-    if (!mayBeMedial(tree, level) || metric.subdivision != 2) return false;
     constexpr double kRowVoxels = 4; // a row takes as long as so many voxels of the transforms
-    if (kRowVoxels * drawnRows(spheres, metric) < double(voxels)) return false;
+    if (!mayBeMedial(tree, level)) return false;
+    if (kRowVoxels * drawnRows(tree, level) < double(voxels)) return false;
     LevelWants wants;
     wants.memory = tree.settings.memory;
     const MedialLevel medial(object, 3, tree.settings.dist, interrupter, nullptr, wants);
+    if (medial.balls.size() != std::size_t(level.size())) return false;
     const LevelFrame frame(0, tree.origin, tree.settings);
-    return std::equal(spheres.begin(), spheres.end(), medial.balls.begin(), medial.balls.end(),
-        [&](const ExactSphere& sphere, const MedialBall& ball) {
-            return isBall(sphere, ball, frame);
-        });
+    std::atomic<bool> same{true};
+    parallelFor(medial.balls.size(), interrupter, [&](std::size_t i) {
+        if (isBall(tree, level.begin + int32_t(i), medial.balls[i], frame)) return;
+        same.store(false, std::memory_order_relaxed);
+    });
+    return same;
 }
 
 } // namespace detail

@@ -10,24 +10,22 @@
 
 #pragma once
 
-#include "../SphereUnion.h"
+#include "../SphereTree.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <vector>
+#include <cstdint>
 
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @return whether @a spheres are the medial balls of @a object. False as well where that is not
-///         worth finding out: few balls, which are drawn faster than it takes.
-/// @param spheres  of @a level, by metricOf(tree)
-/// @param voxels   of the object
+/// @return whether the spheres of @a level are the medial balls of @a object. False as well where
+///         that is not worth finding out: few balls, which are drawn faster than it takes.
+/// @param voxels  of the object
 /// @throw as buildSphereTree()
-bool areMedialBalls(const std::vector<ExactSphere>& spheres, const SphereTree& tree,
-    const SphereTreeLevel& level, const openvdb::MaskTree& object, int64_t voxels,
-    openvdb::util::NullInterrupter* interrupter);
+bool areMedialBalls(const SphereTree& tree, const SphereTreeLevel& level,
+    const openvdb::MaskTree& object, int64_t voxels, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace detail
 } // namespace openvdb_spheretree

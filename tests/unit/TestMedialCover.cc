@@ -4,7 +4,6 @@
 
 #include <openvdb_spheretree/LevelErrors.h>
 #include <openvdb_spheretree/SphereTree.h>
-#include <openvdb_spheretree/SphereUnion.h>
 #include <openvdb_spheretree/detail/MaskDifference.h>
 #include <openvdb_spheretree/detail/MedialCover.h>
 
@@ -26,12 +25,10 @@ BoolGrid::Ptr solid()
     return object;
 }
 
-bool areMedial(
-    const std::vector<ExactSphere>& spheres, const SphereTree& tree, const BoolGrid& object)
+bool areMedial(const SphereTree& tree, const BoolGrid& object)
 {
     const openvdb::MaskTree mask = detail::maskOf(object.tree());
-    return detail::areMedialBalls(
-        spheres, tree, tree.levels[0], mask, detail::countVoxels(mask), nullptr);
+    return detail::areMedialBalls(tree, tree.levels[0], mask, detail::countVoxels(mask), nullptr);
 }
 
 class MedialCover : public ::testing::Test {
@@ -51,7 +48,7 @@ TEST_F(MedialCover, IsThatOfLevelZero)
     const BoolGrid::Ptr object = solid();
     for (const TreeType type : {TreeType::Extended, TreeType::Reversible}) {
         SphereTree tree = treeOf(*object, type);
-        EXPECT_TRUE(areMedial(levelSpheres(tree, tree.levels[0]), tree, *object));
+        EXPECT_TRUE(areMedial(tree, *object));
         computeLevelErrors(tree, *object);
         ASSERT_TRUE(tree.levels[0].error);
         EXPECT_EQ(tree.levels[0].error->covered, int64_t(object->activeVoxelCount()));
@@ -65,21 +62,19 @@ TEST_F(MedialCover, EverySphereCounts)
 {
     const BoolGrid::Ptr object = solid();
     const SphereTree tree = treeOf(*object, TreeType::Extended);
-    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels[0]);
-    ASSERT_GT(spheres.size(), 20u);
-    for (std::size_t i = 0; i < spheres.size(); i += 7) {
-        std::vector<ExactSphere> other = spheres;
-        other[i].coverSq += 1;
-        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
-        other[i] = spheres[i];
-        other[i].center[i % 3] += 1;
-        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
-        other.erase(other.begin() + std::ptrdiff_t(i));
-        EXPECT_FALSE(areMedial(other, tree, *object)) << i;
+    const SphereTreeLevel& level = tree.levels[0];
+    ASSERT_GT(level.size(), 20);
+    for (int32_t id = level.begin; id < level.end; id += 7) {
+        SphereTree other = tree;
+        other.coverSq[id] += 1;
+        EXPECT_FALSE(areMedial(other, *object)) << id;
+        other = tree;
+        other.center[id][id % 3] += 0.5;
+        EXPECT_FALSE(areMedial(other, *object)) << id;
     }
-    std::vector<ExactSphere> more = spheres;
-    more.push_back(spheres.back());
-    EXPECT_FALSE(areMedial(more, tree, *object));
+    SphereTree fewer = tree;
+    fewer.levels[0].end -= 1;
+    EXPECT_FALSE(areMedial(fewer, *object));
 }
 
 TEST_F(MedialCover, EveryVoxelOfTheObjectCounts)
@@ -87,7 +82,7 @@ TEST_F(MedialCover, EveryVoxelOfTheObjectCounts)
     const BoolGrid::Ptr object = solid();
     SphereTree tree = treeOf(*object, TreeType::Extended);
     object->tree().setValueOff(Coord(0, 10, 10));
-    EXPECT_FALSE(areMedial(levelSpheres(tree, tree.levels[0]), tree, *object));
+    EXPECT_FALSE(areMedial(tree, *object));
     computeLevelErrors(tree, *object);
     ASSERT_TRUE(tree.levels[0].error);
     EXPECT_EQ(tree.levels[0].error->excess, 1);
@@ -104,13 +99,13 @@ TEST_F(MedialCover, OtherLevelsAndTreesAreDrawn)
 {
     const BoolGrid::Ptr object = solid();
     const SphereTree tree = treeOf(*object, TreeType::Extended);
-    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels[1]);
     const openvdb::MaskTree mask = detail::maskOf(object->tree());
-    EXPECT_FALSE(detail::areMedialBalls(spheres, tree, tree.levels[1], mask, 1, nullptr));
+    EXPECT_FALSE(detail::areMedialBalls(tree, tree.levels[1], mask, 1, nullptr));
 
     // One ball is drawn before any transform is done.
-    const std::vector<ExactSphere> ball{{{0, 0, 0}, 4}};
-    EXPECT_FALSE(detail::areMedialBalls(ball, tree, tree.levels[0], mask, 1000, nullptr));
+    SphereTree one = tree;
+    one.levels[0].end = one.levels[0].begin + 1;
+    EXPECT_FALSE(detail::areMedialBalls(one, one.levels[0], mask, 100000, nullptr));
 }
 
 } // namespace
