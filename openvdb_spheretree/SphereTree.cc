@@ -83,6 +83,7 @@ void placeBalls(
 {
     std::size_t count = 0;
     for (const LevelNodes& nodes : levels) count += nodes.balls.size();
+    detail::requireRoomForNodes(count);
     tbb::parallel_invoke([&] { detail::resizeLarge(tree.ijk, count); },
         [&] { detail::resizeLarge(tree.radiusSq, count); },
         [&] { detail::resizeLarge(tree.parent, count); });
@@ -116,8 +117,8 @@ void placeBalls(
 }
 
 /// Where the balls are in the frame of level 0, and how large. Levels are used up.
-void measureBalls(SphereTree& tree, std::vector<LevelNodes> levels,
-    openvdb::util::NullInterrupter* interrupter)
+void measureBalls(
+    SphereTree& tree, std::vector<LevelNodes> levels, openvdb::util::NullInterrupter* interrupter)
 {
     const std::size_t count = tree.ijk.size();
     tbb::parallel_invoke([&] { detail::resizeLarge(tree.center, count); },

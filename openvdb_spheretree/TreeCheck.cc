@@ -240,8 +240,8 @@ void checkErrors(Check& check)
 }
 
 /// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
-/// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more than
-/// the radius where spheres lie inside the object.
+/// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more
+/// than the radius where spheres lie inside the object.
 /// @param nodes, where  as for checkSpheres()
 template <typename Nodes>
 void checkRadii(Check& check, const Nodes& nodes, const char* where)

@@ -3,15 +3,31 @@
 
 #include "../Closing.h"
 #include "../SphereDag.h"
+#include "Memory.h"
 #include "Parallel.h"
 #include "StageTimer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace openvdb_spheretree {
 namespace detail {
+
+void requireRoomForNodes(std::size_t nodes)
+{
+    constexpr std::size_t kMost = std::numeric_limits<int32_t>::max();
+    const std::string what = "the " + std::to_string(nodes) + " spheres of the tree";
+    if (nodes > kMost) {
+        OPENVDB_THROW(openvdb::ValueError,
+            what << " are more than the " << kMost
+                 << " that it can have: use a larger voxel, or split the object");
+    }
+    constexpr std::size_t kNode = sizeof(openvdb::Vec3d) + sizeof(double) + sizeof(int64_t)
+        + sizeof(float) + sizeof(int32_t) + sizeof(openvdb::Coord) + sizeof(int32_t);
+    requireMemory(double(nodes) * kNode, what, "use a larger voxel, or split the object");
+}
 
 bool needsDag(const SphereTreeSettings& settings)
 {
@@ -123,6 +139,7 @@ std::unique_ptr<MedialLevel> BuildContext::medialLevel(
 
 LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
 {
+    requireRoomForNodes(level->balls.size());
     LevelNodes nodes;
     nodes.pyramidVoxels = level->layout.voxelCount();
     nodes.topology = topologyOf(*level, *this);

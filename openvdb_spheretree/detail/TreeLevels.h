@@ -12,6 +12,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,6 +30,11 @@ struct LevelNodes {
     int64_t pyramidVoxels = 0;
     std::optional<LevelTopology> topology; ///< of these voxels, if asked for
 };
+
+/// @brief Stop before a tree grows that has no room, as soon as the balls of level 0 are known.
+/// @throw openvdb::ValueError if so many nodes have no ids, or more arrays (SphereTree) than this
+///        machine has memory
+void requireRoomForNodes(std::size_t nodes);
 
 /// @return whether a build looks at the labels of all voxels.
 bool needsDag(const SphereTreeSettings& settings);

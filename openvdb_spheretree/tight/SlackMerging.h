@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file tight/SlackMerging.h
-/// @brief Merging with slack (quality=normal and best): a ball owes only what no other ball of the cover
-/// holds, and costs only what no other one costs already.
+/// @brief Merging with slack (quality=normal and best): a ball owes only what no other ball of the
+/// cover holds, and costs only what no other one costs already.
 ///
 /// Each node has a region, the object voxels that it answers for: a leaf, its ball's; a merged node,
 /// those of its children's regions that its ball holds. A new node must hold what its children's

@@ -7,6 +7,8 @@
 
 #include "../support/BuiltTrees.h"
 
+#include <openvdb_spheretree/detail/TreeLevels.h>
+
 #include <map>
 
 namespace {
@@ -203,6 +205,19 @@ TEST(ExtendedTree, ARowOfVoxelsIsWhatItIsByHand)
     EXPECT_DOUBLE_EQ(tree.radius[first], std::sqrt(27.0) / 2);
     EXPECT_EQ(tree.center[0], openvdb::Vec3d(3.5, 3.5, 3.5));
     EXPECT_DOUBLE_EQ(tree.radius[0], std::sqrt(3 * 49.0) / 2);
+}
+
+TEST(ExtendedTree, IsRefusedBeforeItHasMoreNodesThanIdsOrMemory)
+{
+    EXPECT_NO_THROW(detail::requireRoomForNodes(1000000));
+    constexpr std::size_t kIds = std::size_t(1) << 31;
+    try {
+        detail::requireRoomForNodes(kIds);
+        FAIL() << "has ids for all";
+    } catch (const openvdb::ValueError& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("the 2147483648 spheres of the tree"), std::string::npos) << what;
+    }
 }
 
 } // namespace
