@@ -23,6 +23,7 @@
 /// radii (NodeChildren.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
 #include "SphereUnion.h"
+#include "detail/LargeArray.h"
 #include "detail/NodeChildren.h"
 #include "detail/Parallel.h"
 #include "detail/StageTimer.h"
@@ -114,8 +115,8 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<NodeChildren>& 
         return distance.isEuclidean() ? 2 * std::sqrt(double(leaf.radiusSq - 1))
                                       : std::sqrt(double(frames[0].radius(leaf.radiusSq).a));
     };
-    nodes.radius.resize(nodes.balls.size());
-    nodes.coverSq.resize(nodes.balls.size());
+    resizeLarge(nodes.radius, nodes.balls.size());
+    resizeLarge(nodes.coverSq, nodes.balls.size());
     const auto fit = [&](std::size_t t, FarthestLeaves& leaves) {
         const Doubled center = centerOf(level, int32_t(t));
         const auto sumOf = [&](int32_t leaf) -> RootSum {
@@ -166,7 +167,8 @@ MaskTree::Ptr reconstruct(
 {
     const double scale = double(context.frame(level).scale());
     const Distance& distance = context.settings.dist;
-    std::vector<ExactSphere> spheres(nodes.balls.size());
+    std::vector<ExactSphere> spheres;
+    resizeLarge(spheres, nodes.balls.size());
     parallelFor(spheres.size(), context.interrupter, [&](std::size_t i) {
         const double limit = nodes.radius[i] / scale * (1 + 1e-9);
         const auto whole = int64_t(limit);

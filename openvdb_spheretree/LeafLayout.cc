@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafLayout.h"
 
+#include "detail/LargeArray.h"
 #include "detail/MaskNodes.h"
 #include "detail/Memory.h"
 #include "detail/Parallel.h"
@@ -71,7 +72,8 @@ void appendTile(const openvdb::CoordBBox& tile, std::vector<Place>& places)
 std::vector<Place> placesOf(const openvdb::MaskTree& level,
     const std::vector<const detail::LeafNode*>& nodes, int64_t count)
 {
-    std::vector<Place> places(nodes.size());
+    std::vector<Place> places;
+    detail::resizeLarge(places, nodes.size());
     detail::parallelFor(nodes.size(), nullptr, [&](std::size_t i) {
         places[i] = placeOf(nodes[i]->origin(), nodes[i]->isEmpty() ? kInTile : uint32_t(i));
     });
@@ -134,8 +136,8 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
     level.getNodes(nodes);
     const std::vector<Place> places = placesOf(level, nodes, count);
 
-    mOrigins.resize(places.size());
-    mMasks.resize(places.size());
+    detail::resizeLarge(mOrigins, places.size());
+    detail::resizeLarge(mMasks, places.size());
     std::atomic<int64_t> voxels{0};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 1024), [&](auto range) {
         int64_t sum = 0;

@@ -2,6 +2,7 @@
 #include "MedialLevel.h"
 
 #include "detail/BallIndex.h"
+#include "detail/LargeArray.h"
 #include "detail/LeafFinder.h"
 #include "detail/Memory.h"
 #include "detail/Parallel.h"
@@ -24,7 +25,8 @@ template <typename VoxelOf>
 std::vector<PowerMap::Voxel> placesOf(std::size_t count, const VoxelOf& voxelOf,
     const LeafLayout& layout, NullInterrupter* interrupter)
 {
-    std::vector<PowerMap::Voxel> places(count);
+    std::vector<PowerMap::Voxel> places;
+    detail::resizeLarge(places, count);
     detail::parallelForWith(
         count, interrupter, [&] { return detail::LeafFinder(layout); },
         [&](std::size_t i, detail::LeafFinder& finder) {
@@ -41,11 +43,13 @@ std::vector<PowerMap::Voxel> placesOf(std::size_t count, const VoxelOf& voxelOf,
 std::vector<int32_t> ballsAt(const std::vector<PowerMap::Voxel>& labels, const LeafLayout& layout,
     const std::vector<LeafMask>& centers, NullInterrupter* interrupter)
 {
-    std::vector<int32_t> balls(labels.size(), -1);
+    std::vector<int32_t> balls;
     if (labels.empty()) return balls;
+    detail::resizeLarge(balls, labels.size());
     const detail::BallIndex index(layout, centers, interrupter);
     detail::parallelFor(labels.size(), interrupter, [&](std::size_t i) {
-        if (labels[i].leaf != kNoLeaf) balls[i] = index.ballOf(index.rankAt(labels[i]));
+        const bool none = labels[i].leaf == kNoLeaf;
+        balls[i] = none ? -1 : index.ballOf(index.rankAt(labels[i]));
     });
     return balls;
 }

@@ -22,12 +22,19 @@ struct FreeLargeArray {
 /// Asks for huge pages where memory that nobody has written to yet has room for them.
 void wishHugePages(void* data, std::size_t bytes);
 
-/// Makes an empty vector one of @a size zeros, on huge pages where the system has them.
+/// Gives an empty vector room, on huge pages where the system has them.
 template <typename T>
-void resizeLarge(std::vector<T>& vector, std::size_t size)
+void reserveLarge(std::vector<T>& vector, std::size_t size)
 {
     vector.reserve(size);
     wishHugePages(vector.data(), size * sizeof(T));
+}
+
+/// Makes an empty vector one of @a size zeros (or what T is by default), likewise.
+template <typename T>
+void resizeLarge(std::vector<T>& vector, std::size_t size)
+{
+    reserveLarge(vector, size);
     vector.resize(size);
 }
 

@@ -15,6 +15,7 @@
 
 #include "BallLists.h"
 #include "BlockPainter.h"
+#include "LargeArray.h"
 #include "MaskNodes.h"
 #include "Parallel.h"
 
@@ -72,7 +73,8 @@ std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const Sph
     const openvdb::CoordBBox& clip)
 {
     const int shift = shiftOf(metric);
-    std::vector<Ball> balls(spheres.size());
+    std::vector<Ball> balls;
+    resizeLarge(balls, spheres.size());
     std::vector<char> kept(spheres.size());
     parallelFor(spheres.size(), nullptr, [&](std::size_t i) {
         kept[i] = clippedBall(spheres[i], metric.distance, shift, clip, balls[i]);

@@ -13,6 +13,7 @@
 
 #include "../LeafLayout.h"
 #include "../PowerMap.h"
+#include "../detail/LargeArray.h"
 #include "SlabLabels.h"
 
 #include <cassert>
@@ -37,7 +38,7 @@ public:
         assert(asked->size() < kEnd);
         mOfLeaf.assign(layout.leafCount(), kEnd);
         mMoved.assign(layout.leafCount(), kEnd);
-        mNext.resize(asked->size());
+        detail::resizeLarge(mNext, asked->size());
         for (uint32_t i = 0; i < mNext.size(); ++i) {
             const uint32_t leaf = (*asked)[i].leaf;
             if (leaf != kNoLeaf) mNext[i] = std::exchange(mOfLeaf[leaf], i);

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "../detail/LargeArray.h"
 #include "../detail/Parallel.h"
 #include "ColumnPower.h"
 #include "LevelBalls.h"
@@ -72,7 +73,7 @@ public:
     {
         std::size_t count = 0;
         for (const auto& balls : mBalls) count += balls.size();
-        mResult.balls.reserve(count);
+        detail::reserveLarge(mResult.balls, count);
         for (auto& balls : mBalls) {
             mResult.balls.insert(mResult.balls.end(), balls.begin(), balls.end());
             std::vector<MedialBall>().swap(balls);
