@@ -132,7 +132,7 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<NodeChildren>& 
             return (apart + width) * (1 + LargestSum::kDoubt);
         };
         LargestSum largest;
-        leaves.search(level, int32_t(t), -1, reach, [&](int32_t leaf) {
+        leaves.search(level, int32_t(t), reach, [&](int32_t leaf) {
             largest.add(sumOf(leaf));
             return largest.least();
         });
@@ -243,7 +243,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, fine.get(), *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse, context.interrupter);
-            below.emplace_back(links.parent.data(), links.parent.size(), 0, nodes.balls.size());
+            below.emplace_back(links.parent, nodes.balls.size());
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));

@@ -60,9 +60,9 @@ std::string toString(const MemoryPlan& plan)
          << gib(plan.needed) << " needed: " << plan.slabsAtATime << " of " << plan.slabs
          << " slabs at a time";
     if (plan.packed) {
-        text << ", labels packed: " << gib(plan.packedBytes) << " before compression, of which "
-             << gib(plan.storedBytes) << " after it may stay in memory, the rest goes to a "
-             << "temporary file";
+        text << ", labels compressed: " << gib(plan.packedBytes) << " before compression; "
+             << gib(plan.storedBytes) << " of compressed labels may stay in memory, what exceeds "
+             << "that goes to a temporary file";
     }
     return text.str();
 }

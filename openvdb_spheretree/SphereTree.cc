@@ -143,6 +143,17 @@ void measureBalls(
     }
 }
 
+/// @return a radius in world units, rounded up to a float.
+float storedRadius(double radius)
+{
+    const float stored = detail::toFloatUp(radius);
+    if (std::isfinite(stored)) return stored;
+    OPENVDB_THROW(openvdb::ValueError,
+        "a radius of " << radius
+                       << " world units does not fit a float: use another unit of length, or less "
+                          "padding");
+}
+
 /// @return radii in world units: padding added, voxels to world units, rounded up to floats.
 std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii,
     openvdb::util::NullInterrupter* interrupter)
@@ -153,13 +164,7 @@ std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>
     detail::resizeLarge(stored, radii.size());
     detail::parallelFor(radii.size(), interrupter, [&](std::size_t i) {
         const double padded = detail::addUp(radii[i], padding);
-        stored[i] = detail::toFloatUp(detail::multiplyUp(padded, voxel));
-        if (!std::isfinite(stored[i])) {
-            OPENVDB_THROW(openvdb::ValueError,
-                "a radius of " << padded << " voxels of " << voxel
-                               << " does not fit a float: use another unit of length, or less "
-                                  "padding");
-        }
+        stored[i] = storedRadius(detail::multiplyUp(padded, voxel));
     });
     return stored;
 }
@@ -205,7 +210,7 @@ public:
         // A float is rounded up by no more than 2^-23 of it, a leaf ball's is not the larger one.
         const double exact = world(radius);
         const double excess = std::min(mExcess, exact * 0x1p-23 + kLeastFloat);
-        return detail::toFloatUp((exact + excess + mDoubt) * (1 + kRounding));
+        return storedRadius((exact + excess + mDoubt) * (1 + kRounding));
     }
 
 private:

@@ -2,6 +2,8 @@
 /// @file TreeCheck.cc
 /// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
 /// trees are built, the edges of the Sphere-DAG aside: all is computed anew from what is stored.
+/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage draw
+/// it, without them.)
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
 ///    fail, nothing else is looked at

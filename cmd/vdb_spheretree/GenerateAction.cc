@@ -61,7 +61,7 @@ ActionSpec generateAction()
         choice("shape", {"gyroid", "menger", "terrain", "noise", "ball"}, "what it is"),
         real("voxels", "1000000", double(Settings::kFewestVoxels),
             std::numeric_limits<double>::infinity(),
-            "how many voxels it has, within 10%; 1e9 will do for 1000000000"),
+            "how many voxels it has, 1000 or more, within 10%; 1e9 will do for 1000000000"),
         integer("seed", "1", 0, std::numeric_limits<int32_t>::max(),
             "another number is another terrain or noise"),
         real("voxel", "1", Settings::kSmallestVoxel, Settings::kLargestVoxel,

@@ -17,7 +17,7 @@ namespace detail {
 /// What is known of a set of voxels once it has been counted.
 struct VoxelCount {
     int64_t voxels = 0;
-    /// One voxel in each eighth of a node, where there is one.
+    /// Some voxels of each node that has any: of one of 128, one in each eighth.
     struct Sample {
         std::size_t node;
         openvdb::Coord voxel;

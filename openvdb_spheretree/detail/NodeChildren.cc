@@ -4,18 +4,14 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-NodeChildren::NodeChildren(
-    const int32_t* parent, std::size_t nodes, int32_t firstParent, std::size_t parents)
-    : mBegin(parents + 2, 0), mOrder(makeLargeArray<int32_t>(nodes))
+NodeChildren::NodeChildren(const std::vector<int32_t>& parent, std::size_t parents)
+    : mBegin(parents + 2, 0), mOrder(makeLargeArray<int32_t>(parent.size()))
 {
     // Counts two places ahead become begins one place ahead, which filling moves to their own.
-    for (std::size_t i = 0; i < nodes; ++i) {
-        if (parent[i] >= 0) ++mBegin[std::size_t(parent[i] - firstParent) + 2];
-    }
+    for (const int32_t p : parent) ++mBegin[std::size_t(p) + 2];
     for (std::size_t t = 2; t < mBegin.size(); ++t) mBegin[t] += mBegin[t - 1];
-    for (std::size_t i = 0; i < nodes; ++i) {
-        if (parent[i] < 0) continue;
-        mOrder[mBegin[std::size_t(parent[i] - firstParent) + 1]++] = int32_t(i);
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+        mOrder[mBegin[std::size_t(parent[i]) + 1]++] = int32_t(i);
     }
     mBegin.pop_back();
 }

@@ -18,9 +18,8 @@ namespace detail {
 /// level. 4 bytes a node and 4 a parent.
 class NodeChildren {
 public:
-    /// @param parent  of each node, counted from @a firstParent; negative where there is none
-    NodeChildren(
-        const int32_t* parent, std::size_t nodes, int32_t firstParent, std::size_t parents);
+    /// @param parent  of each node
+    NodeChildren(const std::vector<int32_t>& parent, std::size_t parents);
 
     struct Range {
         const int32_t *first, *last;
@@ -51,12 +50,11 @@ public:
     /// @param below  [k]: nodes of level k by their parents on level k + 1
     explicit FarthestLeaves(const std::vector<NodeChildren>& below) : mBelow(below) {}
 
-    /// Visits leaf balls below a node of @a level, 1 or more.
-    /// @param most  what is known at the start
+    /// Visits leaf balls below a node of @a level, 1 or more; at first all matter.
     template <typename Reach, typename Visit>
-    void search(int level, int32_t node, double most, const Reach& reach, const Visit& visit)
+    void search(int level, int32_t node, const Reach& reach, const Visit& visit)
     {
-        mMost = most;
+        mMost = -1;
         descend(level, node, reach, visit);
     }
 

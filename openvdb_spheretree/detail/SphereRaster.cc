@@ -21,6 +21,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 
@@ -217,10 +218,14 @@ void drawBlocks(std::vector<Block>& blocks, const std::vector<Ball>& balls, cons
         Block& block = blocks[i];
         if (!block.full) block.node = std::make_unique<BlockNode>(block.origin, false, false);
     });
+    std::vector<std::atomic<std::size_t>> slabsLeft(blocks.size()); // there may be many balls
+    for (auto& left : slabsLeft) left = kSlabs;
     parallelForWithScratch<BlockPainter>(
         kSlabs * blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
-            const Block& block = blocks[i / kSlabs];
-            if (!block.full) drawSlab(block, int(i % kSlabs), balls, wanted, painter);
+            Block& block = blocks[i / kSlabs];
+            if (block.full) return;
+            drawSlab(block, int(i % kSlabs), balls, wanted, painter);
+            if (--slabsLeft[i / kSlabs] == 0) std::vector<int32_t>().swap(block.balls);
         });
 }
 

@@ -74,7 +74,7 @@ HWY_INLINE void ForEachWord(const T* steps, Axis axis, const LeafMask& mask, con
 template <typename T>
 LeafMask AsBefore(const T* steps, Axis axis, const LeafMask& mask)
 {
-    LeafMask result;
+    LeafMask result{};
     ForEachWord(
         steps, axis, mask, [&](std::size_t x, const T*, uint64_t same) { result[x] = same; });
     return result;

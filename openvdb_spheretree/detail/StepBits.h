@@ -13,7 +13,7 @@ namespace openvdb_spheretree {
 namespace detail {
 
 /// @return voxels whose step ends where that of the voxel before them along the axis ends, in the
-///         same leaf. Words of @a mask without a voxel that is on are left undefined.
+///         same leaf; none in words of @a mask without a voxel that is on.
 /// @param steps  512 steps of a leaf along @a axis, in leaf order
 LeafMask endsAsBefore(const int8_t* steps, Axis axis, const LeafMask& mask);
 LeafMask endsAsBefore(const int16_t* steps, Axis axis, const LeafMask& mask);

@@ -21,20 +21,18 @@ public:
     {
         if (!mDistance.isEuclidean()) mScale = largestStretch(*tree.transform) / mDistance.unit();
     }
-    double operator()(int32_t a, int32_t b) const { return between(place(a), place(b)); }
-
-    /// @return where a node's centre is, for between().
-    openvdb::Vec3d place(int32_t id) const
+    double operator()(int32_t a, int32_t b) const
     {
-        return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.center[id];
-    }
-    double between(const openvdb::Vec3d& a, const openvdb::Vec3d& b) const
-    {
-        const openvdb::Vec3d d = a - b;
+        const openvdb::Vec3d d = place(a) - place(b);
         return mDistance.length(d[0], d[1], d[2]) * mScale;
     }
 
 private:
+    openvdb::Vec3d place(int32_t id) const
+    {
+        return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.center[id];
+    }
+
     const SphereTree& mTree;
     const Distance mDistance;
     double mScale = 1;

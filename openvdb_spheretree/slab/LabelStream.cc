@@ -54,8 +54,8 @@ StreamPlan LabelStream::planFor(uint32_t largestDistSq) const
 uint32_t LabelStream::largest(NullInterrupter* interrupter) const
 {
     requireDim(mDim);
-    planFor(0); // throws at once where even small balls have too little memory
-    const uint32_t distSq = largestDistSq(mLayout, mDim, interrupter);
+    const StreamPlan least = planFor(0); // throws where even small balls have too little memory
+    const uint32_t distSq = largestDistSq(mLayout, mDim, least.threads, interrupter);
     requireRadius(distSq);
     return distSq;
 }
@@ -75,7 +75,7 @@ LevelBalls LabelStream::runWith(const StreamPlan& plan, NullInterrupter* interru
     }
     StreamWork<Power, T> work(mLayout, mDim, mAsked, kept, interrupter);
     if (plan.packed) PackedStream<Power, T>(work, plan).run();
-    else WindowStream<Power, T>(work, plan.slabs).run();
+    else WindowStream<Power, T>(work, plan.slabs, plan.threads).run();
     return work.collected();
 }
 

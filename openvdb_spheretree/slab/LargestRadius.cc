@@ -38,13 +38,14 @@ uint64_t boundByRuns(const LeafLayout& layout, int dim)
 }
 
 template <typename T>
-uint32_t largest(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+uint32_t largest(const LeafLayout& layout, int dim, uint32_t threads, NullInterrupter* interrupter)
 {
     const XSteps<StepOf<T>> steps(layout, interrupter);
     std::vector<uint32_t> ofSlab(layout.slabCount(), 0);
-    detail::parallelForWithScratch<SlabDistance<T>>(
-        layout.slabCount(), interrupter, [&](std::size_t slab, SlabDistance<T>& distances) {
-            distances.forEachRun(
+    std::vector<SlabDistance<T>> distances(threads);
+    detail::parallelForWithSlots(
+        layout.slabCount(), threads, interrupter, [&](std::size_t slab, std::size_t slot) {
+            distances[slot].forEachRun(
                 layout, uint32_t(slab), steps, dim, [&](const LeafLayout::Run& run, const T* rows) {
                     const std::size_t count = std::size_t(run.count) * kLeafVoxels;
                     ofSlab[slab] = std::max(ofSlab[slab], detail::largestValue(rows, count));
@@ -55,13 +56,14 @@ uint32_t largest(const LeafLayout& layout, int dim, NullInterrupter* interrupter
 
 } // namespace
 
-uint32_t largestDistSq(const LeafLayout& layout, int dim, NullInterrupter* interrupter)
+uint32_t largestDistSq(
+    const LeafLayout& layout, int dim, uint32_t threads, NullInterrupter* interrupter)
 {
     const uint64_t bound = boundByRuns(layout, dim);
     if (bound <= detail::NarrowPower::kMaxRadiusSq) return uint32_t(bound);
-    const uint32_t narrow = largest<uint16_t>(layout, dim, interrupter);
+    const uint32_t narrow = largest<uint16_t>(layout, dim, threads, interrupter);
     if (narrow < detail::kNarrowMax) return narrow;
-    const uint32_t wide = largest<uint32_t>(layout, dim, interrupter);
+    const uint32_t wide = largest<uint32_t>(layout, dim, threads, interrupter);
     if (wide < detail::kWideMax) return wide;
     OPENVDB_THROW(openvdb::ValueError,
         "the object holds a ball of 46340 voxels radius or more, whose "

@@ -16,9 +16,10 @@ namespace slab {
 /// @return a number that no squared distance of the level exceeds: from the lengths of runs, or,
 ///         where those are long, the largest distance itself (a distance transform; nothing of it
 ///         is kept).
+/// @param threads  at most, each with memory for the distances of a slab
 /// @throw openvdb::ValueError if a radius is 46340 voxels or more
-uint32_t largestDistSq(
-    const LeafLayout& layout, int dim, openvdb::util::NullInterrupter* interrupter);
+uint32_t largestDistSq(const LeafLayout& layout, int dim, uint32_t threads,
+    openvdb::util::NullInterrupter* interrupter);
 
 /// @throw openvdb::ValueError if power labels do not hold a ball of that size
 void requireRadius(uint32_t distSq);

@@ -14,7 +14,7 @@
 #include "../MedialAxis.h"
 #include "../detail/BallOrder.h"
 #include "../detail/MaxPlus.h"
-#include "../detail/StepBits.h"
+#include "../detail/StepEnds.h"
 #include "SlabLabels.h"
 
 #include <openvdb/util/NodeMasks.h>
@@ -122,14 +122,12 @@ private:
         for (uint32_t x = 0; x < 8; ++x) ends.marks[place][x] |= fresh.stay[x];
         visitOn(fresh.stay,
             [&](uint32_t offset) { ends.values[first + offset] = valueOf(leaf, offset); });
-        const int shift = 6 - 3 * int(ways.axis);
-        visitOn(fresh.go, [&](uint32_t offset) {
-            const int here = int(offset) >> shift & 7, end = here + steps[offset];
-            const uint32_t there = run.leaves[int(i) + (end >> 3)] - firstLeaf;
-            const uint32_t at = uint32_t(int(offset) + ((end & 7) - here) * (1 << shift));
-            ends.marks[there][at >> 6] |= uint64_t(1) << (at & 63);
-            ends.values[std::size_t(there) * kLeafVoxels + at] = valueOf(leaf, offset);
-        });
+        detail::forEachEnd(
+            ways.axis, i, steps, fresh.go, [&](uint32_t offset, uint32_t leafOfEnd, uint32_t end) {
+                const uint32_t there = run.leaves[leafOfEnd] - firstLeaf;
+                ends.marks[there][end >> 6] |= uint64_t(1) << (end & 63);
+                ends.values[std::size_t(there) * kLeafVoxels + end] = valueOf(leaf, offset);
+            });
     }
 
     template <typename Visit>

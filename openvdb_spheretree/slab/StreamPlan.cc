@@ -59,6 +59,7 @@ StreamPlan packedPlan(
     plan.packed = true;
     const int64_t more = std::min<int64_t>((bytes - needed) / thread, threads - 1);
     plan.slabs = uint32_t(std::min<int64_t>(1 + more, layout.slabCount()));
+    plan.threads = plan.slabs;
     plan.packedBytes = int64_t(layout.leafCount()) * memory.packed;
     const int64_t uncounted = bytes / 16; // rows of runs, what allocations take beside their bytes
     plan.storedBytes = std::max<int64_t>(0, bytes - needed - (plan.slabs - 1) * thread - uncounted);
@@ -91,7 +92,8 @@ StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint
     const int64_t scratch = largestSlab(layout) * memory.scratch;
     StreamPlan plan;
     for (plan.slabs = usefulWindow(layout, threads); plan.slabs > 0; plan.slabs /= 2) {
-        plan.bytes = memory.fixed + memory.steps + std::min(threads, plan.slabs) * scratch
+        plan.threads = std::min(threads, plan.slabs);
+        plan.bytes = memory.fixed + memory.steps + plan.threads * scratch
             + windowBytes(layout, memory, largestDistSq, plan.slabs);
         if (plan.bytes <= bytes) return plan;
     }

@@ -25,6 +25,7 @@ struct StreamMemory {
 struct StreamPlan {
     bool packed = false;           ///< PackedStream.h; else WindowStream.h
     uint32_t slabs = 1;            ///< that enter at a time; packed: that are worked on at a time
+    uint32_t threads = 1;          ///< that work on slabs
     int64_t packedBytes = 0;       ///< packed: of all labels, before they are compressed
     int64_t storedBytes = 0;       ///< packed: of compressed labels in memory
     int64_t bandBytes = INT64_MAX; ///< packed: of keys that are unpacked for the pass along x

@@ -35,12 +35,13 @@ class WindowStream {
     using Work = StreamWork<Power, T>;
 
 public:
-    /// @param work    kept by reference
-    /// @param window  slabs that enter at a time
-    WindowStream(Work& work, uint32_t window)
+    /// @param work     kept by reference
+    /// @param window   slabs that enter at a time
+    /// @param threads  that work on slabs, each with memory for one
+    WindowStream(Work& work, uint32_t window, uint32_t threads)
         : mWork(work), mLayout(work.layout), mWindow(std::min(window, mLayout.slabCount())),
-          mPool(mLayout, work.dim, work.kept), mMaxDistSq(mLayout.slabCount()),
-          mNextOfRun(mLayout.runCount(Axis::X), 0)
+          mEntries(threads), mCollect(threads), mPool(mLayout, work.dim, work.kept),
+          mMaxDistSq(mLayout.slabCount()), mNextOfRun(mLayout.runCount(Axis::X), 0)
     {}
 
     void run()
@@ -67,15 +68,21 @@ private:
     }
     static int64_t rootUp(uint32_t square) { return int64_t(std::ceil(std::sqrt(double(square)))); }
 
+    template <typename Body>
+    void forEach(std::size_t slabs, const Body& body) const
+    {
+        detail::parallelForWithSlots(slabs, mEntries.size(), mWork.interrupter, body);
+    }
+
     void enter(uint32_t end)
     {
         const uint32_t first = mEntered;
         for (uint32_t slab = first; slab < end; ++slab) mPool.open(slab);
         double seconds = 0;
         detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
-            detail::parallelFor(end - first, mWork.interrupter, [&](std::size_t i) {
+            forEach(end - first, [&](std::size_t i, std::size_t slot) {
                 const uint32_t slab = first + uint32_t(i);
-                mMaxDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries.local());
+                mMaxDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
             });
         });
         mEntered = end;
@@ -130,8 +137,9 @@ private:
         for (uint32_t slab = 0; slab < mFinal; ++slab) {
             if (mPool.isOpen(slab) && reachesNothing(slab)) done.push_back(slab);
         }
-        detail::parallelFor(done.size(), mWork.interrupter,
-            [&](std::size_t i) { mWork.finish(done[i], mPool[done[i]], mCollect.local()); });
+        forEach(done.size(), [&](std::size_t i, std::size_t slot) {
+            mWork.finish(done[i], mPool[done[i]], mCollect[slot]);
+        });
         for (const uint32_t slab : done) mPool.close(slab);
     }
 
@@ -145,8 +153,8 @@ private:
     Work& mWork;
     const LeafLayout& mLayout;
     const uint32_t mWindow;
-    tbb::enumerable_thread_specific<typename Work::Entry> mEntries;
-    tbb::enumerable_thread_specific<SlabBalls<Power>> mCollect;
+    std::vector<typename Work::Entry> mEntries; ///< memory of each thread
+    std::vector<SlabBalls<Power>> mCollect;     ///< the same
     SlabPool<Power> mPool;
     uint32_t mEntered = 0, mFinal = 0; ///< slabs before these are
     std::vector<uint32_t> mMaxDistSq;  ///< of each slab

@@ -4,8 +4,8 @@
 #
 #   tests/benchmark/run.sh [ARGUMENT...]
 #
-#   ARGUMENT  of the benchmark (--help lists them); for example --benchmark_filter='dragon-512|gyroid',
-#             --largest, or --json=FILE (build/benchmark/benchmark.json)
+#   ARGUMENT  of build/benchmark/bin/spheretree_benchmark, whose --help lists them; for example
+#             --benchmark_filter='dragon-512|gyroid', --largest, or --json=FILE (build/benchmark/benchmark.json)
 #
 # The picture is beside the JSON; without matplotlib there is none. Files are read from the folder
 # SPHERETREE_DATA. The program is built first, unless the variable SPHERETREE_BENCHMARK names one.

@@ -7,6 +7,7 @@
 
 #include "../support/BuiltTrees.h"
 
+#include <openvdb_spheretree/detail/Memory.h>
 #include <openvdb_spheretree/detail/TreeLevels.h>
 
 #include <map>
@@ -210,7 +211,10 @@ TEST(ExtendedTree, ARowOfVoxelsIsWhatItIsByHand)
 TEST(ExtendedTree, IsRefusedBeforeItHasMoreNodesThanIdsOrMemory)
 {
     EXPECT_NO_THROW(detail::requireRoomForNodes(1000000));
-    constexpr std::size_t kIds = std::size_t(1) << 31;
+    constexpr std::size_t kIds = std::size_t(1) << 31, kNodeBytes = 64;
+    if (detail::physicalMemory() > 0 && detail::physicalMemory() < double(kIds) * kNodeBytes) {
+        EXPECT_THROW(detail::requireRoomForNodes(kIds - 1), openvdb::ValueError);
+    }
     try {
         detail::requireRoomForNodes(kIds);
         FAIL() << "has ids for all";

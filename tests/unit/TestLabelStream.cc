@@ -25,6 +25,7 @@ StreamPlan windowOf(uint32_t slabs)
 {
     StreamPlan plan;
     plan.slabs = slabs;
+    plan.threads = 2;
     return plan;
 }
 
@@ -279,14 +280,14 @@ TEST(LargestDistSq, IsNeverTooSmall)
     for (const RandomObject& object : someObjects(0, 40)) {
         for (const int dim : {2, 3}) {
             const LeafLayout layout(*maskOf(object.voxels));
-            EXPECT_GE(slab::largestDistSq(layout, dim, nullptr),
+            EXPECT_GE(slab::largestDistSq(layout, dim, 2, nullptr),
                 distanceTransform(layout, dim).maxDistSq())
                 << object.name;
         }
     }
     for (const int radius : {126, 127, 128, 130, 254, 255, 256, 300}) {
         const LeafLayout layout(*maskOf(ballsInARow({{3, radius}}, 2)));
-        const uint32_t bound = slab::largestDistSq(layout, 2, nullptr);
+        const uint32_t bound = slab::largestDistSq(layout, 2, 2, nullptr);
         EXPECT_GE(bound, uint32_t(radius * radius));
         if (radius > 130) { // beyond what runs tell, it is exact
             EXPECT_EQ(bound, uint32_t(radius * radius));
