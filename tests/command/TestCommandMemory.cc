@@ -61,7 +61,7 @@ TEST_F(CommandMemory, IsToldByVerboseAndStats)
 {
     const Result packed = run("-verbose " + kSmallBall + "tree=extended memory=2MiB -stats json=-");
     EXPECT_NE(packed.err.find("memory: 2 MiB allowed"), std::string::npos) << packed.err;
-    EXPECT_NE(packed.err.find("labels packed"), std::string::npos) << packed.err;
+    EXPECT_NE(packed.err.find("labels compressed"), std::string::npos) << packed.err;
     EXPECT_NE(packed.out.find("\"memory\": \"2MiB\""), std::string::npos) << packed.out;
     const Result usual = run("-verbose " + kSmallBall + "tree=extended -stats json=-");
     EXPECT_NE(usual.err.find("11 of 11 slabs at a time\n"), std::string::npos) << usual.err;
