@@ -24,7 +24,7 @@ public:
     /// @param origin, log2    the cell
     /// @param childLog2       its children's size; children are numbered x slowest, as in OpenVDB
     /// @param alongX          those wanted; others get no ball
-    void build(const std::vector<Ball>& balls, const int32_t* begin, const int32_t* end,
+    void build(const Ball* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
     {
         mAlongX = alongX;
@@ -61,31 +61,66 @@ private:
         int32_t child, ball;
     };
 
+    /// The children under the ball's box.
+    struct Children {
+        int32_t first[3], last[3];
+    };
+
     void enter(const Ball& ball, int32_t index)
     {
-        int32_t first[3], last[3]; // of the children under the ball's box
+        Children under;
         const int32_t size = int32_t(1) << mLog2;
         for (int a = 0; a < 3; ++a) {
-            first[a] = (std::max(ball.lo[a], mOrigin[a]) - mOrigin[a]) >> mChildLog2;
-            last[a] = (std::min(ball.hi[a], mOrigin[a] + (size - 1)) - mOrigin[a]) >> mChildLog2;
+            under.first[a] = (std::max(ball.lo[a], mOrigin[a]) - mOrigin[a]) >> mChildLog2;
+            under.last[a] =
+                (std::min(ball.hi[a], mOrigin[a] + (size - 1)) - mOrigin[a]) >> mChildLog2;
         }
-        first[0] = std::max(first[0], mAlongX.first);
-        last[0] = std::min(last[0], mAlongX.last);
-        for (int32_t x = first[0]; x <= last[0]; ++x) {
-            for (int32_t y = first[1]; y <= last[1]; ++y) {
-                for (int32_t z = first[2]; z <= last[2]; ++z) enterChild(ball, index, x, y, z);
+        under.first[0] = std::max(under.first[0], mAlongX.first);
+        under.last[0] = std::min(under.last[0], mAlongX.last);
+        if (ball.plain) enterPlain(ball, index, under);
+        else enterAny(ball, index, under);
+    }
+
+    /// Squares of each axis are computed once.
+    void enterPlain(const Ball& ball, int32_t index, const Children& under)
+    {
+        for (int a = 0; a < 3; ++a) {
+            for (int32_t i = under.first[a]; i <= under.last[a]; ++i) {
+                mNearSq[a][i] = squareOf(ball.nearest(a, lowest(a, i), highest(a, i)));
+                mFarSq[a][i] = ball.isInBox(a, lowest(a, i), highest(a, i))
+                    ? squareOf(ball.farthest(a, lowest(a, i), highest(a, i)))
+                    : ball.coverSq + 1;
+            }
+        }
+        for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
+            for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {
+                const int64_t nearSq = mNearSq[0][x] + mNearSq[1][y];
+                const int64_t farSq = mFarSq[0][x] + mFarSq[1][y];
+                if (nearSq > ball.coverSq) continue;
+                for (int32_t z = under.first[2]; z <= under.last[2]; ++z) {
+                    if (nearSq + mNearSq[2][z] > ball.coverSq) continue;
+                    enterChild(childAt(x, y, z), index, farSq + mFarSq[2][z] <= ball.coverSq);
+                }
             }
         }
     }
-    void enterChild(const Ball& ball, int32_t index, int32_t x, int32_t y, int32_t z)
+    void enterAny(const Ball& ball, int32_t index, const Children& under)
     {
-        const int n = mLog2 - mChildLog2;
-        const int32_t child = (((x << n) | y) << n) | z, size = int32_t(1) << mChildLog2;
+        for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
+            for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {
+                for (int32_t z = under.first[2]; z <= under.last[2]; ++z) {
+                    const int32_t first[3] = {lowest(0, x), lowest(1, y), lowest(2, z)};
+                    const int32_t last[3] = {highest(0, x), highest(1, y), highest(2, z)};
+                    if (!ball.touches(first, last)) continue;
+                    enterChild(childAt(x, y, z), index, ball.contains(first, last));
+                }
+            }
+        }
+    }
+    void enterChild(int32_t child, int32_t index, bool contained)
+    {
         if (mFull[child]) return;
-        const int32_t origin[3] = {mOrigin[0] + (x << mChildLog2), mOrigin[1] + (y << mChildLog2),
-            mOrigin[2] + (z << mChildLog2)};
-        if (!ball.touches(origin, size)) return;
-        if (ball.contains(origin, size)) {
+        if (contained) {
             mFull[child] = 1;
             return;
         }
@@ -93,12 +128,28 @@ private:
         ++mOffset[child + 1];
     }
 
+    static int64_t squareOf(int64_t x) { return x * x; }
+    int32_t childAt(int32_t x, int32_t y, int32_t z) const
+    {
+        const int n = mLog2 - mChildLog2;
+        return (((x << n) | y) << n) | z;
+    }
+    /// Voxels of child i along an axis.
+    int32_t lowest(int axis, int32_t i) const { return mOrigin[axis] + (i << mChildLog2); }
+    int32_t highest(int axis, int32_t i) const
+    {
+        return lowest(axis, i) + ((int32_t(1) << mChildLog2) - 1);
+    }
+
+    static constexpr int kMostAlong = 32; ///< children
+
     openvdb::Coord mOrigin;
     int mLog2 = 0, mChildLog2 = 0;
     Range mAlongX{0, INT32_MAX};
     std::vector<char> mFull;
     std::vector<int32_t> mOffset, mItems;
     std::vector<Entry> mEntries;
+    int64_t mNearSq[3][kMostAlong], mFarSq[3][kMostAlong]; ///< of one ball, by child
 };
 
 } // namespace detail

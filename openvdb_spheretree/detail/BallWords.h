@@ -44,8 +44,22 @@ void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, co
 /// @return the bits of lo...hi, which are in order, of a row of eight.
 inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (0xffu << lo); }
 
+/// ORs what is in a ball's box of the words of the leaf at @a origin into others.
+inline void orBoxOfWords(
+    const uint64_t from[8], const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
+{
+    int32_t first[3], last[3];
+    for (int a = 0; a < 3; ++a) {
+        first[a] = std::max(ball.lo[a], origin[a]) - origin[a];
+        last[a] = std::min(ball.hi[a], origin[a] + 7) - origin[a];
+    }
+    const uint64_t rows = ~uint64_t(0) >> (8 * (7 - last[1])) & ~uint64_t(0) << (8 * first[1]);
+    const uint64_t box = rows & rowBits(first[2], last[2]) * 0x0101010101010101;
+    for (int32_t x = first[0]; x <= last[0]; ++x) words[x] |= from[x] & box;
+}
+
 /// ORs the voxels of a ball into the words of the leaf at @a origin (word x, bit 8 y + z), which
-/// its box must meet. By a kernel where that is exact and the ball is not clipped.
+/// its box must meet. By a kernel where that is exact.
 inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
 {
     int64_t center[3], farthest = 0;
@@ -56,15 +70,20 @@ inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint
     }
     const bool euclidean = ball.distance.isEuclidean();
     const int64_t most = euclidean ? kLeafBallReach : kLeafNormReach;
-    if (ball.clipped || farthest > most || ball.coverSq > most * most) {
+    if (farthest > most || ball.coverSq > most * most) {
         forEachRow(ball, origin, 8, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
             if (lo <= hi) words[x] |= rowBits(lo, hi) << (8 * y);
         });
-    } else if (euclidean) {
-        orBallIntoLeaf(center, ball.coverSq, ball.shift, words);
-    } else {
-        orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.coverSq), ball.shift, words);
+        return;
     }
+    uint64_t drawn[8] = {};
+    uint64_t* const target = ball.clipped ? drawn : words;
+    if (euclidean) {
+        orBallIntoLeaf(center, ball.coverSq, ball.shift, target);
+    } else {
+        orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.coverSq), ball.shift, target);
+    }
+    if (ball.clipped) orBoxOfWords(drawn, ball, origin, words);
 }
 
 } // namespace detail

@@ -80,15 +80,31 @@ struct Ball {
         return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
     }
 
+    /// @name Along an axis: how far the nearest and the farthest of the voxels first...last are from
+    /// the centre, and whether they are in the box
+    /// @{
+    int64_t nearest(int axis, int32_t first, int32_t last) const
+    {
+        const int64_t from = inUnits(first, shift), to = inUnits(last, shift);
+        return std::max(from, std::min(center[axis], to)) - center[axis];
+    }
+    int64_t farthest(int axis, int32_t first, int32_t last) const
+    {
+        const int64_t below = center[axis] - inUnits(first, shift);
+        return std::max(below, inUnits(last, shift) - center[axis]);
+    }
+    bool isInBox(int axis, int32_t first, int32_t last) const
+    {
+        return first >= lo[axis] && last <= hi[axis];
+    }
+    /// @}
+
     /// @return whether the sphere comes as near as a voxel of the box first...last, which its own
     /// box must meet; the clip aside.
     bool touches(const int32_t first[3], const int32_t last[3]) const
     {
         int64_t d[3];
-        for (int a = 0; a < 3; ++a) {
-            const int64_t from = inUnits(first[a], shift), to = inUnits(last[a], shift);
-            d[a] = std::max(from, std::min(center[a], to)) - center[a];
-        }
+        for (int a = 0; a < 3; ++a) d[a] = nearest(a, first[a], last[a]);
         return holds(d);
     }
     /// The same for the cube of @a size voxels at @a origin.
@@ -104,9 +120,8 @@ struct Ball {
     {
         int64_t d[3];
         for (int a = 0; a < 3; ++a) {
-            if (first[a] < lo[a] || last[a] > hi[a]) return false;
-            const int64_t below = center[a] - inUnits(first[a], shift);
-            d[a] = std::max(below, inUnits(last[a], shift) - center[a]);
+            if (!isInBox(a, first[a], last[a])) return false;
+            d[a] = farthest(a, first[a], last[a]);
         }
         return holds(d);
     }

@@ -18,8 +18,8 @@ constexpr int64_t kFarthest = int64_t(1) << 29;
 } // namespace
 
 /// @return false if the balls are such that they are left alone.
-bool PowerCull::collect(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
-    const std::vector<int32_t>& list)
+bool PowerCull::collect(
+    const Ball* balls, const int32_t origin[3], int32_t size, const std::vector<int32_t>& list)
 {
     mEntries.clear();
     for (const int32_t index : list) {
@@ -77,8 +77,8 @@ bool PowerCull::exceeded(std::size_t entry, const Champions& champions, int64_t 
     return false;
 }
 
-void PowerCull::cull(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
-    std::vector<int32_t>& list)
+void PowerCull::cull(
+    const Ball* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list)
 {
     if (list.size() <= kFew || !collect(balls, origin, size, list)) return;
     // From the centre to the last voxels.

@@ -28,8 +28,7 @@ public:
     ///                off and the others keep their order. All of them must have the same clip and
     ///                units.
     /// @param origin  of the cube, whose side has @a size voxels
-    void cull(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
-        std::vector<int32_t>& list);
+    void cull(const Ball* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list);
 
 private:
     /// From the cube's centre.
@@ -40,8 +39,8 @@ private:
     static constexpr std::size_t kPlaces = 9; ///< centre and corners
     using Champions = std::array<std::size_t, kPlaces>;
 
-    bool collect(const std::vector<Ball>& balls, const int32_t origin[3], int32_t size,
-        const std::vector<int32_t>& list);
+    bool collect(
+        const Ball* balls, const int32_t origin[3], int32_t size, const std::vector<int32_t>& list);
     Champions champions(int64_t reach) const;
     bool exceeded(std::size_t entry, const Champions& champions, int64_t reach) const;
 

@@ -2,8 +2,8 @@
 /// @file detail/SphereRaster.cc
 /// @brief Spheres to a sparse mask: sorted into cells, then drawn row by row.
 ///
-/// 1. clipSpheres, sortLargerFirst: the spheres' boxes, clipped; empty ones dropped
-/// 2. sortIntoRootCells, sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
+/// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
+/// 2. sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
 /// 3. drawSlab, in parallel over quarters of 128^3 cells: see BlockPainter.h
 ///
 /// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
@@ -13,17 +13,15 @@
 
 #include "SphereRaster.h"
 
-#include "BallLists.h"
 #include "BlockPainter.h"
-#include "LargeArray.h"
 #include "MaskNodes.h"
 #include "Parallel.h"
+#include "SphereBlocks.h"
 
-#include <tbb/parallel_sort.h>
-
+#include <algorithm>
 #include <atomic>
-#include <map>
 #include <memory>
+#include <vector>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -32,129 +30,8 @@ namespace {
 using openvdb::Coord;
 using openvdb::MaskTree;
 
-constexpr int kRootCellLog2 = 12;
-
-/// A 128^3 cell to be drawn.
-struct Block {
-    Coord origin;
-    bool full = false;
-    std::vector<int32_t> balls;
-    std::unique_ptr<BlockNode> node; ///< of its own voxels; null if it is full
-};
-
-struct RootCell {
-    bool full = false;
-    std::vector<int32_t> balls;
-};
-using RootCells = std::map<Coord, RootCell>;
-
-/// Where the object that the drawing is confined to has anything; everywhere if there is none.
-class Wanted {
-public:
-    explicit Wanted(const MaskTree* tree) : mTree(tree)
-    {
-        if (!tree) return;
-        for (auto i = tree->root().cbeginChildOn(); i; ++i) mRootCells.push_back(i.getCoord());
-        for (auto i = tree->root().cbeginValueOn(); i; ++i) mRootCells.push_back(i.getCoord());
-    }
-    bool everywhere() const { return !mTree; }
-    const std::vector<Coord>& rootCells() const { return mRootCells; }
-    template <typename NodeType>
-    bool has(const Coord& origin) const
-    {
-        return !mTree || mTree->probeConstNode<NodeType>(origin) || mTree->isValueOn(origin);
-    }
-
-private:
-    const MaskTree* mTree;
-    std::vector<Coord> mRootCells;
-};
-
-std::vector<Ball> clipSpheres(const std::vector<ExactSphere>& spheres, const SphereMetric& metric,
-    const openvdb::CoordBBox& clip)
-{
-    const int shift = shiftOf(metric);
-    std::vector<Ball> balls;
-    resizeLarge(balls, spheres.size());
-    std::vector<char> kept(spheres.size());
-    parallelFor(spheres.size(), nullptr, [&](std::size_t i) {
-        kept[i] = clippedBall(spheres[i], metric.distance, shift, clip, balls[i]);
-    });
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        if (kept[i]) balls[count++] = balls[i];
-    }
-    balls.resize(count);
-    return balls;
-}
-
-/// Larger balls to the front, largest first, since what they fill is not drawn again. The small
-/// ones keep their order, which is mostly that of their centres, and so kind to caches.
-void sortLargerFirst(std::vector<Ball>& balls)
-{
-    const auto small = std::partition(
-        balls.begin(), balls.end(), [](const Ball& ball) { return !BlockCanvas::isSmall(ball); });
-    tbb::parallel_sort(
-        balls.begin(), small, [](const Ball& a, const Ball& b) { return a.coverSq > b.coverSq; });
-}
-
-void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_t index)
-{
-    if (cell.full || !ball.touches(origin.data(), 1 << kRootCellLog2)) return;
-    cell.full = ball.contains(origin.data(), 1 << kRootCellLog2);
-    cell.balls.push_back(index);
-}
-
-RootCells sortIntoRootCells(const std::vector<Ball>& balls, const Wanted& wanted,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    RootCells cells;
-    for (const Coord& origin : wanted.rootCells()) cells[origin];
-    for (int32_t i = 0; i < int32_t(balls.size()); ++i) {
-        const Ball& ball = balls[i];
-        openvdb::CoordBBox range(Coord(ball.lo) >> kRootCellLog2, Coord(ball.hi) >> kRootCellLog2);
-        const bool many = range.volume() > cells.size();
-        if (i % 1024 == 0 || many) checkInterrupt(interrupter);
-        if (!wanted.everywhere() && many) {
-            for (auto& [origin, cell] : cells) {
-                const openvdb::Coord at = origin >> kRootCellLog2;
-                if (range.isInside(at)) enterRootCell(cell, origin, ball, i);
-            }
-            continue;
-        }
-        int64_t visited = 0;
-        for (auto at = range.begin(); at; ++at) {
-            if (++visited % 4096 == 0) checkInterrupt(interrupter);
-            const Coord origin = *at << kRootCellLog2;
-            if (!wanted.everywhere() && !cells.count(origin)) continue;
-            enterRootCell(cells[origin], origin, ball, i);
-        }
-    }
-    return cells;
-}
-
-std::vector<Block> sortIntoBlocks(const RootCells& cells, const std::vector<Ball>& balls,
-    const Wanted& wanted, openvdb::util::NullInterrupter* interrupter)
-{
-    std::vector<Block> blocks;
-    BallLists lists;
-    for (const auto& [origin, cell] : cells) {
-        checkInterrupt(interrupter);
-        if (cell.full) continue;
-        lists.build(balls, cell.balls.data(), cell.balls.data() + cell.balls.size(), origin,
-            kRootCellLog2, BlockCanvas::kLog2);
-        for (std::size_t child = 0; child < lists.size(); ++child) {
-            if (!lists.full(child) && lists.begin(child) == lists.end(child)) continue;
-            Block block;
-            block.origin = lists.childOrigin(child);
-            if (!wanted.has<BlockNode>(block.origin)) continue;
-            block.full = lists.full(child);
-            if (!block.full) block.balls.assign(lists.begin(child), lists.end(child));
-            blocks.push_back(std::move(block));
-        }
-    }
-    return blocks;
-}
+/// The voxels of blocks; null for those that are full.
+using BlockNodes = std::vector<std::unique_ptr<BlockNode>>;
 
 void excludeUnwanted(BlockCanvas& canvas, const Wanted& wanted)
 {
@@ -199,24 +76,25 @@ void storeSlab(const BlockCanvas& canvas, const Wanted& wanted, BlockNode& node)
     }
 }
 
-void drawSlab(const Block& block, int slab, const std::vector<Ball>& balls, const Wanted& wanted,
-    BlockPainter& painter)
+void drawSlab(const Block& block, int slab, const Ball* balls, const Wanted& wanted,
+    BlockPainter& painter, BlockNode& node)
 {
     BlockCanvas& canvas = painter.canvas;
     canvas.begin(block.origin, slab);
     excludeUnwanted(canvas, wanted);
     painter.draw(balls, block.balls);
-    storeSlab(canvas, wanted, *block.node);
+    storeSlab(canvas, wanted, node);
     for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) canvas.clean(cell);
 }
 
-void drawBlocks(std::vector<Block>& blocks, const std::vector<Ball>& balls, const Wanted& wanted,
+/// Lists of balls are given back as they are drawn.
+BlockNodes drawBlocks(std::vector<Block>& blocks, const Ball* balls, const Wanted& wanted,
     openvdb::util::NullInterrupter* interrupter)
 {
     constexpr std::size_t kSlabs = BlockCanvas::kSlabs;
+    BlockNodes nodes(blocks.size());
     parallelFor(blocks.size(), interrupter, [&](std::size_t i) {
-        Block& block = blocks[i];
-        if (!block.full) block.node = std::make_unique<BlockNode>(block.origin, false, false);
+        if (!blocks[i].full) nodes[i] = std::make_unique<BlockNode>(blocks[i].origin, false, false);
     });
     std::vector<std::atomic<std::size_t>> slabsLeft(blocks.size()); // there may be many balls
     for (auto& left : slabsLeft) left = kSlabs;
@@ -224,25 +102,20 @@ void drawBlocks(std::vector<Block>& blocks, const std::vector<Ball>& balls, cons
         kSlabs * blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
             Block& block = blocks[i / kSlabs];
             if (block.full) return;
-            drawSlab(block, int(i % kSlabs), balls, wanted, painter);
+            drawSlab(block, int(i % kSlabs), balls, wanted, painter, *nodes[i / kSlabs]);
             if (--slabsLeft[i / kSlabs] == 0) std::vector<int32_t>().swap(block.balls);
         });
+    return nodes;
 }
 
-bool isEmpty(const Block& block)
-{
-    return !block.full && block.node->isChildMaskOff() && block.node->isValueMaskOff();
-}
-
-MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
+MaskTree::Ptr assemble(const SphereBlocks& cells, BlockNodes& nodes)
 {
     auto tree = std::make_shared<MaskTree>();
-    for (const auto& [origin, cell] : cells) {
-        if (cell.full) tree->root().addTile(origin, true, true);
-    }
+    for (const Coord& origin : cells.fullRootCells) tree->root().addTile(origin, true, true);
     RootCellNode* parent = nullptr; // blocks of a root cell stand together
-    for (Block& block : blocks) {
-        if (isEmpty(block)) continue;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Block& block = cells.blocks[i];
+        if (!block.full && nodes[i]->isChildMaskOff() && nodes[i]->isValueMaskOff()) continue;
         const Coord origin = block.origin & ~((1 << kRootCellLog2) - 1);
         if (!parent || parent->origin() != origin) {
             parent = new RootCellNode(origin, false, false);
@@ -251,7 +124,7 @@ MaskTree::Ptr assemble(const RootCells& cells, std::vector<Block>& blocks)
         if (block.full) {
             parent->addTile(RootCellNode::coordToOffset(block.origin), true, true);
         } else {
-            parent->addChild(block.node.release());
+            parent->addChild(nodes[i].release());
         }
     }
     return tree;
@@ -264,12 +137,10 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Spher
     openvdb::util::NullInterrupter* interrupter)
 {
     const Wanted wanted(within);
-    std::vector<Ball> balls = clipSpheres(spheres, metric, clip);
-    sortLargerFirst(balls);
-    const RootCells cells = sortIntoRootCells(balls, wanted, interrupter);
-    std::vector<Block> blocks = sortIntoBlocks(cells, balls, wanted, interrupter);
-    drawBlocks(blocks, balls, wanted, interrupter);
-    return assemble(cells, blocks);
+    const ClippedSpheres clipped = clipSpheres(spheres, metric, clip, interrupter);
+    SphereBlocks cells = sortIntoBlocks(clipped, wanted, interrupter);
+    BlockNodes nodes = drawBlocks(cells.blocks, clipped.balls.get(), wanted, interrupter);
+    return assemble(cells, nodes);
 }
 
 } // namespace detail

@@ -11,7 +11,6 @@
 #pragma once
 
 #include "../LeafLayout.h"
-#include "../MedialAxis.h"
 #include "../detail/BallOrder.h"
 #include "../detail/MaxPlus.h"
 #include "../detail/StepEnds.h"
@@ -32,15 +31,16 @@ namespace slab {
 template <typename Power>
 class SlabBalls {
     using Labels = SlabLabels<Power>;
+
+public:
     /// Holds a radiusSq: half as many bits as a key.
     using RadiusSq = std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t>;
 
-public:
     /// @param labels   those of leaves without a mark may be undefined
     /// @param centers  one mask for each leaf of the slab: where labels lead to along x; receives
     ///                 the centres of balls
-    /// @return the balls, ordered by centre.
-    std::vector<MedialBall> collect(
+    /// @return radiusSq of the balls, ordered by centre.
+    std::vector<RadiusSq> collect(
         const LeafLayout& layout, uint32_t slab, const Labels& labels, LeafMask* centers)
     {
         const auto ofKey = [&](uint32_t leaf, uint32_t offset) {
@@ -65,13 +65,13 @@ public:
         } else {
             radiusSq = follow(layout, slab, alongY, ofKey, centers, mOfCenters);
         }
-        std::vector<MedialBall> balls(detail::countMarks(centers, layout.slab(slab).size()));
+        std::vector<RadiusSq> radii(detail::countMarks(centers, layout.slab(slab).size()));
         detail::visitWithPlaces(
             layout, slab, centers, [&](uint32_t leaf, uint32_t offset, std::size_t place) {
                 const std::size_t at = std::size_t(leaf - labels.firstLeaf) * kLeafVoxels + offset;
-                balls[place] = {layout.voxel(leaf, offset), int32_t(radiusSq[at])};
+                radii[place] = radiusSq[at];
             });
-        return balls;
+        return radii;
     }
 
 private:

@@ -4,8 +4,10 @@
 
 #pragma once
 
+#include "../detail/BallOrder.h"
 #include "../detail/LargeArray.h"
 #include "../detail/Parallel.h"
+#include "../detail/StageTimer.h"
 #include "ColumnPower.h"
 #include "LevelBalls.h"
 #include "Questions.h"
@@ -34,7 +36,7 @@ public:
         const KeptSteps<Power>& steps, openvdb::util::NullInterrupter* stop)
         : layout(layoutOfLevel), dim(dimension), kept(steps), interrupter(stop),
           mQuestions(layout, asked), mSteps(std::make_unique<Steps>(layout, stop)),
-          mBalls(layout.slabCount())
+          mRadii(layout.slabCount())
     {
         mResult.centers.resize(layout.leafCount());
         for (uint32_t i = 0; i < layout.runCount(Axis::X); ++i) {
@@ -65,19 +67,13 @@ public:
     {
         mQuestions.moveToCenters(slab, labels);
         LeafMask* centers = mResult.centers.data() + layout.slab(slab).begin;
-        mBalls[slab] = balls.collect(layout, slab, labels, centers);
+        mRadii[slab] = balls.collect(layout, slab, labels, centers);
     }
 
     /// @return the balls of all slabs.
     LevelBalls collected()
     {
-        std::size_t count = 0;
-        for (const auto& balls : mBalls) count += balls.size();
-        detail::reserveLarge(mResult.balls, count);
-        for (auto& balls : mBalls) {
-            mResult.balls.insert(mResult.balls.end(), balls.begin(), balls.end());
-            std::vector<MedialBall>().swap(balls);
-        }
+        detail::timed("medial balls", interrupter, &mResult.seconds.medial, [&] { placeBalls(); });
         return std::move(mResult);
     }
 
@@ -108,11 +104,29 @@ public:
 
 private:
     using Steps = XSteps<StepOf<T>>;
+    using Radii = std::vector<typename SlabBalls<Power>::RadiusSq>;
+
+    /// Centres and radii of all slabs become balls, one list in the order of slabs.
+    void placeBalls()
+    {
+        std::vector<std::size_t> first{0}; // of each slab
+        for (const Radii& radii : mRadii) first.push_back(first.back() + radii.size());
+        detail::resizeLarge(mResult.balls, first.back());
+        detail::parallelFor(mRadii.size(), interrupter, [&](std::size_t slab) {
+            const Radii radii = std::move(mRadii[slab]);
+            const LeafMask* centers = mResult.centers.data() + layout.slab(uint32_t(slab)).begin;
+            MedialBall* balls = mResult.balls.data() + first[slab];
+            detail::visitWithPlaces(layout, uint32_t(slab), centers,
+                [&](uint32_t leaf, uint32_t offset, std::size_t place) {
+                    balls[place] = {layout.voxel(leaf, offset), int32_t(radii[place])};
+                });
+        });
+    }
 
     Questions mQuestions;
     std::unique_ptr<Steps> mSteps;
-    std::vector<uint32_t> mFirstSlab;            ///< of each run along x
-    std::vector<std::vector<MedialBall>> mBalls; ///< of each slab
+    std::vector<uint32_t> mFirstSlab; ///< of each run along x
+    std::vector<Radii> mRadii;        ///< of the balls of each slab, whose centres are in mResult
     LevelBalls mResult; ///< its centres are where labels lead along x, until the slab is finished
 };
 
