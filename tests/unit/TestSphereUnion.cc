@@ -147,6 +147,42 @@ TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
 }
 
 /// With radii on both sides of what the kernel for leaves takes, in units of all sizes.
+/// @return the union, made of a few spheres at a time.
+MaskTree unionByAFew(const Spheres& spheres, const CoordBBox& clip)
+{
+    MaskTree all;
+    for (std::size_t begin = 0; begin < spheres.size(); begin += 1000) {
+        const auto from = spheres.begin() + std::ptrdiff_t(begin);
+        const auto few = std::min<std::ptrdiff_t>(1000, spheres.end() - from);
+        all.topologyUnion(*sphereUnion(Spheres(from, from + few), clip));
+    }
+    return all;
+}
+
+/// More than are sorted in one go, in two of the root's cells. Large ones, which come first, fill
+/// what later ones reach into: blocks of 128, then a root cell.
+TEST_F(SphereUnion, ManySpheresAreAsAFewAtATime)
+{
+    std::mt19937 random(11);
+    Spheres spheres = randomSpheres(random, 40000, Coord(4096, 300, 300), 500, 4);
+    const auto expectTheSame = [&](const CoordBBox& clip) {
+        MaskTree expected = unionByAFew(spheres, clip);
+        const auto voxels = expected.activeVoxelCount();
+        const MaskTree::Ptr all = sphereUnion(spheres, clip);
+        const MaskTree::Ptr within = detail::rasterSpheres(spheres, {}, clip, &expected, nullptr);
+        EXPECT_EQ(all->activeVoxelCount(), voxels);
+        EXPECT_EQ(within->activeVoxelCount(), voxels);
+        expected.topologyUnion(*all);
+        expected.topologyUnion(*within);
+        EXPECT_EQ(expected.activeVoxelCount(), voxels);
+    };
+    expectTheSame(kWide);
+    spheres.push_back(ball(2 * 4160, 2 * 320, 2 * 320, 4 * 150 * 150));
+    expectTheSame(kWide);
+    spheres.push_back(ball(2 * 2048, 2 * 2048, 2 * 2048, 4 * 3600 * 3600));
+    expectTheSame(CoordBBox(Coord(0), Coord(4295, 4095, 4095)));
+}
+
 TEST_F(SphereUnion, LargeSpheresMatchBruteForceInAWindow)
 {
     for (int units : kSubdivisions) {
