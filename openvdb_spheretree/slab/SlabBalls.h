@@ -16,6 +16,7 @@
 #include "../detail/StepEnds.h"
 #include "SlabLabels.h"
 
+#include <hwy/cache_control.h>
 #include <openvdb/util/NodeMasks.h>
 
 #include <algorithm>
@@ -31,10 +32,12 @@ namespace slab {
 template <typename Power>
 class SlabBalls {
     using Labels = SlabLabels<Power>;
+    using Key = typename Power::Key;
+    using Offset = typename Power::Offset;
 
 public:
     /// Holds a radiusSq: half as many bits as a key.
-    using RadiusSq = std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t>;
+    using RadiusSq = std::conditional_t<sizeof(Key) == 4, uint16_t, uint32_t>;
 
     /// @param labels   those of leaves without a mark may be undefined
     /// @param centers  one mask for each leaf of the slab: where labels lead to along x; receives
@@ -43,21 +46,15 @@ public:
     std::vector<RadiusSq> collect(
         const LeafLayout& layout, uint32_t slab, const Labels& labels, LeafMask* centers)
     {
-        const auto ofKey = [&](uint32_t leaf, uint32_t offset) {
-            return RadiusSq(detail::siteSqOf<Power>(labels.keysOf(leaf)[offset]));
-        };
+        const OfKey ofKey{labels};
         mMarks.assign(centers, centers + layout.slab(slab).size());
         const Ways alongY{Axis::Y, mMarks.data(), labels.dy};
         const RadiusSq* radiusSq = nullptr; // of centres, 512 a leaf
         if (labels.dz) {
             mEnds.resize(layout.slab(slab).size());
             const RadiusSq* ofEnd = follow(layout, slab, alongY, ofKey, mEnds.data(), mOfEnds);
-            const auto before = [&](uint32_t leaf, uint32_t offset) {
-                return ofEnd[std::size_t(leaf - labels.firstLeaf) * kLeafVoxels + offset];
-            };
-            const auto dz = [&](uint32_t leaf, uint32_t offset) {
-                return labels.dzOf(leaf)[offset];
-            };
+            const Array<RadiusSq> before{ofEnd, labels.firstLeaf};
+            const Array<Offset> dz{labels.dz, labels.firstLeaf};
             const Ways alongZ{Axis::Z, mEnds.data(),
                 labels.dzFollowsDy ? follow(layout, slab, alongY, dz, mEnds.data(), mDzOfEnds)
                                    : labels.dz};
@@ -79,7 +76,43 @@ private:
     struct Ways {
         Axis axis;
         const LeafMask* marks;
-        const typename Power::Offset* steps;
+        const Offset* steps;
+    };
+
+    /// The radius in a voxel's key. Keys are past the caches, where the slab has put them.
+    struct OfKey {
+        const Labels& labels;
+
+        RadiusSq operator()(uint32_t leaf, uint32_t offset) const
+        {
+            return RadiusSq(detail::siteSqOf<Power>(labels.keysOf(leaf)[offset]));
+        }
+        /// Asks for the keys of a leaf's voxels that are marked. Inlined, or compilers see a
+        /// function without effects, and drop calls of it.
+        HWY_INLINE void prefetch(uint32_t leaf, const LeafMask& marks) const
+        {
+            constexpr int kLine = 64 / sizeof(Key);
+            constexpr uint64_t kOfLine = (uint64_t(1) << kLine) - 1;
+            const Key* keys = labels.keysOf(leaf);
+            for (uint32_t x = 0; x < 8; ++x, keys += 64) {
+                const Key* line = keys;
+                for (uint64_t left = marks[x]; left; left >>= kLine, line += kLine) {
+                    if (left & kOfLine) hwy::Prefetch(line);
+                }
+            }
+        }
+    };
+    /// Values that are in the caches, 512 a leaf.
+    template <typename Value>
+    struct Array {
+        const Value* values;
+        uint32_t firstLeaf;
+
+        Value operator()(uint32_t leaf, uint32_t offset) const
+        {
+            return values[std::size_t(leaf - firstLeaf) * kLeafVoxels + offset];
+        }
+        void prefetch(uint32_t, const LeafMask&) const {}
     };
 
     /// What ways along one axis lead to, in all leaves of the slab.
@@ -91,7 +124,7 @@ private:
 
     /// Marks where the ways end, and takes a value along that is the same for all ways of one end:
     /// the radius, as they are of one ball, or what follows.
-    /// @param valueOf  of a voxel that is marked
+    /// @param valueOf  of a voxel that is marked: OfKey or Array
     /// @return the values at the ends, 512 a leaf, elsewhere undefined; they are in `memory`.
     template <typename Value, typename ValueOf>
     static const Value* follow(const LeafLayout& layout, uint32_t slab, const Ways& ways,
@@ -105,6 +138,10 @@ private:
         for (uint32_t index = runs.begin; index < runs.end; ++index) {
             const LeafLayout::Run run = layout.run(ways.axis, index);
             for (uint32_t i = 0; i < run.count; ++i) {
+                if (i + 1 < run.count) {
+                    const uint32_t next = run.leaves[i + 1];
+                    valueOf.prefetch(next, ways.marks[next - leaves.begin]);
+                }
                 followLeaf(run, i, leaves.begin, ways, valueOf, ends);
             }
         }
@@ -140,10 +177,10 @@ private:
         }
     }
 
-    std::vector<LeafMask> mMarks;                  ///< along x, of the slab
-    std::vector<LeafMask> mEnds;                   ///< along y, of the slab
-    std::vector<RadiusSq> mOfEnds, mOfCenters;     ///< 512 a leaf
-    std::vector<typename Power::Offset> mDzOfEnds; ///< the same, where dz follows dy
+    std::vector<LeafMask> mMarks;              ///< along x, of the slab
+    std::vector<LeafMask> mEnds;               ///< along y, of the slab
+    std::vector<RadiusSq> mOfEnds, mOfCenters; ///< 512 a leaf
+    std::vector<Offset> mDzOfEnds;             ///< the same, where dz follows dy
 };
 
 } // namespace slab
