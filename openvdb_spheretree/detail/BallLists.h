@@ -6,7 +6,10 @@
 
 #include "ExactBall.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -22,11 +25,13 @@ public:
     };
 
     /// @param origin, log2    the cell
-    /// @param childLog2       its children's size; children are numbered x slowest, as in OpenVDB
+    /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered x
+    ///                        slowest, as in OpenVDB
     /// @param alongX          those wanted; others get no ball
     void build(const Ball* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
     {
+        assert(log2 - childLog2 <= kMostAlongLog2);
         mAlongX = alongX;
         mOrigin = origin;
         mLog2 = log2;
@@ -57,6 +62,8 @@ public:
     }
 
 private:
+    static constexpr int kMostAlongLog2 = 5, kMostAlong = 1 << kMostAlongLog2; ///< children
+
     struct Entry {
         int32_t child, ball;
     };
@@ -81,7 +88,7 @@ private:
         else enterAny(ball, index, under);
     }
 
-    /// Squares of each axis are computed once.
+    /// Squares of each axis are computed once; one that is beyond the ball's has no sum within it.
     void enterPlain(const Ball& ball, int32_t index, const Children& under)
     {
         for (int a = 0; a < 3; ++a) {
@@ -109,6 +116,7 @@ private:
         for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
             for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {
                 for (int32_t z = under.first[2]; z <= under.last[2]; ++z) {
+                    if (mFull[childAt(x, y, z)]) continue;
                     const int32_t first[3] = {lowest(0, x), lowest(1, y), lowest(2, z)};
                     const int32_t last[3] = {highest(0, x), highest(1, y), highest(2, z)};
                     if (!ball.touches(first, last)) continue;
@@ -140,8 +148,6 @@ private:
     {
         return lowest(axis, i) + ((int32_t(1) << mChildLog2) - 1);
     }
-
-    static constexpr int kMostAlong = 32; ///< children
 
     openvdb::Coord mOrigin;
     int mLog2 = 0, mChildLog2 = 0;

@@ -8,6 +8,7 @@
 #include "LeafBall.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <cstdlib>
 
@@ -44,7 +45,8 @@ void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, co
 /// @return the bits of lo...hi, which are in order, of a row of eight.
 inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (0xffu << lo); }
 
-/// ORs what is in a ball's box of the words of the leaf at @a origin into others.
+/// ORs what is in a ball's box of the words of the leaf at @a origin, which it must meet, into
+/// others.
 inline void orBoxOfWords(
     const uint64_t from[8], const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
 {
@@ -52,6 +54,7 @@ inline void orBoxOfWords(
     for (int a = 0; a < 3; ++a) {
         first[a] = std::max(ball.lo[a], origin[a]) - origin[a];
         last[a] = std::min(ball.hi[a], origin[a] + 7) - origin[a];
+        assert(first[a] <= last[a]);
     }
     const uint64_t rows = ~uint64_t(0) >> (8 * (7 - last[1])) & ~uint64_t(0) << (8 * first[1]);
     const uint64_t box = rows & rowBits(first[2], last[2]) * 0x0101010101010101;

@@ -22,8 +22,9 @@ using openvdb::Coord;
 using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
 
-/// So many balls are sorted in one go.
-constexpr std::size_t kPart = 8192;
+/// So many balls are sorted in one go: enough to be worth the lists of a cell's 32^3 children, and
+/// few enough for these to be counted in 32 bits.
+constexpr std::size_t kBallsAtATime = 8192;
 
 struct RootCell {
     bool full = false;
@@ -38,8 +39,9 @@ void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_
     cell.balls.push_back(index);
 }
 
+/// @param visited  cells so far, of this and other balls
 void enterRootCells(RootCells& cells, const Ball& ball, int32_t index, const Wanted& wanted,
-    NullInterrupter* interrupter)
+    int64_t& visited, NullInterrupter* interrupter)
 {
     const openvdb::CoordBBox range(
         Coord(ball.lo) >> kRootCellLog2, Coord(ball.hi) >> kRootCellLog2);
@@ -51,7 +53,6 @@ void enterRootCells(RootCells& cells, const Ball& ball, int32_t index, const Wan
         }
         return;
     }
-    int64_t visited = 0;
     for (auto at = range.begin(); at; ++at) {
         if (++visited % 4096 == 0) checkInterrupt(interrupter);
         const Coord origin = *at << kRootCellLog2;
@@ -60,32 +61,37 @@ void enterRootCells(RootCells& cells, const Ball& ball, int32_t index, const Wan
     }
 }
 
-template <typename Element>
-void append(std::vector<Element>& all, std::vector<Element> more)
+/// Joins the balls of a cell, which do not matter once it is full.
+void join(
+    bool full, const int32_t* begin, const int32_t* end, bool& allFull, std::vector<int32_t>& all)
 {
-    if (all.empty()) all = std::move(more);
-    else all.insert(all.end(), more.begin(), more.end());
+    allFull = allFull || full;
+    if (allFull) std::vector<int32_t>().swap(all);
+    else all.insert(all.end(), begin, end);
 }
 
 RootCells sortIntoRootCells(
     const ClippedSpheres& spheres, const Wanted& wanted, NullInterrupter* interrupter)
 {
     const std::size_t count = spheres.order.size();
-    std::vector<RootCells> parts((count + kPart - 1) / kPart);
+    std::vector<RootCells> parts((count + kBallsAtATime - 1) / kBallsAtATime);
     parallelFor(parts.size(), interrupter, [&](std::size_t part) {
-        const std::size_t end = std::min((part + 1) * kPart, count);
-        for (std::size_t i = part * kPart; i < end; ++i) {
+        const std::size_t end = std::min((part + 1) * kBallsAtATime, count);
+        int64_t visited = 0;
+        for (std::size_t i = part * kBallsAtATime; i < end; ++i) {
             const int32_t index = spheres.order[i];
-            enterRootCells(parts[part], spheres.balls[index], index, wanted, interrupter);
+            enterRootCells(parts[part], spheres.balls[index], index, wanted, visited, interrupter);
         }
     });
     RootCells cells;
     for (RootCells& part : parts) {
+        checkInterrupt(interrupter);
         for (auto& [origin, cell] : part) {
             RootCell& all = cells[origin];
-            all.full = all.full || cell.full;
-            if (!all.full) append(all.balls, std::move(cell.balls));
+            join(cell.full, cell.balls.data(), cell.balls.data() + cell.balls.size(), all.full,
+                all.balls);
         }
+        RootCells().swap(part);
     }
     return cells;
 }
@@ -103,7 +109,7 @@ std::vector<PartOfCell> partsOf(const RootCells& cells)
         if (cell.full) continue;
         const int32_t* const end = cell.balls.data() + cell.balls.size();
         for (const int32_t* at = cell.balls.data(); at != end;) {
-            const int32_t* const next = at + std::min(kPart, std::size_t(end - at));
+            const int32_t* const next = at + std::min(kBallsAtATime, std::size_t(end - at));
             parts.push_back({origin, at, next});
             at = next;
         }
@@ -111,36 +117,47 @@ std::vector<PartOfCell> partsOf(const RootCells& cells)
     return parts;
 }
 
-/// @return the children of a root cell that balls reach into, in order.
-std::vector<Block> blocksOf(const BallLists& lists, const Wanted& wanted)
+/// The children of a root cell that some balls reach into, in order, and which balls these are.
+struct Children {
+    struct Child {
+        Coord origin;
+        bool full;
+        std::size_t end; ///< of its balls; they begin where the last child's end
+    };
+    std::vector<Child> children;
+    std::vector<int32_t> balls;
+};
+
+Children childrenOf(const BallLists& lists, const Wanted& wanted)
 {
-    std::vector<Block> blocks;
+    Children result;
     for (std::size_t child = 0; child < lists.size(); ++child) {
-        if (!lists.full(child) && lists.begin(child) == lists.end(child)) continue;
-        Block block;
-        block.origin = lists.childOrigin(child);
-        if (!wanted.has<BlockNode>(block.origin)) continue;
-        block.full = lists.full(child);
-        if (!block.full) block.balls.assign(lists.begin(child), lists.end(child));
-        blocks.push_back(std::move(block));
+        const bool full = lists.full(child);
+        if (!full && lists.begin(child) == lists.end(child)) continue;
+        const Coord origin = lists.childOrigin(child);
+        if (!wanted.has<BlockNode>(origin)) continue;
+        if (!full) result.balls.insert(result.balls.end(), lists.begin(child), lists.end(child));
+        result.children.push_back({origin, full, result.balls.size()});
     }
-    return blocks;
+    return result;
 }
 
-/// Joins the blocks of parts of one cell, in the order of parts.
-void joinBlocks(std::vector<Block>* first, std::vector<Block>* last, std::vector<Block>& result)
+/// Joins what balls of one root cell reach into, in the order of balls. @a parts are used up.
+void joinBlocks(Children* parts, Children* end, std::vector<Block>& result)
 {
     std::map<Coord, Block> joined; // in the order of children: x slowest
-    for (; first != last; ++first) {
-        for (Block& block : *first) {
-            Block& all = joined[block.origin];
-            all.origin = block.origin;
-            all.full = all.full || block.full;
-            append(all.balls, std::move(block.balls));
+    for (; parts != end; ++parts) {
+        const Children part = std::move(*parts);
+        const int32_t* begin = part.balls.data();
+        for (const Children::Child& child : part.children) {
+            Block& block = joined[child.origin];
+            const int32_t* const last = part.balls.data() + child.end;
+            join(child.full, begin, last, block.full, block.balls);
+            begin = last;
         }
     }
     for (auto& [origin, block] : joined) {
-        if (block.full) std::vector<int32_t>().swap(block.balls);
+        block.origin = origin;
         result.push_back(std::move(block));
     }
 }
@@ -181,8 +198,10 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
         }
     };
     add(Kind::Large);
-    tbb::parallel_sort(order.begin(), order.end(),
-        [&](int32_t a, int32_t b) { return result.balls[a].coverSq > result.balls[b].coverSq; });
+    tbb::parallel_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
+        const int64_t first = result.balls[a].coverSq, second = result.balls[b].coverSq;
+        return first != second ? first > second : a < b;
+    });
     add(Kind::Small);
     return result;
 }
@@ -192,12 +211,12 @@ SphereBlocks sortIntoBlocks(
 {
     const RootCells cells = sortIntoRootCells(spheres, wanted, interrupter);
     const std::vector<PartOfCell> parts = partsOf(cells);
-    std::vector<std::vector<Block>> blocks(parts.size());
+    std::vector<Children> children(parts.size());
     parallelForWithScratch<BallLists>(
         parts.size(), interrupter, [&](std::size_t i, BallLists& lists) {
             lists.build(spheres.balls.get(), parts[i].begin, parts[i].end, parts[i].origin,
                 kRootCellLog2, BlockCanvas::kLog2);
-            blocks[i] = blocksOf(lists, wanted);
+            children[i] = childrenOf(lists, wanted);
         });
     SphereBlocks result;
     for (const auto& [origin, cell] : cells) {
@@ -205,7 +224,8 @@ SphereBlocks sortIntoBlocks(
     }
     for (std::size_t i = 0, end = 0; i < parts.size(); i = end) {
         while (end < parts.size() && parts[end].origin == parts[i].origin) ++end;
-        joinBlocks(blocks.data() + i, blocks.data() + end, result.blocks);
+        checkInterrupt(interrupter);
+        joinBlocks(children.data() + i, children.data() + end, result.blocks);
     }
     return result;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/SphereBlocks.h
 /// @brief Spheres sorted into the cubic cells of OpenVDB's nodes: which ones reach into which cell of
-/// 4096^3 voxels, and in there of 128^3.
+/// 4096^3 voxels, and in there of 128^3. Exact. Cost: some hundred bytes a sphere, and four for each
+/// pair of a sphere and a cell; time likewise.
 
 #pragma once
 
@@ -29,6 +30,7 @@ public:
     /// @return the origins of the root's cells that have something, in order.
     const std::vector<openvdb::Coord>& rootCells() const { return mRootCells; }
     bool hasRootCell(const openvdb::Coord& origin) const;
+    /// @return whether there is anything in the node at @a origin.
     template <typename NodeType>
     bool has(const openvdb::Coord& origin) const
     {
@@ -61,6 +63,7 @@ struct SphereBlocks {
     std::vector<Block> blocks;                 ///< in all others; root cell by root cell
 };
 
+/// Parallel. Spheres without a voxel in @a clip are not in the order.
 ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const SphereMetric& metric,
     const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter);
 

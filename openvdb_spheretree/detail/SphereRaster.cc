@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file detail/SphereRaster.cc
-/// @brief Spheres to a sparse mask: sorted into cells, then drawn row by row.
+/// @brief Spheres to a sparse mask: sorted into cells, then drawn on mask words.
 ///
 /// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
 /// 2. sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell

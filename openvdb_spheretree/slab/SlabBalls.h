@@ -102,7 +102,7 @@ private:
             }
         }
     };
-    /// Values that are in the caches, 512 a leaf.
+    /// Values that are read in order, 512 a leaf.
     template <typename Value>
     struct Array {
         const Value* values;

@@ -15,6 +15,7 @@
 #include "SlabEntry.h"
 #include "SlabLabels.h"
 
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -106,7 +107,8 @@ private:
     using Steps = XSteps<StepOf<T>>;
     using Radii = std::vector<typename SlabBalls<Power>::RadiusSq>;
 
-    /// Centres and radii of all slabs become balls, one list in the order of slabs.
+    /// Centres and radii of all slabs become balls, one list in the order of slabs: zeros first, by
+    /// one thread, for want of a vector that begins without.
     void placeBalls()
     {
         std::vector<std::size_t> first{0}; // of each slab
@@ -116,6 +118,7 @@ private:
             const Radii radii = std::move(mRadii[slab]);
             const LeafMask* centers = mResult.centers.data() + layout.slab(uint32_t(slab)).begin;
             MedialBall* balls = mResult.balls.data() + first[slab];
+            assert(radii.size() == detail::countMarks(centers, layout.slab(uint32_t(slab)).size()));
             detail::visitWithPlaces(layout, uint32_t(slab), centers,
                 [&](uint32_t leaf, uint32_t offset, std::size_t place) {
                     balls[place] = {layout.voxel(leaf, offset), int32_t(radii[place])};

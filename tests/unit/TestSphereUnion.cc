@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <random>
 
 namespace {
@@ -146,7 +148,6 @@ TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
     EXPECT_GT(sphereUnion(fine, kWide, nullptr, {{}, 16})->activeTileCount(), 0u);
 }
 
-/// With radii on both sides of what the kernel for leaves takes, in units of all sizes.
 /// @return the union, made of a few spheres at a time.
 MaskTree unionByAFew(const Spheres& spheres, const CoordBBox& clip)
 {
@@ -183,6 +184,7 @@ TEST_F(SphereUnion, ManySpheresAreAsAFewAtATime)
     expectTheSame(CoordBBox(Coord(0), Coord(4295, 4095, 4095)));
 }
 
+/// With radii on both sides of what the kernel for leaves takes, in units of all sizes.
 TEST_F(SphereUnion, LargeSpheresMatchBruteForceInAWindow)
 {
     for (int units : kSubdivisions) {
@@ -395,7 +397,7 @@ TEST_F(SphereUnion, WorksAtTheLastCoordinates)
 TEST_F(SphereUnion, DoesNotDependOnThreadsNorOnTheOrderOfSpheres)
 {
     std::mt19937 random(7);
-    Spheres spheres = randomSpheres(random, 3000, Coord(0), 600, 25);
+    Spheres spheres = randomSpheres(random, 30000, Coord(2048), 1500, 12); // sorted in parts
     const auto draw = [&](int threads) {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return sphereUnion(spheres, kWide);
