@@ -7,6 +7,8 @@
 #include "SlabDistance.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tree/ValueAccessor.h>
 
 #include <algorithm>
 #include <vector>
@@ -54,6 +56,20 @@ uint32_t largest(const LeafLayout& layout, int dim, uint32_t threads, NullInterr
     return ofSlab.empty() ? 0 : *std::max_element(ofSlab.begin(), ofSlab.end());
 }
 
+/// A leaf that is not there has nothing but background: eight times as far as the nearest such place
+/// is among leaves, there is a voxel of it.
+uint64_t boundByLeaves(
+    const LeafLayout& layout, int dim, uint32_t threads, NullInterrupter* interrupter)
+{
+    openvdb::MaskTree leaves(false);
+    openvdb::tree::ValueAccessor<openvdb::MaskTree> places(leaves);
+    for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
+        places.setValueOn(layout.origin(leaf) >> 3);
+    }
+    const uint32_t distSq = largest<uint16_t>(LeafLayout(leaves), dim, threads, interrupter);
+    return distSq < detail::kNarrowMax ? uint64_t(distSq) * kLeafDim * kLeafDim : UINT64_MAX;
+}
+
 } // namespace
 
 uint32_t largestDistSq(
@@ -61,6 +77,8 @@ uint32_t largestDistSq(
 {
     const uint64_t bound = boundByRuns(layout, dim);
     if (bound <= detail::NarrowPower::kMaxRadiusSq) return uint32_t(bound);
+    const uint64_t closer = boundByLeaves(layout, dim, threads, interrupter);
+    if (closer <= detail::NarrowPower::kMaxRadiusSq) return uint32_t(closer);
     const uint32_t narrow = largest<uint16_t>(layout, dim, threads, interrupter);
     if (narrow < detail::kNarrowMax) return narrow;
     const uint32_t wide = largest<uint32_t>(layout, dim, threads, interrupter);

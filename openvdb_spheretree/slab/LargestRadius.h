@@ -13,9 +13,9 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// @return a number that no squared distance of the level exceeds: from the lengths of runs, or,
-///         where those are long, the largest distance itself (a distance transform; nothing of it
-///         is kept).
+/// @return a number that no squared distance of the level exceeds: from the lengths of runs, from the
+///         distances among leaves, or, where radii may be beyond what narrow labels hold, the largest
+///         distance itself (a distance transform; nothing of it is kept).
 /// @param threads  at most, each with memory for the distances of a slab
 /// @throw openvdb::ValueError if a radius is 46340 voxels or more
 uint32_t largestDistSq(const LeafLayout& layout, int dim, uint32_t threads,

@@ -12,6 +12,8 @@
 #include <openvdb_spheretree/slab/LargestRadius.h>
 #include <tbb/global_control.h>
 
+#include <cmath>
+
 namespace {
 
 using namespace openvdb_spheretree;
@@ -291,6 +293,28 @@ TEST(LargestDistSq, IsNeverTooSmall)
         EXPECT_GE(bound, uint32_t(radius * radius));
         if (radius > 130) { // beyond what runs tell, it is exact
             EXPECT_EQ(bound, uint32_t(radius * radius));
+        }
+    }
+}
+
+/// Bars that cross: the runs through their middle are long, though nothing is far from the background.
+TEST(LargestDistSq, IsCloseWhereRunsAreLong)
+{
+    for (const int dim : {2, 3}) {
+        for (const int half : {20, 31, 64}) {
+            openvdb::MaskTree voxels(false);
+            for (int axis = 0; axis < dim; ++axis) {
+                openvdb::CoordBBox bar(openvdb::Coord(-37 - half), openvdb::Coord(-37 + half));
+                bar.min()[axis] -= 200;
+                bar.max()[axis] += 200;
+                if (dim == 2) bar.min()[2] = bar.max()[2] = 5;
+                voxels.fill(bar, true);
+            }
+            const LeafLayout layout(voxels);
+            const uint32_t bound = slab::largestDistSq(layout, dim, 2, nullptr);
+            const uint32_t largest = distanceTransform(layout, dim).maxDistSq();
+            EXPECT_GE(bound, largest) << half;
+            EXPECT_LE(std::sqrt(bound), std::sqrt(largest) + 2 * 8 * std::sqrt(dim)) << half;
         }
     }
 }
