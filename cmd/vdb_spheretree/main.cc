@@ -3,9 +3,9 @@
 /// @brief vdb_spheretree: parse the whole line, check all that can be checked, run it action by
 /// action.
 
-#include "ActionParser.h"
-#include "Help.h"
-#include "Session.h"
+#include "actions/Help.h"
+#include "line/ActionParser.h"
+#include "session/Session.h"
 
 #include <openvdb/openvdb.h>
 

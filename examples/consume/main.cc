@@ -2,9 +2,9 @@
 /// @file main.cc
 /// @brief A level set to a sphere-tree to VDB points, from outside the project.
 
-#include <openvdb_spheretree/ObjectMask.h>
-#include <openvdb_spheretree/SphereTree.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointCount.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/BlockStore.h
+/// @file BlockStore.h
 /// @brief Blocks of numbers, compressed: in memory up to a bound, the rest in a temporary file.
 ///
 /// Blosc splits numbers into their bits, and LZ4 takes those of equal place together.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/ColumnPower.h
+/// @file ColumnPower.h
 /// @brief The last pass of the power map, along x, over some of the leaves of a run.
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/LeafRows.h"
-#include "../detail/MaxPlus.h"
-#include "../detail/StepBits.h"
+#include <openvdb_spheretree/kernel/LabelStepBits.h>
+#include <openvdb_spheretree/kernel/LeafRows.h>
+#include <openvdb_spheretree/kernel/MaxPlus.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>
 #include <cstddef>

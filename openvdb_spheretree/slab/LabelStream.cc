@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LabelStream.h"
 
-#include "../SphereTreeSettings.h"
-#include "../detail/Memory.h"
 #include "LargestRadius.h"
 #include "PackedStream.h"
 #include "WindowStream.h"
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
 
 #include <tbb/task_arena.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/LabelStream.h
+/// @file LabelStream.h
 /// @brief From voxels to power labels and medial balls, slab by slab, in as much memory as there is
 /// to be.
 ///
@@ -12,12 +12,12 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../PowerMap.h"
-#include "../detail/LabelSteps.h"
+#include "LabelQueries.h"
+#include "LabelSteps.h"
 #include "LevelBalls.h"
-#include "Questions.h"
 #include "StreamPlan.h"
+#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LargestRadius.h"
 
-#include "../detail/LargestValue.h"
-#include "../detail/MaxPlus.h"
-#include "../detail/Parallel.h"
 #include "SlabDistance.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/kernel/LargestValue.h>
+#include <openvdb_spheretree/kernel/MaxPlus.h>
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/openvdb.h>

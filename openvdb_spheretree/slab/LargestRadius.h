@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/LargestRadius.h
+/// @file LargestRadius.h
 /// @brief How many bits the numbers of a level need, known before they are computed.
 
 #pragma once
 
-#include "../LeafLayout.h"
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/LevelBalls.h
+/// @file LevelBalls.h
 /// @brief What comes out of a stream of labels.
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../MedialAxis.h"
+#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <vector>
 

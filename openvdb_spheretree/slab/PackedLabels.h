@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/PackedLabels.h
+/// @file PackedLabels.h
 /// @brief The labels of a slab in a form that compresses well, and back.
 ///
 /// A key after the passes along z and y is a sum: of the site's radiusSq, less the squares of the
@@ -10,9 +10,9 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/MaxPlus.h"
 #include "SlabLabels.h"
+#include <openvdb_spheretree/kernel/MaxPlus.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
 #include <type_traits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/PackedStream.h
+/// @file PackedStream.h
 /// @brief A stream of labels that has few slabs in memory at a time, and all others compressed.
 ///
 /// For objects with balls so large that most slabs wait for others. What takes turns in a window
@@ -14,11 +14,11 @@
 
 #pragma once
 
-#include "../detail/LargeArray.h"
 #include "BlockStore.h"
 #include "PackedLabels.h"
 #include "StreamPlan.h"
 #include "StreamWork.h"
+#include <openvdb_spheretree/base/LargeArray.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabBalls.h
+/// @file SlabBalls.h
 /// @brief The medial balls of a slab, once all labels that lead to it are known along x.
 ///
 /// A label leads from a voxel along x to a voxel of the slab, from there along y, and from there
@@ -10,11 +10,11 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/BallOrder.h"
-#include "../detail/MaxPlus.h"
-#include "../detail/StepEnds.h"
 #include "SlabLabels.h"
+#include <openvdb_spheretree/kernel/LabelStepEnds.h>
+#include <openvdb_spheretree/kernel/MaxPlus.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/SlabOrder.h>
 
 #include <hwy/cache_control.h>
 #include <openvdb/util/NodeMasks.h>

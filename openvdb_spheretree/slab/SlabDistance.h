@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabDistance.h
+/// @file SlabDistance.h
 /// @brief The exact distances of one slab, while its values are in the cache.
 ///
 /// Squares along x come straight from mask words (XSteps.h) into rows along y; the passes along y
@@ -8,13 +8,13 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/EnvelopeScratch.h"
-#include "../detail/LeafRows.h"
-#include "../detail/LeafTranspose.h"
-#include "../detail/MinPlus.h"
 #include "SlabRows.h"
 #include "XSteps.h"
+#include <openvdb_spheretree/kernel/EnvelopeScratch.h>
+#include <openvdb_spheretree/kernel/LeafRows.h>
+#include <openvdb_spheretree/kernel/LeafTranspose.h>
+#include <openvdb_spheretree/kernel/MinPlus.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
 

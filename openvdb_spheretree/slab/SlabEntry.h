@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabEntry.h
+/// @file SlabEntry.h
 /// @brief How a slab enters: its distances, and what of the power labels stays within it.
 
 #pragma once
 
-#include "../detail/StageTimer.h"
 #include "SlabDistance.h"
 #include "SlabPower.h"
 #include "XSteps.h"
+#include <openvdb_spheretree/base/Stage.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabLabels.h
+/// @file SlabLabels.h
 /// @brief Where the power labels of a slab are while others may still ask for them.
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../PowerMap.h"
-#include "../detail/LargeArray.h"
+#include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabPool.h
+/// @file SlabPool.h
 /// @brief The slabs of the window, and memory for them that is used again from slab to slab.
 
 #pragma once
 
-#include "../LeafLayout.h"
 #include "SlabLabels.h"
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
 #include <utility>

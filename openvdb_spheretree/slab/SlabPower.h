@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabPower.h
+/// @file SlabPower.h
 /// @brief The passes of the power map that stay within a slab: along z, then along y.
 ///
 /// Every voxel starts as its own site. Rows of distances come from SlabDistance.h as they are made;
@@ -7,12 +7,12 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/LeafRows.h"
-#include "../detail/LeafTranspose.h"
-#include "../detail/MaxPlus.h"
 #include "SlabLabels.h"
 #include "SlabRows.h"
+#include <openvdb_spheretree/kernel/LeafRows.h>
+#include <openvdb_spheretree/kernel/LeafTranspose.h>
+#include <openvdb_spheretree/kernel/MaxPlus.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <hwy/cache_control.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SlabRows.h
+/// @file SlabRows.h
 /// @brief The rows of all runs of a slab along one axis, one run behind the other, with a row of
 /// zeros before and after each: background cuts runs by itself.
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/LeafRows.h"
+#include <openvdb_spheretree/kernel/LeafRows.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
 #include <cstring>

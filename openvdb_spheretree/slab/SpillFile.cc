@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SpillFile.h"
 
-#include "../detail/Memory.h"
+#include <openvdb_spheretree/base/Memory.h>
 
 #include <openvdb/Exceptions.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/SpillFile.h
+/// @file SpillFile.h
 /// @brief A temporary file for what does not fit into memory.
 ///
 /// It has no name: it is removed from its folder as soon as it is open, so that nothing is left

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/StreamPlan.h
+/// @file StreamPlan.h
 /// @brief How a stream of labels keeps to its memory: known before it starts.
 
 #pragma once
 
-#include "../LeafLayout.h"
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
 #include <vector>

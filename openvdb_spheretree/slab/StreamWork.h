@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/StreamWork.h
+/// @file StreamWork.h
 /// @brief What is done to slabs and columns, whichever way they are kept in between.
 
 #pragma once
 
-#include "../detail/BallOrder.h"
-#include "../detail/LargeArray.h"
-#include "../detail/Parallel.h"
-#include "../detail/StageTimer.h"
 #include "ColumnPower.h"
+#include "LabelQueries.h"
 #include "LevelBalls.h"
-#include "Questions.h"
 #include "SlabBalls.h"
 #include "SlabEntry.h"
 #include "SlabLabels.h"
+#include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/voxel/SlabOrder.h>
 
 #include <cassert>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/WindowStream.h
+/// @file WindowStream.h
 /// @brief A stream of labels that has a window of slabs in memory.
 ///
 /// Slabs go through three states:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "XSteps.h"
 
-#include "../detail/Parallel.h"
-#include "StepKernels.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/kernel/BackgroundSteps.h>
 
 #include <cstring>
 

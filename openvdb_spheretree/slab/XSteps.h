@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file slab/XSteps.h
+/// @file XSteps.h
 /// @brief How far from each leaf the background is along x, beyond the leaf itself.
 ///
 /// With these numbers a slab knows everything that it needs of the others: its distances along x
@@ -9,8 +9,8 @@
 
 #pragma once
 
-#include "../LeafLayout.h"
-#include "../detail/LargeArray.h"
+#include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightTree.h"
 
-#include "../FlatAxis.h"
-#include "../LevelErrors.h"
-#include "../MedialLevel.h"
-#include "../detail/StageTimer.h"
-#include "LeafPruning.h"
-#include "LevelCounts.h"
-#include "MergeForest.h"
-#include "PowerCells.h"
-#include "SearchedLevels.h"
-#include "SlackMerging.h"
-#include "StrictMerging.h"
-#include "TightLevels.h"
+#include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/tight/level/LevelCounts.h>
+#include <openvdb_spheretree/tight/level/SearchedLevels.h>
+#include <openvdb_spheretree/tight/level/TightLevels.h>
+#include <openvdb_spheretree/tight/merge/MergeForest.h>
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+#include <openvdb_spheretree/tight/merge/StrictMerging.h>
+#include <openvdb_spheretree/tight/region/LeafPruning.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <openvdb/Exceptions.h>
 

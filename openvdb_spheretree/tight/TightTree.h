@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file tight/TightTree.h
+/// @file TightTree.h
 /// @brief Tight trees: few spheres for a small error, with the object covered for certain.
 ///
 /// The trees of the paper pay for containing whole leaf balls around centres that are given. A tight
@@ -14,7 +14,7 @@
 
 #pragma once
 
-#include "../SphereTree.h"
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>

@@ -6,8 +6,8 @@
 
 #include "BenchmarkObject.h"
 
-#include <openvdb_spheretree/LeafLayout.h>
-#include <openvdb_spheretree/ObjectMask.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BenchmarkJson.h"
 
-#include <openvdb_spheretree/JsonWriter.h>
+#include <openvdb_spheretree/store/JsonWriter.h>
 
 #include <tbb/info.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BenchmarkObject.h"
 
-#include <openvdb_spheretree/GeneratedObject.h>
-#include <openvdb_spheretree/VolFile.h>
+#include <openvdb_spheretree/input/shapes/GeneratedObject.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/LevelSetSphere.h>

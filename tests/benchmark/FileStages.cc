@@ -3,7 +3,7 @@
 #include "TemporaryFile.h"
 #include "TreeStages.h"
 
-#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <openvdb/io/File.h>
 

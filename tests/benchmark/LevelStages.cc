@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelStages.h"
 
-#include <openvdb_spheretree/MedialLevel.h>
-#include <openvdb_spheretree/OrPyramid.h>
-#include <openvdb_spheretree/SphereDag.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/paper/SphereDag.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlainCopy.h"
 
-#include <openvdb_spheretree/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>

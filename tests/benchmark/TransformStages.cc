@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransformStages.h"
 
-#include <openvdb_spheretree/DistanceTransform.h>
-#include <openvdb_spheretree/LevelTopology.h>
-#include <openvdb_spheretree/MedialAxis.h>
-#include <openvdb_spheretree/PowerMap.h>
+#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/medial/PowerMap.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
+#include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <benchmark/benchmark.h>
 

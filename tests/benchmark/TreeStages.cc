@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeStages.h"
 
-#include <openvdb_spheretree/LevelErrors.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <benchmark/benchmark.h>
 

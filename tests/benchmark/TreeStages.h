@@ -6,7 +6,7 @@
 
 #include "BenchmarkStages.h"
 
-#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 namespace spheretree_benchmark {
 

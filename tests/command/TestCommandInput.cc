@@ -5,7 +5,7 @@
 #include "CommandRunner.h"
 
 #include <openvdb/points/PointConversion.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <limits>
 

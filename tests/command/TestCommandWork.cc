@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the actions do, and how they pass things on.
 
-#include "../support/SampleTrees.h"
 #include "CommandRunner.h"
+#include "support/SampleTrees.h"
 
 #include <openvdb/tools/LevelSetUtil.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <regex>
 

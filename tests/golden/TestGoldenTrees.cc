@@ -4,10 +4,10 @@
 /// from the text files tests/data/<object>.<tree>.txt. Independent dense programs gave the
 /// numbers.
 
-#include <openvdb_spheretree/LevelErrors.h>
-#include <openvdb_spheretree/ObjectMask.h>
-#include <openvdb_spheretree/SphereTree.h>
-#include <openvdb_spheretree/VolFile.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <gtest/gtest.h>
 

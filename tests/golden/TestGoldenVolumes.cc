@@ -4,10 +4,10 @@
 /// them. The files are not part of the project: the environment variable SPHERETREE_DATA names the
 /// folder that holds `vol/`.
 
-#include "../support/CoreStages.h"
+#include "support/CoreStages.h"
 
-#include <openvdb_spheretree/ObjectMask.h>
-#include <openvdb_spheretree/VolFile.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <cctype>
 #include <cstdlib>

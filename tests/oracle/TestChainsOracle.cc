@@ -2,13 +2,13 @@
 /// @file TestChainsOracle.cc
 /// @brief Chains of spheres in random tight trees, sound and damaged, against their definition.
 
-#include <openvdb_spheretree/detail/ChainCheck.h>
+#include <openvdb_spheretree/check/ChainCheck.h>
 
-#include "../support/NaiveChains.h"
-#include "../support/TightSamples.h"
+#include "support/NaiveChains.h"
+#include "support/TightSamples.h"
 
-#include <openvdb_spheretree/Interrupted.h>
-#include <openvdb_spheretree/TreeCheck.h>
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -3,14 +3,14 @@
 /// @brief Closing by the distance transform against closing voxel by voxel, and the model made of
 /// it.
 
-#include "../support/CoreStages.h"
-#include "../support/Messages.h"
-#include "../support/NaiveModels.h"
-#include "../support/RandomObjects.h"
+#include "support/CoreStages.h"
+#include "support/Messages.h"
+#include "support/NaiveModels.h"
+#include "support/RandomObjects.h"
 
-#include <openvdb_spheretree/Closing.h>
-#include <openvdb_spheretree/Interrupted.h>
-#include <openvdb_spheretree/OrPyramid.h>
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/pyramid/Closing.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
 
 #include <tbb/global_control.h>
 

@@ -4,8 +4,8 @@
 /// instead of looking at every row, and radii beyond 127 and 254 voxels, where keys and distances
 /// become wider. Against LineReference.h and closed forms.
 
-#include "../support/CoreStages.h"
-#include "../support/RandomObjects.h"
+#include "support/CoreStages.h"
+#include "support/RandomObjects.h"
 
 namespace {
 

@@ -3,12 +3,12 @@
 /// @brief Everything once more with the balls of norms: distances, labels and medial balls against
 /// the O(n^2) definition, trees against the dense program, errors against all voxels of a box.
 
-#include "../support/DenseAgreement.h"
+#include "support/DenseAgreement.h"
 
-#include <openvdb_spheretree/LevelErrors.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
-#include <openvdb_spheretree/SphereUnion.h>
-#include <openvdb_spheretree/TreeCheck.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <random>
 

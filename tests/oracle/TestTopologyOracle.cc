@@ -2,13 +2,13 @@
 /// @file TestTopologyOracle.cc
 /// @brief Betti numbers against floods of dense arrays.
 
-#include "../support/BuiltTrees.h"
-#include "../support/CoreStages.h"
-#include "../support/DenseAgreement.h"
-#include "../support/DenseTopology.h"
-#include "../support/RandomObjects.h"
+#include "support/BuiltTrees.h"
+#include "support/CoreStages.h"
+#include "support/DenseAgreement.h"
+#include "support/DenseTopology.h"
+#include "support/RandomObjects.h"
 
-#include <openvdb_spheretree/LevelTopology.h>
+#include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

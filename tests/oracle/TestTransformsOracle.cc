@@ -3,8 +3,8 @@
 /// @brief Distances, power labels and medial balls against the O(n^2) definition: on random
 /// objects, and on every mask of 2x2x3 voxels.
 
-#include "../support/CoreStages.h"
-#include "../support/RandomObjects.h"
+#include "support/CoreStages.h"
+#include "support/RandomObjects.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 /// program of support/DenseTree.h: the same balls on the same levels, the same parents, centres,
 /// radii and DAG.
 
-#include "../support/DenseAgreement.h"
+#include "support/DenseAgreement.h"
 
 namespace {
 

@@ -2,13 +2,13 @@
 /// @file TestFlatObjects.cc
 /// @brief Two dimensions along any axis: an object turned on its side has the same tree, turned.
 
-#include "../support/BuiltTrees.h"
+#include "support/BuiltTrees.h"
 
-#include <openvdb_spheretree/FlatAxis.h>
-#include <openvdb_spheretree/LevelErrors.h>
-#include <openvdb_spheretree/OrPyramid.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
-#include <openvdb_spheretree/TreeCheck.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 namespace {
 

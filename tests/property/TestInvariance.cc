@@ -3,8 +3,8 @@
 /// @brief What must not matter: where an object lies, which way its axes point, what else lies far
 /// away, whether voxels are stored as tiles, how many threads there are.
 
-#include "../support/CoreStages.h"
-#include "../support/RandomObjects.h"
+#include "support/CoreStages.h"
+#include "support/RandomObjects.h"
 
 #include <tbb/global_control.h>
 

@@ -3,14 +3,14 @@
 /// @brief What holds for every sphere-tree, with other pyramid models than OR: ones that stay in
 /// the object's box, ones that leave it, and ones that no tree can be made with.
 
-#include "../support/BuiltTrees.h"
-#include "../support/Messages.h"
+#include "support/BuiltTrees.h"
+#include "support/Messages.h"
 
-#include <openvdb_spheretree/BlockModel.h>
-#include <openvdb_spheretree/Closing.h>
-#include <openvdb_spheretree/OrPyramid.h>
-#include <openvdb_spheretree/SphereTreePoints.h>
-#include <openvdb_spheretree/TreeCheck.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/pyramid/BlockModel.h>
+#include <openvdb_spheretree/pyramid/Closing.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 
 namespace {
 

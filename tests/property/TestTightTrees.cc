@@ -3,13 +3,13 @@
 /// @brief What holds for every tight tree, whatever it is asked for: chains of spheres by brute
 /// force, the check, counts, cuts, bounds, threads, moves.
 
-#include "../support/BuiltTrees.h"
-#include "../support/Messages.h"
-#include "../support/NaiveChains.h"
+#include "support/BuiltTrees.h"
+#include "support/Messages.h"
+#include "support/NaiveChains.h"
 
-#include <openvdb_spheretree/Interrupted.h>
-#include <openvdb_spheretree/LevelErrors.h>
-#include <openvdb_spheretree/TreeCheck.h>
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <tbb/global_control.h>
 

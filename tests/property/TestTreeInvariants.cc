@@ -3,10 +3,10 @@
 /// @brief What holds for every sphere-tree, each by its own test: on random objects with every
 /// combination of settings, and on real ones (SPHERETREE_DATA).
 
-#include "../support/BuiltTrees.h"
+#include "support/BuiltTrees.h"
 
-#include <openvdb_spheretree/ObjectMask.h>
-#include <openvdb_spheretree/VolFile.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <tbb/global_control.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/BuiltTrees.h
+/// @file BuiltTrees.h
 /// @brief For tests that build sphere-trees: the settings there are, and questions to a finished
 /// tree.
 
@@ -8,7 +8,7 @@
 #include "CoreStages.h"
 #include "RandomObjects.h"
 
-#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include "LineReference.h"
 #include "NaiveReference.h"
 
-#include <openvdb_spheretree/DistanceTransform.h>
-#include <openvdb_spheretree/LeafLayout.h>
-#include <openvdb_spheretree/MedialAxis.h>
-#include <openvdb_spheretree/PowerMap.h>
+#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/DenseAgreement.h
+/// @file DenseAgreement.h
 /// @brief Whether a tree is the one that the dense program of DenseTree.h builds.
 
 #pragma once

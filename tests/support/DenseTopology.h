@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/DenseTopology.h
+/// @file DenseTopology.h
 /// @brief Betti numbers by definition, on dense arrays: floods of object and background, and every
 /// cell of every cube counted once. Shares no code with the library.
 
@@ -7,7 +7,7 @@
 
 #include "NaiveReference.h"
 
-#include <openvdb_spheretree/LevelTopology.h>
+#include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/DenseTree.h
+/// @file DenseTree.h
 /// @brief The reversible and the extended tree, written down once more from their definition: sets
 /// of voxels, doubles, and labels by NaiveReference.h. Shares no code with the library.
 ///

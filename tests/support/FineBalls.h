@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/FineBalls.h
+/// @file FineBalls.h
 /// @brief For tests of the parts of tight trees: balls in 1/16 voxel by their definition, and what
 /// they are asked about.
 
@@ -8,9 +8,9 @@
 #include "CoreStages.h"
 #include "RandomObjects.h"
 
-#include <openvdb_spheretree/LeafLayout.h>
-#include <openvdb_spheretree/tight/FineBall.h>
-#include <openvdb_spheretree/tight/SampledObject.h>
+#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/SampledObject.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <hwy/highway.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/MergedLeaves.h
+/// @file MergedLeaves.h
 /// @brief What searches of tight trees start from: the cuts of merged leaves, and what levels of
 /// balls have to keep, asked voxel by voxel.
 
@@ -7,10 +7,10 @@
 
 #include "FineBalls.h"
 
-#include <openvdb_spheretree/tight/LevelMaker.h>
-#include <openvdb_spheretree/tight/SlackMerging.h>
-#include <openvdb_spheretree/tight/TightLevels.h>
-#include <openvdb_spheretree/tight/VoxelRegion.h>
+#include <openvdb_spheretree/tight/level/LevelMaker.h>
+#include <openvdb_spheretree/tight/level/TightLevels.h>
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+#include <openvdb_spheretree/tight/region/VoxelRegion.h>
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/Messages.h
+/// @file Messages.h
 /// @brief For tests of error messages: what was thrown, and whether it says enough.
 
 #pragma once

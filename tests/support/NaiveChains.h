@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/NaiveChains.h
+/// @file NaiveChains.h
 /// @brief Chains of spheres by their definition, voxel by voxel and node by node. Shares nothing
 /// with the library but the arrays of a tree.
 
@@ -7,7 +7,7 @@
 
 #include "NaiveReference.h"
 
-#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <cmath>
 #include <functional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/SampleTrees.h
+/// @file SampleTrees.h
 /// @brief Sphere-trees written by hand, for tests of what stores and prints them. Every field has a
 /// value of its own, so that a field forgotten or mixed up shows. They cover no object.
 
 #pragma once
 
-#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <gtest/gtest.h>
 

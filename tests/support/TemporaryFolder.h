@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/TemporaryFolder.h
+/// @file TemporaryFolder.h
 /// @brief For tests of temporary files: where they go, whether any are left, and a full disk.
 
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file support/TightSamples.h
+/// @file TightSamples.h
 /// @brief Tight trees without their builder: random ones that keep the contract of chains, if far
 /// from tightly. Every node owns some voxels, those of its children together; its sphere is any
 /// that holds them.
@@ -9,7 +9,7 @@
 #include "CoreStages.h"
 #include "RandomObjects.h"
 
-#include <openvdb_spheretree/SphereTree.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <algorithm>
 #include <cmath>

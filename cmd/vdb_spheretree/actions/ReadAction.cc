@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ReadAction.cc
+/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again.
+
+#include "files/VdbStream.h"
+#include "line/Actions.h"
+#include "session/Session.h"
+
+#include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+
+#include <algorithm>
+#include <set>
+
+namespace command {
+
+using openvdb::GridBase;
+using openvdb::points::PointDataGrid;
+
+namespace {
+
+/// The names asked for by grids=, and which of them have turned up.
+class NameFilter {
+public:
+    explicit NameFilter(const std::vector<std::string>& names)
+        : mAll(std::count(names.begin(), names.end(), "*") > 0), mNames(names)
+    {}
+
+    bool accepts(const std::string& name)
+    {
+        mSeen.insert(name);
+        return mAll || std::count(mNames.begin(), mNames.end(), name) > 0;
+    }
+
+    /// @throw CommandError (input), listing what there is
+    void requireAllFound() const
+    {
+        if (mAll) return;
+        std::string seen;
+        for (const std::string& name : mSeen) seen += (seen.empty() ? "'" : ", '") + name + "'";
+        for (const std::string& name : mNames) {
+            if (mSeen.count(name)) continue;
+            throwInput("no grid is named '" + name + "'; there "
+                + (mSeen.size() == 1 ? "is " : "are ") + (seen.empty() ? "none" : oneLine(seen)));
+        }
+    }
+
+private:
+    bool mAll;
+    std::vector<std::string> mNames;
+    std::set<std::string> mSeen;
+};
+
+/// The grids that travel with a sphere-tree; null where there is none.
+struct Companions {
+    PointDataGrid::Ptr dag, cuts;
+
+    Companions(const openvdb::GridPtrVec& grids, const std::string& treeName)
+    {
+        for (const GridBase::Ptr& grid : grids) {
+            const bool isDag = !dag && openvdb_spheretree::isDagOf(*grid, treeName);
+            const bool isCuts = !cuts && openvdb_spheretree::isCutsOf(*grid, treeName);
+            if (isDag) dag = openvdb::gridPtrCast<PointDataGrid>(grid);
+            if (isCuts) cuts = openvdb::gridPtrCast<PointDataGrid>(grid);
+        }
+    }
+};
+
+StackItem treeItem(
+    const PointDataGrid& points, const Companions& companions, const std::string& path)
+{
+    StackItem item;
+    try {
+        item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
+            openvdb_spheretree::fromPoints(points, companions.dag.get(), companions.cuts.get()));
+    } catch (...) {
+        rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
+    }
+    return item;
+}
+
+Loading loadingOf(const ActionCall& call)
+{
+    const std::string delayed = call.text("delayed");
+    if (delayed == "auto") return Loading::Auto;
+    return delayed == "1" ? Loading::Delayed : Loading::Whole;
+}
+
+void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+{
+    openvdb::GridPtrVec grids = readVdb(path, loading);
+    std::set<GridBase::Ptr> ofTrees;
+    for (const GridBase::Ptr& grid : grids) {
+        if (!openvdb_spheretree::isSphereTree(*grid)) continue;
+        const Companions companions(grids, grid->getName());
+        ofTrees.insert(companions.dag);
+        ofTrees.insert(companions.cuts);
+    }
+    for (const GridBase::Ptr& grid : grids) {
+        if (ofTrees.count(grid) || !filter.accepts(grid->getName())) continue;
+        if (!openvdb_spheretree::isSphereTree(*grid)) {
+            StackItem item;
+            item.grid = grid;
+            session.stack.push(item);
+            continue;
+        }
+        const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
+        session.stack.push(treeItem(*points, Companions(grids, grid->getName()), path));
+    }
+}
+
+void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+{
+    session.stack.setSource(path);
+    const FileKind kind = fileKind(path);
+    if (kind == FileKind::Vdb) return readVdbFile(path, loading, filter, session);
+    StackItem item;
+    if (kind == FileKind::Mesh) {
+        item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
+            openvdb_spheretree::readMeshFile(path));
+    } else {
+        item.grid = openvdb_spheretree::readVolFile(path, &session.progress);
+        if (!filter.accepts(item.grid->getName())) return;
+    }
+    session.stack.push(item);
+}
+
+void check(const ActionCall& call, Plan& plan)
+{
+    if (!call.given("files")) throwUsage("names no file");
+    for (const std::string& path : call.list("files")) plan.addInput(path);
+}
+
+void run(const ActionCall& call, Session& session)
+{
+    const Stopwatch watch;
+    const Loading loading = loadingOf(call);
+    NameFilter filter(call.list("grids"));
+    session.stack.beginBatch("");
+    for (const std::string& path : call.list("files")) readFile(path, loading, filter, session);
+    filter.requireAllFound();
+    session.seconds.read += watch.seconds();
+    for (const auto& item : session.stack.items()) session.remark(item->description());
+}
+
+} // namespace
+
+ActionSpec readAction()
+{
+    ActionSpec action{"read", "i", "files",
+        "read grids and sphere-trees (.vdb, stdin.vdb), volumes (.vol, .longvol) and meshes "
+        "(.obj, .ply, .stl, .off ...)"};
+    action.options = {
+        list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
+        list("grids", "*", "names of the grids and sphere-trees to take"),
+        choice("delayed", {"auto", "1", "0"},
+            "leave the values of a .vdb in the file until they are needed, and read them node by "
+            "node: grids may be larger than memory then; auto does so from 64 MiB on")};
+    action.isSource = true;
+    action.needsInput = false;
+    action.check = check;
+    action.run = run;
+    return action;
+}
+
+} // namespace command

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereActions.cc
+/// @brief -spheres2mask and -spheres2ls: the union of a level's spheres as a grid.
+///
+/// The mask is exact: the voxel centres that lie in the level's spheres without padding, so level 0
+/// gives the object back. The level set is that of the spheres as stored, in world space.
+
+#include "line/Actions.h"
+#include "session/Session.h"
+
+#include <openvdb/tools/ParticlesToLevelSet.h>
+#include <openvdb_spheretree/sphere/SphereUnion.h>
+
+namespace command {
+
+namespace spheretree = openvdb_spheretree;
+using spheretree::SphereTree;
+using spheretree::SphereTreeLevel;
+
+namespace {
+
+/// The stored spheres of a level, as OpenVDB's rasterizer wants them.
+struct StoredSpheres {
+    using PosType = openvdb::Vec3R;
+    const SphereTree& tree;
+    const SphereTreeLevel& level;
+
+    size_t size() const { return size_t(level.size()); }
+    void getPos(size_t n, openvdb::Vec3R& xyz) const
+    {
+        xyz = tree.centerWorld(level.begin + int32_t(n));
+    }
+    void getPosRad(size_t n, openvdb::Vec3R& xyz, openvdb::Real& radius) const
+    {
+        getPos(n, xyz);
+        radius = tree.radiusWorld[size_t(level.begin) + n];
+    }
+};
+
+/// The level asked for; without one the finest there is.
+const SphereTreeLevel& levelOf(const ActionCall& call, const SphereTree& tree)
+{
+    if (!call.given("level")) return tree.levels.front();
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (level.level == call.integer("level")) return level;
+    }
+    throwInput("the tree has no level " + call.text("level") + ": it has levels "
+        + std::to_string(tree.levels.front().level) + " to " + std::to_string(tree.root().level));
+}
+
+openvdb::GridBase::Ptr maskOf(
+    const SphereTree& tree, const SphereTreeLevel& level, Session& session)
+{
+    const auto covered = spheretree::levelUnion(tree, level, &session.progress);
+    auto mask = openvdb::BoolGrid::create(openvdb::BoolTree::Ptr(
+        new openvdb::BoolTree(*covered, false, true, openvdb::TopologyCopy())));
+    mask->setTransform(tree.transform->copy());
+    return mask;
+}
+
+openvdb::GridBase::Ptr levelSetOf(
+    const SphereTree& tree, const SphereTreeLevel& level, const ActionCall& call, Session& session)
+{
+    if (!tree.settings.dist.isEuclidean()) {
+        throwInput("-spheres2ls draws spheres, and the balls of dist="
+            + spheretree::toString(tree.settings.dist) + " are none: use -spheres2mask");
+    }
+    const double voxel = call.given("voxel") ? call.real("voxel") : tree.voxelSize();
+    auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, call.real("width"));
+    if (!call.given("voxel")) grid->setTransform(tree.transform->copy());
+    openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid, void, openvdb::util::NullInterrupter>
+        raster(*grid, &session.progress);
+    raster.setRmax(1e15); // by default it leaves out small and large spheres
+    raster.setRmin(0);
+    raster.rasterizeSpheres(StoredSpheres{tree, level});
+    throwIfStopped();
+    raster.finalize(/*prune=*/true);
+    return grid;
+}
+
+template <typename MakeGrid>
+void replaceTree(const ActionCall& call, Session& session, const MakeGrid& makeGrid)
+{
+    StackItem& input = session.stack.selectTree(call.text("vdb"));
+    StackItem result;
+    result.grid = makeGrid(*input.tree, levelOf(call, *input.tree));
+    result.grid->setName(call.given("name") ? call.text("name") : input.name());
+    if (!call.flag("keep")) session.stack.drop(&input);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+void runMask(const ActionCall& call, Session& session)
+{
+    replaceTree(call, session, [&](const SphereTree& tree, const SphereTreeLevel& level) {
+        return maskOf(tree, level, session);
+    });
+}
+
+void runLevelSet(const ActionCall& call, Session& session)
+{
+    replaceTree(call, session, [&](const SphereTree& tree, const SphereTreeLevel& level) {
+        return levelSetOf(tree, level, call, session);
+    });
+}
+
+OptionSpec levelOption() { return integer("level", "0", 0, 1000, "the level; 0 is the finest"); }
+
+} // namespace
+
+ActionSpec spheres2maskAction()
+{
+    ActionSpec action{"spheres2mask", "", "level",
+        "the voxels whose centres lie in a level's spheres (without padding), on the source's "
+        "grid"};
+    action.options = {levelOption(), vdbOption("the tree"), keepOption(),
+        nameOption("", "name of the result (by default that of the tree)")};
+    action.run = runMask;
+    return action;
+}
+
+ActionSpec spheres2lsAction()
+{
+    ActionSpec action{
+        "spheres2ls", "", "level", "the union of a level's spheres, as stored, as a level set"};
+    action.options = {levelOption(),
+        real("voxel", "", 1e-30, 1e30, "size of a voxel in world units (by default the source's)"),
+        real("width", "3", 1, 1000, "half the width of the narrow band, in voxels"),
+        vdbOption("the tree"), keepOption(),
+        nameOption("", "name of the result (by default that of the tree)")};
+    action.run = runLevelSet;
+    return action;
+}
+
+} // namespace command

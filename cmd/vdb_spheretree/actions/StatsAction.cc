@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file StatsAction.cc
+/// @brief -stats and -print: what is on the stack, in words and numbers.
+
+#include "base/Terminal.h"
+#include "files/AtomicFile.h"
+#include "line/Actions.h"
+#include "ObjectChoice.h"
+#include "report/StatsReport.h"
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+namespace command {
+
+using openvdb_spheretree::SphereTree;
+
+namespace {
+
+void checkStats(const ActionCall& call, Plan& plan)
+{
+    if (call.given("json")) plan.addOutput(call.text("json"));
+}
+
+bool lacksErrors(const SphereTree& tree)
+{
+    return std::any_of(tree.levels.begin(), tree.levels.end(),
+        [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
+}
+
+void writeText(const std::string& path, const std::string& text)
+{
+    AtomicFile file(path);
+    try {
+        file.stream() << text;
+        file.finish();
+    } catch (const std::ios_base::failure&) {
+        throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
+    }
+    file.commit();
+}
+
+void runStats(const ActionCall& call, Session& session)
+{
+    StackItem& item = session.stack.selectTree(call.text("vdb"));
+    if (item.object && lacksErrors(*item.tree)) computeErrors(item, session);
+    if (!call.given("json")) {
+        session.print(statsTable(*item.tree, session));
+    } else if (call.text("json") == "-") {
+        session.print(statsJson(*item.tree, session), std::cout);
+    } else {
+        writeText(call.text("json"), statsJson(*item.tree, session));
+    }
+}
+
+void printGrid(std::ostream& out, const openvdb::GridBase& grid)
+{
+    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    const openvdb::Coord size = grid.empty() ? openvdb::Coord(0) : box.dim();
+    out << ", " << withCommas(int64_t(grid.activeVoxelCount())) << " active voxels of "
+        << grid.voxelSize()[0] << ", box " << size[0] << " x " << size[1] << " x " << size[2]
+        << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
+}
+
+void printItem(std::ostream& out, const StackItem& item)
+{
+    out << item.description();
+    if (item.grid) {
+        printGrid(out, *item.grid);
+    } else if (item.tree) {
+        out << ", " << withCommas(item.tree->size()) << " spheres on " << item.tree->levels.size()
+            << " levels";
+    } else {
+        out << ", " << withCommas(int64_t(item.mesh->points.size())) << " points, "
+            << withCommas(int64_t(item.mesh->triangles.size())) << " triangles";
+    }
+    out << (item.written ? ", written" : "") << "\n";
+}
+
+void runPrint(const ActionCall&, Session& session)
+{
+    std::ostringstream out;
+    const auto& items = session.stack.items();
+    if (items.empty()) out << "the stack is empty\n";
+    int age = 0, meshAge = 0;
+    for (auto item = items.rbegin(); item != items.rend(); ++item) {
+        const bool isMesh = bool((*item)->mesh);
+        out << (isMesh ? "geo " : "vdb ") << (isMesh ? meshAge++ : age++) << ": ";
+        printItem(out, **item);
+    }
+    session.print(out.str());
+}
+
+} // namespace
+
+ActionSpec statsAction()
+{
+    ActionSpec action{"stats", "", "json",
+        "print a table of a sphere-tree's levels, their exact errors, and timings"};
+    action.options = {
+        text("json", "", "write the same as JSON to this file, or to stdout (-), and no table"),
+        vdbOption("the tree")};
+    action.check = checkStats;
+    action.run = runStats;
+    return action;
+}
+
+ActionSpec printAction()
+{
+    ActionSpec action{"print", "p", "", "list what is on the stack, newest first"};
+    action.needsInput = false;
+    action.quiet = true;
+    action.run = runPrint;
+    return action;
+}
+
+} // namespace command

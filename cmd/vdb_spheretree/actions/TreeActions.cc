@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeActions.cc
+/// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
+
+#include "base/Errors.h"
+#include "line/Actions.h"
+#include "ObjectChoice.h"
+#include "TreeOptions.h"
+
+#include <openvdb_spheretree/build/MemoryPlan.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
+
+#include <algorithm>
+
+namespace command {
+
+namespace spheretree = openvdb_spheretree;
+using openvdb::BoolGrid;
+using spheretree::SphereBudget;
+using spheretree::SphereTree;
+
+namespace {
+
+/// The object of a grid, and how long it took to find it.
+BoolGrid::ConstPtr timedObjectOf(const StackItem& item, Session& session)
+{
+    const Stopwatch watch;
+    BoolGrid::ConstPtr object = objectOf(item, {}, session);
+    session.seconds.mask += watch.seconds();
+    return object;
+}
+
+/// Says so if there are fewer spheres than were asked for.
+void noteIfAll(int64_t asked, int64_t all, Session& session)
+{
+    if (asked <= all) return;
+    session.note("spheres=" + std::to_string(asked) + " is more than there are: all "
+        + std::to_string(all) + " are taken");
+}
+
+/// The finest level that was asked for has no more spheres than the object has leaves.
+void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
+{
+    if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
+    const auto most = std::max_element(budget.spheres.begin(), budget.spheres.end());
+    noteIfAll(*most, tree.levels.front().size(), session);
+}
+
+SphereTree treeOf(
+    const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
+{
+    if (session.verbosity >= Verbosity::Verbose) { // it costs something
+        session.remark(toString(spheretree::memoryPlan(object, settings, &session.progress)));
+    }
+    try {
+        return spheretree::buildSphereTree(
+            object, settings, &session.progress, &session.seconds.build);
+    } catch (const openvdb::IoError&) { // of its temporary file
+        rethrowNamed("", kOutput);
+    }
+}
+
+void runSpheretree(const ActionCall& call, Session& session)
+{
+    StackItem& input = selectObjectGrid(session, call.text("vdb"));
+    const BoolGrid::ConstPtr object = timedObjectOf(input, session);
+    if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
+    StackItem result;
+    result.object = object;
+    const auto settings = settingsOf(call);
+    result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
+    session.remark(std::to_string(result.tree->size()) + " spheres on "
+        + std::to_string(result.tree->levels.size()) + " levels");
+    noteOnBudget(settings.budget, *result.tree, session);
+    if (call.flag("errors")) computeErrors(result, session);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+void checkLevel(const ActionCall& call, Plan&)
+{
+    const bool byLevel = call.given("level"), bySpheres = call.given("spheres");
+    if (byLevel && bySpheres) throwUsage("level and spheres exclude each other");
+    if (!byLevel && !bySpheres) throwUsage("names no level: level= or spheres= is missing");
+}
+
+/// The finest level that has no more spheres than asked for.
+int levelOfAtMost(const SphereTree& tree, int64_t spheres)
+{
+    for (const auto& level : tree.levels) {
+        if (level.size() <= spheres) return level.level;
+    }
+    throwInput("no level has at most " + std::to_string(spheres) + " spheres: the coarsest has "
+        + std::to_string(tree.root().size()));
+}
+
+/// The spheres that were asked for, as a tree of one level.
+SphereTree levelOf(const SphereTree& tree, const ActionCall& call, Session& session)
+{
+    if (call.given("level")) return spheretree::keepLevel(tree, int(call.integer("level")));
+    const int64_t spheres = call.integer("spheres");
+    SphereTree level = tree.cuts.empty() ? spheretree::keepLevel(tree, levelOfAtMost(tree, spheres))
+                                         : spheretree::cutTree(tree, spheres);
+    const bool finest = !tree.cuts.empty() || level.levels.front().level == 0;
+    if (finest) {
+        noteIfAll(spheres, level.size(), session);
+    } else if (level.size() < spheres) {
+        session.note("spheres=" + std::to_string(spheres) + ": the level with at most as many has "
+            + std::to_string(level.size()) + "; a tree made with cuts=1 has every number");
+    }
+    return level;
+}
+
+void runLevel(const ActionCall& call, Session& session)
+{
+    StackItem& input = session.stack.selectTree(call.text("vdb"));
+    StackItem result;
+    result.object = input.object;
+    result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
+    if (call.given("name")) result.tree->settings.name = call.text("name");
+    if (!call.flag("keep")) session.stack.drop(&input);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+void runCheck(const ActionCall& call, Session& session)
+{
+    const StackItem& item = session.stack.selectTree("");
+    BoolGrid::ConstPtr object = item.object;
+    if (call.given("vdb") || !object) {
+        object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
+    }
+    const auto failures = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
+    throwIfStopped();
+    for (const std::string& failure : failures) session.print(oneLine(failure) + "\n");
+    if (!failures.empty()) {
+        throw CommandError(kCheckFailed,
+            item.description()
+                + " does not hold what it promises: " + std::to_string(failures.size())
+                + " of the checks failed, the first: " + failures.front());
+    }
+    if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
+}
+
+} // namespace
+
+void computeErrors(StackItem& item, Session& session)
+{
+    const Stopwatch watch;
+    spheretree::computeLevelErrors(*item.tree, *item.object, &session.progress);
+    session.seconds.error += watch.seconds();
+}
+
+ActionSpec spheretreeAction()
+{
+    ActionSpec action{"spheretree", "", "tree", "build the sphere-tree of a grid's object"};
+    action.options = spheretreeOptions();
+    action.check = [](const ActionCall& call, Plan&) { checkTreeOptions(call); };
+    action.run = runSpheretree;
+    return action;
+}
+
+ActionSpec levelAction()
+{
+    ActionSpec action{"level", "", "level", "keep one level of a sphere-tree"};
+    action.options = {integer("level", "", 0, 1000, "the level; 0 is the finest"),
+        integer("spheres", "", 1, SphereBudget::kMaxSpheres,
+            "in place of a level: as many spheres, of a tree with cuts=1; of any other the finest "
+            "level that has at most so many"),
+        vdbOption("the tree"), keepOption(), nameOption("", "name of the result")};
+    action.check = checkLevel;
+    action.run = runLevel;
+    return action;
+}
+
+ActionSpec checkAction()
+{
+    ActionSpec action{"check", "", "vdb",
+        "verify everything that a sphere-tree promises against its object; exit code 6 if anything "
+        "fails"};
+    action.options = {text("vdb", "",
+        "the object, by its age on the stack (0 is the newest) or its name; by default what the "
+        "tree "
+        "was built from, or the only grid that suits")};
+    action.run = runCheck;
+    return action;
+}
+
+} // namespace command

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file WriteAction.cc
+/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are
+/// complete before the first takes its place.
+
+#include "files/AtomicFile.h"
+#include "files/FdBuffer.h"
+#include "files/VdbStream.h"
+#include "line/Actions.h"
+#include "session/Session.h"
+#include "WritePicture.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+#include <openvdb_spheretree/picture/Picture.h>
+#include <openvdb_spheretree/store/SphereTreeCsv.h>
+#include <openvdb_spheretree/store/SphereTreeJson.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace command {
+
+namespace {
+
+bool isLaterFormat(const std::string& path)
+{
+    const std::string extension = extensionOf(path);
+    for (const char* known : {".ply", ".usda", ".sph", ".html"}) {
+        if (extension == known) return true;
+    }
+    return false;
+}
+
+uint32_t compressionOf(const ActionCall& call)
+{
+    using openvdb::io::Archive;
+    const std::string codec = call.text("codec");
+    if (codec == "none") return openvdb::io::COMPRESS_NONE;
+    if (codec == "active") return openvdb::io::COMPRESS_ACTIVE_MASK;
+    const bool zip = codec == "zip" || (!call.given("codec") && !Archive::hasBloscCompression());
+    const bool available = zip ? Archive::hasZLibCompression() : Archive::hasBloscCompression();
+    if (!available) throwUsage("codec=" + codec + ": this build of OpenVDB does not have it");
+    return openvdb::io::COMPRESS_ACTIVE_MASK
+        | (zip ? openvdb::io::COMPRESS_ZIP : openvdb::io::COMPRESS_BLOSC);
+}
+
+/// Where the edges of the tree in @a csv go: x_dag.csv beside x.csv. Whether there will be any is
+/// not known before the work is done, so the place is always kept free for them.
+std::string dagPath(const std::string& csv)
+{
+    const std::string extension = std::filesystem::path(csv).extension().string();
+    return csv.substr(0, csv.size() - extension.size()) + "_dag" + extension;
+}
+
+void check(const ActionCall& call, Plan& plan)
+{
+    if (!call.given("files")) throwUsage("names no file");
+    compressionOf(call);
+    for (const std::string& path : call.list("files")) {
+        if (isLaterFormat(path)) {
+            throwUsage(path + ": files of this kind are not available in this version");
+        }
+        const FileKind kind = fileKind(path);
+        if (kind == FileKind::Vol || kind == FileKind::Mesh || kind == FileKind::Unknown) {
+            throwUsage(path
+                + ": files of this kind are not written; it writes .vdb (or stdout.vdb), "
+                  ".csv, .json and .png");
+        }
+        plan.addOutput(path);
+        if (kind == FileKind::Csv) plan.addOutput(dagPath(path));
+    }
+    checkPictureOptions(call);
+}
+
+/// @param giveUp  whether trees are not needed any more: a tree and its grid together would be
+///                twice as much memory
+openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
+{
+    namespace st = openvdb_spheretree;
+    openvdb::GridCPtrVec grids;
+    for (StackItem* item : items) {
+        if (item->grid) {
+            grids.push_back(item->grid);
+            continue;
+        }
+        st::SphereTree& tree = *item->tree;
+        const auto dag = st::dagToPoints(tree), cuts = st::cutsToPoints(tree);
+        if (giveUp) item->object = nullptr;
+        grids.push_back(giveUp ? st::toPoints(std::move(tree)) : st::toPoints(tree));
+        if (dag) grids.push_back(dag);
+        if (cuts) grids.push_back(cuts);
+    }
+    return grids;
+}
+
+const openvdb_spheretree::SphereTree& onlyTree(
+    const std::vector<StackItem*>& items, const std::string& path)
+{
+    const StackItem* tree = nullptr;
+    for (const StackItem* item : items) {
+        if (!item->tree) continue;
+        if (tree) throwInput(path + " holds one sphere-tree, and there are more: choose with vdb=");
+        tree = item;
+    }
+    if (!tree) throwInput(path + " holds a sphere-tree, and there is none: put -spheretree before");
+    return *tree->tree;
+}
+
+/// Two trees of one name could not be told apart when the file is read, nor a tree from the edges
+/// or cuts of another.
+void requireDistinctTrees(const std::vector<StackItem*>& items)
+{
+    std::set<std::string> names;
+    for (const StackItem* item : items) {
+        if (!item->tree) continue;
+        const std::string name = item->name();
+        const auto taken = [&](bool written, const char* suffix) {
+            return written && !names.insert(name + suffix).second;
+        };
+        const bool edges = !item->tree->dag.empty(), cuts = !item->tree->cuts.empty();
+        if (!taken(true, "") && !taken(edges, "_dag") && !taken(cuts, "_cuts")) continue;
+        throwInput("two sphere-trees are named '" + oneLine(name, 60)
+            + "', or one as the edges or cuts of the other: give them different names with name= "
+              "of -spheretree");
+    }
+}
+
+void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
+{
+    std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
+    writeVdb(buffer, grids, compression, /*seekable=*/false);
+    buffer.seekg(0);
+    writeToFd(STDOUT_FILENO, *buffer.rdbuf(), "stdout.vdb");
+}
+
+class Writer {
+public:
+    Writer(const ActionCall& call, const std::vector<StackItem*>& items, Session& session)
+        : mCall(call), mItems(items), mSession(session), mCompression(compressionOf(call))
+    {}
+
+    void write(const std::string& path)
+    {
+        if (path == "stdout.vdb") {
+            mToStdout = true;
+            return;
+        }
+        switch (fileKind(path)) {
+        case FileKind::Csv: return writeTables(path);
+        case FileKind::Json:
+            return writeFile(path, [&](std::iostream& out) {
+                openvdb_spheretree::writeJson(onlyTree(mItems, path), out);
+            });
+        case FileKind::Png:
+            return writeFile(path, [&](std::iostream& out) {
+                openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), out);
+            });
+        default:
+            writeFile(path, [&](std::iostream& out) {
+                writeVdb(out, grids(), mCompression, /*seekable=*/true);
+            });
+        }
+    }
+
+    void commit()
+    {
+        if (mToStdout) writeToStdout(grids(), mCompression);
+        for (auto& file : mFiles) file->commit();
+    }
+
+private:
+    template <typename Write>
+    void writeFile(const std::string& path, const Write& write)
+    {
+        mFiles.push_back(std::make_unique<AtomicFile>(path));
+        AtomicFile& file = *mFiles.back();
+        try {
+            write(file.stream());
+            file.finish();
+        } catch (const std::ios_base::failure&) {
+            throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
+        }
+    }
+
+    void writeTables(const std::string& path)
+    {
+        const openvdb_spheretree::SphereTree& tree = onlyTree(mItems, path);
+        writeFile(path, [&](std::ostream& out) { openvdb_spheretree::writeCsv(tree, out); });
+        if (!openvdb_spheretree::hasDag(tree)) return;
+        writeFile(
+            dagPath(path), [&](std::ostream& out) { openvdb_spheretree::writeDagCsv(tree, out); });
+    }
+
+    const openvdb::GridCPtrVec& grids()
+    {
+        if (!mGrids.empty()) return mGrids;
+        requireDistinctTrees(mItems);
+        return mGrids = gridsOf(mItems, mSession.isLastAction() && !needsTrees());
+    }
+
+    /// Whether a file is written of the trees themselves.
+    bool needsTrees() const
+    {
+        const std::vector<std::string> paths = mCall.list("files");
+        return std::any_of(paths.begin(), paths.end(),
+            [](const std::string& path) { return fileKind(path) != FileKind::Vdb; });
+    }
+
+    const ActionCall& mCall;
+    const std::vector<StackItem*>& mItems;
+    Session& mSession;
+    const uint32_t mCompression;
+    openvdb::GridCPtrVec mGrids;
+    std::vector<std::unique_ptr<AtomicFile>> mFiles;
+    bool mToStdout = false;
+};
+
+void run(const ActionCall& call, Session& session)
+{
+    const Stopwatch watch;
+    const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
+    Writer writer(call, items, session);
+    for (const std::string& path : call.list("files")) writer.write(path);
+    writer.commit();
+    for (StackItem* item : items) item->written = !call.flag("keep");
+    session.seconds.write += watch.seconds();
+}
+
+} // namespace
+
+ActionSpec writeAction()
+{
+    ActionSpec action{"write", "o", "files",
+        "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as tables (.csv) or JSON "
+        "(.json), or a picture of a level of it or of an object (.png)"};
+    action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
+        list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
+        choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
+        flag("keep", false, "leave on the stack what is written")};
+    for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
+    action.failure = kOutput;
+    action.check = check;
+    action.run = run;
+    return action;
+}
+
+} // namespace command

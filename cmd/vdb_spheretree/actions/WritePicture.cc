@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WritePicture.h"
+
+#include "ObjectChoice.h"
+
+#include <openvdb_spheretree/picture/Camera.h>
+#include <openvdb_spheretree/picture/SpherePicture.h>
+
+#include <algorithm>
+
+namespace command {
+
+namespace spheretree = openvdb_spheretree;
+using spheretree::Camera;
+using spheretree::Picture;
+using spheretree::PictureColor;
+using spheretree::PictureSettings;
+using spheretree::SphereTree;
+
+namespace {
+
+openvdb::Vec3d vectorOf(const ActionCall& call, const std::string& option)
+{
+    const auto numbers = call.vector(option);
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+PictureSettings settingsOf(const ActionCall& call)
+{
+    PictureSettings settings;
+    settings.width = int(call.integer("width"));
+    settings.height = int(call.integer("height"));
+    const std::string color = call.text("color");
+    if (color == "parent") {
+        settings.color = PictureColor::Parent;
+    } else if (color == "level") {
+        settings.color = PictureColor::Level;
+    } else if (color == "id") {
+        settings.color = PictureColor::Id;
+    } else if (const auto rgb = parseVector(color)) {
+        settings.color = PictureColor::Fixed;
+        settings.fixed = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+    } else {
+        throwUsage("color=" + color
+            + " is not understood: it takes parent, level, id, or red,green,blue of 0 to 1 each");
+    }
+    settings.validate();
+    return settings;
+}
+
+/// @param view  what is taken for all that the user has not chosen
+Camera cameraOf(const ActionCall& call, const Camera& view)
+{
+    Camera camera = view;
+    if (call.given("lookat")) camera.lookAt = vectorOf(call, "lookat");
+    if (call.given("eye")) {
+        camera.eye = vectorOf(call, "eye");
+    } else {
+        camera.eye += camera.lookAt - view.lookAt;
+    }
+    try {
+        camera.validate();
+    } catch (const openvdb::ValueError&) {
+        rethrowNamed("", kUsage);
+    }
+    return camera;
+}
+
+/// The view of @a object, with what the user has chosen.
+Camera cameraOf(const ActionCall& call, const openvdb::CoordBBox& object,
+    const openvdb::math::Transform& transform)
+{
+    const double aspect = double(call.integer("width")) / double(call.integer("height"));
+    return cameraOf(call,
+        spheretree::viewOf(object, transform, vectorOf(call, "up"), call.real("fov"), aspect));
+}
+
+StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& path)
+{
+    std::vector<StackItem*> trees, grids;
+    for (StackItem* item : items) (item->tree ? trees : grids).push_back(item);
+    const std::vector<StackItem*>& found = trees.empty() ? grids : trees;
+    if (found.size() == 1) return *found.front();
+    throwInput(path + " is a picture of one sphere-tree or object, and there are "
+        + std::to_string(found.size()) + ": choose with vdb=");
+}
+
+Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& session)
+{
+    const int level = call.given("level") ? int(call.integer("level")) : tree.levels.front().level;
+    const auto has = [level](const auto& l) { return l.level == level; };
+    if (std::none_of(tree.levels.begin(), tree.levels.end(), has)) {
+        throwInput("the tree has no level " + call.text("level") + ": it has levels "
+            + std::to_string(tree.levels.front().level) + " to "
+            + std::to_string(tree.root().level));
+    }
+    const Camera camera = cameraOf(call, tree.object.bbox, *tree.transform);
+    return spheretree::renderLevel(tree, level, camera, settingsOf(call), &session.progress);
+}
+
+Picture pictureOfObject(const ActionCall& call, const StackItem& item, Session& session)
+{
+    const PictureSettings settings = settingsOf(call);
+    if (call.given("level")) throwInput("level is for sphere-trees, and a grid is drawn");
+    if (call.given("color") && settings.color != PictureColor::Fixed) {
+        throwInput("color=" + call.text("color")
+            + " is for sphere-trees, and a grid is drawn: it takes red,green,blue");
+    }
+    const openvdb::BoolGrid::ConstPtr object = objectOf(item, {}, session);
+    const openvdb::CoordBBox box = object->evalActiveVoxelBoundingBox();
+    const Camera camera = cameraOf(call, box, object->transform());
+    return spheretree::renderObject(*object, camera, settings, &session.progress);
+}
+
+} // namespace
+
+std::vector<OptionSpec> pictureOptions()
+{
+    constexpr int kMaxSide = PictureSettings::kMaxSide;
+    return {vector("eye", "",
+                ".png: where the camera stands, x,y,z in world units (by default it sees all of "
+                "the object, the same for every level)"),
+        vector("lookat", "", ".png: the point in the middle (by default the object's)"),
+        vector("up", "0,1,0", ".png: the direction that is upright"),
+        real("fov", "30", 0, 180, ".png: vertical angle of view in degrees, below 180"),
+        integer("width", "1280", 1, kMaxSide, ".png: pixels, at most 16384"),
+        integer("height", "960", 1, kMaxSide, ".png: pixels, at most 16384"),
+        integer(
+            "level", "0", 0, 1000, ".png: the level that is drawn; by default the finest there is"),
+        text("color", "parent",
+            ".png: parent (siblings share a colour), level, id, or red,green,blue of 0 to 1")};
+}
+
+void checkPictureOptions(const ActionCall& call)
+{
+    const std::vector<std::string> files = call.list("files");
+    const bool picture = std::any_of(files.begin(), files.end(),
+        [](const std::string& path) { return fileKind(path) == FileKind::Png; });
+    for (const OptionSpec& option : pictureOptions()) {
+        if (picture || !call.given(option.name)) continue;
+        throwUsage("option " + option.name + " is for pictures, and no .png is written");
+    }
+    settingsOf(call);
+    if (!picture) return;
+    Camera camera; // what is not known before the object is stays as it is, which is fine
+    camera.fovDegrees = call.real("fov");
+    if (call.given("eye") && call.given("lookat")) {
+        camera.eye = vectorOf(call, "eye");
+        camera.lookAt = vectorOf(call, "lookat");
+        camera.up = vectorOf(call, "up");
+    } else if (vectorOf(call, "up").isZero()) {
+        throwUsage("up=" + call.text("up") + " has no direction");
+    }
+    camera.validate();
+}
+
+Picture pictureOf(const ActionCall& call, const std::string& path,
+    const std::vector<StackItem*>& items, Session& session)
+{
+    const StackItem& item = itemToDraw(items, path);
+    return item.tree ? pictureOfTree(call, *item.tree, session)
+                     : pictureOfObject(call, item, session);
+}
+
+} // namespace command

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Errors.h"
+
+#include "Terminal.h"
+
+#include <openvdb/Exceptions.h>
+#include <openvdb_spheretree/base/Interrupted.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ios>
+#include <iostream>
+#include <new>
+
+namespace command {
+
+using openvdb_spheretree::Interrupted;
+
+namespace {
+
+/// OpenVDB's exceptions start with their own type, which says nothing to a user.
+std::string withoutTypeName(const std::string& what)
+{
+    const size_t colon = what.find("Error: ");
+    if (colon == std::string::npos || colon > 20) return what;
+    if (what.find_first_of(" \t\n") < colon) return what;
+    return what.substr(colon + 7);
+}
+
+std::string joined(const std::string& where, const std::string& message)
+{
+    return where.empty() ? message : where + ": " + message;
+}
+
+} // namespace
+
+void throwUsage(const std::string& message) { throw CommandError(kUsage, message); }
+void throwInput(const std::string& message) { throw CommandError(kInput, message); }
+void throwOutput(const std::string& message) { throw CommandError(kOutput, message); }
+
+std::string oneLine(const std::string& text, size_t limit)
+{
+    std::string line = text.substr(0, limit);
+    for (char& c : line) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte == '\n' || byte == '\t') {
+            c = ' ';
+        } else if (byte < 32 || byte == 127) {
+            c = '?';
+        }
+    }
+    return text.size() > limit ? line + "..." : line;
+}
+
+std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
+
+void rethrowNamed(const std::string& where, ExitCode fallback)
+{
+    try {
+        throw;
+    } catch (const CommandError& error) {
+        throw CommandError(error.code(), joined(where, error.what()));
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const openvdb::Exception& error) {
+        // Clipped first: copying the whole of it could need gigabytes.
+        const std::string what(error.what(), strnlen(error.what(), 1000));
+        throw CommandError(fallback, joined(where, withoutTypeName(what)));
+    } catch (const std::bad_alloc&) {
+        throw CommandError(fallback, joined(where, "not enough memory"));
+    } catch (const std::length_error&) {
+        throw CommandError(fallback, joined(where, "asks for more memory than there can be"));
+    } catch (const std::ios_base::failure&) {
+        throw CommandError(fallback, joined(where, "reading or writing failed"));
+    } catch (const std::exception& error) {
+        throw CommandError(fallback, joined(where, error.what()));
+    }
+}
+
+int reportError(std::exception_ptr error)
+{
+    const std::string start = "vdb_spheretree: " + coloured(std::cerr, Colour::Red, "error: ");
+    try {
+        std::rethrow_exception(error);
+    } catch (const CommandError& e) {
+        std::cerr << start << oneLine(e.what(), 2000) << std::endl;
+        return e.code();
+    } catch (const Interrupted&) {
+        std::cerr << "vdb_spheretree: interrupted" << std::endl;
+        return kInterrupted;
+    } catch (const std::exception& e) {
+        std::cerr << start << "unexpected: " << oneLine(e.what()) << std::endl;
+    } catch (...) {
+        std::cerr << start << "unexpected" << std::endl;
+    }
+    return kInternal;
+}
+
+} // namespace command

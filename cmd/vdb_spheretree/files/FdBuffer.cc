@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FdBuffer.h"
+
+#include "base/Errors.h"
+#include "base/Progress.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <limits.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace command {
+
+namespace {
+
+constexpr size_t kBufferSize = 1 << 20;
+constexpr size_t kLargestRead = 1 << 26; // Ctrl-C is looked for at least this often
+
+/// A signal that comes just before a read or write does not wake it; so wait in slices, and look.
+/// One that comes during the wait ends it early, with nothing there: then look, and wait on.
+void waitFor(int fd, short event)
+{
+    for (;;) {
+        throwIfStopped();
+        pollfd wanted{fd, event, 0};
+        const int ready = poll(&wanted, 1, 200);
+        // What is wrong, if anything, is for read() or write() to report.
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return;
+    }
+}
+
+} // namespace
+
+void writeToFd(int fd, std::streambuf& data, const std::string& what)
+{
+    char block[PIPE_BUF]; // a pipe that has any room takes this much without blocking
+    for (;;) {
+        const auto size = size_t(data.sgetn(block, sizeof(block)));
+        if (size == 0) return;
+        for (size_t done = 0; done < size;) {
+            waitFor(fd, POLLOUT);
+            const ssize_t count = ::write(fd, block + done, size - done);
+            if (count >= 0) {
+                done += size_t(count);
+            } else if (errno == EPIPE) {
+                throwOutput(what + ": the reading end of the pipe is closed");
+            } else if (errno != EINTR) {
+                throwOutput("cannot write " + systemError(what));
+            }
+        }
+    }
+}
+
+FdBuffer::FdBuffer(int fd) : mFd(fd), mBuffer(kBufferSize) {}
+
+size_t FdBuffer::fill(char* to, size_t size)
+{
+    for (;;) {
+        waitFor(mFd, POLLIN);
+        const ssize_t count = ::read(mFd, to, std::min(size, kLargestRead));
+        if (count >= 0) {
+            mPosition += count;
+            return size_t(count);
+        }
+        if (errno != EINTR) throwInput(std::strerror(errno));
+    }
+}
+
+FdBuffer::int_type FdBuffer::underflow()
+{
+    const size_t count = fill(mBuffer.data(), mBuffer.size());
+    setg(mBuffer.data(), mBuffer.data(), mBuffer.data() + count);
+    return count ? traits_type::to_int_type(*gptr()) : traits_type::eof();
+}
+
+std::streamsize FdBuffer::xsgetn(char* to, std::streamsize count)
+{
+    std::streamsize done = 0;
+    while (done < count) {
+        const std::streamsize wanted = count - done;
+        if (const std::streamsize buffered = egptr() - gptr(); buffered > 0) {
+            const std::streamsize some = std::min(buffered, wanted);
+            std::memcpy(to + done, gptr(), size_t(some));
+            gbump(int(some));
+            done += some;
+        } else if (size_t(wanted) >= mBuffer.size()) { // large blocks go straight to their place
+            const size_t some = fill(to + done, size_t(wanted));
+            if (some == 0) break;
+            done += std::streamsize(some);
+        } else if (underflow() == traits_type::eof()) {
+            break;
+        }
+    }
+    return done;
+}
+
+FdBuffer::pos_type FdBuffer::seekoff(
+    off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode)
+{
+    if (offset != 0 || direction != std::ios_base::cur) return pos_type(off_type(-1));
+    return pos_type(off_type(mPosition - (egptr() - gptr())));
+}
+
+} // namespace command

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VdbStream.h"
+
+#include "base/Errors.h"
+#include "base/Progress.h"
+#include "FdBuffer.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/Stream.h>
+
+#include <cstring>
+#include <fstream>
+#include <istream>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace command {
+
+namespace {
+
+/// Closes what it opened; standard input stays open.
+class InputFile {
+public:
+    explicit InputFile(const std::string& path)
+        : mFd(path == "stdin.vdb" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC))
+    {
+        if (mFd < 0) throwInput("cannot read " + systemError(path));
+    }
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile()
+    {
+        if (mFd != STDIN_FILENO) close(mFd);
+    }
+    int fd() const { return mFd; }
+
+private:
+    int mFd;
+};
+
+/// Runs @a read; whatever goes wrong is the file's.
+template <typename Read>
+auto naming(const std::string& path, const Read& read)
+{
+    try {
+        return read();
+    } catch (const std::ios_base::failure&) {
+        throwInput(path + ": the file is truncated or damaged");
+    } catch (...) {
+        rethrowNamed(path, kInput);
+    }
+}
+
+openvdb::GridPtrVec readWhole(const std::string& path)
+{
+    const InputFile file(path);
+    FdBuffer buffer(file.fd());
+    std::istream in(&buffer);
+    in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+    return naming(path, [&] {
+        openvdb::io::Stream stream(in, /*delayLoad=*/false);
+        return *stream.getGrids();
+    });
+}
+
+#ifdef OPENVDB_USE_DELAYED_LOADING
+
+/// Where the grids of a file are, read with every check that OpenVDB leaves out when it maps the
+/// file into memory.
+class GridIndex : public openvdb::io::Archive {
+public:
+    /// @throw std::ios_base::failure if the file ends before what it says it holds
+    explicit GridIndex(const std::string& path)
+    {
+        std::ifstream in;
+        in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+        in.open(path, std::ios::binary);
+        const std::streamoff size = in.seekg(0, std::ios::end).tellg();
+        in.seekg(0);
+        readHeader(in);
+        setFormatVersion(in);
+        setLibraryVersion(in);
+        setDataCompression(in);
+        if (!isSeekable()) return;
+        openvdb::MetaMap().readMeta(in);
+        for (int32_t left = readGridCount(in); left > 0; --left) {
+            openvdb::io::GridDescriptor grid;
+            grid.read(in);
+            const bool inOrder = grid.getGridPos() >= in.tellg()
+                && grid.getBlockPos() >= grid.getGridPos() && grid.getEndPos() >= grid.getBlockPos()
+                && grid.getEndPos() <= size;
+            if (!inOrder) throw std::ios_base::failure("truncated");
+            mNames.push_back(grid.uniqueName());
+            in.seekg(grid.getEndPos());
+        }
+    }
+
+    /// @return whether it says where its grids are; what went through a pipe does not.
+    bool isSeekable() const { return inputHasGridOffsets(); }
+    /// @return the names by which OpenVDB tells the grids apart, in the file's order.
+    const std::vector<std::string>& names() const { return mNames; }
+
+private:
+    std::vector<std::string> mNames;
+};
+
+bool worthDelaying(const std::string& path, Loading loading)
+{
+    struct stat info;
+    if (loading == Loading::Whole || path == "stdin.vdb") return false;
+    if (!openvdb::io::Archive::isDelayedLoadingEnabled()) return false;
+    if (stat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
+    return loading == Loading::Delayed || int64_t(info.st_size) >= kLargeFile;
+}
+
+/// @return nothing if the file does not say where its grids are.
+openvdb::GridPtrVec readDelayed(const std::string& path)
+{
+    return naming(path, [&] {
+        openvdb::GridPtrVec grids;
+        const GridIndex index(path);
+        if (!index.isSeekable()) return grids;
+        openvdb::io::File file(path);
+        file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
+        file.open(/*delayLoad=*/true);
+        for (const std::string& name : index.names()) {
+            throwIfStopped();
+            grids.push_back(file.readGrid(name));
+        }
+        return grids;
+    });
+}
+
+#else // later versions of OpenVDB can be built without
+
+bool worthDelaying(const std::string&, Loading) { return false; }
+openvdb::GridPtrVec readDelayed(const std::string&) { return {}; }
+
+#endif
+
+/// The mask words of a leaf may be damaged without any length being wrong.
+void checkVoxelCount(const openvdb::GridBase& grid, const std::string& path)
+{
+    const auto stored =
+        grid.getMetadata<openvdb::Int64Metadata>(openvdb::GridBase::META_FILE_VOXEL_COUNT);
+    if (!stored) return;
+    const auto count = int64_t(grid.activeVoxelCount());
+    if (stored->value() == count) return;
+    throwInput(path + ": grid '" + oneLine(grid.getName(), 80) + "' has " + std::to_string(count)
+        + " active voxels where the file says " + std::to_string(stored->value())
+        + ": it is truncated or damaged");
+}
+
+/// OpenVDB's own writer, given our stream: io::File would not notice a full disk.
+class ArchiveWriter : public openvdb::io::Archive {
+public:
+    void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids, bool seekable) const
+    {
+        openvdb::io::Archive::write(out, grids, seekable, openvdb::MetaMap());
+    }
+};
+
+/// A header is: magic (8 bytes), file version (4), library version (8), has offsets (1),
+/// identifier.
+constexpr size_t kTagOffset = 21;
+constexpr size_t kTagSize = 36;
+
+/// Two independent 64-bit mixes of a sequence of 8-byte words.
+class Digest {
+public:
+    void add(uint64_t word)
+    {
+        mFirst = mixed((mFirst ^ word) * 0x9fb21c651e98df25u);
+        mSecond = mixed((mSecond + word) * 0xd6e8feb86659fd93u);
+    }
+    /// @return the form of a UUID of version 8 (RFC 9562: bits of the application's own choice).
+    std::string tag() const
+    {
+        const uint64_t high = (mFirst & ~uint64_t(0xf000)) | 0x8000;
+        const uint64_t low = (mSecond & (~uint64_t(0) >> 2)) | uint64_t(1) << 63;
+        char text[kTagSize + 1];
+        std::snprintf(text, sizeof(text), "%08x-%04x-%04x-%04x-%012llx", unsigned(high >> 32),
+            unsigned(high >> 16 & 0xffff), unsigned(high & 0xffff), unsigned(low >> 48),
+            static_cast<unsigned long long>(low & 0xffffffffffffu));
+        return text;
+    }
+
+private:
+    static uint64_t mixed(uint64_t x) { return x ^ x >> 29; }
+    uint64_t mFirst = 0x243f6a8885a308d3u, mSecond = 0x13198a2e03707344u;
+};
+
+/// Needs the stream's identifier to be blanked already.
+std::string digestOf(std::iostream& stream, std::streamoff size)
+{
+    Digest digest;
+    std::vector<char> buffer(1 << 20); // a multiple of the size of a word
+    stream.seekg(0);
+    for (std::streamoff left = size; left > 0;) {
+        const auto some = std::min<std::streamoff>(left, std::streamoff(buffer.size()));
+        stream.read(buffer.data(), some);
+        std::fill(buffer.begin() + some, buffer.end(), '\0');
+        for (std::streamoff i = 0; i < some; i += 8) {
+            uint64_t word;
+            std::memcpy(&word, buffer.data() + i, sizeof(word));
+            digest.add(word);
+        }
+        left -= some;
+    }
+    digest.add(uint64_t(size));
+    return digest.tag();
+}
+
+void replaceTag(std::iostream& stream, const std::string& tag)
+{
+    stream.seekp(kTagOffset);
+    stream.write(tag.data(), std::streamsize(tag.size()));
+}
+
+} // namespace
+
+openvdb::GridPtrVec readVdb(const std::string& path, Loading loading)
+{
+    openvdb::GridPtrVec grids;
+    if (worthDelaying(path, loading)) grids = readDelayed(path);
+    if (grids.empty()) grids = readWhole(path);
+    if (grids.empty()) throwInput(path + ": the file holds no grid");
+    for (const auto& grid : grids) {
+        throwIfStopped();
+        checkVoxelCount(*grid, path);
+    }
+    return grids;
+}
+
+void writeVdb(
+    std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable)
+{
+    ArchiveWriter archive;
+    archive.setCompression(compression);
+    archive.writeTo(out, grids, seekable);
+    throwIfStopped();
+    out.seekp(0, std::ios::end);
+    const std::streamoff size = out.tellp();
+    std::string tag(kTagSize, '\0');
+    out.seekg(kTagOffset);
+    out.read(tag.data(), kTagSize);
+    if (tag != archive.getUniqueTag()) return; // another layout: then leave it alone
+    replaceTag(out, std::string(kTagSize, '0'));
+    replaceTag(out, digestOf(out, size));
+    out.seekp(0, std::ios::end);
+}
+
+} // namespace command

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Action.h
+/// @brief What an action is (its name, options and documentation, how it is checked and run), and
+/// one call of it on a command line. The parser and -help read nothing else.
+
+#pragma once
+
+#include "base/Errors.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace command {
+
+class ActionCall;
+class Plan;
+struct Session;
+
+enum class OptionKind {
+    Text,
+    List,    ///< texts, a comma between; a main option of this kind takes any number of tokens.
+             ///< What names a file that exists is one text, commas and all.
+    Flag,    ///< 1|0|true|false|yes|no|on|off
+    Integer, ///< within [lowest, highest]
+    Real,    ///< within [lowest, highest]
+    Vector,  ///< three numbers, a comma between
+    Choice   ///< one of `choices`
+};
+
+struct OptionSpec {
+    std::string name;
+    OptionKind kind = OptionKind::Text;
+    std::string fallback; ///< the default as it would be typed; empty: there is none
+    std::string doc;
+    double lowest = -std::numeric_limits<double>::infinity();
+    double highest = std::numeric_limits<double>::infinity();
+    std::vector<std::string> choices = {};
+};
+
+/// @name Short forms for the tables of options
+/// @{
+OptionSpec text(const std::string& name, const std::string& fallback, const std::string& doc);
+OptionSpec list(const std::string& name, const std::string& fallback, const std::string& doc);
+OptionSpec flag(const std::string& name, bool fallback, const std::string& doc);
+OptionSpec integer(const std::string& name, const std::string& fallback, int64_t lowest,
+    int64_t highest, const std::string& doc);
+OptionSpec real(const std::string& name, const std::string& fallback, double lowest, double highest,
+    const std::string& doc);
+OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc);
+OptionSpec choice(const std::string& name, const std::vector<std::string>& choices,
+    const std::string& doc); ///< the first choice is the default
+/// The options that nearly every action has.
+OptionSpec vdbOption(const std::string& what);
+OptionSpec keepOption();
+OptionSpec nameOption(const std::string& fallback, const std::string& doc);
+/// @}
+
+struct ActionSpec {
+    std::string name;
+    std::string alias;      ///< may be empty
+    std::string mainOption; ///< takes tokens without `=`; may be empty
+    std::string doc;
+    std::vector<OptionSpec> options = {};
+
+    bool once = false;         ///< a second one on the line is a mistake
+    bool quiet = false;        ///< too small for a timing line
+    bool isSource = false;     ///< puts on the stack what was not there, as -read does
+    bool needsInput = true;    ///< works on the stack, so a source has to come before
+    ExitCode failure = kInput; ///< the code of an exception that carries none
+
+    /// Everything that can be found out before any work; may be empty.
+    std::function<void(const ActionCall&, Plan&)> check = {};
+    std::function<void(const ActionCall&, Session&)> run = {};
+
+    const OptionSpec* option(const std::string& optionName) const;
+};
+
+/// One action of a command line, with values that have been checked against its options.
+class ActionCall {
+public:
+    explicit ActionCall(const ActionSpec& spec) : mSpec(&spec) {}
+
+    const ActionSpec& spec() const { return *mSpec; }
+    /// `-name`, for messages.
+    std::string label() const { return "-" + mSpec->name; }
+    /// The action as it was typed, in one line.
+    std::string typed() const;
+
+    bool given(const std::string& option) const { return mValues.count(option) > 0; }
+    void set(const std::string& option, const std::string& value) { mValues[option] = {value}; }
+    /// Splits @a value at its commas.
+    void appendToList(const std::string& option, const std::string& value);
+
+    /// @name The value of an option, or its default
+    /// @{
+    std::string text(const std::string& option) const;
+    std::vector<std::string> list(const std::string& option) const;
+    bool flag(const std::string& option) const;
+    int64_t integer(const std::string& option) const;
+    double real(const std::string& option) const;
+    std::array<double, 3> vector(const std::string& option) const;
+    /// @}
+
+private:
+    const ActionSpec* mSpec;
+    std::map<std::string, std::vector<std::string>> mValues; ///< one, or the items of a list
+};
+
+/// @return the three numbers of a text such as `1,0.5,-2`, or nothing if it is none.
+std::optional<std::array<double, 3>> parseVector(const std::string& text);
+
+/// @brief Check one value against its option.
+/// @throw CommandError (usage) naming the action, the option, the value and what is allowed
+void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value);
+
+/// @return every action there is, in the order in which -help lists them.
+const std::vector<ActionSpec>& actionTable();
+
+/// @return the action of that name or alias, or null.
+const ActionSpec* findAction(const std::string& name);
+
+} // namespace command

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ConfigFile.h"
+
+#include "Actions.h"
+#include "base/Errors.h"
+
+#include <fstream>
+
+#include <sys/stat.h>
+
+namespace command {
+
+namespace {
+
+constexpr size_t kLongestLine = 1 << 20; // a file of another kind has no lines
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// @return the words of a line. @throw CommandError (usage) if a quote is not closed
+std::vector<std::string> wordsOf(const std::string& line, const std::string& where)
+{
+    std::vector<std::string> words;
+    bool inWord = false;
+    char quote = '\0';
+    for (const char c : line) {
+        if (quote) {
+            if (c == quote) {
+                quote = '\0';
+            } else {
+                words.back() += c;
+            }
+            continue;
+        }
+        if (isBlank(c)) {
+            inWord = false;
+            continue;
+        }
+        if (!inWord && c == '#') break;
+        if (!inWord) words.emplace_back();
+        inWord = true;
+        if (c == '"' || c == '\'') {
+            quote = c;
+        } else {
+            words.back() += c;
+        }
+    }
+    if (quote) throwUsage(where + ": a quote is not closed");
+    return words;
+}
+
+} // namespace
+
+std::vector<std::string> readConfigFile(const std::string& path)
+{
+    struct stat info;
+    std::ifstream in(path, std::ios::binary);
+    if (stat(path.c_str(), &info) != 0 || !in) throwInput("cannot read " + systemError(path));
+    if (S_ISDIR(info.st_mode)) throwInput("cannot read " + path + ": it is a folder");
+    std::vector<std::string> tokens;
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+        const std::string where = path + ", line " + std::to_string(number);
+        if (line.size() > kLongestLine || line.find('\0') != std::string::npos) {
+            throwInput(where + ": this is no text file");
+        }
+        std::vector<std::string> words = wordsOf(line, where);
+        if (words.empty() || (number == 1 && words.front() == "vdb_spheretree")) continue;
+        if (words.front().empty() || words.front().front() != '-') words.front().insert(0, "-");
+        tokens.insert(tokens.end(), words.begin(), words.end());
+    }
+    return tokens;
+}
+
+ActionSpec configAction()
+{
+    ActionSpec action{"config", "c", "files",
+        "run the actions in a file, one a line, dashes left out or not, # for comments"};
+    action.options = {list("files", "", "files of actions")};
+    action.needsInput = false;
+    action.quiet = true;
+    return action; // the parser puts the actions of the files in its place
+}
+
+} // namespace command

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file StatsReport.h
+/// @brief What -stats tells about a sphere-tree: as a table for people, as JSON for programs.
+
+#pragma once
+
+#include "session/Session.h"
+
+#include <string>
+
+namespace command {
+
+/// Radii and distances are in voxels of level 0, without padding.
+struct LevelRadii {
+    double smallest = 0, largest = 0;
+};
+LevelRadii radiiOf(
+    const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
+
+/// @return how much of the object a level covers whose error has been counted.
+double coveredPercent(
+    const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
+
+/// @return the most memory that the process has held so far, in bytes.
+int64_t peakBytes();
+
+/// @return the table, several lines.
+std::string statsTable(const openvdb_spheretree::SphereTree& tree, const Session& session);
+
+/// @return a JSON object of format `vdb_spheretree.stats.1`.
+std::string statsJson(const openvdb_spheretree::SphereTree& tree, const Session& session);
+
+} // namespace command

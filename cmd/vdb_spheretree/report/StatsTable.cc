@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StatsReport.h"
+
+#include "base/Terminal.h"
+
+#include <openvdb_spheretree/tree/DagAdjacency.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include <sys/resource.h>
+
+namespace command {
+
+using openvdb_spheretree::SphereTree;
+using openvdb_spheretree::SphereTreeLevel;
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Where spheres lie inside the object, what counts is how much of it they cover.
+bool isInner(const SphereTree& tree)
+{
+    return tree.settings.side == openvdb_spheretree::Side::Inner;
+}
+
+Row headerOf(const SphereTree& tree)
+{
+    Row row = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
+        "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
+    if (isInner(tree)) row.push_back("covered %");
+    return row;
+}
+
+std::string fixed(double number, int digits)
+{
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.*f", digits, number);
+    return text;
+}
+
+Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const LevelRadii radii = radiiOf(tree, level);
+    Row row = {
+        std::to_string(level.level), withCommas(level.size()), withCommas(level.pyramidVoxels)};
+    if (level.topology) {
+        row.insert(row.end(),
+            {withCommas(level.topology->components), withCommas(level.topology->tunnels),
+                withCommas(level.topology->cavities)});
+    } else {
+        row.insert(row.end(), 3, "-");
+    }
+    row.insert(row.end(), {fixed(radii.smallest, 2), fixed(radii.largest, 2)});
+    if (!level.error) {
+        row.resize(headerOf(tree).size(), "-");
+        return row;
+    }
+    const auto& error = *level.error;
+    row.insert(row.end(),
+        {withCommas(error.covered), withCommas(error.excess), withCommas(error.missing),
+            fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
+    if (isInner(tree)) row.push_back(fixed(coveredPercent(tree, level), 2));
+    return row;
+}
+
+void printRows(std::ostream& out, const std::vector<Row>& rows)
+{
+    std::vector<size_t> width(rows.front().size(), 0);
+    for (const Row& row : rows) {
+        for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    }
+    for (const Row& row : rows) {
+        for (size_t i = 0; i < row.size(); ++i) {
+            out << (i ? "  " : "") << std::string(width[i] - row[i].size(), ' ') << row[i];
+        }
+        out << "\n";
+    }
+}
+
+/// The same reason is said once, for all the levels it holds for.
+void printReasons(std::ostream& out, const SphereTree& tree)
+{
+    std::string last;
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (level.error) continue;
+        const std::string reason = level.errorUnknown.empty() ? "errors were not counted (errors=0)"
+                                                              : oneLine(level.errorUnknown);
+        if (reason == last) continue;
+        out << "'-' for errors from level " << level.level << " on: " << reason << "\n";
+        last = reason;
+    }
+}
+
+void printTopologyReason(std::ostream& out, const SphereTree& tree)
+{
+    const auto counted = [](const SphereTreeLevel& level) { return level.topology.has_value(); };
+    if (std::all_of(tree.levels.begin(), tree.levels.end(), counted)) return;
+    out << "'-' for parts, tunnels and cavities: "
+        << (tree.settings.topology ? "the level has no voxels of its own"
+                                   : "these were not counted (topology=0)")
+        << "\n";
+}
+
+std::string range(const openvdb_spheretree::Degrees& degrees)
+{
+    return withCommas(degrees.min) + " / " + fixed(degrees.mean, 2) + " / "
+        + withCommas(degrees.max);
+}
+
+void printDag(std::ostream& out, const SphereTree& tree)
+{
+    if (tree.dag.empty()) return;
+    out << "Sphere-DAG: " << withCommas(int64_t(tree.dag.size())) << ' '
+        << toString(tree.settings.edges) << " edges, to each level from the one above\n";
+    std::vector<Row> rows = {{"level", "edges", "children min / mean / max",
+        "parents min / mean / max", "shared", "tree in dag %"}};
+    for (const auto& level : dagStats(tree)) {
+        rows.push_back({std::to_string(level.level), withCommas(level.edges),
+            range(level.childrenPerParent), range(level.parentsPerChild),
+            withCommas(level.sharedChildren), fixed(level.treeEdgesInDagPercent, 1)});
+    }
+    printRows(out, rows);
+}
+
+void printSeconds(std::ostream& out, const Session& session)
+{
+    const StageSeconds& s = session.seconds;
+    const std::vector<std::pair<const char*, double>> stages = {{"read", s.read}, {"mask", s.mask},
+        {"pyramid", s.build.pyramid}, {"distance", s.build.distance}, {"power", s.build.power},
+        {"medial", s.build.medial}, {"tree", s.build.tree}, {"topology", s.build.topology},
+        {"error", s.error}, {"write", s.write}};
+    out << "seconds:";
+    for (const auto& [name, seconds] : stages) {
+        if (seconds > 0) out << " " << name << " " << fixed(seconds, 3) << ",";
+    }
+    out << " total " << fixed(session.total.seconds(), 3) << "; peak memory "
+        << withCommas(peakBytes() >> 20) << " MiB\n";
+}
+
+} // namespace
+
+LevelRadii radiiOf(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const auto [smallest, largest] =
+        std::minmax_element(tree.radius.begin() + level.begin, tree.radius.begin() + level.end);
+    return level.size() ? LevelRadii{*smallest, *largest} : LevelRadii{};
+}
+
+int64_t peakBytes()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return int64_t(usage.ru_maxrss) * 1024;
+}
+
+double coveredPercent(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const int64_t inside = level.error->covered - level.error->excess;
+    return 100.0 * double(inside) / double(tree.object.voxels);
+}
+
+namespace {
+
+/// What kind of tree it is, and what else shapes the numbers, where it is not the default.
+std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
+{
+    using namespace openvdb_spheretree;
+    std::string text = toString(settings.tree);
+    if (settings.tree != TreeType::Tight) text += ", factor " + std::to_string(settings.factor);
+    else if (settings.side == Side::Inner) text += ", side inner";
+    else text += std::string(", quality ") + toString(settings.quality);
+    if (settings.cover == Cover::Balls) text += ", cover balls";
+    if (settings.leaves == Leaves::Medial) text += ", leaves medial";
+    if (settings.center == Center::Miniball) text += ", center miniball";
+    if (settings.dim == 2) text += ", dim 2";
+    if (!settings.dist.isEuclidean()) text += ", dist " + toString(settings.dist);
+    const std::string model = modelToString(settings);
+    if (model != "or") text += ", model " + model;
+    if (settings.scale == RadiusScale::Paper) text += ", scale paper";
+    return text;
+}
+
+} // namespace
+
+std::string statsTable(const SphereTree& tree, const Session& session)
+{
+    std::ostringstream out;
+    const auto& object = tree.object;
+    const openvdb::Coord size = object.bbox.dim();
+    out << "object '" << oneLine(object.name, 60) << "': " << withCommas(object.voxels)
+        << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
+        << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
+        << size[2] << "\n";
+    out << "tree '" << oneLine(tree.settings.name, 60) << "': " << kindOf(tree.settings) << ", "
+        << withCommas(tree.size()) << " spheres; radii and distances in voxels of level 0\n";
+    std::vector<Row> rows = {headerOf(tree)};
+    for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
+    printRows(out, rows);
+    printReasons(out, tree);
+    printTopologyReason(out, tree);
+    printDag(out, tree);
+    printSeconds(out, session);
+    return out.str();
+}
+
+} // namespace command

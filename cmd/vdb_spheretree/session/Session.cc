@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Session.h"
+
+#include "base/Terminal.h"
+
+#include <cerrno>
+#include <iostream>
+
+namespace command {
+
+Plan checkLine(const std::vector<ActionCall>& line)
+{
+    Plan plan;
+    for (const ActionCall& call : line) {
+        if (!call.spec().check) continue;
+        try {
+            call.spec().check(call, plan);
+        } catch (...) {
+            rethrowNamed(call.label(), kUsage);
+        }
+    }
+    return plan;
+}
+
+void Session::run(const std::vector<ActionCall>& line)
+{
+    for (const ActionCall& call : line) {
+        throwIfStopped();
+        mIsLast = &call == &line.back();
+        runOne(call);
+    }
+}
+
+void Session::runOne(const ActionCall& call)
+{
+    const Stopwatch watch;
+    const bool silent = call.spec().quiet || verbosity == Verbosity::Quiet;
+    const auto finish = [&] {
+        if (!silent) progress.endAction();
+    };
+    if (!silent) progress.beginAction(call.typed());
+    try {
+        call.spec().run(call, *this);
+    } catch (...) {
+        finish();
+        rethrowNamed(call.label(), call.spec().failure);
+    }
+    finish();
+    if (!silent) reportTime(call.typed(), watch.seconds());
+}
+
+std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
+
+void Session::print(const std::string& text, std::ostream& out)
+{
+    if (mReaderIsGone) return;
+    errno = 0;
+    if (out << text << std::flush) return;
+    if (errno != EPIPE) throwOutput("cannot write to " + systemError("stdout"));
+    mReaderIsGone = true;
+}
+
+void Session::note(const std::string& line)
+{
+    if (verbosity == Verbosity::Quiet) return;
+    progress.clearLine();
+    std::cerr << "vdb_spheretree: note: " << oneLine(line) << std::endl;
+}
+
+void Session::warn(const std::string& line)
+{
+    if (verbosity == Verbosity::Quiet) return;
+    progress.clearLine();
+    std::cerr << "vdb_spheretree: " << coloured(std::cerr, Colour::Yellow, "warning: ")
+              << oneLine(line) << std::endl;
+}
+
+void Session::remark(const std::string& line)
+{
+    if (verbosity < Verbosity::Verbose) return;
+    progress.clearLine();
+    std::cerr << "    " << oneLine(line) << std::endl;
+}
+
+void Session::reportTime(const std::string& what, double seconds)
+{
+    std::cerr << what << " ... completed in " << prettySeconds(seconds) << std::endl;
+}
+
+} // namespace command

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Stack.h"
+
+#include "base/Errors.h"
+
+#include <openvdb/points/PointDataGrid.h>
+
+#include <algorithm>
+
+namespace command {
+
+namespace {
+
+bool isNumber(const std::string& text)
+{
+    return !text.empty() && text.size() < 6
+        && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool isTree(const StackItem& item) { return bool(item.tree); }
+
+} // namespace
+
+std::string shortType(const openvdb::GridBase& grid)
+{
+    if (grid.isType<openvdb::points::PointDataGrid>()) return "points";
+    return grid.valueType();
+}
+
+std::string StackItem::name() const
+{
+    if (tree) return tree->settings.name;
+    return grid ? grid->getName() : mesh->name;
+}
+
+std::string StackItem::description() const
+{
+    std::string kind = "mesh", details;
+    if (tree) {
+        kind = "sphere-tree";
+    } else if (grid) {
+        kind = "grid";
+        details = shortType(*grid);
+        if (grid->getGridClass() != openvdb::GRID_UNKNOWN) {
+            details += ", " + openvdb::GridBase::gridClassToMenuName(grid->getGridClass());
+        }
+        details += ", ";
+    }
+    return kind + " '" + oneLine(name(), 60) + "' (" + details + "from " + oneLine(source, 120)
+        + ")";
+}
+
+void Stack::beginBatch(const std::string& source)
+{
+    mSource = source;
+    ++mBatch;
+}
+
+void Stack::push(StackItem item)
+{
+    const auto isWritten = [](const auto& old) { return old->written; };
+    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isWritten), mItems.end());
+    item.source = mSource;
+    item.batch = mBatch;
+    mItems.push_back(std::make_unique<StackItem>(std::move(item)));
+}
+
+void Stack::drop(const StackItem* item)
+{
+    const auto isIt = [item](const auto& other) { return other.get() == item; };
+    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isIt), mItems.end());
+}
+
+bool Stack::holdsMesh() const
+{
+    return std::any_of(mItems.begin(), mItems.end(), [](const auto& i) { return bool(i->mesh); });
+}
+
+std::vector<StackItem*> Stack::newestFirst(bool meshes)
+{
+    std::vector<StackItem*> items;
+    for (auto item = mItems.rbegin(); item != mItems.rend(); ++item) {
+        if (bool((*item)->mesh) == meshes) items.push_back(item->get());
+    }
+    return items;
+}
+
+StackItem* Stack::find(const std::string& ageOrName, bool meshes)
+{
+    const std::vector<StackItem*> items = newestFirst(meshes);
+    for (StackItem* item : items) {
+        if (item->name() == ageOrName) return item;
+    }
+    if (!isNumber(ageOrName)) return nullptr;
+    const size_t age = std::stoul(ageOrName);
+    return age < items.size() ? items[age] : nullptr;
+}
+
+std::string Stack::listing() const
+{
+    if (mItems.empty()) return "the stack is empty";
+    std::string all = "on the stack, newest first:";
+    size_t shown = 0;
+    for (auto item = mItems.rbegin(); item != mItems.rend() && shown < 12; ++item, ++shown) {
+        all += (shown ? ", " : " ") + (*item)->description();
+    }
+    return shown < mItems.size() ? all + ", ..." : all;
+}
+
+StackItem& Stack::selectAmong(
+    const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes)
+{
+    if (!ageOrName.empty()) {
+        StackItem* const item = find(ageOrName, meshes);
+        if (!item) throwInput("there is no '" + ageOrName + "'; " + listing());
+        if (!suits(*item)) throwInput("needs " + what + ", which is not " + item->description());
+        return *item;
+    }
+    std::vector<StackItem*> found;
+    for (StackItem* item : newestFirst(meshes)) {
+        if (!suits(*item)) continue;
+        if (!found.empty() && found.front()->batch != item->batch) break;
+        found.push_back(item);
+    }
+    if (found.empty()) throwInput("needs " + what + "; " + listing());
+    if (found.size() == 1) return *found.front();
+    std::string names;
+    for (const StackItem* item : found) {
+        names += (names.empty() ? "" : ", ") + item->description();
+    }
+    throwInput("there is more than one that suits: " + names + "; choose one"
+        + (meshes ? " with geo=" : ": here with vdb=, or with grids= of -read"));
+}
+
+StackItem& Stack::select(const std::string& what, const Suits& suits, const std::string& ageOrName)
+{
+    return selectAmong(what, suits, ageOrName, false);
+}
+
+StackItem& Stack::selectTree(const std::string& ageOrName)
+{
+    return selectAmong("a sphere-tree", isTree, ageOrName, false);
+}
+
+StackItem& Stack::selectMesh(const std::string& ageOrName)
+{
+    return selectAmong(
+        "a mesh", [](const StackItem&) { return true; }, ageOrName, true);
+}
+
+std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNames)
+{
+    std::vector<StackItem*> chosen;
+    if (agesOrNames.empty() || agesOrNames == std::vector<std::string>{"*"}) {
+        chosen = newestFirst(false);
+        const auto isWritten = [](const StackItem* item) { return item->written; };
+        if (!std::all_of(chosen.begin(), chosen.end(), isWritten)) {
+            chosen.erase(std::remove_if(chosen.begin(), chosen.end(), isWritten), chosen.end());
+        }
+    } else {
+        for (const std::string& wanted : agesOrNames) {
+            StackItem* const item = find(wanted, false);
+            if (!item) throwInput("there is no '" + wanted + "'; " + listing());
+            chosen.push_back(item);
+        }
+    }
+    if (chosen.empty()) throwInput("there is no grid or sphere-tree to work on; " + listing());
+    std::reverse(chosen.begin(), chosen.end());
+    return chosen;
+}
+
+} // namespace command

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file EnumNames.h
+/// @brief The names of an enumeration's values, as options and files spell them, and back.
+
+#pragma once
+
+#include <openvdb/Exceptions.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+template <typename Enum>
+struct Named {
+    Enum value;
+    const char* name;
+};
+
+template <typename Enum, std::size_t N>
+const char* nameOf(const std::array<Named<Enum>, N>& names, Enum value)
+{
+    for (const auto& entry : names) {
+        if (entry.value == value) return entry.name;
+    }
+    return "?";
+}
+
+/// "a, b or c"
+template <typename Enum, std::size_t N>
+std::string listOf(const std::array<Named<Enum>, N>& names)
+{
+    std::string text;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (i > 0) text += i + 1 < N ? ", " : " or ";
+        text += names[i].name;
+    }
+    return text;
+}
+
+/// The start of @a text, for messages: values come from command lines and from damaged files.
+inline std::string quoted(const std::string& text)
+{
+    constexpr std::size_t kLongest = 60;
+    return '\'' + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + '\'';
+}
+
+/// @param setting  what is being read, for the message
+/// @throw openvdb::ValueError that lists the names, if @a text is none of them
+template <typename Enum, std::size_t N>
+Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, const std::string& text)
+{
+    for (const auto& entry : names) {
+        if (text == entry.name) return entry.value;
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        setting << "=" << quoted(text) << " is unknown: choose " << listOf(names));
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Memory.h"
+
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+/// @return the bytes that a container has on Linux (control groups 2 and 1); infinity: no limit.
+double containerMemory()
+{
+    for (const char* path :
+        {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+        double bytes = 0;
+        if (std::ifstream(path) >> bytes && bytes > 0) return bytes; // "max" is no number
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+double physicalMemory()
+{
+#if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
+    const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+    if (pages > 0 && size > 0) return std::min(double(pages) * double(size), containerMemory());
+#endif
+    return 0;
+}
+
+int64_t allowedMemory(int64_t memory)
+{
+    if (memory > 0) return memory;
+    const double there = physicalMemory();
+    return there == 0 ? INT64_MAX : int64_t(SphereTreeSettings::kMemoryShare * there);
+}
+
+std::string asText(double bytes, bool up)
+{
+    constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
+    const double unit = bytes < kGiB ? kMiB : kGiB;
+    const double tenths = bytes / unit * 10;
+    std::ostringstream text;
+    text << (up ? std::ceil(tenths) : std::floor(tenths)) / 10 << (unit == kMiB ? " MiB" : " GiB");
+    return text.str();
+}
+
+void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
+{
+    if (needed <= allowed) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object's " << leaves << " leaf nodes, those inside its tiles included, need at least "
+                        << asText(double(needed)) << " for their power labels, and memory= allows "
+                        << asText(double(allowed), false)
+                        << ": allow more, use a larger voxel, or split the object");
+}
+
+void requireMemory(double bytes, const std::string& what, const std::string& remedy)
+{
+    constexpr double kGiB = 1 << 30;
+    const double there = physicalMemory();
+    if (there == 0 || bytes <= there) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        what << " need about " << std::ceil(bytes / kGiB) << " GiB, more than the "
+             << std::floor(there / kGiB) << " GiB of this machine: " << remedy);
+}
+
+void requireMemory(int64_t leaves, int64_t bytesPerLeaf)
+{
+    requireMemory(double(leaves) * double(bytesPerLeaf),
+        "the object's " + std::to_string(leaves) + " leaf nodes, those inside its tiles included,",
+        "use a larger voxel, or split the object");
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Memory.h
+/// @brief An error in good time, in place of a machine that swaps or a process that is killed.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @return the bytes of this machine, or of the container; 0 if they are not known.
+double physicalMemory();
+
+/// @return the bytes that SphereTreeSettings::memory stands for; INT64_MAX if nobody knows.
+int64_t allowedMemory(int64_t memory);
+
+/// @return bytes for messages: as GiB with one decimal, or MiB, rounded up (or down).
+std::string asText(double bytes, bool up = true);
+
+/// @throw openvdb::ValueError if @a leaves leaf nodes need more for their labels than is allowed
+void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed);
+
+/// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this
+///        machine's physical memory (where that can be told)
+void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
+
+/// @brief The same for anything else.
+/// @param what    what needs that much, as the subject (plural) of the message
+/// @param remedy  what one can do
+void requireMemory(double bytes, const std::string& what, const std::string& remedy);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Stage.h
+/// @brief Adds the time a stage takes to a sum of seconds, and tells the interrupter its name.
+
+#pragma once
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <chrono>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// From its construction to its end. @a interrupter and @a sum may be null.
+class Stage {
+public:
+    Stage(const char* name, openvdb::util::NullInterrupter* interrupter, double* sum)
+        : mInterrupter(interrupter), mSum(sum)
+    {
+        if (mInterrupter) mInterrupter->start(name);
+    }
+    ~Stage()
+    {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - mStart;
+        if (mSum) *mSum += passed.count();
+        if (mInterrupter) mInterrupter->end();
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+private:
+    openvdb::util::NullInterrupter* mInterrupter;
+    double* mSum;
+    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+};
+
+/// @return what @a work returns.
+template <typename Work>
+auto timed(
+    const char* name, openvdb::util::NullInterrupter* interrupter, double* sum, const Work& work)
+{
+    const Stage stage(name, interrupter, sum);
+    return work();
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

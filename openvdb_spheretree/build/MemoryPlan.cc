@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MemoryPlan.h"
+
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/paper/TreeLevels.h>
+#include <openvdb_spheretree/slab/LabelStream.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+/// Norms have everything in memory, always.
+void planNorm(const LeafLayout& layout, MemoryPlan& plan)
+{
+    plan.needed = normBytes(layout);
+    plan.slabsAtATime = plan.slabs;
+    detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
+}
+
+} // namespace
+
+MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const FlatAxis flat = flatAxisOf(object, settings.dim);
+    const LeafLayout layout(*flat.toZ(
+        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
+    MemoryPlan plan;
+    plan.allowed = detail::allowedMemory(settings.memory);
+    plan.slabs = layout.slabCount();
+    if (!settings.dist.isEuclidean()) {
+        planNorm(layout, plan);
+        return plan;
+    }
+    slab::LabelStream stream(layout, settings.dim);
+    detail::LabelSteps steps;
+    if (settings.tree != TreeType::Tight && detail::needsDag(settings)) stream.keepSteps(steps);
+    stream.setMemory(settings.memory);
+    const slab::StreamPlan found = stream.plan(interrupter);
+    plan.needed = found.bytes;
+    plan.slabsAtATime = std::min<int64_t>(found.slabs, plan.slabs);
+    plan.packed = found.packed;
+    plan.packedBytes = found.packedBytes;
+    plan.storedBytes = found.storedBytes;
+    return plan;
+}
+
+std::string toString(const MemoryPlan& plan)
+{
+    const auto gib = [](int64_t bytes) { return detail::asText(double(bytes)); };
+    std::ostringstream text;
+    text << "memory: " << gib(plan.allowed) << " allowed for power labels, at most "
+         << gib(plan.needed) << " needed: " << plan.slabsAtATime << " of " << plan.slabs
+         << " slabs at a time";
+    if (plan.packed) {
+        text << ", labels compressed: " << gib(plan.packedBytes) << " before compression; "
+             << gib(plan.storedBytes) << " of compressed labels may stay in memory, what exceeds "
+             << "that goes to a temporary file";
+    }
+    return text.str();
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ChainCheck.cc
+/// @brief Chains are followed upwards, in all of a leaf's voxels at once. With S(n) the voxels of
+/// object and ball n that a leaf, or S of some child of n, has, a voxel has a chain from the leaves
+/// up to a section just when S of some node of the section has it.
+///
+/// 1. The object's cells are halved in space over and over, each part with the nodes that reach
+///    into it: those of the part before whose balls touch its box, less those left childless.
+/// 2. A part is done with as soon as balls that hold all of its box make a chain up to the last
+///    section: what is inside costs little.
+/// 3. What is left comes down to leaves of 8^3 voxels, where S is computed as mask words.
+///
+/// First parts are made until there are enough for all threads, then each is taken to its end. No
+/// more masks exist at a time than nodes reach into one leaf.
+
+#include "ChainCheck.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/sphere/BallWords.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::Coord;
+using Words = std::array<uint64_t, 8>;
+
+/// A node that reaches into a part of space.
+struct Candidate {
+    int32_t node;
+    int32_t parent;  ///< in the list of candidates; -1 if it does not reach there
+    bool holdsAll;   ///< its ball, of the part
+    bool chainedAll; ///< and so do some leaf below it and all balls in between
+};
+using Candidates = std::vector<Candidate>;
+
+/// A part of the object: some of its cells.
+struct Part {
+    VoxelCell *begin, *end;
+    std::shared_ptr<VoxelCell> own; ///< holds the cell of a part that is an eighth of a tile
+    std::shared_ptr<const Candidates> candidates; ///< of the part that this is part of
+
+    openvdb::CoordBBox box() const
+    {
+        openvdb::CoordBBox result;
+        for (const VoxelCell* cell = begin; cell != end; ++cell) {
+            result.expand(openvdb::CoordBBox::createCube(cell->origin, cell->size));
+        }
+        return result;
+    }
+};
+
+bool isEmpty(const Words& words)
+{
+    return std::all_of(words.begin(), words.end(), [](uint64_t word) { return word == 0; });
+}
+
+class ChainSearch {
+public:
+    ChainSearch(const ChainForest& forest, const SphereMetric& metric);
+
+    Part whole(std::vector<VoxelCell>& cells) const;
+    /// @return the parts that are to be looked at in place of one; losses are added up.
+    std::vector<Part> step(const Part& part, std::vector<ChainLoss>& losses) const;
+
+private:
+    bool isLeaf(int32_t node) const { return mForest.sections[node] & 1; }
+    bool isLast(int32_t node) const
+    {
+        return mForest.sections[node] >> (mForest.sectionCount - 1) & 1;
+    }
+    bool reachesInto(const Ball& ball, const openvdb::CoordBBox& box) const;
+    Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const;
+    void searchLeaf(
+        const VoxelCell& cell, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
+    Words chainedVoxels(const Candidate& candidate, const Words& below, const Coord& origin) const;
+
+    const ChainForest& mForest;
+    std::vector<Ball> mBalls;
+};
+
+ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) : mForest(forest)
+{
+    const openvdb::CoordBBox everywhere(Coord::min(), Coord::max());
+    const int shift = shiftOf(metric);
+    mBalls.resize(forest.spheres.size());
+    for (std::size_t i = 0; i < mBalls.size(); ++i) {
+        Ball& ball = mBalls[i];
+        if (clippedBall(forest.spheres[i], metric.distance, shift, everywhere, ball)) continue;
+        ball.lo[0] = 1; // an empty box
+        ball.hi[0] = 0;
+    }
+}
+
+Part ChainSearch::whole(std::vector<VoxelCell>& cells) const
+{
+    auto all = std::make_shared<Candidates>();
+    for (int32_t node = 0; node < int32_t(mBalls.size()); ++node) {
+        all->push_back({node, mForest.parent[node], false, false});
+    }
+    return {cells.data(), cells.data() + cells.size(), nullptr, all};
+}
+
+bool ChainSearch::reachesInto(const Ball& ball, const openvdb::CoordBBox& box) const
+{
+    for (int a = 0; a < 3; ++a) {
+        if (ball.lo[a] > ball.hi[a]) return false;
+        if (ball.lo[a] > box.max()[a] || ball.hi[a] < box.min()[a]) return false;
+    }
+    return ball.touches(box.min().data(), box.max().data());
+}
+
+/// Those that reach into the box, and have a leaf below them that does.
+Candidates ChainSearch::narrowed(const Candidates& from, const openvdb::CoordBBox& box) const
+{
+    constexpr int32_t kGone = -1;
+    std::vector<int32_t> place(from.size(), kGone);
+    std::vector<char> hasChild(from.size(), 0), hasChained(from.size(), 0);
+    Candidates kept;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        Candidate candidate = from[i];
+        const Ball& ball = mBalls[candidate.node];
+        const bool leaf = isLeaf(candidate.node);
+        if (!leaf && !hasChild[i]) continue;
+        if (!candidate.holdsAll) {
+            if (!reachesInto(ball, box)) continue;
+            candidate.holdsAll = ball.contains(box.min().data(), box.max().data());
+        }
+        candidate.chainedAll = candidate.holdsAll && (leaf || hasChained[i]);
+        place[i] = int32_t(kept.size());
+        if (candidate.parent >= 0) {
+            hasChild[candidate.parent] = 1;
+            hasChained[candidate.parent] |= char(candidate.chainedAll);
+        }
+        kept.push_back(candidate);
+    }
+    for (Candidate& candidate : kept) {
+        if (candidate.parent >= 0) candidate.parent = place[candidate.parent];
+    }
+    return kept;
+}
+
+/// Halves along the longest side of the box, or cuts a tile in eight.
+std::vector<Part> split(
+    const Part& part, const openvdb::CoordBBox& box, std::shared_ptr<const Candidates> candidates)
+{
+    if (part.end - part.begin > 1) {
+        VoxelCell* const middle = part.begin + (part.end - part.begin) / 2;
+        const std::size_t axis = box.maxExtent();
+        std::nth_element(
+            part.begin, middle, part.end, [axis](const VoxelCell& a, const VoxelCell& b) {
+                return a.origin[axis] < b.origin[axis];
+            });
+        return {
+            {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
+    }
+    std::vector<Part> parts;
+    const int32_t half = part.begin->size / 2;
+    for (int i = 0; i < 8; ++i) {
+        auto cell = std::make_shared<VoxelCell>();
+        cell->origin =
+            part.begin->origin.offsetBy(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0);
+        cell->size = half;
+        std::fill(cell->words, cell->words + 8, ~uint64_t(0));
+        parts.push_back({cell.get(), cell.get() + 1, cell, candidates});
+    }
+    return parts;
+}
+
+std::vector<Part> ChainSearch::step(const Part& part, std::vector<ChainLoss>& losses) const
+{
+    const openvdb::CoordBBox box = part.box();
+    auto candidates = std::make_shared<Candidates>(narrowed(*part.candidates, box));
+    const bool done = std::any_of(candidates->begin(), candidates->end(),
+        [&](const Candidate& c) { return c.chainedAll && isLast(c.node); });
+    if (done) return {};
+    if (part.end - part.begin > 1 || part.begin->size > 8) return split(part, box, candidates);
+    searchLeaf(*part.begin, *candidates, losses);
+    return {};
+}
+
+/// @param below  S of the children, of a leaf the object's voxels
+Words ChainSearch::chainedVoxels(
+    const Candidate& candidate, const Words& below, const Coord& origin) const
+{
+    if (candidate.holdsAll || isEmpty(below)) return below;
+    Words words{};
+    orBallIntoWords(mBalls[candidate.node], origin, words.data());
+    for (int x = 0; x < 8; ++x) words[x] &= below[x];
+    return words;
+}
+
+void ChainSearch::searchLeaf(
+    const VoxelCell& cell, const Candidates& candidates, std::vector<ChainLoss>& losses) const
+{
+    std::vector<Words> below(candidates.size(), Words{});
+    std::array<Words, ChainForest::kMaxSections> chained{};
+    Words object;
+    std::copy(cell.words, cell.words + 8, object.begin());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const Candidate& candidate = candidates[i];
+        const Words words =
+            chainedVoxels(candidate, isLeaf(candidate.node) ? object : below[i], cell.origin);
+        if (candidate.parent >= 0) {
+            for (int x = 0; x < 8; ++x) below[candidate.parent][x] |= words[x];
+        }
+        for (uint64_t rest = mForest.sections[candidate.node]; rest != 0; rest &= rest - 1) {
+            Words& section = chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))];
+            for (int x = 0; x < 8; ++x) section[x] |= words[x];
+        }
+    }
+    const Words* before = &object;
+    for (int section = 0; section < mForest.sectionCount; ++section) {
+        VoxelCell lost = cell;
+        for (int x = 0; x < 8; ++x) lost.words[x] = (*before)[x] & ~chained[section][x];
+        before = &chained[section];
+        const int64_t voxels = lost.voxels();
+        if (voxels > 0) losses[section].add({voxels, lost.first()});
+    }
+}
+
+/// Takes parts apart until there are enough for all threads.
+std::vector<Part> manyParts(const ChainSearch& search, const Part& whole,
+    std::vector<ChainLoss>& losses, openvdb::util::NullInterrupter* interrupter)
+{
+    constexpr std::size_t kEnough = 256;
+    std::vector<Part> parts{whole};
+    while (!parts.empty() && parts.size() < kEnough) {
+        std::vector<std::vector<Part>> next(parts.size());
+        std::vector<std::vector<ChainLoss>> lost(
+            parts.size(), std::vector<ChainLoss>(losses.size()));
+        parallelFor(parts.size(), interrupter,
+            [&](std::size_t i) { next[i] = search.step(parts[i], lost[i]); });
+        parts.clear();
+        for (const std::vector<Part>& some : next) {
+            parts.insert(parts.end(), some.begin(), some.end());
+        }
+        for (const auto& some : lost) {
+            for (std::size_t s = 0; s < losses.size(); ++s) losses[s].add(some[s]);
+        }
+    }
+    return parts;
+}
+
+void finish(const ChainSearch& search, const Part& part, std::vector<ChainLoss>& losses,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<Part> stack{part};
+    for (int64_t steps = 0; !stack.empty(); ++steps) {
+        if (steps % 256 == 0) checkInterrupt(interrupter);
+        const Part next = std::move(stack.back());
+        stack.pop_back();
+        for (Part& piece : search.step(next, losses)) stack.push_back(std::move(piece));
+    }
+}
+
+} // namespace
+
+void ChainLoss::add(const ChainLoss& other)
+{
+    if (other.voxels == 0) return;
+    first = voxels == 0 ? other.first : std::min(first, other.first);
+    voxels += other.voxels;
+}
+
+std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetric& metric,
+    const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<ChainLoss> losses(std::size_t(forest.sectionCount));
+    std::vector<VoxelCell> cells = maskDifference(object, openvdb::MaskTree(), interrupter).cells;
+    if (cells.empty() || forest.sectionCount == 0) return losses;
+    const ChainSearch search(forest, metric);
+    const std::vector<Part> parts = manyParts(search, search.whole(cells), losses, interrupter);
+    std::vector<std::vector<ChainLoss>> lost(parts.size(), losses);
+    for (auto& some : lost) std::fill(some.begin(), some.end(), ChainLoss());
+    parallelFor(parts.size(), interrupter,
+        [&](std::size_t i) { finish(search, parts[i], lost[i], interrupter); });
+    for (const auto& some : lost) {
+        for (std::size_t s = 0; s < losses.size(); ++s) losses[s].add(some[s]);
+    }
+    return losses;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file CoverageCheck.cc
+/// @brief The checks that draw spheres: rebuilding the object, and covering it.
+
+#include "TreeCheckReport.h"
+#include <openvdb_spheretree/sphere/SphereRaster.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::CoordBBox;
+using openvdb::MaskTree;
+
+std::string voxelsOf(const MaskDifference& difference)
+{
+    std::ostringstream text;
+    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels")
+         << " (first: " << difference.cells.front().first() << ')';
+    return text.str();
+}
+
+/// The balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid.
+std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> balls;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const openvdb::Coord& c = tree.ijk[id];
+        balls.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
+            4 * tree.settings.dist.closedSq(tree.radiusSq[id])});
+    }
+    return balls;
+}
+
+/// @return whether some ball alone has more voxels than its level, which is reported. A damaged
+/// radius would otherwise have a drawing of any size made.
+bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxels)
+{
+    const int dim = check.tree.settings.dim;
+    const Distance& distance = check.tree.settings.dist;
+    // A ball of any norm holds the l1 ball of its radius.
+    const double unitBall =
+        distance.isEuclidean() ? (dim == 3 ? 4 * M_PI / 3 : M_PI) : (dim == 3 ? 4.0 / 3 : 2);
+    const double cube = distance.length(0.5, 0.5, dim == 3 ? 0.5 : 0);
+    Offenders large;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        // A sphere this much smaller lies within the voxel cubes of the ball, wherever it is.
+        const double inner = (std::sqrt(double(check.tree.radiusSq[id])) - cube) / distance.unit();
+        if (inner < 1) continue;
+        const double size = unitBall * inner * inner * (dim == 3 ? inner : 1);
+        if (size * (1 - 1e-9) > double(voxels)) large.add(id);
+    }
+    if (large) {
+        check.fail("level ", level.level, ": the digital ball is larger than the level's ", voxels,
+            " voxels for ", large);
+    }
+    return bool(large);
+}
+
+/// @return more voxels than a level of this object can have, reconstructed without a clip as well.
+/// What a file records is not trusted with memory.
+double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
+{
+    const bool ownGrid = check.tree.settings.tree != TreeType::Tight;
+    const double scale = ownGrid ? std::pow(double(check.tree.settings.factor), level.level) : 1;
+    const openvdb::Coord size = check.box.extents();
+    double voxels = 1;
+    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
+    return voxels;
+}
+
+/// Union of a level's digital balls; in 2-D, in their plane.
+MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
+{
+    const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
+    const Distance& distance = check.tree.settings.dist;
+    CoordBBox box = boundingBox(balls, distance);
+    if (check.tree.settings.dim == 2 && !box.empty()) {
+        const int flat = check.tree.settings.flatAxis;
+        box.min()[flat] = box.max()[flat] = check.tree.ijk[level.begin][flat];
+    }
+    return sphereUnion(balls, box, check.interrupter, distance);
+}
+
+void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
+{
+    const MaskDifference extra = maskDifference(rebuilt, check.mask, check.interrupter);
+    const MaskDifference lost = maskDifference(check.mask, rebuilt, check.interrupter);
+    if (extra.voxels > 0) {
+        check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
+            " that the object has not");
+    }
+    if (lost.voxels > 0 && check.tree.settings.side != Side::Inner) {
+        check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
+    }
+}
+
+/// @return whether the nodes of a level are digital balls. In tight trees they may be spheres that
+/// are none, which have no volume to rebuild.
+bool hasDigitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const auto begin = tree.radiusSq.begin();
+    return std::find(begin + level.begin, begin + level.end, -1) == begin + level.end;
+}
+
+void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
+{
+    if (level.pyramidVoxels != 0) {
+        check.fail("level ", level.level, " records ", level.pyramidVoxels,
+            " pyramid voxels, but its spheres are no digital balls");
+    }
+    if (level.topology) {
+        check.fail("level ", level.level,
+            " records the topology of its voxels, but its spheres are no digital balls");
+    }
+    Offenders elsewhere;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        if (check.tree.radiusSq[id] != -1) continue;
+        const openvdb::Vec3d apart = check.tree.center[id] - check.tree.ijk[id].asVec3d();
+        const double most = std::max({std::abs(apart[0]), std::abs(apart[1]), std::abs(apart[2])});
+        if (most > 0.5) elsewhere.add(id);
+    }
+    if (elsewhere) {
+        check.fail(
+            "level ", level.level, ": ijk is not the voxel nearest to the centre for ", elsewhere);
+    }
+}
+
+/// Balls rebuild all voxels of their level, but for an extended tree, which above level 0 drops
+/// balls without children.
+void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
+{
+    const bool all = level.level == 0 || check.tree.settings.tree != TreeType::Extended;
+    if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
+    check.fail("level ", level.level, " records ", level.pyramidVoxels,
+        " pyramid voxels, but its digital balls rebuild ", rebuilt);
+}
+
+/// @return object voxels that no sphere covers. Draws only where the object is.
+MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
+{
+    const MaskTree::Ptr covered =
+        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
+    return maskDifference(check.mask, *covered, check.interrupter);
+}
+
+} // namespace
+
+/// The division by the voxel size may round down what was exact; hence the factor, far finer than
+/// floats.
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const double radius =
+            double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
+        const double reach = tree.subdivision * radius * tree.settings.dist.unit() * (1 + 1e-12);
+        spheres[id - level.begin].coverSq =
+            radius < 0 ? -1 : int64_t(std::min(reach * reach, 9e18));
+    }
+    return spheres;
+}
+
+bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than)
+{
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        if (spheres[i].coverSq < than[i].coverSq) return false;
+    }
+    return true;
+}
+
+void checkDigitalBalls(TreeCheck& check)
+{
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        if (!hasDigitalBalls(check.tree, level)) {
+            checkNoVolume(check, level);
+            continue;
+        }
+        const bool finest = level.level == 0;
+        const int64_t voxels = finest ? countVoxels(check.mask) : level.pyramidVoxels;
+        if (double(voxels) > implausibleVoxels(check, level)) {
+            check.fail("level ", level.level, " records ", voxels,
+                " pyramid voxels, more than the object's box has room for");
+            continue;
+        }
+        if (ballsTooLarge(check, level, voxels)) continue;
+        const MaskTree::Ptr rebuilt = drawDigitalBalls(check, level);
+        if (finest) checkRebuiltObject(check, *rebuilt);
+        checkPyramidVoxels(check, level, countVoxels(*rebuilt));
+    }
+}
+
+void checkCoverage(TreeCheck& check)
+{
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
+        const MaskDifference missed = uncovered(check, exact);
+        if (missed.voxels > 0) {
+            check.fail("level ", level.level, " misses ", voxelsOf(missed),
+                " of the object, in the exact radii");
+        }
+        const std::vector<ExactSphere> stored = storedSpheres(check.tree, level);
+        if (missed.voxels == 0 && noneSmaller(stored, exact)) continue; // covers as much, or more
+        const MaskDifference missedStored = uncovered(check, stored);
+        if (missedStored.voxels > 0) {
+            check.fail("level ", level.level, " misses ", voxelsOf(missedStored),
+                " of the object, in the stored radii less their padding");
+        }
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TightCheck.cc
+/// @brief The checks of tight trees: chains of spheres, through levels and through cuts; and of
+/// spheres inside the object, that they are.
+
+#include "ChainCheck.h"
+#include "TreeCheckReport.h"
+#include <openvdb_spheretree/sphere/SphereRaster.h>
+#include <openvdb_spheretree/tree/CutsLayout.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <algorithm>
+#include <string>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+const char kInExact[] = "the exact radii";
+const char kInStored[] = "the stored radii less their padding";
+
+std::string voxelsOf(const ChainLoss& loss)
+{
+    std::ostringstream text;
+    text << loss.voxels << (loss.voxels == 1 ? " voxel" : " voxels") << " (first: " << loss.first
+         << ')';
+    return text.str();
+}
+
+/// Calls report(section, loss) for sections that break chains, first in exact spheres and then in
+/// stored ones, unless those hold as much.
+/// @return whether any does
+template <typename Report>
+bool findBroken(TreeCheck& check, ChainForest& forest, const std::vector<ExactSphere>& stored,
+    const Report& report)
+{
+    bool anyBroken = false;
+    const auto find = [&](const char* radii) {
+        const auto losses =
+            brokenChains(forest, metricOf(check.tree), check.mask, check.interrupter);
+        for (int section = 0; section < forest.sectionCount; ++section) {
+            if (losses[section].voxels == 0) continue;
+            report(section, losses[section], radii);
+            anyBroken = true;
+        }
+    };
+    find(kInExact);
+    if (!anyBroken && noneSmaller(stored, forest.spheres)) return false;
+    forest.spheres = stored;
+    find(kInStored);
+    return anyBroken;
+}
+
+/// The levels of a tree as sections: level 0, and those from @a first on that there is room for.
+ChainForest forestOfLevels(const SphereTree& tree, const std::vector<ExactSphere>& spheres,
+    std::size_t first, std::size_t end)
+{
+    ChainForest forest;
+    const int32_t last = tree.size() - 1; // ids go down from the top: turned around, children first
+    forest.spheres.assign(spheres.rbegin(), spheres.rend());
+    forest.parent.resize(spheres.size());
+    for (int32_t id = 0; id <= last; ++id) {
+        forest.parent[last - id] = tree.parent[id] < 0 ? -1 : last - tree.parent[id];
+    }
+    forest.sections.assign(spheres.size(), 0);
+    const auto enter = [&](const SphereTreeLevel& level, int section) {
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            forest.sections[last - id] = uint64_t(1) << section;
+        }
+    };
+    enter(tree.levels.front(), 0);
+    for (std::size_t k = first; k < end; ++k) enter(tree.levels[k], int(k - first) + 1);
+    forest.sectionCount = int(end - first) + 1;
+    return forest;
+}
+
+/// The spheres of all nodes, by id.
+template <typename SpheresOfLevel>
+std::vector<ExactSphere> allSpheres(const SphereTree& tree, const SpheresOfLevel& spheresOf)
+{
+    std::vector<ExactSphere> spheres;
+    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
+        const std::vector<ExactSphere> some = spheresOf(tree, *level);
+        spheres.insert(spheres.end(), some.begin(), some.end());
+    }
+    return spheres;
+}
+
+/// All nodes of the cuts as one level, which is how spheres are taken from a tree.
+SphereTree asOneLevel(const SphereTree& tree)
+{
+    SphereTree nodes;
+    nodes.center = tree.cuts.center;
+    nodes.coverSq = tree.cuts.coverSq;
+    nodes.radiusWorld = tree.cuts.radiusWorld;
+    nodes.subdivision = tree.subdivision;
+    nodes.settings = tree.settings;
+    nodes.transform = tree.transform;
+    nodes.levels.resize(1);
+    nodes.levels[0].end = nodes.size();
+    return nodes;
+}
+
+/// The cut of all leaves, and those of every power of two of spheres: finest first.
+std::vector<int32_t> checkedCuts(int32_t leaves)
+{
+    std::vector<int32_t> counts{leaves};
+    for (int64_t count = 1; count < leaves; count *= 2) {
+        counts.insert(counts.begin() + 1, int32_t(count));
+    }
+    return counts;
+}
+
+ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>& spheres,
+    const std::vector<int32_t>& counts)
+{
+    ChainForest forest;
+    forest.spheres = spheres;
+    forest.parent = cuts.parent;
+    forest.sectionCount = int(counts.size());
+    forest.sections.assign(spheres.size(), 0);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        for (std::size_t s = 0; s < counts.size(); ++s) {
+            const bool in = cuts.first[i] <= counts[s] && counts[s] <= cuts.last[i];
+            if (in) forest.sections[i] |= uint64_t(1) << s;
+        }
+    }
+    return forest;
+}
+
+/// Spheres reaching beyond the object's box would be drawn at any size.
+/// @param firstId  of the spheres
+void checkWithin(TreeCheck& check, const std::vector<ExactSphere>& spheres, int32_t firstId,
+    const std::string& name)
+{
+    Offenders outside;
+    const SphereMetric metric = metricOf(check.tree);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const openvdb::CoordBBox box = levelBox(check.tree, {spheres[i]});
+        if (!box.empty() && !check.box.isInside(box)) outside.add(firstId + int32_t(i));
+    }
+    if (outside) {
+        check.fail(name, ": the sphere reaches out of the object's box for ", outside);
+        return;
+    }
+    const auto drawn = sphereUnion(spheres, check.box, check.interrupter, metric);
+    const MaskDifference extra = maskDifference(*drawn, check.mask, check.interrupter);
+    if (extra.voxels == 0) return;
+    check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cells.front().first()}),
+        " that the object has not, but its spheres lie inside");
+}
+
+} // namespace
+
+bool checkChains(TreeCheck& check)
+{
+    const SphereTree& tree = check.tree;
+    const std::vector<ExactSphere> exact = allSpheres(tree, levelSpheres);
+    std::vector<ExactSphere> stored = allSpheres(tree, storedSpheres);
+    std::reverse(stored.begin(), stored.end());
+    constexpr std::size_t kRoom = ChainForest::kMaxSections - 1;
+    bool broken = false;
+    for (std::size_t first = 1; first < tree.levels.size(); first += kRoom) {
+        const std::size_t end = std::min(first + kRoom, tree.levels.size());
+        ChainForest forest = forestOfLevels(tree, exact, first, end);
+        const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
+            if (section == 0 && first > 1) return; // told before
+            const std::size_t level = section == 0 ? 0 : first + std::size_t(section) - 1;
+            check.fail("level ", level, " breaks the chain of spheres of ", voxelsOf(loss),
+                " of the object, in ", radii);
+        };
+        broken |= findBroken(check, forest, stored, report);
+    }
+    return !broken;
+}
+
+void checkCutChains(TreeCheck& check)
+{
+    const SphereCuts& cuts = check.tree.cuts;
+    const SphereTree nodes = asOneLevel(check.tree);
+    const std::vector<int32_t> counts = checkedCuts(leavesOf(cuts));
+    ChainForest forest = forestOfCuts(cuts, levelSpheres(nodes, nodes.levels[0]), counts);
+    const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
+        check.fail("the cut of ", counts[section], " spheres breaks the chain of spheres of ",
+            voxelsOf(loss), " of the object, in ", radii);
+    };
+    findBroken(check, forest, storedSpheres(nodes, nodes.levels[0]), report);
+}
+
+void checkInside(TreeCheck& check)
+{
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        const std::string name = "level " + std::to_string(level.level);
+        checkWithin(check, levelSpheres(check.tree, level), level.begin, name);
+    }
+    if (check.tree.cuts.empty()) return;
+    const SphereTree nodes = asOneLevel(check.tree);
+    checkWithin(check, levelSpheres(nodes, nodes.levels[0]), 0, "the list of cuts");
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

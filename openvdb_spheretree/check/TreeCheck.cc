@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeCheck.cc
+/// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
+/// trees are built, the edges of the Sphere-DAG aside: all is computed anew from what is stored.
+/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage draw
+/// it, without them.)
+///
+/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
+///    fail, nothing else is looked at
+/// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
+/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
+///    checkDagEdges: stored edges against those of the object
+/// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc), and
+///    checkChains, checkCutChains, checkInside: those of tight trees (detail/TightCheck.cc)
+///
+/// A tree of a single level has no links to check; only what concerns the level is.
+
+#include "TreeCheck.h"
+
+#include "TreeCheckReport.h"
+#include "WorldDistance.h"
+#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/paper/IntersectionDag.h>
+#include <openvdb_spheretree/tree/CutsLayout.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace openvdb_spheretree {
+namespace {
+
+using detail::Offenders;
+using Check = detail::TreeCheck;
+
+bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
+bool isTight(const SphereTree& tree) { return tree.settings.tree == TreeType::Tight; }
+bool isInner(const SphereTree& tree) { return tree.settings.side == Side::Inner; }
+
+void checkArrayLengths(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.radius.size()},
+        {"coverSq", tree.coverSq.size()}, {"radiusWorld", tree.radiusWorld.size()},
+        {"parent", tree.parent.size()}, {"ijk", tree.ijk.size()},
+        {"radiusSq", tree.radiusSq.size()}};
+    for (const auto& [name, size] : arrays) {
+        if (size == tree.center.size()) continue;
+        check.fail(
+            "the tree has ", tree.center.size(), " centres, but ", size, " entries in ", name);
+    }
+}
+
+/// Levels are 0, 1, ... without a gap (or any single one), and ranges of ids, the top level first.
+void checkShape(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    checkArrayLengths(check);
+    if (tree.subdivision != 2 && tree.subdivision != 16) {
+        check.fail("centres are in units of 1/", tree.subdivision, " of a voxel, not 1/2 or 1/16");
+    }
+    if (!tree.transform) check.fail("the tree has no transform");
+    if (tree.levels.empty()) check.fail("the tree has no levels");
+    int32_t next = 0;
+    for (std::size_t k = tree.levels.size(); k-- > 0;) {
+        const SphereTreeLevel& level = tree.levels[k];
+        if (level.level < 0 || (hasLinks(tree) && level.level != int(k))) {
+            check.fail("level ", level.level, " stands where level ", k, " belongs");
+        }
+        if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
+            check.fail("level ", level.level, " is nodes ", level.begin, " to ", level.end,
+                " (exclusive), where nodes from ", next, " on are expected");
+        }
+        next = level.end;
+    }
+    if (next != tree.size()) {
+        check.fail("the levels have ", next, " nodes, but the tree has ", tree.size());
+    }
+}
+
+/// Cuts are there where the settings say so, and each is of as many spheres as it should be.
+void checkCutsLayout(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    if (tree.settings.cuts && tree.cuts.empty())
+        check.fail("the tree lacks the cuts it was made with");
+    const std::string damage = detail::cutsDamage(tree.cuts);
+    if (!damage.empty()) check.fail("in the cuts, ", damage);
+}
+
+/// @return whether the centre is a whole number of the tree's units, not beyond any coordinate.
+bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
+{
+    constexpr double kLargest = 2147483648.0; // 2^31
+    for (int a = 0; a < 3; ++a) {
+        const double units = subdivision * center[a];
+        if (!(std::abs(center[a]) <= kLargest) || units != std::floor(units)) return false;
+    }
+    return true;
+}
+
+const char kInCuts[] = "in the cuts, ";
+
+bool isSquare(int32_t value)
+{
+    const int64_t root = detail::floorSqrt(value);
+    return root * root == value;
+}
+
+/// @param nodes  of a tree or of its cuts
+/// @param where  what sentences about them begin with
+template <typename Nodes>
+void checkSpheres(Check& check, const Nodes& nodes, const char* where)
+{
+    const int subdivision = check.tree.subdivision;
+    Offenders centers, radii, stored;
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        if (!isOfUnits(nodes.center[id], subdivision)) centers.add(id);
+        const bool valid = std::isfinite(nodes.radius[id]) && nodes.radius[id] >= 0;
+        if (!valid || nodes.coverSq[id] < 0) radii.add(id);
+        if (!std::isfinite(nodes.radiusWorld[id]) || nodes.radiusWorld[id] < 0) stored.add(id);
+    }
+    if (centers) {
+        check.fail(where, "the centre is not a multiple of 1/", subdivision,
+            " of a voxel in range for ", centers);
+    }
+    if (radii) check.fail(where, "the radius is negative or not a number for ", radii);
+    if (stored) check.fail(where, "the stored radius is negative or not a number for ", stored);
+}
+
+void checkNodes(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const bool norm = !tree.settings.dist.isEuclidean();
+    Offenders balls, roots;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
+        if (tree.radiusSq[id] < 1) balls.add(id);
+        else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
+    }
+    if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
+    checkSpheres(check, tree, "");
+    if (balls) check.fail("radius_sq is less than 1 for ", balls);
+    checkSpheres(check, tree.cuts, kInCuts);
+}
+
+/// The object is where the tree is. Files and programs round transforms differently: what counts is
+/// that no corner of the object's box moves by a thousandth of a voxel.
+void checkTransform(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const openvdb::CoordBBox& box = check.box;
+    double farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const openvdb::Vec3d at(box.min()[0] + (corner & 1) * box.extents()[0],
+            box.min()[1] + (corner >> 1 & 1) * box.extents()[1],
+            box.min()[2] + (corner >> 2) * box.extents()[2]);
+        const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
+        farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
+    }
+    if (farthest <= 1e-3 * check.object.voxelSize()[0]) return;
+    check.fail("the object's transform is not the tree's: the corners of its box (voxels of ",
+        check.object.voxelSize()[0], ", first corner at ",
+        check.object.transform().indexToWorld(box.min()), ") lie up to ", farthest,
+        " world units from where the tree has them (voxels of ", tree.voxelSize(), ')');
+}
+
+/// What is recorded of the object is so.
+void checkObject(Check& check)
+{
+    const ObjectInfo& info = check.tree.object;
+    const auto compare = [&](const char* what, int64_t recorded, int64_t actual) {
+        if (recorded == actual) return;
+        check.fail("the tree records ", recorded, ' ', what, " of the object, which has ", actual);
+    };
+    const openvdb::BoolTree& object = check.object.tree();
+    compare("voxels", info.voxels, detail::countVoxels(check.mask));
+    compare("leaves", info.leaves, int64_t(object.leafCount()));
+    compare("tiles", info.tiles, int64_t(object.activeTileCount()));
+    if (info.bbox != check.box) {
+        check.fail("the tree records ", info.bbox, " as the object's box, which is ", check.box);
+    }
+}
+
+/// What is recorded of level 0, whose voxels are the object's, is so.
+void checkTopology(Check& check)
+{
+    const SphereTreeLevel& finest = check.tree.levels.front();
+    if (finest.level != 0 || !finest.topology) return;
+    const LevelTopology& recorded = *finest.topology;
+    const LevelTopology actual = levelTopology(LeafLayout(check.mask), check.interrupter);
+    const auto compare = [&](const char* what, int64_t was, int64_t is) {
+        if (was == is) return;
+        check.fail("level 0 records ", was, ' ', what, " of the object, which has ", is);
+    };
+    compare("components", recorded.components, actual.components);
+    compare("tunnels", recorded.tunnels, actual.tunnels);
+    compare("cavities", recorded.cavities, actual.cavities);
+}
+
+bool nearlyEqual(double a, double b)
+{
+    return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b));
+}
+
+void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
+{
+    if (!actual.error) {
+        check.fail("level ", recorded.level, " records an error, but ", actual.errorUnknown);
+        return;
+    }
+    const LevelError& r = *recorded.error;
+    const LevelError& a = *actual.error;
+    const auto compare = [&](const char* what, auto was, auto is, bool same) {
+        if (same) return;
+        check.fail("level ", recorded.level, " records ", was, ' ', what, ", but it is ", is);
+    };
+    compare("voxels covered", r.covered, a.covered, r.covered == a.covered);
+    compare("voxels of excess", r.excess, a.excess, r.excess == a.excess);
+    compare("voxels missing", r.missing, a.missing, r.missing == a.missing);
+    compare("% Hamming error", r.hammingPercent, a.hammingPercent,
+        nearlyEqual(r.hammingPercent, a.hammingPercent));
+    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff,
+        nearlyEqual(r.hausdorff, a.hausdorff));
+}
+
+/// Errors that are recorded are right; levels without one are not measured.
+void checkErrors(Check& check)
+{
+    SphereTree copy = check.tree;
+    const auto hasNone = [](const SphereTreeLevel& level) { return !level.error; };
+    const auto end = std::remove_if(copy.levels.begin(), copy.levels.end(), hasNone);
+    copy.levels.erase(end, copy.levels.end());
+    const std::vector<SphereTreeLevel> recorded = copy.levels;
+    if (recorded.empty()) return;
+    computeLevelErrors(copy, check.object, check.interrupter);
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        compareErrors(check, recorded[i], copy.levels[i]);
+    }
+}
+
+/// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
+/// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more
+/// than the radius where spheres lie inside the object.
+/// @param nodes, where  as for checkSpheres()
+template <typename Nodes>
+void checkRadii(Check& check, const Nodes& nodes, const char* where)
+{
+    const SphereTree& tree = check.tree;
+    const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
+    constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
+    const double unit = double(tree.subdivision) * tree.settings.dist.unit();
+    Offenders apart, small, large;
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        const double exact = std::sqrt(double(nodes.coverSq[id])) / unit;
+        const double over = nodes.radius[id] - exact, rounding = kRounding * nodes.radius[id];
+        if (over < -rounding || over > 0.5 + rounding) apart.add(id);
+        const double padded = (nodes.radius[id] + padding) * voxel;
+        const double stored = nodes.radiusWorld[id];
+        if (isInner(tree)) {
+            if (stored > nodes.radius[id] * voxel * (1 + kRounding)) large.add(id);
+        } else if (stored < padded * (1 - kRounding)) {
+            small.add(id);
+        }
+    }
+    if (apart) check.fail(where, "radius and cover_sq are not the same sphere for ", apart);
+    if (small) check.fail(where, "the stored radius is less than radius and padding for ", small);
+    if (large)
+        check.fail(where, "the stored radius is more than that inside the object for ", large);
+}
+
+/// Every node but the root has a parent, on the next level up.
+void checkParents(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        const bool top = k + 1 == tree.levels.size();
+        Offenders wrong;
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const int32_t parent = tree.parent[id];
+            const bool right = top
+                ? parent == -1
+                : parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
+            if (!right) wrong.add(id);
+        }
+        if (!wrong) continue;
+        check.fail("level ", level.level, ": ",
+            top ? "the parent is not -1, though this is the top level, for "
+                : "the parent is not on the next level up for ",
+            wrong);
+    }
+    const bool endsAnywhere = isTight(tree); // at as many spheres as were asked for
+    if (hasLinks(tree) && tree.root().size() != 1 && !endsAnywhere) {
+        check.fail("level ", tree.root().level, ", the top one, has ", tree.root().size(),
+            " nodes instead of one root");
+    }
+}
+
+/// Edges are sorted, unique, and lead from a level to the one below it.
+void checkDag(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const auto level = [&](int32_t id) {
+        return id >= 0 && id < tree.size() ? tree.levelOf(id) : -2;
+    };
+    int64_t wrong = 0, unsorted = 0;
+    DagEdge firstWrong, firstUnsorted;
+    for (std::size_t i = 0; i < tree.dag.size(); ++i) {
+        const DagEdge& edge = tree.dag[i];
+        const int child = level(edge.child);
+        if ((child < 0 || level(edge.parent) != child + 1) && wrong++ == 0) firstWrong = edge;
+        if (i > 0 && !(tree.dag[i - 1] < edge) && unsorted++ == 0) firstUnsorted = edge;
+    }
+    if (wrong > 0) {
+        check.fail(wrong,
+            " edges of the DAG do not lead to the next level down (first: ", firstWrong.parent,
+            " to ", firstWrong.child, ')');
+    }
+    if (unsorted > 0) {
+        check.fail(unsorted,
+            " edges of the DAG are out of order or repeated (first: ", firstUnsorted.parent, " to ",
+            firstUnsorted.child, ')');
+    }
+}
+
+/// The edges are those of the object, none more and none less. What a voxel witnesses is found by
+/// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom
+/// model is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
+void checkDagEdges(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const bool shared = tree.settings.edges == DagEdges::Shared;
+    if (shared && tree.settings.hadCustomModel && !tree.settings.customModel) return;
+    SphereTreeSettings settings = tree.settings;
+    settings.topology = false;
+    const std::vector<DagEdge> expected = shared
+        ? buildSphereTree(check.object, settings, check.interrupter).dag
+        : intersectionDag(tree, check.interrupter);
+    std::vector<DagEdge> lost, wrong;
+    std::set_difference(expected.begin(), expected.end(), tree.dag.begin(), tree.dag.end(),
+        std::back_inserter(lost));
+    std::set_difference(tree.dag.begin(), tree.dag.end(), expected.begin(), expected.end(),
+        std::back_inserter(wrong));
+    for (const auto& [what, edges] :
+        {std::pair("lacks ", &lost), std::pair("should lack ", &wrong)}) {
+        if (edges->empty()) continue;
+        check.fail("the DAG ", what, edges->size(), edges->size() == 1 ? " edge" : " edges",
+            " (first: ", edges->front().parent, " to ", edges->front().child, ')');
+    }
+}
+
+/// Extended and tight trees: every node above level 0 has a child.
+void checkChildren(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    std::vector<char> hasChild(tree.size(), 0);
+    for (const int32_t parent : tree.parent) {
+        if (parent >= 0) hasChild[parent] = 1;
+    }
+    for (std::size_t k = 1; k < tree.levels.size(); ++k) {
+        Offenders childless;
+        for (int32_t id = tree.levels[k].begin; id < tree.levels[k].end; ++id) {
+            if (!hasChild[id]) childless.add(id);
+        }
+        if (childless) check.fail("level ", tree.levels[k].level, ": no child for ", childless);
+    }
+}
+
+/// Where nodes contain their leaf balls: the stored spheres contain those of the leaves below them,
+/// in world space.
+void checkLeavesContained(Check& check)
+{
+    const SphereTree& tree = check.tree;
+    const detail::WorldDistance distance(tree);
+    std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
+    const SphereTreeLevel& finest = tree.levels.front();
+    for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
+        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
+            const double needed = distance(leaf, t) + double(tree.radiusWorld[leaf]);
+            if (double(tree.radiusWorld[t]) < needed) sticksOut[t] = 1;
+        }
+    }
+    Offenders open;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (sticksOut[id]) open.add(id);
+    }
+    if (open) check.fail("the stored sphere does not contain every leaf ball below it for ", open);
+}
+
+bool containsLeaves(const SphereTree& tree)
+{
+    const SphereTreeSettings& settings = tree.settings;
+    if (isTight(tree)) return settings.cover == Cover::Balls && !isInner(tree);
+    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+}
+
+/// The checks of links, those that follow parents only if parents are in order.
+/// @return whether they are
+bool checkLinks(Check& check)
+{
+    const std::size_t before = check.failures.size();
+    checkParents(check);
+    const bool parentsRight = check.failures.size() == before;
+    checkDag(check);
+    const SphereTree& tree = check.tree;
+    if (check.failures.empty() && tree.settings.dag && hasLinks(tree)) checkDagEdges(check);
+    if (!parentsRight || !hasLinks(tree)) return parentsRight;
+    if (tree.settings.tree != TreeType::Reversible) checkChildren(check);
+    if (containsLeaves(tree)) checkLeavesContained(check);
+    return true;
+}
+
+/// Every voxel has a chain of nodes that hold it, in a tight tree; in others it has a node of every
+/// level. In those that lie inside the object, nodes hold nothing else.
+void checkCovering(Check& check, bool parentsRight)
+{
+    const SphereTree& tree = check.tree;
+    if (isInner(tree)) {
+        detail::checkInside(check);
+        return;
+    }
+    const bool chained =
+        isTight(tree) && hasLinks(tree) && parentsRight && detail::checkChains(check);
+    if (!chained) detail::checkCoverage(check);
+    if (!tree.cuts.empty()) detail::checkCutChains(check);
+}
+
+} // namespace
+
+std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const openvdb::MaskTree mask = detail::maskOf(object.tree());
+    openvdb::CoordBBox box;
+    mask.evalActiveVoxelBoundingBox(box);
+    Check check{tree, object, mask, box, interrupter, {}};
+    checkShape(check);
+    checkCutsLayout(check);
+    if (check.failures.empty()) checkNodes(check);
+    if (!check.failures.empty()) return check.failures;
+
+    checkTransform(check);
+    checkObject(check);
+    checkTopology(check);
+    checkRadii(check, tree, "");
+    checkRadii(check, tree.cuts, kInCuts);
+    const bool parentsRight = checkLinks(check);
+    detail::checkDigitalBalls(check);
+    checkCovering(check, parentsRight);
+    checkErrors(check);
+    return check.failures;
+}
+
+} // namespace openvdb_spheretree

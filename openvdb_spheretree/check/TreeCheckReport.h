@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeCheckReport.h
+/// @brief What the checks of a sphere-tree share: what is checked, and the sentences for what
+/// failed.
+
+#pragma once
+
+#include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+struct TreeCheck {
+    const SphereTree& tree;
+    const openvdb::BoolGrid& object;
+    const openvdb::MaskTree& mask; ///< the object's topology
+    openvdb::CoordBBox box;        ///< of its voxels
+    openvdb::util::NullInterrupter* interrupter;
+    std::vector<std::string> failures;
+
+    template <typename... Parts>
+    void fail(const Parts&... parts)
+    {
+        std::ostringstream sentence;
+        (sentence << ... << parts);
+        failures.push_back(sentence.str());
+    }
+};
+
+/// Nodes that break a rule: how many, and the first.
+class Offenders {
+public:
+    void add(int32_t id)
+    {
+        if (mCount++ == 0) mFirst = id;
+    }
+    explicit operator bool() const { return mCount > 0; }
+    friend std::ostream& operator<<(std::ostream& out, const Offenders& o)
+    {
+        return out << o.mCount << (o.mCount == 1 ? " node" : " nodes") << " (first: id " << o.mFirst
+                   << ')';
+    }
+
+private:
+    int64_t mCount = 0;
+    int32_t mFirst = -1;
+};
+
+/// @return the stored spheres of a level without their padding: what is left must hold voxel
+///         centres.
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+
+/// @return whether each sphere is at least as large as its counterpart.
+bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than);
+
+/// Level 0's digital balls are the object; those of other levels have the recorded volume. Levels
+/// of spheres that are none record no volume.
+void checkDigitalBalls(TreeCheck& check);
+
+/// No level misses a voxel of the object, in exact radii nor in stored ones.
+void checkCoverage(TreeCheck& check);
+
+/// Every voxel of the object has a chain of nodes, one a level, each the child of the one above,
+/// that all hold it, in exact radii and in stored ones: so no level misses a voxel. Parents must be
+/// in order.
+/// @return whether it has
+bool checkChains(TreeCheck& check);
+
+/// The same for chains from the leaves of the cuts up to the cuts of 1, 2, 4, ... and all spheres.
+/// The arrays must be in order (CutsLayout.h).
+void checkCutChains(TreeCheck& check);
+
+/// No sphere of a level or a cut holds a voxel that the object has not.
+void checkInside(TreeCheck& check);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file NearestVoxel.h
+/// @brief Nearest-voxel queries on a sparse mask: a tree of bounding boxes over its leaves
+/// and tiles.
+///
+/// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
+/// Each box is the tight one of its voxels, so each of its faces has a voxel: that bounds the
+/// distance from above as well, and most "is anything within ..." questions end near the root.
+/// Within a leaf, rows are searched by bits.
+///
+/// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
+/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centres. Between
+/// them a tile counts as the continuous box of its voxel centres, so that the answer may be too
+/// small, by half a voxel an axis at most.
+
+#pragma once
+
+#include <openvdb_spheretree/voxel/Distance.h>
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+class NearestVoxel {
+public:
+    /// Beyond this (in doubled coordinates, 2^29 voxels) a distance is not exact, only known to be
+    /// at least this.
+    static constexpr int64_t kFar2 = int64_t(1) << 30;
+
+    explicit NearestVoxel(const openvdb::MaskTree& mask, const Distance& distance = {});
+
+    const Distance& distance() const { return mDistance; }
+
+    /// @return the squared distance to the nearest voxel where it is more than @a enough; otherwise
+    ///         anything up to @a enough that is no less than it: the search stops there.
+    int64_t distSq(const int64_t point2[3], int64_t enough) const;
+
+    /// @return the squared distance (in doubled coordinates) of @a voxel to the nearest voxel of
+    ///         the mask, which @a nearest becomes; the mask must have one.
+    int64_t nearest(const openvdb::Coord& voxel, openvdb::Coord& nearest) const;
+
+    /// @return whether a voxel is within the squared distance @a limit.
+    bool anyWithin(const int64_t point2[3], int64_t limit) const;
+
+private:
+    struct Box {
+        int32_t lo[3], hi[3];
+        void expand(const Box& other);
+    };
+    struct Item {
+        Box box;
+        openvdb::Coord origin;
+        bool solid; ///< every voxel of the box is there
+        uint64_t words[8];
+    };
+    struct Query {
+        const int64_t* point2;
+        int64_t enough;
+        int64_t best;              ///< nothing at or beyond this distance is of interest any more
+        openvdb::Coord voxel = {}; ///< which is at that distance, where one was found in an item
+    };
+    static constexpr int kFanout = 8;
+
+    int64_t nearSq(const Box& box, const int64_t point2[3]) const;
+    int64_t faceSq(const Box& box, const int64_t point2[3]) const;
+    void addTile(const openvdb::Coord& origin, int32_t size);
+    static Item itemOf(const openvdb::MaskTree::LeafNodeType& leaf); ///< which is not empty
+    void group();
+    void searchNode(std::size_t level, std::size_t node, Query& query) const;
+    void searchItem(const Item& item, Query& query) const;
+
+    Distance mDistance;
+    std::vector<Item> mItems;
+    std::vector<std::vector<Box>> mLevels; ///< of boxes: [0] those of the items, back() the root's
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "InnerLevels.h"
+
+#include "InnerTree.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/RoundDown.h>
+#include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/index/PowerTree.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+/// The balls in the order they were taken, in the object's own index space.
+std::vector<MedialBall> ballsInOrder(
+    const std::vector<MedialBall>& balls, const InnerOrder& order, const FlatAxis& flat)
+{
+    std::vector<MedialBall> result;
+    result.reserve(order.ball.size());
+    for (const int32_t i : order.ball) {
+        result.push_back({flat.fromZ(balls[i].center), balls[i].radiusSq});
+    }
+    return result;
+}
+
+/// A level's balls by their places in the order, themselves ordered by centre.
+std::vector<int32_t> byCentre(const std::vector<MedialBall>& balls, int64_t count)
+{
+    std::vector<int32_t> places(count);
+    for (int64_t i = 0; i < count; ++i) places[i] = int32_t(i);
+    std::sort(places.begin(), places.end(),
+        [&](int32_t a, int32_t b) { return balls[a].center < balls[b].center; });
+    return places;
+}
+
+/// The closed sphere of a ball's voxels.
+struct Sphere {
+    double radius;
+    int64_t coverSq;
+    float radiusWorld;
+};
+
+Sphere sphereOf(const MedialBall& ball, const SphereTree& tree)
+{
+    const int64_t closedSq = int64_t(ball.radiusSq) - 1;
+    const double radius = sqrtDown(double(closedSq));
+    const float world = toFloatDown(multiplyDown(radius, smallestStretch(*tree.transform)));
+    if (!std::isfinite(world)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "a radius of " << radius << " voxels of " << tree.voxelSize()
+                           << " does not fit a float: use another unit of length");
+    }
+    return {radius, closedSq * tree.subdivision * tree.subdivision, world};
+}
+
+void appendNode(SphereTree& tree, const MedialBall& ball, int32_t parent)
+{
+    const Sphere sphere = sphereOf(ball, tree);
+    tree.center.push_back(ball.center.asVec3d());
+    tree.radius.push_back(sphere.radius);
+    tree.coverSq.push_back(sphere.coverSq);
+    tree.radiusWorld.push_back(sphere.radiusWorld);
+    tree.parent.push_back(parent);
+    tree.ijk.push_back(ball.center);
+    tree.radiusSq.push_back(ball.radiusSq);
+}
+
+/// The nodes of one level, below those of the level that was appended last.
+class LevelAppender {
+public:
+    LevelAppender(SphereTree& tree, const std::vector<MedialBall>& balls,
+        openvdb::util::NullInterrupter* interrupter)
+        : mTree(tree), mBalls(balls), mInterrupter(interrupter)
+    {}
+
+    void append(SphereTreeLevel& level, int64_t count)
+    {
+        const std::vector<int32_t> places = byCentre(mBalls, count);
+        const std::vector<int32_t> parents = parentsOf(places);
+        level.begin = mTree.size();
+        mIdAt.resize(count);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            mIdAt[places[i]] = mTree.size();
+            appendNode(mTree, mBalls[places[i]], parents[i]);
+        }
+        level.end = mTree.size();
+        mAbove = places;
+    }
+
+private:
+    /// The ids of the parents, given where the level's balls are in the order.
+    std::vector<int32_t> parentsOf(const std::vector<int32_t>& places) const
+    {
+        std::vector<int32_t> parents(places.size(), -1);
+        if (mAbove.empty()) return parents;
+        std::vector<MedialBall> above;
+        for (const int32_t place : mAbove) above.push_back(mBalls[place]);
+        const PowerSearch search(std::move(above));
+        parallelFor(places.size(), mInterrupter, [&](std::size_t i) {
+            const bool isAbove = places[i] < int32_t(mAbove.size());
+            const int32_t place =
+                isAbove ? places[i] : mAbove[search.nearest(mBalls[places[i]].center)];
+            parents[i] = mIdAt[place];
+        });
+        return parents;
+    }
+
+    SphereTree& mTree;
+    const std::vector<MedialBall>& mBalls;
+    openvdb::util::NullInterrupter* mInterrupter;
+    std::vector<int32_t> mAbove; ///< of the level above: places, by centre
+    std::vector<int32_t> mIdAt;  ///< of the same: id by place
+};
+
+void appendCuts(SphereTree& tree, const std::vector<MedialBall>& balls)
+{
+    const int32_t total = int32_t(balls.size());
+    for (int32_t i = 0; i < total; ++i) {
+        const Sphere sphere = sphereOf(balls[i], tree);
+        tree.cuts.center.push_back(balls[i].center.asVec3d());
+        tree.cuts.radius.push_back(sphere.radius);
+        tree.cuts.coverSq.push_back(sphere.coverSq);
+        tree.cuts.radiusWorld.push_back(sphere.radiusWorld);
+        tree.cuts.parent.push_back(-1);
+        tree.cuts.first.push_back(i + 1);
+        tree.cuts.last.push_back(total);
+    }
+}
+
+/// The largest number of balls that anybody asks for.
+int64_t mostWanted(const SphereTreeSettings& settings)
+{
+    const std::vector<int64_t>& spheres = settings.budget.spheres;
+    if (settings.cuts || spheres.empty()) return INT64_MAX;
+    return *std::max_element(spheres.begin(), spheres.end());
+}
+
+} // namespace
+
+void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, const BuildContext& context)
+{
+    const auto medial = context.medialLevel(voxels, 0);
+    const InnerOrder order = timed("inner balls", context.interrupter, &context.seconds->tree, [&] {
+        return innerOrder(medial->layout, medial->balls, tree.settings.dim, context.interrupter,
+            mostWanted(tree.settings));
+    });
+    const std::vector<MedialBall> balls =
+        ballsInOrder(medial->balls, order, FlatAxis(tree.settings.flatAxis));
+    const std::vector<int64_t> counts = tree.settings.budget.counts(int64_t(balls.size()));
+    tree.settings.padding = 0;
+    tree.levels.resize(counts.size());
+    timed("inner levels", context.interrupter, &context.seconds->tree, [&] {
+        LevelAppender levels(tree, balls, context.interrupter);
+        for (int k = int(counts.size()) - 1; k >= 0; --k) {
+            tree.levels[k].level = k;
+            tree.levels[k].pyramidVoxels = order.covered[counts[k] - 1];
+            levels.append(tree.levels[k], counts[k]);
+        }
+    });
+    if (order.covered[counts[0] - 1] == medial->layout.voxelCount()) {
+        tree.levels[0].topology = topologyOf(*medial, context);
+    }
+    if (tree.settings.cuts) appendCuts(tree, balls);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

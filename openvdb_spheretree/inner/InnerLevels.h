@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file InnerLevels.h
+/// @brief The levels of an inner tree: the first N balls of one greedy order (InnerTree.h), for
+/// each N that the budget asks for.
+///
+/// A ball of a coarser level is in all finer ones, where it hangs below itself; any other hangs
+/// below the ball of the next coarser level nearest by power distance, of equals the first by
+/// centre. Radii are stored rounded down, and nothing is added to them. In the tree's settings the
+/// padding is 0, whatever was asked for.
+
+#pragma once
+
+#include <openvdb_spheretree/paper/TreeLevels.h>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @param tree    with settings, object, origin and transform, and no nodes; with
+///                settings.flatAxis, if dim is 2
+/// @param voxels  of the object, flat along z if dim is 2
+/// @throw openvdb::ValueError as MedialLevel, or if a radius does not fit a float
+void appendInnerTree(
+    SphereTree& tree, const openvdb::MaskTree& voxels, const BuildContext& context);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file InnerTree.h
+/// @brief Spheres inside an object: for every number N, the N medial balls that cover the most of
+/// it, greedily. What robotics calls a conservative approximation from within.
+///
+/// *Inside* is meant of voxels: a ball's closed sphere, of radius sqrt(radiusSq - 1) around a voxel
+/// centre, holds the centres of object voxels only. At the surface it may stick out of their cubes,
+/// by a part of a voxel.
+///
+/// 1. Candidates are the medial balls of the object (MedialAxis.h): every ball inside the object
+///    that is not held by another one, or nearly so.
+/// 2. Each step takes the ball that holds the most voxels not covered yet; of equals the larger,
+///    then the one whose centre is first in the order of Coord. So the first N balls of one order
+///    serve every N, and cover at least 1 - 1/e of what the best N of the candidates do (G. L.
+///    Nemhauser, L. A. Wolsey, M. L. Fisher, "An analysis of approximations for maximizing
+///    submodular set functions", 1978).
+/// 3. It ends when all is covered: with a sixth of the medial balls of dragon-512, and five sixths
+///    of hairball-256's.
+///
+/// What a ball adds only falls as others are taken, so it is counted again only when it comes to
+/// the top of a queue (M. Minoux, "Accelerated greedy algorithms for maximizing submodular set
+/// functions", 1978), and then only if a leaf it reaches into has changed. The next ones in the
+/// queue are counted with it, in parallel: that changes no choice.
+///
+/// Exact: strictly the greedy order, for any number of threads. Cost: see innerOrder(). Tests:
+/// TestInnerTree.cc, against a greedy search that counts everything anew.
+
+#pragma once
+
+#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+struct InnerOrder {
+    std::vector<int32_t> ball;    ///< indices of the balls, in the order they are taken
+    std::vector<int64_t> covered; ///< voxels that the balls up to and with this one cover
+};
+
+/// @param layout  the object's voxels
+/// @param balls   their medial balls, or any others inside the object; ordered by centre
+/// @param dim     2 if the object is one voxel thick along z
+/// @param most    ends after so many balls
+/// @throw Interrupted if @a interrupter (which may be null) said so
+/// @note Every ball is counted some times, each time at a cost linear in the leaves (8x8x8) it
+///       reaches into. Of dragon-512 (7.4 million voxels, 138,157 balls) 878,000 counts take 4.5 s
+///       of processor time, of hairball-256 (898,764 balls) 4.4 s.
+InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& balls, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr, int64_t most = INT64_MAX);
+
+/// @brief The same for people who come for just this: at most @a most balls inside the active
+/// voxels of @a object, in the order of what they add; centres in its index space. All of them
+/// together, if so many are asked for, are the object.
+std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most, int dim = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

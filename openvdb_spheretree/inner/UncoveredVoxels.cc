@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "UncoveredVoxels.h"
+
+#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/tight/fit/BallMask.h>
+
+#include <hwy/base.h>
+
+#include <algorithm>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+using openvdb::Coord;
+
+/// The leaves along an axis that hold the coordinates from c - reach to c + reach, as steps from
+/// the leaf of c.
+struct Steps {
+    int first, last;
+
+    Steps(int32_t c, int64_t reach)
+        : first(int(((c - reach) >> 3) - (c >> 3))), last(int(((c + reach) >> 3) - (c >> 3)))
+    {}
+};
+
+/// How far a coordinate is from the nearest and the farthest one of a leaf so many steps away.
+struct Gap {
+    int64_t least, most;
+
+    Gap(int32_t c, int step)
+    {
+        const int64_t below = int64_t(c & 7) - int64_t(kLeafDim) * step; // from the leaf's first
+        const int64_t above = kLeafDim - 1 - below;                      // to its last
+        least = std::max<int64_t>(0, std::max(-below, -above));
+        most = std::max(below, above);
+    }
+};
+
+} // namespace
+
+LeafMask voxelsInside(const Coord& center, int64_t closedSq)
+{
+    tight::FineBall ball = tight::voxelBall(center);
+    ball.radiusSq = tight::kFine * tight::kFine * closedSq;
+    return tight::ballMask(ball, Coord(0));
+}
+
+UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
+    : mLayout(layout), mDim(dim), mLeft(layout.voxelCount()), mMasks(layout.leafCount()),
+      mCounts(layout.leafCount(), 0), mChangedAt(layout.leafCount(), 0)
+{
+    for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
+        mMasks[leaf] = layout.mask(leaf);
+        for (const uint64_t word : mMasks[leaf]) mCounts[leaf] += uint16_t(hwy::PopCount(word));
+    }
+}
+
+template <typename Visit>
+void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) const
+{
+    const Coord& c = ball.center;
+    const int64_t limit = int64_t(ball.radiusSq) - 1;
+    const uint32_t centre = *mLayout.findLeaf(c);
+    const Steps alongX(c[0], floorSqrt(limit));
+    for (int i = alongX.first; i <= alongX.last; ++i) {
+        const Gap x(c[0], i);
+        const uint32_t column = mLayout.neighbour(centre, Axis::X, i);
+        const int64_t restX = limit - x.least * x.least;
+        const Steps alongY(c[1], floorSqrt(restX));
+        for (int j = alongY.first; j <= alongY.last; ++j) {
+            const Gap y(c[1], j);
+            const uint32_t row = mLayout.neighbour(column, Axis::Y, j);
+            const int64_t restY = restX - y.least * y.least;
+            const Steps alongZ(c[2], mDim == 2 ? 0 : floorSqrt(restY));
+            for (int k = alongZ.first; k <= alongZ.last; ++k) {
+                const Gap z(c[2], k);
+                const int64_t far = x.most * x.most + y.most * y.most + z.most * z.most;
+                if (!visit(row + uint32_t(k), far <= limit)) return; // leaves in order along z
+            }
+        }
+    }
+}
+
+int64_t UncoveredVoxels::countIn(const MedialBall& ball) const
+{
+    int64_t count = 0;
+    visitLeaves(ball, [&](uint32_t leaf, bool whole) {
+        if (whole || mCounts[leaf] == 0) {
+            count += mCounts[leaf];
+            return true;
+        }
+        const LeafMask inside = partInside(ball, leaf);
+        for (int x = 0; x < kLeafDim; ++x) count += hwy::PopCount(inside[x] & mMasks[leaf][x]);
+        return true;
+    });
+    return count;
+}
+
+void UncoveredVoxels::cover(const MedialBall& ball, uint32_t now)
+{
+    visitLeaves(ball, [&](uint32_t leaf, bool whole) {
+        if (mCounts[leaf] == 0) return true;
+        LeafMask inside;
+        if (whole) inside.fill(~uint64_t(0));
+        else inside = partInside(ball, leaf);
+        std::size_t taken = 0;
+        for (int x = 0; x < kLeafDim; ++x) {
+            taken += hwy::PopCount(inside[x] & mMasks[leaf][x]);
+            mMasks[leaf][x] &= ~inside[x];
+        }
+        mCounts[leaf] = uint16_t(mCounts[leaf] - taken);
+        mLeft -= int64_t(taken);
+        if (taken > 0) mChangedAt[leaf] = now;
+        return true;
+    });
+}
+
+bool UncoveredVoxels::mayHaveChanged(const MedialBall& ball, uint32_t then) const
+{
+    bool changed = false;
+    visitLeaves(ball, [&](uint32_t leaf, bool) {
+        changed = mChangedAt[leaf] > then;
+        return !changed;
+    });
+    return changed;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file MeshFormats.cc
+/// @brief Strict readers of OBJ, OFF and STL files. (PLY has a file of its own.)
+///
+/// OFF and STL say how much they hold, so that any cut is found out. An OBJ does not: one that
+/// ends early at a line's end is a smaller mesh to any reader. What is checked there: every number,
+/// every index, and that no face has fewer than three corners.
+
+#include "MeshFormats.h"
+
+#include "MeshText.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <limits>
+
+namespace openvdb_spheretree {
+namespace detail {
+namespace {
+
+using openvdb::IoError;
+using openvdb::Vec3s;
+
+constexpr std::size_t kStlHeaderBytes = 84; // 80 of text, and the number of facets
+constexpr std::size_t kStlFacetBytes = 50;  // a normal, three corners, and two bytes of colour
+
+std::string lower(std::string_view word)
+{
+    std::string text(word);
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+// OBJ
+
+/// A file's faces may name points that follow them, so indices are checked at its end.
+struct ObjIndices {
+    std::int64_t largest = -1;
+    std::uint64_t line = 0;
+    std::vector<std::int64_t> corners;
+};
+
+/// @param word  "point", "point/uv", "point//normal" or "point/uv/normal", each counted from 1, or
+///              backwards from -1
+std::int64_t objCorner(const MeshText& text, std::string_view word, std::size_t pointCount)
+{
+    const std::int64_t given =
+        text.toInteger(word.substr(0, word.find('/')), "the number of a face's point");
+    for (std::size_t slash = word.find('/'); slash != word.npos;) {
+        const std::size_t next = word.find('/', slash + 1);
+        const std::string_view part = word.substr(slash + 1, next - slash - 1);
+        if (!part.empty()) text.toInteger(part, "the number of a face's normal or texture point");
+        slash = next;
+    }
+    const std::int64_t index = given > 0 ? given - 1 : std::int64_t(pointCount) + given;
+    if (given == 0 || index < 0) {
+        text.fail("a face names point " + std::to_string(given) + " after "
+            + std::to_string(pointCount) + " points; they are counted from 1");
+    }
+    return index;
+}
+
+void objFace(MeshText& text, PolygonSoup& soup, ObjIndices& indices)
+{
+    std::uint32_t count = 0;
+    for (std::string_view word = text.word(); !word.empty(); word = text.word(), ++count) {
+        const std::int64_t index = objCorner(text, word, soup.points.size());
+        if (index > indices.largest) {
+            indices.largest = index;
+            indices.line = text.lineNumber();
+        }
+        indices.corners.push_back(index);
+    }
+    if (count < 3) text.fail("a face has only " + std::to_string(count) + " points");
+    soup.counts.push_back(count);
+}
+
+/// A backslash at a line's end goes on with the next line.
+void joinLines(std::string& text)
+{
+    for (std::size_t at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
+        std::size_t end = at + 1;
+        if (end < text.size() && text[end] == '\r') ++end;
+        if (end >= text.size() || text[end] != '\n') continue;
+        std::fill_n(text.begin() + std::ptrdiff_t(at), end + 1 - at, ' ');
+    }
+}
+
+// STL
+
+float floatAt(const char* bytes) // little-endian on every machine
+{
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i) bits |= std::uint32_t(std::uint8_t(bytes[i])) << (8 * i);
+    float value;
+    std::memcpy(&value, &bits, 4);
+    return value;
+}
+
+/// @return how many bytes a binary STL of this header has.
+std::uint64_t binaryStlSize(const std::string& bytes)
+{
+    std::uint64_t facets = 0;
+    for (int i = 0; i < 4; ++i) facets |= std::uint64_t(std::uint8_t(bytes[80 + i])) << (8 * i);
+    return kStlHeaderBytes + facets * kStlFacetBytes;
+}
+
+void addTriangle(PolygonSoup& soup)
+{
+    const auto n = static_cast<std::uint32_t>(soup.points.size());
+    for (std::uint32_t i = n - 3; i < n; ++i) soup.corners.push_back(i);
+    soup.counts.push_back(3);
+}
+
+PolygonSoup parseBinaryStl(const std::string& bytes)
+{
+    PolygonSoup soup;
+    for (std::size_t at = kStlHeaderBytes; at < bytes.size(); at += kStlFacetBytes) {
+        for (int corner = 1; corner <= 3; ++corner) { // the normal, at 0, is not needed
+            const char* p = bytes.data() + at + 12 * corner;
+            const Vec3s point(floatAt(p), floatAt(p + 4), floatAt(p + 8));
+            if (!point.isFinite()) {
+                throw IoError("facet " + std::to_string((at - kStlHeaderBytes) / kStlFacetBytes)
+                    + ": a coordinate is not finite");
+            }
+            soup.points.push_back(point);
+        }
+        addTriangle(soup);
+    }
+    return soup;
+}
+
+void needWord(MeshText& text, const char* expected)
+{
+    const std::string_view word = text.wordOnAnyLine();
+    if (lower(word) == expected) return;
+    text.fail(word.empty() ? std::string("the file ends before '") + expected + "'"
+                           : shown(word) + " instead of '" + expected + "'");
+}
+
+/// One facet, after its first word.
+void asciiFacet(MeshText& text, PolygonSoup& soup)
+{
+    needWord(text, "normal");
+    for (int i = 0; i < 3; ++i) text.wordOnAnyLine(); // some write nan there
+    needWord(text, "outer");
+    needWord(text, "loop");
+    for (int corner = 0; corner < 3; ++corner) {
+        needWord(text, "vertex");
+        soup.points.push_back(text.point());
+    }
+    addTriangle(soup);
+    needWord(text, "endloop");
+    needWord(text, "endfacet");
+}
+
+PolygonSoup parseAsciiStl(const std::string& bytes)
+{
+    PolygonSoup soup;
+    MeshText text(bytes);
+    for (std::string_view solid = text.wordOnAnyLine(); !solid.empty();
+         solid = text.wordOnAnyLine()) {
+        if (lower(solid) != "solid") text.fail(shown(solid) + " instead of 'solid'");
+        text.nextLine(); // the rest of the line is the solid's name
+        for (;;) {
+            const std::string word = lower(text.wordOnAnyLine());
+            if (word == "endsolid") break;
+            if (word.empty()) text.fail("the file ends before 'endsolid'; it is truncated");
+            if (word != "facet") text.fail(shown(word) + " instead of 'facet' or 'endsolid'");
+            asciiFacet(text, soup);
+        }
+        text.nextLine();
+    }
+    return soup;
+}
+
+// OFF
+
+/// The file's first word: OFF, perhaps after letters for what each point carries besides its place.
+void offKeyword(MeshText& text)
+{
+    text.needLine("the keyword OFF");
+    std::string_view word = text.word();
+    for (const std::string_view prefix : {"ST", "C", "N"}) {
+        if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
+    }
+    if (word != "OFF") {
+        text.fail("the file does not begin with OFF (points in four or n dimensions are not read)");
+    }
+}
+
+std::uint64_t offCount(MeshText& text, std::string_view word, const char* what)
+{
+    const std::int64_t count = text.toInteger(word, what);
+    if (count < 0 || count > std::numeric_limits<std::uint32_t>::max()) {
+        text.fail(std::to_string(count) + " is not " + what);
+    }
+    return std::uint64_t(count);
+}
+
+void offFace(MeshText& text, PolygonSoup& soup)
+{
+    text.needLine("the last face; it is truncated");
+    const std::uint64_t count = offCount(text, text.word(), "the number of a face's points");
+    if (count == 0) text.fail("a face has no points");
+    const std::size_t begin = soup.corners.size();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::int64_t index = text.integer("the number of a face's point");
+        if (index < 0 || std::uint64_t(index) >= soup.points.size()) {
+            text.fail("a face names point " + std::to_string(index) + " of "
+                + std::to_string(soup.points.size()) + "; they are counted from 0");
+        }
+        soup.corners.push_back(std::uint32_t(index));
+    }
+    if (count >= 3) soup.counts.push_back(std::uint32_t(count));
+    else soup.corners.resize(begin); // a point or a line: holds nothing
+}
+
+} // namespace
+
+PolygonSoup parseObj(std::string bytes)
+{
+    joinLines(bytes);
+    PolygonSoup soup;
+    ObjIndices indices;
+    MeshText text(bytes);
+    while (text.nextLine()) {
+        text.dropComment();
+        const std::string_view word = text.word();
+        if (word == "v") soup.points.push_back(text.point());
+        else if (word == "f" || word == "fo") objFace(text, soup, indices);
+        else if (std::any_of(word.begin(), word.end(), [](unsigned char c) {
+                     return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
+                 }))
+            text.fail(shown(word) + " begins no line of an OBJ file");
+    }
+    if (indices.largest >= std::int64_t(soup.points.size())) {
+        throw IoError("line " + std::to_string(indices.line) + ": a face names point "
+            + std::to_string(indices.largest + 1) + ", but there are "
+            + std::to_string(soup.points.size()));
+    }
+    soup.corners.assign(indices.corners.begin(), indices.corners.end());
+    return soup;
+}
+
+PolygonSoup parseOff(const std::string& bytes)
+{
+    PolygonSoup soup;
+    MeshText text(bytes);
+    offKeyword(text);
+    std::string_view word = text.word();
+    if (word.empty()) {
+        text.needLine("the number of points");
+        word = text.word();
+    }
+    const std::uint64_t points = offCount(text, word, "the number of points");
+    const std::uint64_t faces = offCount(text, text.word(), "the number of faces");
+    for (std::uint64_t i = 0; i < points; ++i) {
+        text.needLine("the last point; it is truncated");
+        soup.points.push_back(text.point());
+    }
+    for (std::uint64_t i = 0; i < faces; ++i) offFace(text, soup);
+    while (text.nextLine()) {
+        text.dropComment();
+        if (!text.word().empty()) text.fail("more follows than the points and faces promised");
+    }
+    return soup;
+}
+
+PolygonSoup parseStl(const std::string& bytes)
+{
+    const bool hasHeader = bytes.size() >= kStlHeaderBytes;
+    if (hasHeader && bytes.size() == binaryStlSize(bytes)) return parseBinaryStl(bytes);
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    const bool isAscii = first != bytes.npos && lower(bytes.substr(first, 5)) == "solid";
+    if (isAscii) return parseAsciiStl(bytes);
+    if (!hasHeader) throw IoError("too short for an STL file; it is truncated");
+    throw IoError("neither an ASCII STL nor a whole binary one: its header asks for "
+        + std::to_string(binaryStlSize(bytes)) + " bytes, the file holds "
+        + std::to_string(bytes.size()));
+}
+
+bool isStrictFormat(const std::string& extension)
+{
+    return extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
+}
+
+PolygonSoup parseMesh(const std::string& extension, std::string bytes)
+{
+    if (bytes.size() > std::numeric_limits<std::uint32_t>::max() * std::uint64_t(4)) {
+        throw IoError("files of more than 16 GiB cannot be read"); // points have 32-bit numbers
+    }
+    if (extension == ".obj") return parseObj(std::move(bytes));
+    if (extension == ".off") return parseOff(bytes);
+    if (extension == ".ply") return parsePly(bytes);
+    return parseStl(bytes);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BallShape.h
+/// @brief The digital ball { q : |q|^2 < radiusSq } around the origin. Nodes that lie inside are
+/// tiles, so that its cost is that of its surface.
+
+#pragma once
+
+#include "VoxelRule.h"
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+class SolidBall : public LeafwiseRule {
+public:
+    /// Of a volume as near to @a voxels as can be, from below.
+    explicit SolidBall(int64_t voxels);
+
+    int64_t radiusSq() const { return mRadiusSq; }
+
+    openvdb::CoordBBox box() const override;
+    /// Exact.
+    Filling filling(const openvdb::CoordBBox& cube) const override;
+    LeafMask leaf(const openvdb::Coord& origin) const override;
+
+private:
+    int64_t mRadiusSq;
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file VolHeader.h
+/// @brief The text at the start of a `.vol` or `.longvol` file: lines `Key: value` up to a line
+/// `.`.
+///
+/// Strict: nothing is to be allocated for a header that asks for more than its file can hold (raw:
+/// its bytes; zlib: deflate expands no more than 1032 times).
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+struct VolHeader {
+    std::array<std::uint64_t, 3> dim{}; // X, Y, Z
+    int version = 2;
+    double voxelSize = 1;
+    std::uint64_t bytesPerValue = 1;
+    std::uint64_t dataOffset = 0; // of the first byte after the header
+    std::uint64_t dataBytes = 0;  // from there to the end of the file
+
+    std::uint64_t sliceBytes() const { return dim[0] * dim[1] * bytesPerValue; }
+    std::uint64_t volumeBytes() const { return sliceBytes() * dim[2]; }
+};
+
+/// @brief Read the header, and leave @a file where the values start.
+/// @throw openvdb::IoError naming the file and the key
+VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint64_t fileBytes);
+
+} // namespace detail
+} // namespace openvdb_spheretree

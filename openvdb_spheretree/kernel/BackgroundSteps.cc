@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BackgroundSteps.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/kernel/BackgroundSteps.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree {
+namespace slab {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <typename Step>
+using Lanes64 = hn::CappedTag<Step, 64>;
+
+/// The steps after one more plane of voxels, from those before it.
+template <class D>
+HWY_INLINE hn::Vec<D> stepOn(D d, hn::Vec<D> steps, uint64_t plane, std::size_t lane)
+{
+    const uint64_t bits = plane >> lane;
+    const auto on = hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
+    return hn::IfThenElseZero(on, hn::SaturatedAdd(steps, hn::Set(d, hn::TFromD<D>(1))));
+}
+
+template <typename Step>
+HWY_INLINE void Through(const LeafMask& mask, const Step* before, Step* last, int first, int by)
+{
+    const Lanes64<Step> d;
+    for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
+        auto steps = hn::LoadU(d, before + lane);
+        for (int k = 0, x = first; k < 8; ++k, x += by) steps = stepOn(d, steps, mask[x], lane);
+        hn::StoreU(steps, d, last + lane);
+    }
+}
+
+void Through8(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+{
+    Through(mask, before, last, 0, 1);
+}
+void Through16(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+{
+    Through(mask, before, last, 0, 1);
+}
+void BackThrough8(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
+{
+    Through(mask, behind, first, 7, -1);
+}
+void BackThrough16(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
+{
+    Through(mask, behind, first, 7, -1);
+}
+
+template <typename Step, typename Square>
+HWY_INLINE void Squares(const LeafMask& mask, const Step* before, const Step* behind, Square* rows)
+{
+    const Lanes64<Step> d;
+    HWY_ALIGN Step nearest[512]; // in leaf order
+    for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
+        auto steps = hn::LoadU(d, before + lane);
+        for (int x = 0; x < 8; ++x) {
+            steps = stepOn(d, steps, mask[x], lane);
+            hn::Store(steps, d, nearest + 64 * x + lane);
+        }
+        steps = hn::LoadU(d, behind + lane);
+        for (int x = 7; x >= 0; --x) {
+            steps = stepOn(d, steps, mask[x], lane);
+            Step* other = nearest + 64 * x + lane;
+            hn::Store(hn::Min(steps, hn::Load(d, other)), d, other);
+        }
+    }
+    const hn::CappedTag<Square, 8> wide;
+    const hn::Rebind<Step, decltype(wide)> narrow;
+    for (std::size_t x = 0; x < 8; ++x) {
+        for (std::size_t y = 0; y < 8; ++y) {
+            for (std::size_t z = 0; z < 8; z += hn::Lanes(wide)) {
+                auto steps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
+                if (sizeof(Square) > 2) steps = hn::Min(steps, hn::Set(wide, Square(46340)));
+                hn::StoreU(hn::Mul(steps, steps), wide, rows + 64 * y + 8 * x + z);
+            }
+        }
+    }
+}
+
+void Squares8(const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
+{
+    Squares(mask, before, behind, rows);
+}
+void Squares16(const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows)
+{
+    Squares(mask, before, behind, rows);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace slab
+} // namespace openvdb_spheretree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace openvdb_spheretree {
+namespace slab {
+
+HWY_EXPORT(Through8);
+HWY_EXPORT(Through16);
+HWY_EXPORT(BackThrough8);
+HWY_EXPORT(BackThrough16);
+HWY_EXPORT(Squares8);
+HWY_EXPORT(Squares16);
+
+void stepsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+{
+    HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last);
+}
+void stepsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+{
+    HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last);
+}
+void stepsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
+{
+    HWY_DYNAMIC_DISPATCH(BackThrough8)(mask, behind, first);
+}
+void stepsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
+{
+    HWY_DYNAMIC_DISPATCH(BackThrough16)(mask, behind, first);
+}
+void squaresOfSteps(
+    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
+{
+    HWY_DYNAMIC_DISPATCH(Squares8)(mask, before, behind, rows);
+}
+void squaresOfSteps(
+    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows)
+{
+    HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, rows);
+}
+
+} // namespace slab
+} // namespace openvdb_spheretree
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LaneBits.h
+/// @brief Comparisons of 64 values at once, as the bits of a word.
+
+#pragma once
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @return bit i: a[i] == b[i], of 64 values each.
+uint64_t equalLanes(const int32_t* a, const int32_t* b);
+
+/// Values there are before the 64 of a row, for likeBefore().
+constexpr int kLaneMargin = 8;
+
+/// Bit 8 y + z, for the values of an x of a leaf: whether it is that of the voxel before it.
+struct LikeBefore {
+    uint64_t alongY, alongZ;
+};
+
+/// @param row  64 values, with kLaneMargin before them, which are read but do not matter: the first
+///             along an axis is not like any before it
+LikeBefore likeBefore(const int32_t* row);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LeafRows.h
+/// @brief The 512 values of a leaf as rows across an axis, and back.
+///
+/// The kernels of both transforms sweep along one axis and treat the 64 lines of a run side by
+/// side, one lane a line. A *row* is the 64 values at one position along the axis; a leaf has
+/// eight:
+///
+///     axis X: row x, lane 8 y + z (the leaf's own order)
+///     axis Y: row y, lane 8 x + z
+///     axis Z: row z, lane 8 x + y
+
+#pragma once
+
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+constexpr int kLanes = 64; ///< values in a row
+
+/// @return where a lane of a row is; rows may be -1, and too many for an int to count their values.
+inline std::ptrdiff_t at(int row, int lane) { return std::ptrdiff_t(row) * kLanes + lane; }
+
+/// Rows of a run, with `margin` zero rows before the first and after the last. Grows, never
+/// shrinks; aligned for any vector width.
+template <typename T>
+class RowBuffer {
+public:
+    /// @return the first row; @a count rows are usable, of undefined content.
+    T* rows(std::size_t count, std::size_t margin = 0)
+    {
+        const std::size_t needed = (count + 2 * margin) * kLanes;
+        if (needed > mCapacity) {
+            mData.reset(); // before there is more
+            mData.reset(static_cast<T*>(::operator new[](needed * sizeof(T), kAlignment)));
+            mCapacity = needed;
+        }
+        T* first = mData.get() + margin * kLanes;
+        std::memset(mData.get(), 0, margin * kLanes * sizeof(T));
+        std::memset(first + count * kLanes, 0, margin * kLanes * sizeof(T));
+        return first;
+    }
+
+private:
+    static constexpr std::align_val_t kAlignment{128};
+    struct Delete {
+        void operator()(T* data) const { ::operator delete[](data, kAlignment); }
+    };
+    std::unique_ptr<T[], Delete> mData;
+    std::size_t mCapacity = 0;
+};
+
+/// Transposes 8 x 8 values. Interleaving the two halves of 64 values rotates the six bits of their
+/// index by one; three times swaps row and column. Compilers turn each loop into vector unpacks.
+template <typename T>
+void transpose8x8(const T* in, std::size_t inStride, T* out, std::size_t outStride)
+{
+    alignas(64) T a[64], b[64];
+    for (int row = 0; row < 8; ++row) std::memcpy(a + 8 * row, in + row * inStride, 8 * sizeof(T));
+    const auto interleave = [](const T* from, T* to) {
+        for (int i = 0; i < 32; ++i) {
+            to[2 * i] = from[i];
+            to[2 * i + 1] = from[i + 32];
+        }
+    };
+    interleave(a, b);
+    interleave(b, a);
+    interleave(a, b);
+    for (int row = 0; row < 8; ++row)
+        std::memcpy(out + row * outStride, b + 8 * row, 8 * sizeof(T));
+}
+
+/// Swaps x and y of 512 values, in blocks of eight along z.
+template <typename T>
+void swapXY(const T* in, T* out)
+{
+    for (int x = 0; x < 8; ++x) {
+        for (int y = 0; y < 8; ++y) {
+            std::memcpy(out + 64 * y + 8 * x, in + 64 * x + 8 * y, 8 * sizeof(T));
+        }
+    }
+}
+
+/// Copies the 512 values of a leaf into its eight rows.
+template <typename T>
+void leafToRows(Axis axis, const T* leaf, T* rows)
+{
+    switch (axis) {
+    case Axis::X: std::memcpy(rows, leaf, kLeafVoxels * sizeof(T)); break;
+    case Axis::Y: swapXY(leaf, rows); break;
+    case Axis::Z:
+        for (int x = 0; x < 8; ++x) transpose8x8(leaf + 64 * x, 8, rows + 8 * x, 64);
+    }
+}
+
+/// Copies eight rows back into their leaf.
+template <typename T>
+void rowsToLeaf(Axis axis, const T* rows, T* leaf)
+{
+    switch (axis) {
+    case Axis::X: std::memcpy(leaf, rows, kLeafVoxels * sizeof(T)); break;
+    case Axis::Y: swapXY(rows, leaf); break;
+    case Axis::Z:
+        for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MaxPlus.h"
+
+#include "LargestValue.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/kernel/MaxPlus.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include "EnvelopeSearch-inl.h"
+
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree {
+namespace detail {
+namespace HWY_NAMESPACE {
+
+/// Keys with room for the step, for radii up to 60 voxels: 13 bits of value, 12 of radiusSq, 7 of
+/// step. (A block of four rows looks up to 62 rows away, and 62^2 still fits the value.)
+struct SmallKeys {
+    using Key = int32_t;
+    using Offset = int8_t;
+    static constexpr bool kStepInKey = true;
+    static constexpr int kSiteShift = 7, kShift = 19;
+    static constexpr Key kStepMask = 127, kStepBias = 64;
+    static constexpr uint32_t kMaxRadiusSq = 60 * 60;
+};
+
+/// Keys as they come.
+template <typename Power>
+struct PlainKeys : Power {
+    static constexpr bool kStepInKey = false;
+};
+
+template <typename Keys>
+struct MaxPlusOp {
+    using Value = typename Keys::Key;
+    using Offset = typename Keys::Offset;
+    using D = hn::CappedTag<Value, kLanes>;
+    using V = hn::Vec<D>;
+    static constexpr bool kStepInKey = Keys::kStepInKey;
+    static constexpr bool kTracksStep = !kStepInKey;
+
+    const Value* in;
+    Value* out;
+    Offset* offset;
+
+    /// What the key of a site loses on the way to a row `distance` rows behind it.
+    static Value penalty(int distance)
+    {
+        const Value square = Value(Value(distance) * distance) << Keys::kShift;
+        return kStepInKey ? square - distance : square;
+    }
+    HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
+    static HWY_INLINE V candidate(V key, V penalty) { return hn::Sub(key, penalty); }
+    static HWY_INLINE auto better(V a, V b) { return hn::Gt(a, b); }
+    static HWY_INLINE V best(V a, V b) { return hn::Max(a, b); }
+    static HWY_INLINE V bestOfThree(V own, V before, V paysBefore, V behind, V paysBehind)
+    {
+        return best(own, best(candidate(before, paysBefore), candidate(behind, paysBehind)));
+    }
+    static HWY_INLINE V step(V key)
+    {
+        if constexpr (kStepInKey) {
+            const D d;
+            const V bits = hn::And(key, hn::Set(d, Keys::kStepMask));
+            return hn::Sub(hn::Set(d, Keys::kStepBias), bits);
+        } else {
+            return key; // not asked for
+        }
+    }
+
+    HWY_INLINE void store(int row, int lane, V key, V step) const
+    {
+        const D d;
+        const auto background = hn::Eq(load(row, lane), hn::Zero(d));
+        const std::ptrdiff_t place = at(row, lane);
+        if (out) hn::Store(hn::IfThenZeroElse(background, plain(key)), d, out + place);
+        storeSteps(hn::IfThenZeroElse(background, step), offset + place);
+    }
+
+    /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block,
+    /// its own smallest n and the largest m of each block near enough count.
+    template <int kVectors>
+    void blockReach(int lane, EnvelopeScratch& scratch) const
+    {
+        const int blocks = int(scratch.reach.size());
+        int64_t largestOfAll = 0;
+        for (int block = 0; block < blocks; ++block) {
+            blockExtremes<kVectors>(block, lane, scratch);
+            largestOfAll = std::max(largestOfAll, scratch.largest[block]);
+        }
+        for (int block = 0; block < blocks; ++block) {
+            const int64_t own = scratch.smallest[block];
+            const int farthest = rootOrZero(largestOfAll - own);
+            int reach = own > scratch.largest[block] ? 0 : rootOrZero(scratch.largest[block] - own);
+            for (int k = 1, gap = 1; gap <= farthest; ++k, gap += kBlockRows) {
+                const int64_t before = block >= k ? scratch.largest[block - k] : 0;
+                const int64_t behind = block + k < blocks ? scratch.largest[block + k] : 0;
+                const int root = rootOrZero(std::max(before, behind) - own);
+                if (root >= gap) reach = std::max(reach, root);
+            }
+            scratch.reach[block] = reach;
+        }
+    }
+
+private:
+    /// The key as it came.
+    static HWY_INLINE V plain(V key)
+    {
+        if constexpr (kStepInKey) {
+            const D d;
+            const V site = hn::And(hn::ShiftRight<Keys::kSiteShift>(key),
+                hn::Set(d, (1 << (Keys::kShift - Keys::kSiteShift)) - 1));
+            const V value = hn::ShiftRight<Keys::kShift>(key);
+            return hn::Or(hn::ShiftLeft<NarrowPower::kShift>(value), site);
+        } else {
+            return key;
+        }
+    }
+
+    static HWY_INLINE void storeSteps(V step, int8_t* offsets)
+    {
+        const hn::Rebind<int8_t, D> narrow;
+        hn::StoreU(hn::DemoteTo(narrow, step), narrow, offsets);
+    }
+    static HWY_INLINE void storeSteps(V step, int16_t* offsets)
+    {
+        HWY_ALIGN Value steps[kLanes];
+        hn::Store(step, D(), steps);
+        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(steps[i]);
+    }
+
+    static int rootOrZero(int64_t square) { return square <= 0 ? 0 : floorRoot(square); }
+
+    /// The largest value, and the smallest of an object voxel.
+    template <int kVectors>
+    void blockExtremes(int block, int lane, EnvelopeScratch& scratch) const
+    {
+        const D d;
+        const V none = hn::Set(d, std::numeric_limits<Value>::max());
+        V largest = hn::Zero(d), smallest = none;
+        for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+            for (int v = 0; v < kVectors; ++v) {
+                const V key = load(row, lane + v * int(hn::Lanes(d)));
+                largest = hn::Max(largest, key);
+                const auto background = hn::Eq(key, hn::Zero(d));
+                smallest = hn::Min(smallest, hn::IfThenElse(background, none, key));
+            }
+        }
+        scratch.largest[block] = int64_t(hn::GetLane(hn::MaxOfLanes(d, largest))) >> Keys::kShift;
+        scratch.smallest[block] = int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Keys::kShift;
+    }
+};
+
+/// Keys with room for the step, which is none so far, from values and sites.
+template <class D>
+HWY_INLINE hn::Vec<D> SmallKey(D d, hn::Vec<D> value, hn::Vec<D> site)
+{
+    const auto key =
+        hn::Or(hn::ShiftLeft<SmallKeys::kShift>(value), hn::ShiftLeft<SmallKeys::kSiteShift>(site));
+    const auto background = hn::Eq(value, hn::Zero(d));
+    return hn::IfThenZeroElse(background, hn::Or(key, hn::Set(d, SmallKeys::kStepBias)));
+}
+
+/// @return the largest site's radiusSq; the keys are right if it is not above kMaxRadiusSq.
+uint32_t ToSmall(const int32_t* keys, int rows, int32_t* small)
+{
+    const hn::CappedTag<int32_t, kLanes> d;
+    const auto mask = hn::Set(d, (1 << NarrowPower::kShift) - 1);
+    auto largest = hn::Zero(d);
+    for (std::ptrdiff_t i = 0; i < at(rows, 0); i += int(hn::Lanes(d))) {
+        const auto key = hn::Load(d, keys + i);
+        const auto site = hn::And(key, mask);
+        largest = hn::Max(largest, site);
+        hn::Store(SmallKey(d, hn::ShiftRight<NarrowPower::kShift>(key), site), d, small + i);
+    }
+    return uint32_t(hn::GetLane(hn::MaxOfLanes(d, largest)));
+}
+
+void MaxPlusNarrow(const int32_t* inKey, int32_t* outKey, int8_t* offset, const RowRange& rows,
+    EnvelopeScratch& scratch)
+{
+    int32_t* small = scratch.keys.rows(std::size_t(rows.count), 1);
+    if (ToSmall(inKey, rows.count, small) <= SmallKeys::kMaxRadiusSq) {
+        EnvelopeSearch<MaxPlusOp<SmallKeys>>({small, outKey, offset}, rows, scratch).run();
+        return;
+    }
+    EnvelopeSearch<MaxPlusOp<PlainKeys<NarrowPower>>>({inKey, outKey, offset}, rows, scratch).run();
+}
+
+uint32_t FirstNarrow(
+    const uint16_t* distances, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    const hn::CappedTag<int32_t, kLanes> d;
+    const hn::Rebind<uint16_t, decltype(d)> narrow;
+    const uint32_t largest = largestValue(distances, std::size_t(at(rows, 0)));
+    const bool small = largest <= SmallKeys::kMaxRadiusSq;
+    int32_t* keys = scratch.keys.rows(std::size_t(rows), 1);
+    for (std::ptrdiff_t i = 0; i < at(rows, 0); i += int(hn::Lanes(d))) {
+        const auto value = hn::PromoteTo(d, hn::Load(narrow, distances + i));
+        hn::Store(small ? SmallKey(d, value, value)
+                        : hn::Or(hn::ShiftLeft<NarrowPower::kShift>(value), value),
+            d, keys + i);
+    }
+    const RowRange all{0, rows, rows};
+    if (small) {
+        EnvelopeSearch<MaxPlusOp<SmallKeys>>({keys, outKey, offset}, all, scratch).run();
+    } else {
+        EnvelopeSearch<MaxPlusOp<PlainKeys<NarrowPower>>>({keys, outKey, offset}, all, scratch)
+            .run();
+    }
+    return largest;
+}
+
+void MaxPlusWide(const int64_t* inKey, int64_t* outKey, int16_t* offset, const RowRange& rows,
+    EnvelopeScratch& scratch)
+{
+    EnvelopeSearch<MaxPlusOp<PlainKeys<WidePower>>>({inKey, outKey, offset}, rows, scratch).run();
+}
+
+uint32_t FirstWide(
+    const uint32_t* distances, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    int64_t* keys = scratch.wideKeys.rows(std::size_t(rows), 1);
+    for (std::ptrdiff_t i = 0; i < at(rows, 0); ++i) {
+        keys[i] = powerKey<WidePower>(distances[i], distances[i]);
+    }
+    MaxPlusWide(keys, outKey, offset, {0, rows, rows}, scratch);
+    return largestValue(distances, std::size_t(at(rows, 0)));
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace detail
+} // namespace openvdb_spheretree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace openvdb_spheretree {
+namespace detail {
+
+HWY_EXPORT(MaxPlusNarrow);
+HWY_EXPORT(MaxPlusWide);
+HWY_EXPORT(FirstNarrow);
+HWY_EXPORT(FirstWide);
+
+template <>
+void maxPlus<NarrowPower>(const int32_t* inKey, int32_t* outKey, int8_t* offset,
+    const RowRange& rows, EnvelopeScratch& scratch)
+{
+    HWY_DYNAMIC_DISPATCH(MaxPlusNarrow)(inKey, outKey, offset, rows, scratch);
+}
+
+template <>
+void maxPlus<WidePower>(const int64_t* inKey, int64_t* outKey, int16_t* offset,
+    const RowRange& rows, EnvelopeScratch& scratch)
+{
+    HWY_DYNAMIC_DISPATCH(MaxPlusWide)(inKey, outKey, offset, rows, scratch);
+}
+
+template <>
+uint32_t firstMaxPlus<NarrowPower>(
+    const uint16_t* distances, int32_t* outKey, int8_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    return HWY_DYNAMIC_DISPATCH(FirstNarrow)(distances, outKey, offset, rows, scratch);
+}
+
+template <>
+uint32_t firstMaxPlus<WidePower>(
+    const uint32_t* distances, int64_t* outKey, int16_t* offset, int rows, EnvelopeScratch& scratch)
+{
+    return HWY_DYNAMIC_DISPATCH(FirstWide)(distances, outKey, offset, rows, scratch);
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree
+#endif

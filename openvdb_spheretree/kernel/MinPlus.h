@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file MinPlus.h
+/// @brief The kernel of the distance transform, on rows of 64 lines (see LeafRows.h).
+
+#pragma once
+
+#include "EnvelopeScratch.h"
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// Results are exact while all of them stay below these. Where one does not, others may be wrong as
+/// well: the pass has to be done again in a wider type.
+constexpr uint32_t kNarrowMax = 255 * 255;     ///< of 16-bit values
+constexpr uint32_t kWideMax = 46340u * 46340u; ///< of 32-bit values: two of them still add up
+
+/// @brief out(i) = min over j of in(j) + (i - j)^2.
+/// @param in     row -1 and row `rows` are readable and zero, as the background there
+/// @param rows   a multiple of 8
+void minPlus(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch);
+void minPlus(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scratch);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file FarthestVoxel.h
+/// @brief The one-sided Hausdorff distance: how far the farthest voxel of a set is from an object.
+
+#pragma once
+
+#include <openvdb_spheretree/index/NearestVoxel.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// What is known of a set of voxels once it has been counted.
+struct VoxelCount {
+    int64_t voxels = 0;
+    /// Some voxels of each node that has any: of one of 128, one in each eighth.
+    struct Sample {
+        std::size_t node;
+        openvdb::Coord voxel;
+    };
+    std::vector<Sample> samples;
+};
+
+VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* interrupter);
+
+/// @return the largest squared distance, in voxels, of a voxel of @a set to the object; 0 if it has
+///         none. Exact (below 2^29 voxels), and the same for any number of threads.
+/// @param samples  of the set, by countVoxels()
+/// @param mask     the object
+/// @param object   the same, as an index
+/// @note Cost: at most a microsecond or so for 8^3 voxels where the distance is a few voxels; those
+///       far nearer than the farthest are dismissed by the block. Memory: a node's cells a thread.
+int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples,
+    const openvdb::MaskTree& mask, const NearestVoxel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PowerMap.h"
+
+#include "NormSweep.h"
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/slab/LabelStream.h>
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <utility>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::util::NullInterrupter;
+
+/// The labels of a norm are numbers of voxels, in 32 bits.
+void requireNumberedVoxels(const LeafLayout& layout)
+{
+    constexpr uint32_t kMaxLeaves = uint32_t(1) << 23;
+    if (layout.leafCount() > kMaxLeaves) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object has " << layout.leafCount()
+                              << " leaf nodes, and with this distance 2^23 is the most: use a "
+                                 "larger voxel, or dist=l2");
+    }
+    detail::requireMemory(layout.leafCount(), kLeafVoxels * (2 * sizeof(uint32_t)));
+}
+
+} // namespace
+
+PowerMap powerMap(
+    const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
+{
+    requireDim(dim);
+    if (!distances.distance().isEuclidean()) {
+        requireNumberedVoxels(layout);
+        PowerMap map;
+        map.mLayout = &layout;
+        map.mSites =
+            detail::makeLargeArray<uint32_t>(std::size_t(layout.leafCount()) * kLeafVoxels);
+        detail::NormSweep(layout, distances.distance(), dim, interrupter)
+            .labels(distances.wide(), map.mSites.get());
+        return map;
+    }
+    detail::LabelSteps steps;
+    slab::LabelStream stream(layout, dim);
+    stream.keepSteps(steps);
+    stream.run(interrupter);
+    return PowerMap(layout, std::move(steps));
+}
+
+openvdb::Coord PowerMap::label(const openvdb::Coord& ijk) const
+{
+    const auto leaf = mLayout->findLeaf(ijk);
+    if (!leaf || !isOn(mLayout->mask(*leaf), leafOffset(ijk))) {
+        OPENVDB_THROW(openvdb::LookupError, "voxel " << ijk << " is not in the object: no label");
+    }
+    const Voxel site = label(Voxel{*leaf, leafOffset(ijk)});
+    return mLayout->voxel(site.leaf, site.offset);
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MiniballCenters.h"
+
+#include "Miniball.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tree/LevelFrame.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+constexpr int64_t kUnits = kMiniballSubdivision;
+
+/// A sphere in units of 1/16 voxel, as SphereTree has it.
+struct FineSphere {
+    int64_t center[3];
+    int64_t coverSq = 0;
+    double radius = 0; ///< voxels
+};
+
+/// RootSum is made for halves of voxels: sums of units come out twice as large.
+double voxelsOf(const RootSum& sum) { return sum.radius() * 2 / double(kUnits); }
+
+/// Which leaf balls are below which node of a level.
+class LeafBalls {
+public:
+    explicit LeafBalls(const SphereTree& tree) : mTree(tree), mFinest(tree.levels.front())
+    {
+        mAncestor.resize(mFinest.size());
+        std::iota(mAncestor.begin(), mAncestor.end(), mFinest.begin);
+    }
+
+    /// To the next level.
+    void ascend(const SphereTreeLevel& level)
+    {
+        mFirst.assign(level.size() + 1, 0);
+        for (int32_t& node : mAncestor) {
+            node = mTree.parent[node];
+            ++mFirst[node - level.begin + 1];
+        }
+        std::partial_sum(mFirst.begin(), mFirst.end(), mFirst.begin());
+        mLeaves.resize(mAncestor.size());
+        std::vector<int32_t> next(mFirst.begin(), mFirst.end() - 1);
+        for (int32_t leaf = 0; leaf < int32_t(mAncestor.size()); ++leaf) {
+            mLeaves[next[mAncestor[leaf] - level.begin]++] = mFinest.begin + leaf;
+        }
+    }
+
+    /// The ids of the leaves below the node at @a place in the level.
+    struct Range {
+        const int32_t *first, *last;
+        const int32_t* begin() const { return first; }
+        const int32_t* end() const { return last; }
+        bool empty() const { return first == last; }
+    };
+    Range below(int32_t place) const
+    {
+        return {mLeaves.data() + mFirst[place], mLeaves.data() + mFirst[place + 1]};
+    }
+
+    /// Squared radius in units, and the radius in voxels.
+    int64_t fineRadiusSq(int32_t leaf) const
+    {
+        return kUnits * kUnits * (int64_t(mTree.radiusSq[leaf]) - 1);
+    }
+    double radius(int32_t leaf) const { return std::sqrt(double(mTree.radiusSq[leaf]) - 1); }
+
+private:
+    const SphereTree& mTree;
+    const SphereTreeLevel& mFinest;
+    std::vector<int32_t> mAncestor;
+    std::vector<int32_t> mFirst, mLeaves;
+};
+
+int64_t apartSq(const SphereTree& tree, int32_t leaf, const FineSphere& sphere)
+{
+    const openvdb::Coord& c = tree.ijk[leaf];
+    return Distance().lengthSq(kUnits * c[0] - sphere.center[0], kUnits * c[1] - sphere.center[1],
+        kUnits * c[2] - sphere.center[2]);
+}
+
+/// The smallest radius around the sphere's centre that contains the leaf balls. Only those that
+/// reach farthest in floating point are measured exactly.
+void measure(FineSphere& sphere, const SphereTree& tree, const LeafBalls& leaves,
+    const LeafBalls::Range& below)
+{
+    const auto reach = [&](int32_t leaf) {
+        return std::sqrt(double(apartSq(tree, leaf, sphere)))
+            + double(kUnits) * leaves.radius(leaf);
+    };
+    double most = 0;
+    for (const int32_t leaf : below) most = std::max(most, reach(leaf));
+    for (const int32_t leaf : below) {
+        if (reach(leaf) < most * (1 - 1e-12)) continue;
+        const RootSum needed{apartSq(tree, leaf, sphere), leaves.fineRadiusSq(leaf)};
+        sphere.coverSq = std::max(sphere.coverSq, needed.coverSq());
+        sphere.radius = std::max(sphere.radius, voxelsOf(needed));
+    }
+}
+
+FineSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
+    const LeafBalls::Range& below, std::vector<RealBall>& balls)
+{
+    const openvdb::Coord& base = tree.ijk[*below.begin()];
+    balls.clear();
+    for (const int32_t leaf : below) {
+        const openvdb::Vec3d apart = tree.ijk[leaf].asVec3d() - base.asVec3d();
+        balls.push_back({apart, leaves.radius(leaf)});
+    }
+    const openvdb::Vec3d center = miniball(balls).center;
+    FineSphere sphere;
+    for (int axis = 0; axis < 3; ++axis) {
+        sphere.center[axis] = kUnits * base[axis] + std::llround(double(kUnits) * center[axis]);
+    }
+    measure(sphere, tree, leaves, below);
+    return sphere;
+}
+
+/// The medial centre of a node; around it the radius that the leaf balls below need.
+FineSphere aroundMedialCentre(
+    const SphereTree& tree, int32_t id, const LeafBalls& leaves, const LeafBalls::Range& below)
+{
+    FineSphere sphere;
+    for (int axis = 0; axis < 3; ++axis) {
+        sphere.center[axis] = std::llround(double(kUnits) * tree.center[id][axis]);
+    }
+    measure(sphere, tree, leaves, below);
+    return sphere;
+}
+
+void store(SphereTree& tree, int32_t id, const FineSphere& sphere)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        tree.center[id][axis] = double(sphere.center[axis]) / double(kUnits);
+    }
+    tree.coverSq[id] = sphere.coverSq;
+    tree.radius[id] = sphere.radius;
+}
+
+/// The node's own sphere, in finer units: the same voxels.
+void refineOwn(SphereTree& tree, int32_t id, const LevelFrame& frame)
+{
+    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
+    const RootSum own = frame.radius(tree.radiusSq[id]);
+    const RootSum fine{own.a * kFiner, own.b * kFiner};
+    tree.coverSq[id] = fine.coverSq();
+}
+
+/// In the finer units squares are 64 times as large.
+void requireRoom(const SphereTree& tree)
+{
+    const openvdb::Coord size = tree.object.bbox.extents();
+    constexpr int64_t kMost = int64_t(1) << 61;
+    const auto far = [&](int axis) { return 2 * kUnits * (int64_t(size[axis]) + 1); };
+    const int64_t widest = *std::max_element(tree.coverSq.begin(), tree.coverSq.end());
+    const bool fits = Distance().lengthSq(far(0), far(1), far(2)) < kMost
+        && widest < kMost / (kUnits / 2) / (kUnits / 2);
+    if (fits) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object '" << tree.object.name << "', of " << size[0] << " x " << size[1] << " x "
+                       << size[2]
+                       << " voxels, is too wide for center=miniball: use center=medial, or larger "
+                          "voxels");
+}
+
+} // namespace
+
+void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
+{
+    requireRoom(tree);
+    const bool extended = tree.settings.tree == TreeType::Extended;
+    LeafBalls leaves(tree);
+    for (const SphereTreeLevel& level : tree.levels) {
+        const LevelFrame frame(level.level, tree.origin, tree.settings);
+        const bool inner = level.level > 0;
+        if (inner) leaves.ascend(level);
+        parallelForWithScratch<std::vector<RealBall>>(
+            level.size(), interrupter, [&](std::size_t place, std::vector<RealBall>& scratch) {
+                const int32_t id = level.begin + int32_t(place);
+                const auto below = inner ? leaves.below(int32_t(place)) : LeafBalls::Range{};
+                if (below.empty()) return refineOwn(tree, id, frame);
+                FineSphere best = smallestSphere(tree, leaves, below, scratch);
+                if (extended) {
+                    const FineSphere medial = aroundMedialCentre(tree, id, leaves, below);
+                    if (medial.coverSq < best.coverSq) best = medial;
+                }
+                store(tree, id, best);
+            });
+    }
+    tree.subdivision = kMiniballSubdivision;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file RunLabels.h
+/// @brief The power labels of a run of leaves along x, as ranks of balls (BallIndex.h), 64 voxels
+/// at a time.
+///
+/// A label is found by a step along x, and what follows depends on where that leads. Where two
+/// neighbours along x step to the same end they have one label: it is looked up once. Exact for any
+/// voxels, and however the labels are kept.
+
+#pragma once
+
+#include <openvdb_spheretree/kernel/LaneBits.h>
+#include <openvdb_spheretree/medial/BallIndex.h>
+#include <openvdb_spheretree/medial/PowerMap.h>
+
+#include <array>
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+class RunLabels {
+public:
+    /// @param balls  those of the labels' level; both are kept by reference
+    RunLabels(const PowerMap& labels, const BallIndex& balls, const LeafLayout::Run& run)
+        : mLabels(labels), mBalls(balls), mRun(run)
+    {}
+
+    /// Moves to leaf @a i of the run; leaves come one after the other from i = 0.
+    void enterLeaf(uint32_t i);
+
+    /// Moves to word @a x of the leaf; words come one after the other.
+    /// @return the voxels that are on and may have another ball than those before them along x
+    uint64_t enterWord(uint32_t x)
+    {
+        const uint64_t on = layout().mask(leaf())[x];
+        const uint64_t fresh = on & ~(mOn & mRepeats[x]);
+        if (fresh) findRanks(x, fresh);
+        mOn = on;
+        return fresh;
+    }
+
+    const LeafLayout& layout() const { return mLabels.layout(); }
+    uint32_t leaf() const { return mRun.leaves[mPlace]; }
+    /// The voxels of the word that are on.
+    uint64_t on() const { return mOn; }
+    /// Those that have the ball of the voxel before them along y, or z, which is on.
+    LikeBefore likeBefore() const
+    {
+        const LikeBefore like = detail::likeBefore(mRanks.data() + kLaneMargin);
+        return {like.alongY & mOn & mOn << 8, like.alongZ & mOn & mOn << 1};
+    }
+    /// The rank of the ball that labels the voxel at bit @a lane of the word, which is on.
+    int32_t rank(uint32_t lane) const { return mRanks[kLaneMargin + lane]; }
+
+    /// The rank of the label of the voxel at bit @a lane of word @a x of the leaf, looked up.
+    int32_t rankAt(uint32_t x, uint32_t lane) const { return mBalls.rankAt(label(x, lane)); }
+
+private:
+    void findRanks(uint32_t x, uint64_t bits);
+    void prefetch(uint32_t i) const;
+    PowerMap::Voxel label(uint32_t x, uint32_t lane) const
+    {
+        if (!mSteps) return mLabels.label({leaf(), 64 * x + lane});
+        const int end = kLeafDim * int(mPlace) + int(x) + mSteps[64 * x + lane];
+        const PowerMap::Voxel onX{mRun.leaves[end >> 3], uint32_t(end & 7) << 6 | lane};
+        const PowerMap::Voxel onY = narrowStep(Axis::Y, onX);
+        return mLabels.usesZ() ? narrowStep(Axis::Z, onY) : onY;
+    }
+    /// PowerMap::step() without a branch: whether a label lies in another leaf is hard to predict.
+    PowerMap::Voxel narrowStep(Axis axis, PowerMap::Voxel voxel) const
+    {
+        const int shift = 6 - 3 * int(axis), here = int(voxel.offset >> shift & 7);
+        const int there = here + mLabels.narrowSteps(axis, voxel.leaf)[voxel.offset];
+        return {layout().neighbour(voxel.leaf, axis, there >> 3),
+            uint32_t(int(voxel.offset) + (((there & 7) - here) * (1 << shift)))};
+    }
+
+    const PowerMap& mLabels;
+    const BallIndex& mBalls;
+    const LeafLayout::Run mRun;
+    uint32_t mPlace = 0;            ///< of the leaf in the run
+    const int8_t* mSteps = nullptr; ///< of the leaf, along x; null where they are wider, or none
+    LeafMask mRepeats{};            ///< ends where the voxel before ends; garbage where off
+    uint64_t mOn = 0;               ///< of the word
+    std::array<int32_t, kLaneMargin + 64> mRanks{};
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TreeLevels.h"
+
+#include "SphereDag.h"
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/pyramid/Closing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+void requireRoomForNodes(std::size_t nodes)
+{
+    constexpr std::size_t kMost = std::numeric_limits<int32_t>::max();
+    const std::string what = "the " + std::to_string(nodes) + " spheres of the tree";
+    if (nodes > kMost) {
+        OPENVDB_THROW(openvdb::ValueError,
+            what << " are more than the " << kMost
+                 << " that it can have: use a larger voxel, or split the object");
+    }
+    constexpr std::size_t kNode = sizeof(openvdb::Vec3d) + sizeof(double) + sizeof(int64_t)
+        + sizeof(float) + sizeof(int32_t) + sizeof(openvdb::Coord) + sizeof(int32_t);
+    requireMemory(double(nodes) * kNode, what, "use a larger voxel, or split the object");
+}
+
+bool needsDag(const SphereTreeSettings& settings)
+{
+    return settings.parent == ParentRule::Dag
+        || (settings.dag && settings.edges == DagEdges::Shared);
+}
+
+namespace {
+
+/// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
+/// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
+/// the clip).
+std::vector<int32_t> parentsByCentre(MedialLevel& coarse)
+{
+    std::vector<int32_t> parent = std::move(coarse.wantedLabel);
+    if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
+    if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
+    OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
+}
+
+/// Edges between balls of both levels to edges between coarser balls and nodes.
+std::vector<DagEdge> edgesToNodes(
+    std::vector<DagEdge> edges, const LevelNodes& nodes, const MedialLevel& fine)
+{
+    std::vector<int32_t> nodeOfBall(fine.balls.size(), -1);
+    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+        nodeOfBall[fine.ballAt(nodes.balls[i].center)] = int32_t(i);
+    }
+    for (DagEdge& edge : edges) edge.child = nodeOfBall[edge.child];
+    edges.erase(std::remove_if(
+                    edges.begin(), edges.end(), [](const DagEdge& edge) { return edge.child < 0; }),
+        edges.end());
+    return edges;
+}
+
+/// Among a node's parents in the DAG, the one of least covering power: the distance by which the
+/// node sticks out of it, both as spheres in the frame of level 0. A node without an edge (it
+/// labels no voxel whose parent is on) keeps the parent it has.
+void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& edges,
+    const LevelNodes& nodes, int level, const MedialLevel& coarse, const BuildContext& context)
+{
+    const LevelFrame fineFrame = context.frame(level), coarseFrame = context.frame(level + 1);
+    std::vector<double> least(nodes.balls.size(), std::numeric_limits<double>::infinity());
+    for (const DagEdge& edge : edges) { // by parent, so that of equals the first parent stays
+        const MedialBall& s = nodes.balls[edge.child];
+        const MedialBall& t = coarse.balls[edge.parent];
+        const double apart = 0.5
+            * std::sqrt(double(distanceSq(
+                fineFrame.center(s.center), coarseFrame.center(t.center), context.settings.dist)));
+        const double power =
+            apart + fineFrame.radius(s.radiusSq).radius() - coarseFrame.radius(t.radiusSq).radius();
+        if (power >= least[edge.child]) continue;
+        least[edge.child] = power;
+        parent[edge.child] = edge.parent;
+    }
+}
+
+/// Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
+void requireRoom(const openvdb::CoordBBox& box, int level, const BuildContext& context)
+{
+    const int64_t scale = context.frame(level).scale();
+    for (int axis = 0; axis < context.settings.dim; ++axis) {
+        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
+        const int64_t extent = int64_t(context.bbox.max()[axis]) - context.bbox.min()[axis] + 1;
+        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
+        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
+        OPENVDB_THROW(openvdb::ValueError,
+            "the pyramid model grows level "
+                << level << " to " << side << " voxels of " << scale << " along "
+                << "xyz"[axis] << ", too far from an object of " << extent
+                << ": let it add fewer voxels");
+    }
+}
+
+} // namespace
+
+std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context)
+{
+    if (!context.settings.topology) return std::nullopt;
+    return timed("topology", context.interrupter, &context.seconds->topology,
+        [&] { return levelTopology(level.layout, context.interrupter); });
+}
+
+PyramidModel modelOf(
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    if (settings.customModel) return settings.customModel;
+    if (settings.hadCustomModel) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree was built with a custom pyramid model, which no file holds: set customModel");
+    }
+    return settings.closing > 0 ? closingModel(settings.closing, interrupter) : PyramidModel();
+}
+
+std::unique_ptr<MedialLevel> BuildContext::medialLevel(
+    const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
+{
+    LevelWants wants;
+    wants.allLabels = needsDag(settings);
+    wants.memory = settings.memory;
+    if (children) {
+        wants.count = children->balls.size();
+        wants.voxel = [step = stepFrom(level - 1), &balls = children->balls](
+                          std::size_t i) { return step.parentVoxel(balls[i].center); };
+    }
+    return std::make_unique<MedialLevel>(
+        voxels, settings.dim, settings.dist, interrupter, seconds, wants);
+}
+
+LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
+{
+    requireRoomForNodes(level->balls.size());
+    LevelNodes nodes;
+    nodes.pyramidVoxels = level->layout.voxelCount();
+    nodes.topology = topologyOf(*level, *this);
+    if (needsDag(settings)) {
+        nodes.balls = level->balls;
+    } else {
+        nodes.balls = std::move(level->balls);
+        level.reset();
+    }
+    return nodes;
+}
+
+openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
+{
+    if (!model) return coarsen(voxels, stepFrom(level), interrupter);
+    const int64_t scale = frame(level).scale() * settings.factor;
+    if (settings.customModel && scale > LevelFrame::kMaxScale) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree does not end: level "
+                << level
+                << " still has several spheres, since the "
+                   "pyramid model adds voxels as fast as levels shrink");
+    }
+    const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
+    openvdb::CoordBBox box;
+    result->evalActiveVoxelBoundingBox(box);
+    requireRoom(box, level + 1, *this);
+    return result;
+}
+
+Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
+    const BuildContext& context)
+{
+    const PyramidStep step = context.stepFrom(level);
+    Links links;
+    links.parent = parentsByCentre(coarse);
+    if (!needsDag(context.settings)) return links;
+    links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
+    if (context.settings.parent == ParentRule::Dag) {
+        preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
+    }
+    if (!context.settings.dag || context.settings.edges != DagEdges::Shared) links.dag.clear();
+    return links;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

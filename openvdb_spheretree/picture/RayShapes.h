@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file RayShapes.h
+/// @brief What a ray can hit: balls, those of norms too, and the voxels of a leaf node or a tile.
+///
+/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters
+/// it, negative where it does not, or where it starts inside: what holds the eye is looked out of;
+/// and normal(), the unit normal, outwards, where a ray enters. A shape with these three can be put
+/// in a RayScene, and no other file need know it. Coordinates are doubles, in voxels.
+
+#pragma once
+
+#include <openvdb_spheretree/index/BoundingTree.h>
+#include <openvdb_spheretree/index/Ray.h>
+#include <openvdb_spheretree/voxel/Distance.h>
+
+#include <openvdb/math/DDA.h>
+#include <openvdb/math/Ray.h>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+constexpr double kNoEntry = -1;
+
+struct BallShape {
+    openvdb::Vec3d center;
+    double radius;
+
+    Bound bound() const
+    {
+        Bound bound = Bound::ofBall(center, radius);
+        bound.behind = 0; // entry() is none where the centre is behind
+        return bound;
+    }
+    /// The discriminant comes from the distance of centre and line, which does not cancel for balls
+    /// far away (Haines et al., Precision improvements for ray/sphere intersection, 2019).
+    double entry(const Ray& ray) const
+    {
+        const openvdb::Vec3d toCenter = center - ray.origin;
+        const double nearest = toCenter.dot(ray.direction);
+        if (nearest < 0) return kNoEntry;
+        const double halfSq = radius * radius - (toCenter - nearest * ray.direction).lengthSqr();
+        return halfSq < 0 ? kNoEntry : nearest - std::sqrt(halfSq);
+    }
+    openvdb::Vec3d normal(const Ray& ray, double t) const { return (ray.at(t) - center).unit(); }
+};
+
+/// The faces of the unit ball of a norm: |normal . x| <= 1 for all of them. The norm is the largest
+/// of these products over the orders and signs of three weights (Distance.h), so there are at most
+/// 6 orders with 8 signs, in pairs of opposite faces: 3 for l-infinity, 4 for l1, 12 for
+/// chamfer:3,4,5.
+struct NormFaces {
+    explicit NormFaces(const Distance& norm);
+
+    std::vector<openvdb::Vec3d> normals; ///< one a pair of faces; not of length 1
+    double reach;                        ///< Euclidean, of the corner furthest from the middle
+};
+
+/// A ball of a norm: a convex polyhedron, which is where the slabs between opposite faces meet.
+struct NormBallShape {
+    openvdb::Vec3d center;
+    double radius;          ///< where an axis leaves it, so half the width of its box
+    const NormFaces* faces; ///< not null; owned by who made the shape
+
+    Bound bound() const
+    {
+        const openvdb::Vec3d reach(radius);
+        const double around = radius * faces->reach;
+        return {center, around, Box(center - reach, center + reach), around};
+    }
+    double entry(const Ray& ray) const
+    {
+        const double around = radius * faces->reach;
+        const openvdb::Vec3d toCenter = center - ray.origin;
+        const double nearest = toCenter.dot(ray.direction);
+        const double asideSq = (toCenter - nearest * ray.direction).lengthSqr();
+        if (nearest < -around || asideSq > around * around) return kNoEntry;
+        return crossing(ray).begin;
+    }
+    openvdb::Vec3d normal(const Ray& ray, double) const { return crossing(ray).normal.unit(); }
+
+private:
+    struct Crossing {
+        double begin = kNoEntry;
+        openvdb::Vec3d normal{0, 0, 1}; ///< of the face that is entered by
+    };
+    /// The latest entry into a slab is the polyhedron's, if it comes before the first exit.
+    Crossing crossing(const Ray& ray) const
+    {
+        const openvdb::Vec3d toCenter = center - ray.origin;
+        double begin = -1e300, end = 1e300;
+        openvdb::Vec3d entered(0, 0, 1);
+        for (const openvdb::Vec3d& face : faces->normals) {
+            const double middle = face.dot(toCenter), speed = face.dot(ray.direction);
+            constexpr double kParallel = 1e-150; // keeps quotients finite
+            if (std::abs(speed) < kParallel) {
+                if (std::abs(middle) > radius) return {};
+                continue;
+            }
+            const double in = (middle - std::copysign(radius, speed)) / speed;
+            end = std::min(end, (middle + std::copysign(radius, speed)) / speed);
+            if (in > begin) begin = in, entered = speed > 0 ? -face : face;
+        }
+        return begin > end || begin < 0 ? Crossing() : Crossing{begin, entered};
+    }
+};
+
+inline NormFaces::NormFaces(const Distance& norm)
+{
+    const double unit = norm.unit();
+    reach = std::max(
+        1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
+    std::array<int, 3> weights{
+        norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            openvdb::Vec3d normal;
+            for (int axis = 0; axis < 3; ++axis) {
+                normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
+            }
+            const auto isSame = [&](const openvdb::Vec3d& o) {
+                return o == normal || o == -normal;
+            };
+            if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
+        }
+    } while (std::next_permutation(weights.begin(), weights.end()));
+}
+
+/// The active voxels of a leaf node, or a tile, as cubes between half-integers. What is hit does
+/// not depend on whether a cube of voxels is a tile or written out.
+struct VoxelShape {
+    using LeafNode = openvdb::BoolTree::LeafNodeType;
+
+    openvdb::Vec3d lo, hi;          ///< around the active voxels
+    openvdb::Vec3d corner;          ///< the lowest one of the leaf
+    const LeafNode* leaf = nullptr; ///< null for a tile; owned by the tree it is in
+
+    Bound bound() const { return Bound::ofBox(Box(lo, hi)); }
+
+    double entry(const Ray& ray) const
+    {
+        const Span span(ray, lo, hi);
+        if (span.begin > span.end || span.end < 0) return kNoEntry;
+        return leaf ? entryOfVoxels(ray, span) : span.begin;
+    }
+
+    /// The axis along which the point lies on a face, which is between voxels: at a half-integer.
+    openvdb::Vec3d normal(const Ray& ray, double t) const
+    {
+        const openvdb::Vec3d point = ray.at(t) - openvdb::Vec3d(0.5);
+        openvdb::Vec3d offFace;
+        for (int axis = 0; axis < 3; ++axis) {
+            offFace[axis] = std::abs(point[axis] - std::round(point[axis]));
+        }
+        const int axis = int(openvdb::math::MinIndex(offFace));
+        openvdb::Vec3d result(0.0);
+        result[axis] = ray.direction[axis] > 0 ? -1 : 1;
+        return result;
+    }
+
+private:
+    /// The part of a ray in a box; empty where begin > end.
+    struct Span {
+        double begin, end;
+        Span(const Ray& ray, const openvdb::Vec3d& lo, const openvdb::Vec3d& hi)
+            : begin(-1e300), end(1e300)
+        {
+            for (int axis = 0; axis < 3; ++axis) {
+                const double a = (lo[axis] - ray.origin[axis]) * ray.inverse[axis];
+                const double b = (hi[axis] - ray.origin[axis]) * ray.inverse[axis];
+                begin = std::max(begin, std::min(a, b));
+                end = std::min(end, std::max(a, b));
+            }
+        }
+    };
+
+    /// The walk only finds the voxel; where the ray enters it is computed as for a tile.
+    double entryOfVoxels(const Ray& ray, const Span& span) const
+    {
+        using DdaRay = openvdb::math::Ray<double>;
+        const double begin = std::max(span.begin, 0.0);
+        const DdaRay local(ray.origin - corner, ray.direction, begin, span.end);
+        openvdb::math::DDA<DdaRay, 0> walk(local, begin, span.end);
+        do {
+            const openvdb::Coord voxel = walk.voxel();
+            // Rounding may put the first step on the far side of a face.
+            const bool inLeaf = ((voxel[0] | voxel[1] | voxel[2]) & ~7) == 0;
+            if (!inLeaf || !leaf->isValueOn(LeafNode::coordToOffset(voxel))) continue;
+            const openvdb::Vec3d low = corner + voxel.asVec3d();
+            const Span inVoxel(ray, low, low + openvdb::Vec3d(1.0));
+            if (inVoxel.begin >= 0) return inVoxel.begin;
+        } while (walk.step());
+        return kNoEntry;
+    }
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

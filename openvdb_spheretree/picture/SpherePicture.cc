@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SpherePicture.h"
+
+#include "PictureColors.h"
+#include "PictureLight.h"
+#include "RayScene.h"
+#include "RayShapes.h"
+#include <openvdb_spheretree/base/Hash.h>
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using detail::Light;
+using detail::Ray;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+void requireRange(const char* name, int value, int lowest, int highest)
+{
+    if (value >= lowest && value <= highest) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        name << "=" << value << " is out of range: it takes " << lowest << " to " << highest);
+}
+
+openvdb::Coord middleOf(const openvdb::CoordBBox& box)
+{
+    return openvdb::Coord::round(box.getCenter());
+}
+
+/// What a picture needs besides shapes and their colours.
+struct View {
+    View(const Camera& camera, const PictureSettings& settings,
+        const openvdb::math::Transform& transform, const openvdb::CoordBBox& object)
+        : settings(settings), frame(camera, transform, middleOf(object)),
+          rays(frame, camera.fovDegrees, settings.width, settings.height), light(frame),
+          occlusionReach(0.25 * (object.max().asVec3d() - object.min().asVec3d()).length() + 2)
+    {}
+
+    PictureSettings settings;
+    detail::CameraFrame frame;
+    detail::CameraRays rays;
+    Light light;
+    double occlusionReach; ///< in voxels; what is further away takes no light from the sky
+};
+
+/// Point @a i of @a count of a set that fills the unit square evenly (Hammersley's), moved around
+/// by
+/// @a seed with wrapping.
+struct PlanePoint {
+    double u, v;
+    PlanePoint(uint32_t i, uint32_t count, uint64_t seed)
+    {
+        uint32_t reversed = 0;
+        for (uint32_t bit = 0; bit < 16; ++bit) reversed |= (i >> bit & 1) << (15 - bit);
+        u = (i + 0.5) / count + detail::unitInterval(seed);
+        v = (reversed + 0.5) / 65536 + detail::unitInterval(seed << 32);
+        u -= std::floor(u);
+        v -= std::floor(v);
+    }
+};
+
+/// @tparam Shape  as in RayShapes.h
+template <typename Shape>
+class Painter {
+public:
+    /// @param colors  linear, one a shape
+    Painter(
+        const detail::RayScene<Shape>& scene, const std::vector<Vec3f>& colors, const View& view)
+        : mScene(scene), mColors(colors), mView(view)
+    {}
+
+    /// Tiles rather than rows, as neighbouring rays ask for the same shapes.
+    Picture paint(openvdb::util::NullInterrupter* interrupter) const
+    {
+        Picture picture;
+        picture.width = mView.settings.width;
+        picture.height = mView.settings.height;
+        picture.rgb.resize(std::size_t(picture.width) * picture.height * 3);
+        const std::size_t across = (picture.width + kTile - 1) / kTile;
+        const std::size_t tiles = across * ((picture.height + kTile - 1) / kTile);
+        detail::parallelFor(tiles, interrupter, [&](std::size_t tile) {
+            paintTile(int(tile % across) * kTile, int(tile / across) * kTile, picture);
+        });
+        return picture;
+    }
+
+private:
+    static constexpr int kTile = 64;  ///< pixels a side
+    static constexpr int kBlur = 2;   ///< light is the mean of that many pixels to each side
+    static constexpr int kProbes = 2; ///< samples a side of a pixel that every pixel has
+
+    struct Sample {
+        Ray ray;
+        double y; ///< in pixels
+        std::optional<detail::Hit> hit;
+    };
+    using Probes = std::array<Sample, kProbes * kProbes>;
+
+    /// A pixel that shows one smooth surface, and what light falls on it.
+    struct Surface {
+        int32_t shape;
+        Vec3d point, normal, toEye;
+        double lamp;
+        Vec3d ambient;
+    };
+    struct Pixel {
+        Vec3d color{0.0}; ///< linear; of a surface unused
+        std::optional<Surface> surface;
+    };
+
+    /// The pixels of a tile and kBlur more around it, which other tiles compute once more.
+    struct Patch {
+        int left, top, right, bottom; ///< the last two exclusive
+        std::vector<Pixel> pixels;
+
+        Patch(int x, int y, const Picture& picture)
+            : left(std::max(0, x - kBlur)), top(std::max(0, y - kBlur)),
+              right(std::min(picture.width, x + kTile + kBlur)),
+              bottom(std::min(picture.height, y + kTile + kBlur)),
+              pixels(std::size_t(right - left) * std::size_t(bottom - top))
+        {}
+        Pixel& at(int x, int y) { return pixels[std::size_t(y - top) * (right - left) + x - left]; }
+    };
+
+    void paintTile(int left, int top, Picture& picture) const
+    {
+        Patch patch(left, top, picture);
+        const int right = std::min(left + kTile, picture.width);
+        const int bottom = std::min(top + kTile, picture.height);
+        for (int y = patch.top; y < patch.bottom; ++y) {
+            for (int x = patch.left; x < patch.right; ++x) {
+                const bool isInTile = x >= left && x < right && y >= top && y < bottom;
+                patch.at(x, y) = pixel(x, y, isInTile);
+            }
+        }
+        for (int y = top; y < bottom; ++y) {
+            for (int x = left; x < right; ++x) {
+                const Pixel& pixel = patch.at(x, y);
+                const Vec3d light = pixel.surface ? blurred(patch, x, y) : pixel.color;
+                uint8_t* const rgb = &picture.rgb[3 * (std::size_t(y) * picture.width + x)];
+                for (int c = 0; c < 3; ++c) rgb[c] = detail::srgbByte(light[c]);
+            }
+        }
+    }
+
+    /// What a surface looks like in the mean light of the pixels around that show the same plane,
+    /// nearly: a few rays a pixel then leave no grain, and edges stay sharp.
+    Vec3d blurred(Patch& patch, int x, int y) const
+    {
+        const Surface& here = *patch.at(x, y).surface;
+        double lamp = 0;
+        Vec3d ambient(0.0);
+        int count = 0;
+        for (int v = std::max(patch.top, y - kBlur); v < std::min(patch.bottom, y + kBlur + 1);
+             ++v) {
+            for (int u = std::max(patch.left, x - kBlur); u < std::min(patch.right, x + kBlur + 1);
+                 ++u) {
+                const auto& other = patch.at(u, v).surface;
+                if (!other) continue;
+                if (!isSmooth(here.point, here.normal, other->point, other->normal)) continue;
+                lamp += other->lamp;
+                ambient += other->ambient;
+                ++count;
+            }
+        }
+        return mView.light.reflected(
+            Vec3d(mColors[here.shape]), here.normal, here.toEye, lamp / count, ambient / count);
+    }
+
+    /// Where four samples see one smooth surface, or nothing, they are enough.
+    /// @param isInTile  if not, it is only asked for a surface
+    Pixel pixel(int x, int y, bool isInTile) const
+    {
+        const uint64_t seed = detail::hash(uint64_t(y) << 32 | uint64_t(x));
+        const Probes probes = {trace(x, y, 0, kProbes, seed), trace(x, y, 1, kProbes, seed),
+            trace(x, y, 2, kProbes, seed), trace(x, y, 3, kProbes, seed)};
+        Pixel result;
+        const bool alike = areAlike(probes);
+        if (alike && probes[0].hit) {
+            result.surface = surfaceOf(probes, seed);
+        } else if (isInTile) {
+            const int side = alike ? kProbes : mView.settings.samples;
+            for (int s = 0; s < side * side; ++s) {
+                result.color += lightOf(
+                    side == kProbes ? probes[s] : trace(x, y, s, side, seed), s, side * side, seed);
+            }
+            result.color /= side * side;
+        }
+        return result;
+    }
+
+    Surface surfaceOf(const Probes& probes, uint64_t seed) const
+    {
+        Surface mean{probes[0].hit->shape, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), 0, Vec3d(0.0)};
+        const auto count = int(probes.size());
+        for (int s = 0; s < count; ++s) {
+            const Vec3d normal = probes[s].hit->normal, from = startOf(probes[s]);
+            mean.point += from / count;
+            mean.normal += normal;
+            mean.toEye -= probes[s].ray.direction;
+            mean.lamp += lampShare(from, normal, s, count, seed) / count;
+            mean.ambient += ambient(from, normal, s, count, seed) / count;
+        }
+        mean.normal.normalize();
+        mean.toEye.normalize();
+        return mean;
+    }
+
+    /// Sample @a s of @a side x @a side, somewhere in its part of the pixel.
+    Sample trace(int x, int y, int s, int side, uint64_t seed) const
+    {
+        const uint64_t jitter = detail::hash(seed + uint64_t(s));
+        const double u = x + (s % side + detail::unitInterval(jitter)) / side;
+        const double v = y + (s / side + detail::unitInterval(jitter << 32)) / side;
+        const Ray ray = mView.rays.through(u, v);
+        return {ray, v, mScene.nearest(ray)};
+    }
+
+    /// Whether one plane shows both points, nearly.
+    static bool isSmooth(const Vec3d& p, const Vec3d& normalP, const Vec3d& q, const Vec3d& normalQ)
+    {
+        constexpr double kCosine = 0.97;  // of some 14 degrees
+        constexpr double kOffPlane = 0.3; // sine of the angle from the plane to the other point
+        const Vec3d apart = q - p;
+        return normalP.dot(normalQ) > kCosine
+            && std::abs(apart.dot(normalP)) <= kOffPlane * apart.length();
+    }
+
+    /// Spheres of one colour that merge are one surface.
+    bool areAlike(const Probes& samples) const
+    {
+        const auto& first = samples.front().hit;
+        return std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& other) {
+            if (!first || !other.hit) return !first && !other.hit;
+            return mColors[first->shape] == mColors[other.hit->shape]
+                && isSmooth(
+                    startOf(samples.front()), first->normal, startOf(other), other.hit->normal);
+        });
+    }
+
+    /// Off the surface, so that rays from there do not find it; no shape is as small as that.
+    static Vec3d startOf(const Sample& sample)
+    {
+        constexpr double kClear = 1e-4;
+        return sample.ray.at(sample.hit->distance) + kClear * sample.hit->normal;
+    }
+
+    /// @param s, count  this is sample s of that many of its pixel
+    Vec3d lightOf(const Sample& sample, int s, int count, uint64_t seed) const
+    {
+        if (!sample.hit) return Light::background(sample.y / mView.settings.height);
+        const Vec3d normal = sample.hit->normal, from = startOf(sample);
+        const double lamp = lampShare(from, normal, s, count, seed);
+        return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), normal,
+            -sample.ray.direction, lamp, ambient(from, normal, s, count, seed));
+    }
+
+    /// The samples of a pixel share one set of points, so that they look at all of the lamp.
+    double lampShare(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
+    {
+        const int rays = std::max(1, mView.settings.lightRays / 2 / count);
+        int seen = 0;
+        for (int k = 0; k < rays; ++k) {
+            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x1a));
+            const Vec3d towards = mView.light.towardsLamp(point.u, point.v);
+            seen += towards.dot(normal) > 0 && !mScene.isBlocked(Ray(from, towards));
+        }
+        return double(seen) / rays;
+    }
+
+    /// The same for the sky.
+    Vec3d ambient(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
+    {
+        constexpr double kBounce = 0.12; // what blocks the sky is lit itself
+        const int rays = std::max(1, mView.settings.lightRays / count);
+        Vec3d sum(0.0);
+        for (int k = 0; k < rays; ++k) {
+            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x5c));
+            const Vec3d towards = Light::towardsSky(normal, point.u, point.v);
+            const bool open = !mScene.isBlocked(Ray(from, towards), mView.occlusionReach);
+            sum += (open ? 1.0 : kBounce) * mView.light.sky(towards);
+        }
+        return sum / rays;
+    }
+
+    const detail::RayScene<Shape>& mScene;
+    const std::vector<Vec3f>& mColors;
+    const View& mView;
+};
+
+const SphereTreeLevel& levelOf(const SphereTree& tree, int level)
+{
+    for (const SphereTreeLevel& found : tree.levels) {
+        if (found.level == level) return found;
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "the tree has no level " << level << ": it has levels "
+                                 << (tree.levels.empty() ? 0 : tree.levels.front().level) << " to "
+                                 << (tree.levels.empty() ? -1 : tree.root().level));
+}
+
+/// @return makeBall(center, radius) of every sphere, in index space about the object's middle.
+template <typename MakeBall>
+auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBall& makeBall)
+{
+    constexpr double kSmallest = 0.5;
+    const Vec3d middle = middleOf(tree.object.bbox).asVec3d();
+    std::vector<decltype(makeBall(middle, kSmallest))> balls;
+    balls.reserve(level.size());
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const double radius = tree.radiusWorld[id] / tree.voxelSize();
+        balls.push_back(makeBall(tree.center[id] - middle, std::max(radius, kSmallest)));
+    }
+    return balls;
+}
+
+template <typename Shape>
+Picture painted(const std::vector<Shape>& shapes, const std::vector<Vec3f>& colors,
+    const View& view, openvdb::util::NullInterrupter* interrupter)
+{
+    const detail::RayScene<Shape> scene(shapes, interrupter);
+    return Painter<Shape>(scene, colors, view).paint(interrupter);
+}
+
+/// The leaf nodes and tiles of an object that have voxels.
+std::vector<detail::VoxelShape> voxelShapesOf(
+    const openvdb::BoolTree& tree, const openvdb::Coord& middle)
+{
+    std::vector<detail::VoxelShape> shapes;
+    const Vec3d half(0.5);
+    const auto add = [&](const openvdb::CoordBBox& box,
+                         const openvdb::BoolTree::LeafNodeType* leaf) {
+        detail::VoxelShape shape;
+        shape.lo = box.min().asVec3d() - middle.asVec3d() - half;
+        shape.hi = box.max().asVec3d() - middle.asVec3d() + half;
+        shape.leaf = leaf;
+        if (leaf) shape.corner = leaf->origin().asVec3d() - middle.asVec3d() - half;
+        shapes.push_back(shape);
+    };
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+        openvdb::CoordBBox box;
+        leaf->evalActiveBoundingBox(box);
+        if (!box.empty()) add(box, leaf->isDense() ? nullptr : leaf.getLeaf());
+    }
+    detail::forEachTile(tree, [&](const openvdb::CoordBBox& box) { add(box, nullptr); });
+    return shapes;
+}
+
+} // namespace
+
+void PictureSettings::validate() const
+{
+    requireRange("width", width, 1, kMaxSide);
+    requireRange("height", height, 1, kMaxSide);
+    requireRange("samples", samples, 2, kMaxSamples);
+    requireRange("lightRays", lightRays, 1, kMaxLightRays);
+    for (int c = 0; c < 3; ++c) {
+        if (fixed[c] >= 0 && fixed[c] <= 1) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "color=" << fixed << " is out of range: red, green and blue are 0 to 1 each");
+    }
+}
+
+Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
+    const PictureSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    camera.validate();
+    settings.validate();
+    const SphereTreeLevel& drawn = levelOf(tree, level);
+    const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
+    const View view(camera, settings, *tree.transform, tree.object.bbox);
+    if (tree.settings.dist.isEuclidean()) {
+        const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
+        return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+    }
+    const detail::NormFaces faces(tree.settings.dist);
+    const auto ball = [&](const Vec3d& c, double r) { return detail::NormBallShape{c, r, &faces}; };
+    return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+}
+
+Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
+    const PictureSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    camera.validate();
+    settings.validate();
+    requireUniformVoxels(object);
+    if (object.empty()) OPENVDB_THROW(openvdb::ValueError, "the object has no active voxels");
+    const openvdb::CoordBBox box = object.evalActiveVoxelBoundingBox();
+    const auto shapes = voxelShapesOf(object.tree(), middleOf(box));
+    const Vec3d color =
+        settings.color == PictureColor::Fixed ? settings.fixed : PictureSettings().fixed;
+    const std::vector<Vec3f> colors(shapes.size(), Vec3f(detail::linearOf(color)));
+    const View view(camera, settings, object.transform(), box);
+    return painted(shapes, colors, view, interrupter);
+}
+
+} // namespace openvdb_spheretree

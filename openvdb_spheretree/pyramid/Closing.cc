@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Closing.h"
+
+#include "OrPyramid.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MaskNodes.h>
+
+#include <openvdb/Exceptions.h>
+#include <openvdb/tools/Morphology.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using detail::LeafNode;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::MaskTree;
+using openvdb::util::NullInterrupter;
+
+/// The 8^3 cells that hold a voxel, one voxel for each.
+MaskTree::Ptr cellsOf(const MaskTree& voxels, NullInterrupter* interrupter)
+{
+    return coarsen(voxels, PyramidStep{Coord(), 8, 3}, interrupter);
+}
+
+/// Cells, and all others at most @a steps further along each axis.
+MaskTree::Ptr grown(const MaskTree& cells, int steps)
+{
+    using namespace openvdb::tools;
+    auto result = std::make_shared<MaskTree>(cells);
+    dilateActiveValues(*result, steps, NN_FACE_EDGE_VERTEX, IGNORE_TILES);
+    detail::forEachTile(cells, [&](const CoordBBox& tile) {
+        result->sparseFill(CoordBBox(tile.min() - Coord(steps), tile.max() + Coord(steps)), true);
+    });
+    prune(*result);
+    return result;
+}
+
+/// All voxels of cells, as tiles, within @a box along z. (In two dimensions nothing happens outside
+/// the planes of the object, and cells reach beyond them.)
+MaskTree::Ptr voxelsOfCells(const MaskTree& cells, const CoordBBox& box, int dim)
+{
+    auto result = std::make_shared<MaskTree>(false);
+    const auto add = [&](const CoordBBox& of) {
+        const Coord &a = of.min(), &b = of.max();
+        CoordBBox voxels(
+            Coord(8 * a[0], 8 * a[1], 8 * a[2]), Coord(8 * b[0] + 7, 8 * b[1] + 7, 8 * b[2] + 7));
+        if (dim == 2) {
+            voxels.min()[2] = std::max(voxels.min()[2], box.min()[2]);
+            voxels.max()[2] = std::min(voxels.max()[2], box.max()[2]);
+        }
+        if (!voxels.empty()) result->sparseFill(voxels, true);
+    };
+    for (auto leaf = cells.cbeginLeaf(); leaf; ++leaf) {
+        for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
+            add(CoordBBox(cell.getCoord(), cell.getCoord()));
+        }
+    }
+    detail::forEachTile(cells, add);
+    return result;
+}
+
+/// The voxels of @a set at most @a radius away from a voxel that is not in it.
+MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrupter* interrupter)
+{
+    const LeafLayout layout(set);
+    const DistanceMap distances = distanceTransform(layout, dim, interrupter);
+    std::vector<std::unique_ptr<LeafNode>> leaves(layout.leafCount());
+    detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
+        LeafNode::NodeMaskType mask;
+        const LeafMask& voxels = layout.mask(uint32_t(i));
+        for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+            const bool near = distances.at(uint32_t(i), k) <= uint32_t(radius * radius);
+            if (near && isOn(voxels, k)) mask.setOn(k);
+        }
+        if (mask.isOff()) return;
+        leaves[i] = std::make_unique<LeafNode>(layout.origin(uint32_t(i)), false);
+        leaves[i]->setValueMask(mask);
+    });
+    auto result = std::make_shared<MaskTree>(false);
+    for (auto& leaf : leaves) {
+        if (leaf) result->addLeaf(leaf.release());
+    }
+    return result;
+}
+
+/// Off voxels at most @a radius away from an on one. Off voxels far from the set are not looked at:
+/// to the distance transform of a band of off voxels, what lies behind the band is on like the
+/// set. The band is twice as wide as the cells that can be near the set, so voxels of these cells
+/// are farther than the radius from what lies behind.
+MaskTree::Ptr nearSet(const MaskTree& set, int radius, int dim, NullInterrupter* interrupter)
+{
+    CoordBBox box;
+    set.evalActiveVoxelBoundingBox(box);
+    const int steps = (radius + 7) / 8;
+    const MaskTree::Ptr inReach = grown(*cellsOf(set, interrupter), steps);
+    const MaskTree::Ptr band = voxelsOfCells(*grown(*inReach, steps), box, dim);
+    band->topologyDifference(set);
+    const MaskTree::Ptr near = nearOutside(*band, radius, dim, interrupter);
+    near->topologyIntersection(*voxelsOfCells(*inReach, box, dim));
+    return near;
+}
+
+} // namespace
+
+MaskTree::Ptr closing(const MaskTree& voxels, int radius, int dim, NullInterrupter* interrupter)
+{
+    requireDim(dim);
+    requireClosing(radius);
+    auto closed = std::make_shared<MaskTree>(voxels);
+    const MaskTree::Ptr added = nearSet(voxels, radius, dim, interrupter);
+    if (added->empty()) return closed;
+    closed->topologyUnion(*added);
+
+    // Erosion can only take added voxels, so the dilated set matters only within their reach.
+    CoordBBox box;
+    added->evalActiveVoxelBoundingBox(box);
+    const MaskTree::Ptr reach =
+        voxelsOfCells(*grown(*cellsOf(*added, interrupter), (radius + 7) / 8), box, dim);
+    MaskTree dilated(*closed);
+    dilated.topologyIntersection(*reach);
+    const MaskTree::Ptr lost = nearOutside(dilated, radius, dim, interrupter);
+    added->topologyDifference(*lost);
+    closed = std::make_shared<MaskTree>(voxels);
+    closed->topologyUnion(*added);
+    openvdb::tools::prune(*closed);
+    return closed;
+}
+
+PyramidModel closingModel(int radius, NullInterrupter* interrupter)
+{
+    return [=](const MaskTree& level, const PyramidStep& step) {
+        return coarsen(*closing(level, radius, step.dim, interrupter), step, interrupter);
+    };
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ExactBall.h
+/// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
+///
+/// Everything is in units of a half or less of a voxel, so that centres between voxels stay
+/// integers: 2^shift units are a voxel. A sphere may be one of a norm. All that is used of a
+/// distance is that it grows with each coordinate: the nearest and the farthest voxel of a box are
+/// so along every axis.
+
+#pragma once
+
+#include "SphereUnion.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// @return the shift of a metric: its subdivision's logarithm.
+/// @throw openvdb::ValueError if the subdivision is no power of two in range
+inline int shiftOf(const SphereMetric& metric)
+{
+    for (int shift = 1; 1 << shift <= SphereMetric::kMaxSubdivision; ++shift) {
+        if (metric.subdivision == 1 << shift) return shift;
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "spheres in units of 1/" << metric.subdivision
+                                 << " voxel: the subdivision must be a power of two from 2 to "
+                                 << SphereMetric::kMaxSubdivision);
+}
+
+/// @return a coordinate of voxels in units.
+inline int64_t inUnits(int64_t voxels, int shift) { return voxels * (int64_t(1) << shift); }
+
+/// Integers q with |2^shift q - center| <= reach, as a closed interval (empty: lo > hi).
+struct Interval {
+    int64_t lo, hi;
+    Interval(int64_t center, int64_t reach, int shift)
+        : lo((center - reach + inUnits(1, shift) - 1) >> shift), hi((center + reach) >> shift)
+    {}
+};
+
+/// @return how far @a center is from the nearest voxel.
+inline int64_t offVoxel(int64_t center, int shift)
+{
+    const int64_t above = center & (inUnits(1, shift) - 1);
+    return std::min(above, inUnits(1, shift) - above);
+}
+
+/// @return the voxels along @a axis between the first and the last that the sphere holds, exactly:
+/// the other two axes owe the way to the nearest voxel, where the centre is between voxels. Empty
+/// with the sphere.
+inline Interval extent(const ExactSphere& s, int axis, const Distance& distance, int shift)
+{
+    const int64_t reach = distance.reach(offVoxel(s.center[(axis + 1) % 3], shift),
+        offVoxel(s.center[(axis + 2) % 3], shift), s.coverSq);
+    return Interval(reach < 0 ? 1 : s.center[axis], reach, reach < 0 ? 1 : shift);
+}
+
+/// A sphere to be drawn: with the box of its voxels, already clipped.
+struct Ball {
+    int64_t center[3];
+    int64_t coverSq;
+    Distance distance;
+    int32_t lo[3], hi[3]; ///< inclusive
+    bool clipped;         ///< the box is smaller than the sphere's own
+    bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
+    int8_t shift;         ///< 2^shift units of centre and coverSq are a voxel
+
+    /// Balls of this size and less are plain: what is asked is within 2^29 units and a cube of 4096
+    /// voxels, 2^16 units, of the centre; three such squares are below 2^60.
+    static constexpr int64_t kMaxPlainCoverSq = int64_t(1) << 58;
+
+    /// @return whether the ball holds what is so far from its centre; the most that is asked are
+    /// the corners of a cube that meets its box.
+    bool holds(const int64_t d[3]) const
+    {
+        if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= coverSq;
+        return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
+    }
+
+    /// @name Along an axis: how far the nearest and the farthest of the voxels first...last are from
+    /// the centre, and whether they are in the box
+    /// @{
+    int64_t nearest(int axis, int32_t first, int32_t last) const
+    {
+        const int64_t from = inUnits(first, shift), to = inUnits(last, shift);
+        return std::max(from, std::min(center[axis], to)) - center[axis];
+    }
+    int64_t farthest(int axis, int32_t first, int32_t last) const
+    {
+        const int64_t below = center[axis] - inUnits(first, shift);
+        return std::max(below, inUnits(last, shift) - center[axis]);
+    }
+    bool isInBox(int axis, int32_t first, int32_t last) const
+    {
+        return first >= lo[axis] && last <= hi[axis];
+    }
+    /// @}
+
+    /// @return whether the sphere comes as near as a voxel of the box first...last, which its own
+    /// box must meet; the clip aside.
+    bool touches(const int32_t first[3], const int32_t last[3]) const
+    {
+        int64_t d[3];
+        for (int a = 0; a < 3; ++a) d[a] = nearest(a, first[a], last[a]);
+        return holds(d);
+    }
+    /// The same for the cube of @a size voxels at @a origin.
+    bool touches(const int32_t origin[3], int32_t size) const
+    {
+        const int32_t far = size - 1;
+        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
+        return touches(origin, last);
+    }
+
+    /// @return whether every voxel of the box is in the sphere and in the clip.
+    bool contains(const int32_t first[3], const int32_t last[3]) const
+    {
+        int64_t d[3];
+        for (int a = 0; a < 3; ++a) {
+            if (!isInBox(a, first[a], last[a])) return false;
+            d[a] = farthest(a, first[a], last[a]);
+        }
+        return holds(d);
+    }
+    bool contains(const int32_t origin[3], int32_t size) const
+    {
+        const int32_t far = size - 1;
+        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
+        return contains(origin, last);
+    }
+};
+
+/// @param shift  that of the metric
+/// @return false if the clipped sphere is empty (or certainly holds no voxel).
+inline bool clippedBall(const ExactSphere& s, const Distance& distance, int shift,
+    const openvdb::CoordBBox& clip, Ball& ball)
+{
+    ball.distance = distance;
+    ball.shift = int8_t(shift);
+    ball.clipped = false;
+    for (int a = 0; a < 3; ++a) {
+        const Interval range = extent(s, a, distance, shift);
+        const int64_t lo = std::max<int64_t>(range.lo, clip.min()[a]);
+        const int64_t hi = std::min<int64_t>(range.hi, clip.max()[a]);
+        if (lo > hi) return false;
+        ball.lo[a] = int32_t(lo);
+        ball.hi[a] = int32_t(hi);
+        ball.center[a] = s.center[a];
+        ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
+    }
+    ball.plain = distance.isEuclidean() && s.coverSq <= Ball::kMaxPlainCoverSq;
+    ball.coverSq = std::min(s.coverSq, INT64_MAX - 1); // lengths that do not fit are beyond it
+    return true;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file PowerCull.h
+/// @brief Which of the balls that reach into a cube can add a voxel there to the others.
+///
+/// A ball holds voxel q where its power coverSq - |2^shift q - center|^2 is not negative. The
+/// powers of two balls differ by a linear function of q, so that one of them is the larger in all
+/// of a cube just when it is so at a corner that is known beforehand: the other ball adds nothing
+/// there. (Thousands of medial balls reach into a leaf on the surface of a solid, and a few dozen
+/// shape what is there.)
+///
+/// Balls are held against those of largest power at the cube's centre and corners only: what is
+/// left may have some more that add nothing. Exact. Cost: linear in the balls.
+
+#pragma once
+
+#include "ExactBall.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+class PowerCull {
+public:
+    /// @param list    balls, by index, that reach into the cube; those that add nothing are taken
+    ///                off and the others keep their order. All of them must have the same clip and
+    ///                units.
+    /// @param origin  of the cube, whose side has @a size voxels
+    void cull(const Ball* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list);
+
+private:
+    /// From the cube's centre.
+    struct Entry {
+        int64_t power; ///< there
+        std::array<int64_t, 3> center;
+    };
+    static constexpr std::size_t kPlaces = 9; ///< centre and corners
+    using Champions = std::array<std::size_t, kPlaces>;
+
+    bool collect(
+        const Ball* balls, const int32_t origin[3], int32_t size, const std::vector<int32_t>& list);
+    Champions champions(int64_t reach) const;
+    bool exceeded(std::size_t entry, const Champions& champions, int64_t reach) const;
+
+    std::vector<Entry> mEntries;
+};
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereUnion.cc
+/// @brief The public face of the rasteriser, and the spheres of a level.
+
+#include "SphereUnion.h"
+
+#include "ExactBall.h"
+#include "SphereRaster.h"
+
+#include <cmath>
+#include <limits>
+
+namespace openvdb_spheretree {
+
+SphereMetric metricOf(const SphereTree& tree) { return {tree.settings.dist, tree.subdivision}; }
+
+openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
+    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter,
+    const SphereMetric& metric)
+{
+    return detail::rasterSpheres(spheres, metric, clip, nullptr, interrupter);
+}
+
+std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    std::vector<ExactSphere> spheres;
+    spheres.reserve(level.size());
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const openvdb::Vec3d c =
+            tree.center[id] * double(tree.subdivision); // exact: a power of two
+        spheres.push_back(
+            {{std::llround(c[0]), std::llround(c[1]), std::llround(c[2])}, tree.coverSq[id]});
+    }
+    return spheres;
+}
+
+openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres, const SphereMetric& metric)
+{
+    const int shift = detail::shiftOf(metric);
+    constexpr int64_t kFirst = std::numeric_limits<int32_t>::min() + 1;
+    constexpr int64_t kLast = std::numeric_limits<int32_t>::max() - 1;
+    openvdb::CoordBBox box;
+    for (const ExactSphere& sphere : spheres) {
+        openvdb::Coord lo, hi;
+        bool empty = false;
+        for (int a = 0; a < 3; ++a) {
+            const detail::Interval range = detail::extent(sphere, a, metric.distance, shift);
+            empty = empty || range.lo > range.hi;
+            lo[a] = int32_t(std::max(kFirst, std::min(range.lo, kLast)));
+            hi[a] = int32_t(std::max(kFirst, std::min(range.hi, kLast)));
+        }
+        if (!empty) box.expand(openvdb::CoordBBox(lo, hi));
+    }
+    return box;
+}
+
+openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
+{
+    openvdb::CoordBBox box = boundingBox(spheres, metricOf(tree));
+    const int flat = tree.settings.flatAxis;
+    if (tree.settings.dim == 2) box.min()[flat] = box.max()[flat] = tree.object.bbox.min()[flat];
+    return box;
+}
+
+double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box,
+    const SphereMetric& metric)
+{
+    if (box.empty()) return 0;
+    double discs = 0; // of a norm: squares, at least as large
+    const double unit = double(metric.subdivision) * metric.distance.unit();
+    const double area = (metric.distance.isEuclidean() ? M_PI : 4) / (unit * unit);
+    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : area * double(s.coverSq);
+    const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
+    return std::min(discs, side(0) * side(1));
+}
+
+openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    const openvdb::CoordBBox box = levelBox(tree, spheres);
+    if (crossedRows(spheres, box, metricOf(tree)) > double(kMaxUnionRows)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the spheres of level " << level.level << " reach over " << box.extents()
+                                    << " voxels, more than are drawn: choose a finer level");
+    }
+    return sphereUnion(spheres, box, interrupter, metricOf(tree));
+}
+
+} // namespace openvdb_spheretree

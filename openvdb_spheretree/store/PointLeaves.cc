@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PointLeaves.h"
+
+#include <openvdb_spheretree/base/LargeArray.h>
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::Index;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+namespace points = openvdb::points;
+
+Coord leafOrigin(const Coord& voxel) { return voxel & ~int32_t(PointLeaf::DIM - 1); }
+
+/// Division by a power of two is exact.
+Vec3d pointSpace(const Vec3d& position, int scale) { return position / double(scale); }
+
+/// @return the lowest index that is wrong, or @a count: of several it is always the same one.
+template <typename Wrong>
+std::size_t firstWrong(std::size_t count, const Wrong& wrong)
+{
+    std::atomic<std::size_t> first{count};
+    parallelFor(count, nullptr, [&](std::size_t i) {
+        std::size_t lowest = first.load(std::memory_order_relaxed);
+        if (i >= lowest || !wrong(i)) return;
+        while (i < lowest && !first.compare_exchange_weak(lowest, i)) {}
+    });
+    return first;
+}
+
+/// @return how many voxels the first @a count points are in.
+std::size_t countVoxels(const std::vector<Vec3d>& positions, std::size_t count, int scale)
+{
+    const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
+    parallelFor(count, nullptr,
+        [&](std::size_t i) { voxels[i] = Coord::round(pointSpace(positions[i], scale)); });
+    tbb::parallel_sort(voxels.get(), voxels.get() + count);
+    return std::size_t(std::unique(voxels.get(), voxels.get() + count) - voxels.get());
+}
+
+/// Whether a voxel holds too few points on average. On fine scales some of the points have more
+/// voxels than all of them should, and need no others to be counted.
+bool isTooFine(const std::vector<Vec3d>& positions, int scale)
+{
+    constexpr std::size_t kPointsPerVoxel = 4;
+    const auto tooMany = [&](std::size_t count) {
+        return countVoxels(positions, count, scale) * kPointsPerVoxel > positions.size();
+    };
+    return tooMany(positions.size() / 3) || tooMany(positions.size());
+}
+
+void checkRange(const std::vector<Vec3d>& positions)
+{
+    if (positions.size() > std::size_t(std::numeric_limits<int32_t>::max())) {
+        OPENVDB_THROW(openvdb::ValueError,
+            positions.size() << " points are more than a file can "
+                                "hold (2^31 - 1): use a larger voxel, or split the object");
+    }
+    const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
+    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
+        const Vec3d& p = positions[i];
+        return !(std::abs(p[0]) < limit && std::abs(p[1]) < limit && std::abs(p[2]) < limit);
+    });
+    if (wrong == positions.size()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "point " << wrong << " at " << positions[wrong]
+                 << " is out of the range of voxel coordinates (2^31)");
+}
+
+} // namespace
+
+int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
+{
+    int scale = 1;
+    while (scale < kMaxPointScale && isTooFine(positions, scale)) scale *= 2;
+    return scale;
+}
+
+PointWriter::PointWriter(const std::vector<Vec3d>& positions)
+    : mTree(std::make_shared<points::PointDataTree>())
+{
+    openvdb::initialize(); // attribute types are made by name, from OpenVDB's registry
+    checkRange(positions);
+    mScale = chooseScale(positions);
+    const std::vector<Place> sorted = places(positions);
+    buildLeaves(sorted);
+
+    const auto descriptor = points::AttributeSet::Descriptor::create(
+        points::TypedAttributeArray<Vec3f>::attributeType());
+    {
+        const points::AttributeArray::ScopedRegistryLock lock;
+        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+            mLeaves[i]->initializeAttributes(descriptor, countOf(i), &lock);
+        });
+    }
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) { writeLeaf(i, sorted, positions); });
+}
+
+std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& positions) const
+{
+    std::vector<Place> places(positions.size());
+    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
+        const Vec3d position = pointSpace(positions[i], mScale);
+        const Coord voxel = Coord::round(position);
+        const Vec3f offset(position - voxel.asVec3d());
+        places[i] = {voxel, uint32_t(i)};
+        return (voxel.asVec3d() + Vec3d(offset)) * double(mScale) != positions[i];
+    });
+    if (wrong != positions.size()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "point " << wrong << " at " << positions[wrong]
+                     << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
+    }
+    tbb::parallel_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+        const Coord leafA = leafOrigin(a.voxel), leafB = leafOrigin(b.voxel);
+        if (leafA != leafB) return leafA < leafB;
+        if (a.voxel != b.voxel) return a.voxel < b.voxel; // the order of voxels in a leaf, too
+        return a.point < b.point;
+    });
+    return places;
+}
+
+void PointWriter::buildLeaves(const std::vector<Place>& places)
+{
+    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(*mTree);
+    mOrder.reserve(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Coord origin = leafOrigin(places[i].voxel);
+        if (i == 0 || leafOrigin(places[i - 1].voxel) != origin) {
+            mLeaves.push_back(accessor.touchLeaf(origin));
+            mBegin.push_back(uint32_t(i));
+        }
+        mOrder.push_back(places[i].point);
+    }
+    mBegin.push_back(uint32_t(places.size()));
+}
+
+void PointWriter::writeLeaf(
+    std::size_t leaf, const std::vector<Place>& places, const std::vector<Vec3d>& positions)
+{
+    points::AttributeWriteHandle<Vec3f> handle(mLeaves[leaf]->attributeArray("P"));
+    std::vector<PointLeaf::ValueType> ends(PointLeaf::SIZE, PointLeaf::ValueType(0));
+    for (uint32_t n = 0; n < countOf(leaf); ++n) {
+        const Place& place = places[mBegin[leaf] + n];
+        const Vec3d position = pointSpace(positions[place.point], mScale);
+        handle.set(n, Vec3f(position - place.voxel.asVec3d()));
+        ends[PointLeaf::coordToOffset(place.voxel)] = PointLeaf::ValueType(n + 1);
+    }
+    for (Index v = 1; v < PointLeaf::SIZE; ++v) ends[v] = std::max(ends[v - 1], ends[v]);
+    handle.compact();
+    mLeaves[leaf]->setOffsets(ends);
+}
+
+void PointWriter::setGroups(
+    PointLeaf& leaf, const std::vector<std::string>& names, const std::vector<int>& groups) const
+{
+    for (int group = 0; group < int(names.size()); ++group) {
+        if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;
+        points::GroupWriteHandle handle = leaf.groupWriteHandle(names[group]);
+        for (std::size_t n = 0; n < groups.size(); ++n) {
+            if (groups[n] == group) handle.set(Index(n), true);
+        }
+        handle.compact();
+    }
+}
+
+points::PointDataGrid::Ptr PointWriter::finish(const openvdb::math::Transform& source) const
+{
+    // The class stays unknown: tools that take points look for that.
+    auto grid = points::PointDataGrid::create(mTree);
+    const openvdb::math::Transform::Ptr transform = source.copy();
+    if (mScale != 1) transform->preScale(double(mScale));
+    grid->setTransform(transform);
+    return grid;
+}
+
+PointReader::PointReader(const points::PointDataGrid& grid)
+{
+    grid.tree().getNodes(mLeaves);
+    mBegin.push_back(0);
+    for (const PointLeaf* leaf : mLeaves) {
+        leaf->validateOffsets();
+        mBegin.push_back(mBegin.back() + std::size_t(leaf->getLastValue()));
+    }
+}
+
+std::vector<Vec3d> PointReader::positions(int scale) const
+{
+    const std::vector<Vec3f> offsets = attribute<Vec3f>("P");
+    std::vector<Vec3d> positions(size());
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        Index n = 0;
+        for (Index v = 0; v < PointLeaf::SIZE; ++v) {
+            const Vec3d voxel = mLeaves[i]->offsetToGlobalCoord(v).asVec3d();
+            for (const Index end = mLeaves[i]->getValue(v); n < end; ++n) {
+                const std::size_t at = mBegin[i] + n;
+                positions[at] = (voxel + Vec3d(offsets[at])) * double(scale);
+            }
+        }
+    });
+    return positions;
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

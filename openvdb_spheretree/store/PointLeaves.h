@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file PointLeaves.h
+/// @brief Points into the leaves of a PointDataGrid, and out of them, without rounding a position.
+///
+/// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here a
+/// position is given in index space, a multiple of 1/16 of the source's voxel; the point grid's
+/// voxel is a power of two of those, so position / scale = voxel + offset, and a float holds the
+/// offset.
+///
+/// Points are ordered by leaf, voxel and input index, so the grid does not depend on threads.
+
+#pragma once
+
+#include <openvdb_spheretree/base/Parallel.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/points/PointAttribute.h>
+#include <openvdb/points/PointDataGrid.h>
+#include <openvdb/points/PointGroup.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// Offsets are multiples of 1 / (16 scale), at most 1/2 in size: 16 bits, where a float has 24.
+constexpr int kMaxPointScale = 4096;
+
+using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
+
+/// A point grid under construction; points know the index they came in with.
+class PointWriter {
+public:
+    /// @param positions  index space of the source grid
+    /// @throw openvdb::ValueError if a position cannot be stored exactly
+    explicit PointWriter(const std::vector<openvdb::Vec3d>& positions);
+
+    /// Source voxels along a voxel of the point grid: the smallest power of two for which a voxel
+    /// holds four points on average, or kMaxPointScale.
+    int scale() const { return mScale; }
+
+    /// Adds an attribute whose value is value(i) for the point that came in with index i.
+    template <typename T, typename Value>
+    void addAttribute(const std::string& name, const Value& value);
+
+    /// Adds the groups, and puts point i in the group that has index groupOf(i).
+    template <typename Group>
+    void addGroups(const std::vector<std::string>& names, const Group& groupOf);
+
+    /// The grid, its transform that of the source, scaled.
+    openvdb::points::PointDataGrid::Ptr finish(const openvdb::math::Transform& source) const;
+
+private:
+    struct Place {
+        openvdb::Coord voxel;
+        uint32_t point;
+    };
+    static int chooseScale(const std::vector<openvdb::Vec3d>& positions);
+    std::vector<Place> places(const std::vector<openvdb::Vec3d>& positions) const;
+    void buildLeaves(const std::vector<Place>& places);
+    void writeLeaf(std::size_t leaf, const std::vector<Place>& places,
+        const std::vector<openvdb::Vec3d>& positions);
+    uint32_t countOf(std::size_t leaf) const { return mBegin[leaf + 1] - mBegin[leaf]; }
+    void setGroups(PointLeaf& leaf, const std::vector<std::string>& names,
+        const std::vector<int>& groups) const;
+
+    int mScale;
+    openvdb::points::PointDataTree::Ptr mTree;
+    std::vector<PointLeaf*> mLeaves;
+    std::vector<uint32_t> mBegin; ///< leaf i holds the points mOrder[mBegin[i]...mBegin[i + 1])
+    std::vector<uint32_t> mOrder; ///< input indices
+};
+
+/// The points of a grid as flat arrays, in an order of its own that all of them share.
+class PointReader {
+public:
+    /// @throw openvdb::ValueError if the leaves contradict themselves
+    explicit PointReader(const openvdb::points::PointDataGrid& grid);
+
+    std::size_t size() const { return mBegin.back(); }
+
+    /// @throw openvdb::ValueError if there is no such attribute, or it is not an uncompressed T
+    template <typename T>
+    std::vector<T> attribute(const std::string& name) const;
+
+    /// @return positions in the index space of the source grid.
+    std::vector<openvdb::Vec3d> positions(int scale) const;
+
+private:
+    template <typename Array>
+    void checkAttribute(const PointLeaf& leaf, const std::string& name) const;
+
+    std::vector<const PointLeaf*> mLeaves;
+    std::vector<std::size_t> mBegin;
+};
+
+// ---- Templates
+
+template <typename T, typename Value>
+void PointWriter::addAttribute(const std::string& name, const Value& value)
+{
+    openvdb::points::appendAttribute<T>(*mTree, name);
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        const std::size_t pos = mLeaves[i]->attributeSet().find(name);
+        openvdb::points::AttributeWriteHandle<T> handle(mLeaves[i]->attributeArray(pos));
+        for (uint32_t n = 0; n < countOf(i); ++n) handle.set(n, T(value(mOrder[mBegin[i] + n])));
+        handle.compact();
+    });
+}
+
+template <typename Group>
+void PointWriter::addGroups(const std::vector<std::string>& names, const Group& groupOf)
+{
+    openvdb::points::appendGroups(*mTree, names);
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        std::vector<int> groups(countOf(i));
+        for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);
+        setGroups(*mLeaves[i], names, groups);
+    });
+}
+
+template <typename T>
+std::vector<T> PointReader::attribute(const std::string& name) const
+{
+    for (const PointLeaf* leaf : mLeaves) {
+        checkAttribute<openvdb::points::TypedAttributeArray<T>>(*leaf, name);
+    }
+    std::vector<T> values(size());
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        const openvdb::points::AttributeHandle<T> handle(
+            *mLeaves[i]->attributeSet().getConst(name));
+        for (openvdb::Index n = 0; n < handle.size(); ++n) values[mBegin[i] + n] = handle.get(n);
+    });
+    return values;
+}
+
+template <typename Array>
+void PointReader::checkAttribute(const PointLeaf& leaf, const std::string& name) const
+{
+    const openvdb::points::AttributeArray* array = leaf.attributeSet().getConst(name);
+    if (!array) {
+        OPENVDB_THROW(openvdb::ValueError, "there is no attribute '" << name << "'");
+    }
+    const openvdb::NamePair& type = array->type();
+    const openvdb::NamePair& expected = Array::attributeType();
+    if (type != expected || array->stride() != 1) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "attribute '" << name << "' is of type " << type.first << "/" << type.second << " with "
+                          << array->stride() << " values a point, not " << expected.first << "/"
+                          << expected.second << " with 1");
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

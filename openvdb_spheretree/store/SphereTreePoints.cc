@@ -1,0 +1,506 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SphereTreePoints.h"
+
+#include "PointLeaves.h"
+#include "TreeMetadata.h"
+#include <openvdb_spheretree/tree/CutsLayout.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::GridBase;
+using openvdb::Vec3d;
+using openvdb::Vec3i;
+using openvdb::points::PointDataGrid;
+
+constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG", kCutsKind[] = "list of cuts";
+
+// ---- What a tree must be, on its way out and on its way in
+
+/// Coordinates of voxels are of 32 bits; squares beyond would not fit 63.
+constexpr double kMaxCoordinate = 2147483648.0;
+constexpr int64_t kMaxCoverSq = int64_t(1) << 62;
+
+template <typename Value>
+void requireOfSphere(bool right, int32_t id, const char* attribute, const Value& value)
+{
+    if (right) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
+}
+
+void checkUnits(int subdivision)
+{
+    if (subdivision == 2 || subdivision == 16) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "its centres are in units of 1/" << subdivision << " voxel, but there are 1/2 and 1/16");
+}
+
+void checkPosition(const Vec3d& center, int subdivision, int32_t id)
+{
+    const double farthest =
+        std::max({std::abs(center[0]), std::abs(center[1]), std::abs(center[2])});
+    requireOfSphere(center.isFinite() && farthest <= kMaxCoordinate, id, "position", center);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double units = subdivision * center[axis];
+        if (units == std::floor(units)) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " has the position " << center << ", which is no multiple of 1/"
+                    << subdivision << " voxel");
+    }
+}
+
+/// The attributes that nodes of trees and of cuts have in common.
+/// @throw openvdb::ValueError, naming the first node that is no sphere
+template <typename Nodes>
+void checkSpheres(const Nodes& nodes, int subdivision)
+{
+    for (int32_t id = 0; id < nodes.size(); ++id) {
+        checkPosition(nodes.center[id], subdivision, id);
+        const double radius = nodes.radius[id], stored = nodes.radiusWorld[id];
+        const int64_t coverSq = nodes.coverSq[id];
+        requireOfSphere(std::isfinite(stored) && stored >= 0, id, "pscale", stored);
+        requireOfSphere(radius >= 0 && radius <= kMaxCoordinate, id, "radius", radius);
+        requireOfSphere(coverSq >= 0 && coverSq <= kMaxCoverSq, id, "cover_sq", coverSq);
+    }
+}
+
+void checkDigitalBalls(const SphereTree& tree)
+{
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t radiusSq = tree.radiusSq[id]; // -1 marks a sphere that is none
+        requireOfSphere(radiusSq > 0 || radiusSq == -1, id, "radius_sq", radiusSq);
+    }
+}
+
+void checkCuts(const SphereCuts& cuts, int subdivision)
+{
+    const std::string damage = detail::cutsDamage(cuts);
+    if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage);
+    checkSpheres(cuts, subdivision);
+}
+
+/// A parent on the next level up leaves no room for a cycle.
+void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
+{
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t parent = tree.parent[id];
+        const bool isTop = levels[id] == tree.levels.back().level;
+        if (isTop && parent == -1) continue;
+        if (isTop || parent < 0 || parent >= tree.size()) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "node " << id << " on level " << levels[id] << " has the parent " << parent
+                        << ", but "
+                        << (isTop ? "the top level has no parents (-1)"
+                                  : "its parent must be a node of the next level up"));
+        }
+        if (levels[parent] == levels[id] + 1) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " on level " << levels[id] << " has the parent " << parent
+                    << " on level " << levels[parent]
+                    << ", but a parent must be on the next level up");
+    }
+}
+
+/// Edges are sorted, there once, and lead to the next level down.
+void checkEdges(const std::vector<DagEdge>& edges, const std::vector<int32_t>& levels)
+{
+    const auto exists = [&](int32_t id) { return id >= 0 && id < int32_t(levels.size()); };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const DagEdge& e = edges[i];
+        const bool right = exists(e.parent) && exists(e.child)
+            && levels[e.parent] == levels[e.child] + 1 && (i == 0 || edges[i - 1] < e);
+        if (right) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the edge of the DAG from node "
+                << e.parent << " to node " << e.child
+                << " is out of order or there twice, or does not lead to a node "
+                   "of the next level down");
+    }
+}
+
+// ---- Writing
+
+[[noreturn]] void inconsistent(const std::string& why)
+{
+    OPENVDB_THROW(openvdb::ValueError, "this sphere-tree cannot be stored: " << why);
+}
+
+/// The number of every node's level.
+std::vector<int32_t> levelNumbers(const SphereTree& tree)
+{
+    std::vector<int32_t> numbers(tree.levels.front().end);
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        std::fill(numbers.begin() + tree.levels[k].begin, numbers.begin() + tree.levels[k].end,
+            tree.levels[k].level);
+    }
+    return numbers;
+}
+
+/// @throw openvdb::ValueError if fromPoints() would not take the tree back
+void checkLayout(const SphereTree& tree)
+{
+    const std::size_t n = tree.center.size();
+    if (n == 0 || tree.levels.empty()) inconsistent("it has no nodes");
+    if (!tree.transform || !tree.transform->isLinear()) inconsistent("its transform is not linear");
+    if (tree.radius.size() != n || tree.coverSq.size() != n || tree.radiusWorld.size() != n
+        || tree.parent.size() != n || tree.ijk.size() != n || tree.radiusSq.size() != n) {
+        inconsistent("its arrays differ in length");
+    }
+    const int lowest = tree.levels.front().level;
+    if (lowest < 0 || (lowest > 0 && tree.levels.size() > 1)) {
+        inconsistent("its levels do not start at 0");
+    }
+    int32_t end = tree.size(); // level 0 comes last
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        if (level.level != lowest + int(k) || level.end != end || level.size() < 1) {
+            inconsistent("its levels do not divide its nodes");
+        }
+        end = level.begin;
+    }
+    if (end != 0) inconsistent("its levels do not divide its nodes");
+    checkUnits(tree.subdivision);
+    checkSpheres(tree, tree.subdivision);
+    checkDigitalBalls(tree);
+    const std::vector<int32_t> levels = levelNumbers(tree);
+    checkParents(tree, levels);
+    checkEdges(tree.dag, levels);
+    tree.settings.validate();
+}
+
+std::vector<std::string> groupNames(const SphereTree& tree)
+{
+    std::vector<std::string> names;
+    for (const SphereTreeLevel& level : tree.levels) {
+        names.push_back("level_" + std::to_string(level.level));
+    }
+    return names;
+}
+
+// ---- Reading: first everything into arrays in the order of ids, then checks in that order, so
+// that the first offender named is the same every time
+
+std::string describe(const GridBase& grid)
+{
+    constexpr std::size_t kLongest = 80;
+    std::string name = grid.getName();
+    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+    return "point grid '" + name + "'";
+}
+
+/// @return the text of an error of OpenVDB, without its type and on one short line.
+std::string messageOf(const openvdb::Exception& error)
+{
+    const char* text = error.what();
+    if (const char* colon = std::strstr(text, "Error: ")) text = colon + std::strlen("Error: ");
+    constexpr std::size_t kLongest = 400;
+    const std::string line(text, strnlen(text, kLongest));
+    return line.substr(0, line.find('\n'));
+}
+
+/// Runs @a read; whatever is wrong with the grid is reported as its damage.
+template <typename Read>
+auto blaming(const GridBase& grid, const char* kind, const Read& read)
+{
+    try {
+        return read();
+    } catch (const openvdb::Exception& error) {
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(grid) << " is a damaged " << kind << ": " << messageOf(error));
+    }
+}
+
+void checkFormat(const GridBase& grid, const char* kind, const char* key)
+{
+    const int format = blaming(grid, kind, [&] {
+        const int value = detail::getMeta<int32_t>(grid, key);
+        if (value < 1) OPENVDB_THROW(openvdb::ValueError, "its format is " << value);
+        return value;
+    });
+    if (format > kPointsFormat) {
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(grid) << " is of format " << format << ", newer than this version reads ("
+                           << kPointsFormat << "): update openvdb_spheretree");
+    }
+}
+
+/// @return where node id is among the points.
+std::vector<std::size_t> pointOfId(const std::vector<int32_t>& ids)
+{
+    constexpr std::size_t kNone = ~std::size_t(0);
+    std::vector<std::size_t> points(ids.size(), kNone);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] < 0 || std::size_t(ids[i]) >= ids.size()) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "there is an id " << ids[i] << ", but ids must be 0 to " << ids.size() - 1);
+        }
+        if (points[ids[i]] != kNone) {
+            OPENVDB_THROW(openvdb::ValueError, "two points have the id " << ids[i]);
+        }
+        points[ids[i]] = i;
+    }
+    return points;
+}
+
+template <typename T, typename Out>
+void gather(
+    const std::vector<T>& values, const std::vector<std::size_t>& order, std::vector<Out>& out)
+{
+    out.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) out[i] = Out(values[order[i]]);
+}
+
+/// @return the attribute `level` of every node.
+std::vector<int32_t> readNodes(const detail::PointReader& reader, int scale, SphereTree& tree)
+{
+    const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
+    gather(reader.positions(scale), order, tree.center);
+    gather(reader.attribute<double>("radius"), order, tree.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, tree.coverSq);
+    gather(reader.attribute<float>("pscale"), order, tree.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, tree.parent);
+    gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
+    gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
+    std::vector<int32_t> levels;
+    gather(reader.attribute<int32_t>("level"), order, levels);
+    return levels;
+}
+
+void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
+{
+    std::vector<int32_t> counts(tree.levels.size());
+    const int lowest = tree.levels.front().level, top = tree.levels.back().level;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        if (levels[id] < lowest || levels[id] > top) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "node " << id << " has the level " << levels[id] << ", but there are levels "
+                        << lowest << " to " << top);
+        }
+        ++counts[levels[id] - lowest];
+    }
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (counts[level.level - lowest] == level.size()) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "level " << level.level << " has " << counts[level.level - lowest]
+                     << " nodes, by its metadata " << level.size());
+    }
+    for (int32_t id = 1; id < tree.size(); ++id) {
+        if (levels[id] <= levels[id - 1]) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "node " << id << " is on level " << levels[id] << ", above the level of node " << id - 1
+                    << ": ids must go down from the top level");
+    }
+}
+
+SphereTree readTree(const PointDataGrid& points)
+{
+    SphereTree tree = detail::readTreeMetadata(points);
+    const detail::PointReader reader(points);
+    const std::size_t expected = std::size_t(tree.levels.front().end);
+    if (reader.size() != expected) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " points, by its metadata " << expected
+                      << ": was it cut short, or are points deleted?");
+    }
+    checkUnits(tree.subdivision);
+    const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
+    checkSpheres(tree, tree.subdivision);
+    checkDigitalBalls(tree);
+    checkLevels(tree, levels);
+    checkParents(tree, levels);
+    return tree;
+}
+
+std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
+{
+    const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
+    const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_edges");
+    const detail::PointReader reader(grid);
+    if (nodes != tree.size() || reader.size() != std::size_t(count)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " edges of " << nodes << " nodes, " << count
+                      << " edges of " << tree.size() << " nodes are expected");
+    }
+    const std::vector<int32_t> parents = reader.attribute<int32_t>("parent");
+    const std::vector<int32_t> children = reader.attribute<int32_t>("child");
+    std::vector<DagEdge> edges(parents.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
+    std::sort(edges.begin(), edges.end());
+    checkEdges(edges, levelNumbers(tree));
+    return edges;
+}
+
+SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
+{
+    const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
+    const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_cuts_nodes");
+    const detail::PointReader reader(grid);
+    if (nodes != tree.size() || reader.size() != std::size_t(count)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "it has " << reader.size() << " spheres beside a tree of " << nodes << " nodes, "
+                      << count << " spheres beside " << tree.size() << " nodes are expected");
+    }
+    SphereCuts cuts;
+    const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
+    gather(reader.positions(detail::readPointScale(grid)), order, cuts.center);
+    gather(reader.attribute<double>("radius"), order, cuts.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, cuts.coverSq);
+    gather(reader.attribute<float>("pscale"), order, cuts.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, cuts.parent);
+    gather(reader.attribute<int32_t>("first"), order, cuts.first);
+    gather(reader.attribute<int32_t>("last"), order, cuts.last);
+    checkCuts(cuts, tree.subdivision);
+    return cuts;
+}
+
+/// What becomes of an array of a tree once it has been written.
+struct Keep {
+    template <typename T>
+    void operator()(const std::vector<T>&) const
+    {}
+};
+struct Release {
+    template <typename T>
+    void operator()(std::vector<T>& values) const
+    {
+        std::vector<T>().swap(values);
+    }
+};
+
+/// Attributes that nodes of trees and of cuts have in common.
+template <typename Nodes, typename Written>
+void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& written)
+{
+    writer.addAttribute<float>("pscale", [&](uint32_t id) { return nodes.radiusWorld[id]; });
+    written(nodes.radiusWorld);
+    writer.addAttribute<int32_t>("id", [&](uint32_t id) { return id; });
+    writer.addAttribute<int32_t>("parent", [&](uint32_t id) { return nodes.parent[id]; });
+    written(nodes.parent);
+    writer.addAttribute<double>("radius", [&](uint32_t id) { return nodes.radius[id]; });
+    written(nodes.radius);
+    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return nodes.coverSq[id]; });
+    written(nodes.coverSq);
+}
+
+/// Attribute by attribute, so that there is one array at most both in the tree and in the grid, if
+/// @a written releases it.
+template <typename Tree, typename Written>
+PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
+{
+    checkLayout(tree);
+    detail::PointWriter writer(tree.center);
+    written(tree.center);
+    addSpheres(writer, tree, written);
+    const auto levelOf = [&](uint32_t id) { return tree.levelOf(int32_t(id)); };
+    writer.addAttribute<int32_t>("level", levelOf);
+    writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
+    written(tree.radiusSq);
+    writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
+    written(tree.ijk);
+    const int lowest = tree.levels.front().level;
+    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levelOf(id) - lowest; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    detail::writeTreeMetadata(*grid, tree, writer.scale());
+    return grid;
+}
+
+} // namespace
+
+PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, Keep()); }
+
+PointDataGrid::Ptr toPoints(SphereTree&& tree) { return writeTree(tree, Release()); }
+
+PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
+{
+    if (tree.dag.empty()) return nullptr;
+    checkLayout(tree);
+    std::vector<Vec3d> positions;
+    positions.reserve(tree.dag.size());
+    for (const DagEdge& edge : tree.dag) positions.push_back(tree.center[edge.parent]);
+
+    detail::PointWriter writer(positions);
+    writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
+    writer.addAttribute<int32_t>("child", [&](uint32_t i) { return tree.dag[i].child; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    grid->setName(tree.settings.name + "_dag");
+    detail::setMeta<int32_t>(*grid, detail::kDagFormatKey, kPointsFormat);
+    detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
+    detail::setMeta<int32_t>(*grid, "spheretree_edges", int32_t(tree.dag.size()));
+    return grid;
+}
+
+PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
+{
+    if (tree.cuts.empty()) return nullptr;
+    checkLayout(tree);
+    try {
+        checkCuts(tree.cuts, tree.subdivision);
+    } catch (const openvdb::ValueError& error) {
+        inconsistent(std::string("in its cuts, ") + messageOf(error));
+    }
+    detail::PointWriter writer(tree.cuts.center);
+    addSpheres(writer, tree.cuts, Keep());
+    writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
+    writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
+
+    const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
+    grid->setName(tree.settings.name + "_cuts");
+    detail::setMeta<int32_t>(*grid, detail::kCutsFormatKey, kPointsFormat);
+    detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
+    detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
+    detail::setMeta<int32_t>(*grid, "spheretree_cuts_nodes", tree.cuts.size());
+    return grid;
+}
+
+bool isSphereTree(const GridBase& grid)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
+}
+
+bool isDagOf(const GridBase& grid, const std::string& treeName)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kDagFormatKey]
+        && grid.getName() == treeName + "_dag";
+}
+
+bool isCutsOf(const GridBase& grid, const std::string& treeName)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kCutsFormatKey]
+        && grid.getName() == treeName + "_cuts";
+}
+
+SphereTree fromPoints(
+    const PointDataGrid& points, const PointDataGrid* dag, const PointDataGrid* cuts)
+{
+    if (!isSphereTree(points)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            describe(points) << " is no sphere-tree: it has no "
+                                "metadata '"
+                             << detail::kFormatKey << "'. Point grids become one by way of a mask");
+    }
+    checkFormat(points, kTreeKind, detail::kFormatKey);
+    SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
+    tree.settings.dag = tree.settings.dag && dag;
+    tree.settings.cuts = tree.settings.cuts && cuts;
+    if (dag) {
+        checkFormat(*dag, kDagKind, detail::kDagFormatKey);
+        tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
+    }
+    if (cuts) {
+        checkFormat(*cuts, kCutsKind, detail::kCutsFormatKey);
+        tree.cuts = blaming(*cuts, kCutsKind, [&] { return readCuts(*cuts, tree); });
+    }
+    return tree;
+}
+
+} // namespace openvdb_spheretree

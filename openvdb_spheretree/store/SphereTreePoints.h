@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereTreePoints.h
+/// @brief A SphereTree to an OpenVDB point grid and back, without loss.
+///
+/// One point a node. Positions are uncompressed floats (NullCodec) and exact: the point grid's
+/// transform is the source's, scaled by a power of two. Attributes: `pscale` (float, radiusWorld),
+/// `id`, `parent`, `level`, `radius_sq` (int32), `ijk` (vec3i), `radius` (double), `cover_sq`
+/// (int64), and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys
+/// that start with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where
+/// there are any, travel as a second point grid named `<name>_dag`: one point an edge, at its
+/// parent's centre, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
+/// grid named `<name>_cuts`: one point a node, with `pscale`, `id`, `parent`, `radius`, `cover_sq`
+/// as above and int32 attributes `first`, `last`.
+
+#pragma once
+
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <openvdb/points/PointDataGrid.h>
+
+namespace openvdb_spheretree {
+
+/// Version of the layout above, stored as `spheretree_format`.
+constexpr int kPointsFormat = 1;
+
+/// @brief The tree as a point grid, named settings.name. The grid is the same for any number of
+/// threads.
+/// @throw openvdb::ValueError if the tree is inconsistent, or a centre is no multiple of the
+///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
+openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
+
+/// @brief The same grid, in about half the memory: the tree's arrays of nodes are released one by
+/// one, as soon as they are in the grid. What else the tree has stays: levels, settings, edges and
+/// cuts (whose grids are to be made before, since they take positions from the nodes).
+/// @throw openvdb::ValueError as above; the tree is then unchanged
+openvdb::points::PointDataGrid::Ptr toPoints(SphereTree&& tree);
+
+/// @brief The tree's DAG edges as a point grid; null if it has none.
+openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);
+
+/// @brief The tree's cuts as a point grid; null if it has none.
+/// @throw openvdb::ValueError if the tree or its cuts are inconsistent
+openvdb::points::PointDataGrid::Ptr cutsToPoints(const SphereTree& tree);
+
+/// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
+bool isSphereTree(const openvdb::GridBase& grid);
+
+/// @return whether a grid claims to be what dagToPoints() makes of a tree of that name.
+bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
+
+/// @return whether a grid claims to be what cutsToPoints() makes of a tree of that name.
+bool isCutsOf(const openvdb::GridBase& grid, const std::string& treeName);
+
+/// @brief The tree that toPoints() was given, identical in every field.
+/// @param points  a grid written by toPoints(), also after a round trip through a file
+/// @param dag     the grid of dagToPoints(), or null: the tree read then has no edges, and its
+///                settings say that it has none
+/// @param cuts    the grid of cutsToPoints(), or null: likewise
+/// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
+///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
+///        level missing, a radius that is no number or negative ...); the message names the damage
+SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
+    const openvdb::points::PointDataGrid* dag = nullptr,
+    const openvdb::points::PointDataGrid* cuts = nullptr);
+
+} // namespace openvdb_spheretree

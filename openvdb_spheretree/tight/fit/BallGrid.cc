@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BallGrid.h"
+
+#include <openvdb_spheretree/base/Hash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Vec3i;
+
+/// @return log2 of the width of the cells that a ball is put in; at least four voxels.
+int log2CellOf(const FineBall& ball)
+{
+    int log2 = 6;
+    while (double(int64_t(1) << log2) < ball.radius()) ++log2;
+    return log2;
+}
+
+Vec3i cellOf(const int64_t center[3], int log2)
+{
+    return {int32_t(center[0] >> log2), int32_t(center[1] >> log2), int32_t(center[2] >> log2)};
+}
+
+Vec3i blockOf(const Vec3i& cell) { return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}; }
+
+uint64_t bitOf(const Vec3i& cell)
+{
+    return uint64_t(1) << ((cell[0] & 3) << 4 | (cell[1] & 3) << 2 | (cell[2] & 3));
+}
+
+bool contains(const Vec3i& lo, const Vec3i& hi, const Vec3i& at)
+{
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) inside = inside && at[a] >= lo[a] && at[a] <= hi[a];
+    return inside;
+}
+
+bool boxesMeet(const FineBall& ball, const FineBox& box)
+{
+    const auto reach = int64_t(std::ceil(ball.radius()));
+    for (int a = 0; a < 3; ++a) {
+        if (ball.center[a] + reach < box.lo[a] || ball.center[a] - reach > box.hi[a]) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::size_t BallGrid::CellHash::operator()(const Vec3i& cell) const
+{
+    const uint64_t xy = uint64_t(uint32_t(cell[0])) << 32 | uint32_t(cell[1]);
+    return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(cell[2])));
+}
+
+void BallGrid::add(int32_t id, const FineBall& ball)
+{
+    const int log2 = log2CellOf(ball);
+    const Vec3i at = cellOf(ball.center, log2);
+    Grid& grid = mGrids[log2];
+    grid.cells[at].push_back({id, ball, ball.radius()});
+    grid.blocks[blockOf(at)] |= bitOf(at);
+    ++grid.size;
+    ++mSize;
+}
+
+void BallGrid::remove(int32_t id, const FineBall& ball)
+{
+    const int log2 = log2CellOf(ball);
+    const Vec3i at = cellOf(ball.center, log2);
+    const auto grid = mGrids.find(log2);
+    const auto cell = grid->second.cells.find(at);
+    auto& entries = cell->second;
+    entries.erase(std::find_if(
+        entries.begin(), entries.end(), [&](const Entry& entry) { return entry.id == id; }));
+    if (entries.empty()) {
+        grid->second.cells.erase(cell);
+        const auto block = grid->second.blocks.find(blockOf(at));
+        block->second &= ~bitOf(at);
+        if (!block->second) grid->second.blocks.erase(block);
+    }
+    if (--grid->second.size == 0) mGrids.erase(grid);
+    --mSize;
+}
+
+template <typename Body>
+void BallGrid::forEachBlock(const Grid& grid, const Vec3i& lo, const Vec3i& hi, const Body& body)
+{
+    double blocks = 1;
+    for (int a = 0; a < 3; ++a) blocks *= double(hi[a]) - lo[a] + 1;
+    if (blocks > double(grid.blocks.size())) {
+        for (const auto& [block, cells] : grid.blocks) {
+            if (contains(lo, hi, block)) body(block, cells);
+        }
+        return;
+    }
+    for (int32_t x = lo[0]; x <= hi[0]; ++x) {
+        for (int32_t y = lo[1]; y <= hi[1]; ++y) {
+            for (int32_t z = lo[2]; z <= hi[2]; ++z) {
+                const auto block = grid.blocks.find({x, y, z});
+                if (block != grid.blocks.end()) body(block->first, block->second);
+            }
+        }
+    }
+}
+
+template <typename Body>
+void BallGrid::forEachNear(const FineBox& box, const Body& body) const
+{
+    for (const auto& [log2, grid] : mGrids) {
+        const int64_t width = int64_t(1) << log2; // no ball of this grid has a larger radius
+        Vec3i lo, hi;
+        for (int a = 0; a < 3; ++a) {
+            lo[a] = int32_t((box.lo[a] - width) >> log2);
+            hi[a] = int32_t((box.hi[a] + width) >> log2);
+        }
+        const auto& cells = grid.cells;
+        forEachBlock(grid, blockOf(lo), blockOf(hi), [&](const Vec3i& block, uint64_t bits) {
+            for (; bits; bits &= bits - 1) {
+                const int bit = __builtin_ctzll(bits);
+                const Vec3i at(4 * block[0] + (bit >> 4), 4 * block[1] + (bit >> 2 & 3),
+                    4 * block[2] + (bit & 3));
+                if (!contains(lo, hi, at)) continue;
+                for (const Entry& entry : cells.find(at)->second) body(entry);
+            }
+        });
+    }
+}
+
+std::vector<int32_t> BallGrid::near(const FineBall& ball, double slack) const
+{
+    FineBox box;
+    box.expand(ball, std::max(0.0, slack));
+    std::vector<int32_t> found;
+    forEachNear(box, [&](const Entry& entry) {
+        if (gapBetween(entry.ball, ball) <= slack) found.push_back(entry.id);
+    });
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<int32_t> BallGrid::meeting(const FineBox& box) const
+{
+    std::vector<int32_t> found;
+    forEachNear(box, [&](const Entry& entry) {
+        if (boxesMeet(entry.ball, box)) found.push_back(entry.id);
+    });
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::size_t count) const
+{
+    // All others are a fair answer, however far they are: without a neighbour no ball could merge.
+    constexpr double kFarthest = double(int64_t(1) << 36); // wider than any object
+    std::size_t others = mSize;
+    const double radius = ball.radius();
+    std::vector<std::pair<double, int32_t>> found;
+    for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
+        FineBox box;
+        box.expand(ball, slack);
+        found.clear();
+        forEachNear(box, [&](const Entry& entry) {
+            const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;
+            if (entry.id == id) others = mSize - 1;
+            if (entry.id == id || gap > slack) return;
+            found.emplace_back(gap / (std::min(entry.radius, radius) + kFine), entry.id);
+        });
+        if (found.size() < std::min(count, others) && slack < kFarthest) continue;
+        const auto kept = std::min(count, found.size());
+        std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(kept), found.end());
+        found.resize(kept);
+        // What is farther than the slack has a larger gap for its radius than this.
+        if (found.empty() || found.back().first < slack / (radius + kFine) || slack >= kFarthest) {
+            break;
+        }
+    }
+    std::vector<int32_t> ids;
+    for (const auto& [gap, other] : found) ids.push_back(other);
+    return ids;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

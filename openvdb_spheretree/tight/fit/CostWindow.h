@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file CostWindow.h
+/// @brief A small box of samples, one bit each, of what it costs a sphere to hold them: outside the
+/// object, and in no other sphere of the cover. The cost of a ball is the bits that it holds.
+///
+/// A window is made for one decision, read-only from what it is made of. So decisions are made in
+/// parallel, and nothing has to be kept up to date between them: a count for each voxel outside
+/// would take memory with the volume of the largest sphere.
+///
+/// Numbers are local: relative to the window's origin, 1/16 of a sample. At sample level 0 they are
+/// exact for balls that fit in the window; above it centres and radii are rounded, and the bits
+/// stand for 8^level voxels.
+/// Cost: filling, a byte for 8 samples; counting, a square root for each row and a word for 64
+/// samples.
+
+#pragma once
+
+#include "FineBall.h"
+#include "SampledObject.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// A ball in a window's own coordinates: integers, floats for the sake of the kernels.
+struct LocalBall {
+    float x = 0, y = 0, z = 0, radiusSq = -1;
+};
+
+/// Samples along z that cost, one behind the other.
+struct CostRun {
+    float x, y;          ///< in a window's own coordinates
+    int32_t first, last; ///< samples of the window
+    float distanceSq;    ///< of the nearest one to the place that they were collected around
+
+    /// Made in place: an aggregate that is copied waits for its parts to be stored.
+    CostRun(float rowX, float rowY, int32_t from, int32_t to, float nearestSq)
+        : x(rowX), y(rowY), first(from), last(to), distanceSq(nearestSq)
+    {}
+};
+
+/// A box in 1/16 voxel, inclusive.
+struct FineBox {
+    int64_t lo[3] = {INT64_MAX, INT64_MAX, INT64_MAX}, hi[3] = {INT64_MIN, INT64_MIN, INT64_MIN};
+
+    void expand(const FineBall& ball, double margin = 0);
+};
+
+class CostWindow {
+public:
+    /// @return the finest level of samples that has no more than @a samples in @a radius.
+    static int levelFor(double radius, int samples);
+
+    /// Every sample of the box that is outside the object costs.
+    void reset(const SampledObject& object, const FineBox& box, int level);
+    /// What @a ball holds costs nothing any more.
+    void cover(const FineBall& ball) { cover(toLocal(ball)); }
+    void cover(const LocalBall& ball);
+
+    /// @return the samples of a ball that cost; the window reaches over all of it.
+    int64_t count(const LocalBall& ball) const;
+    /// Appends the runs of such samples, of a ball that may reach out of the window.
+    void collect(const LocalBall& ball, std::vector<CostRun>& found) const;
+
+    LocalBall toLocal(const FineBall& ball) const;
+    /// @return the centre of a local ball, its radius left empty.
+    FineBall centerOf(const LocalBall& ball) const;
+    /// Voxels a sample stands for, as a power of two.
+    int level() const { return mLevel; }
+    int64_t voxelsPerSample() const { return int64_t(1) << std::min(3 * mLevel, 60); }
+    /// A coordinate of a point in 1/16 voxel, in 1/16 sample.
+    float local(int64_t fine, int axis) const
+    {
+        return float(double(fine - mFineOrigin[axis]) * mToLocal);
+    }
+
+private:
+    int mLevel = 0;
+    double mToLocal = 1; ///< 2^-level
+    int64_t mFineOrigin[3] = {0, 0, 0};
+    int32_t mSize[3] = {0, 0, 0}; ///< samples
+    int32_t mWords = 0;           ///< a row along z
+    std::vector<uint64_t> mBits;  ///< rows, y fastest
+};
+
+} // namespace tight
+} // namespace openvdb_spheretree

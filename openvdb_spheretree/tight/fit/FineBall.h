@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file FineBall.h
+/// @brief The spheres of tight trees: closed balls whose centres are multiples of 1/16 voxel.
+///
+/// Half a voxel is too coarse: at 512 spheres Al.100 then has 2.0 % of error in place of 1.15 %;
+/// 1/32 gives no more (DESIGN 10). Everything is an integer, so which voxels a ball holds is exact.
+
+#pragma once
+
+#include <openvdb_spheretree/medial/MedialAxis.h>
+
+#include <openvdb/Types.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// Units of length in a voxel.
+constexpr int64_t kFine = 16;
+
+/// The voxels q with |16 q - center|^2 <= radiusSq.
+struct FineBall {
+    int64_t center[3] = {0, 0, 0}; ///< 1/16 voxel
+    int64_t radiusSq = -1;         ///< of that unit, squared; negative: no ball
+
+    bool empty() const { return radiusSq < 0; }
+    /// 1/16 voxel
+    double radius() const { return std::sqrt(double(radiusSq)); }
+    bool operator==(const FineBall& o) const
+    {
+        return center[0] == o.center[0] && center[1] == o.center[1] && center[2] == o.center[2]
+            && radiusSq == o.radiusSq;
+    }
+};
+
+/// @return the ball that holds this voxel alone, radius 0.
+inline FineBall voxelBall(const openvdb::Coord& ijk)
+{
+    return {{kFine * int64_t(ijk[0]), kFine * int64_t(ijk[1]), kFine * int64_t(ijk[2])}, 0};
+}
+
+/// @return the closed ball of the same voxels.
+inline FineBall fineBall(const MedialBall& ball)
+{
+    FineBall fine = voxelBall(ball.center);
+    fine.radiusSq = kFine * kFine * (int64_t(ball.radiusSq) - 1);
+    return fine;
+}
+
+/// @return the distance of two centres, 1/16 voxel.
+inline double centerDistance(const FineBall& a, const FineBall& b)
+{
+    const double x = double(a.center[0] - b.center[0]), y = double(a.center[1] - b.center[1]),
+                 z = double(a.center[2] - b.center[2]);
+    return std::sqrt(x * x + y * y + z * z);
+}
+
+/// @return what is free between two balls, 1/16 voxel; negative where they overlap.
+inline double gapBetween(const FineBall& a, const FineBall& b)
+{
+    return centerDistance(a, b) - a.radius() - b.radius();
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SampledObject.h
+/// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis.
+///
+/// Large spheres are compared by how much they hold outside the object. Counted voxel by voxel, that
+/// costs their volume; counted on samples it costs no more than for a sphere of some 16 to 40 voxels
+/// (FitEffort), so the time for a ball is bounded. Only choices are made by samples: what a
+/// sphere has to cover is always every voxel.
+///
+/// Samples and not the OR-pyramid: a thin sheet would count as thick as its coarse voxels. Cost:
+/// 72 bytes for each leaf of each level that has any sample; 1.15 times the object's leaves on
+/// solids.
+
+#pragma once
+
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// Leaves of 8^3 samples, ordered by origin, x first.
+class SampleLevel {
+public:
+    SampleLevel() = default;
+    /// @param origins  ascending
+    SampleLevel(std::vector<openvdb::Coord> origins, std::vector<LeafMask> masks);
+
+    std::size_t leafCount() const { return mOrigins.size(); }
+    const openvdb::Coord& origin(std::size_t leaf) const { return mOrigins[leaf]; }
+    const LeafMask& mask(std::size_t leaf) const { return mMasks[leaf]; }
+
+    /// Calls body(leaf) for every leaf that meets the box, in order.
+    template <typename Body>
+    void forEachLeaf(const openvdb::CoordBBox& box, const Body& body) const
+    {
+        const openvdb::Coord lo(box.min()[0] & ~7, box.min()[1] & ~7, box.min()[2] & ~7);
+        for (std::size_t c = firstColumn(lo[0], lo[1]); c < columns();) {
+            const openvdb::Coord& at = mOrigins[mColumnBegin[c]];
+            if (at[0] > box.max()[0]) return;
+            if (at[1] < lo[1]) {
+                c = firstColumn(at[0], lo[1]);
+            } else if (at[1] > box.max()[1]) {
+                c = firstColumn(at[0] + 8, lo[1]);
+            } else {
+                for (std::size_t leaf = firstLeaf(c, lo[2]);
+                     leaf < mColumnBegin[c + 1] && mOrigins[leaf][2] <= box.max()[2]; ++leaf) {
+                    body(leaf);
+                }
+                ++c;
+            }
+        }
+    }
+
+private:
+    std::size_t columns() const { return mColumnBegin.size() - 1; }
+    /// @return the first column at or after (x, y).
+    std::size_t firstColumn(int32_t x, int32_t y) const;
+    /// @return the first leaf of a column at or above z.
+    std::size_t firstLeaf(std::size_t column, int32_t z) const;
+
+    std::vector<openvdb::Coord> mOrigins;
+    std::vector<LeafMask> mMasks;
+    std::vector<uint32_t> mColumnBegin{0}; ///< leaves with the same x and y, and the end
+};
+
+class SampledObject {
+public:
+    explicit SampledObject(const LeafLayout& object);
+
+    /// @param k  0 or more; levels beyond the last one have no samples
+    const SampleLevel& level(int k) const;
+    int levels() const { return int(mLevels.size()); }
+
+private:
+    std::vector<SampleLevel> mLevels; ///< the last one is empty
+};
+
+} // namespace tight
+} // namespace openvdb_spheretree

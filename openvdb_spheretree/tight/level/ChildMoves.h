@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ChildMoves.h
+/// @brief Children of a level go to other parents, as long as that pays.
+///
+/// In a trial the new parent grows around the child, then both parents, and who is near, are placed
+/// anew for what they owe now: voxels of their children's regions that no other parent has from its
+/// own. A round tries every child with the parents next to it, all from the same state and in
+/// parallel, and makes the best moves whose surroundings do not meet.
+
+#pragma once
+
+#include "LevelMaker.h"
+#include "TightLevels.h"
+#include <openvdb_spheretree/tight/region/VoxelRegion.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// @return for each of @a count parents the voxels that its children answer for.
+std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
+    const std::vector<int32_t>& parents, std::size_t count,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @param balls    of the coarser level; together they hold what is in their children's regions
+/// @param finer    the children, whose parents may change
+/// @param regions  of the children
+void moveChildren(std::vector<FineBall>& balls, TightLevel& finer,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
+
+} // namespace tight
+} // namespace openvdb_spheretree

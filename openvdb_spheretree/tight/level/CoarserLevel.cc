@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CoarserLevel.h"
+
+#include "ChildMoves.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
+#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/merge/StrictMerging.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+constexpr int kTurns = 2;
+
+/// Extreme points of each unit.
+using Units = std::vector<std::vector<Coord>>;
+
+/// The balls of a coarser level before the search: the finer ones, merged.
+std::vector<FineBall> mergedBalls(
+    const std::vector<FineBall>& finer, const Units& units, int64_t count, const LevelMaker& maker)
+{
+    HeldByLeaves held = heldVoxels(units);
+    held.areInside = false;
+    StrictMerging merging(
+        maker.object, finer, std::move(held), maker.fit, maker.flat, maker.interrupter);
+    constexpr int kNeighbours = 8;
+    return ballsOfCut(mergeToRoots(merging, kNeighbours, maker.interrupter), count);
+}
+
+/// @return how far inside a ball a unit is, 1/256 voxel^2; negative where it is not.
+int64_t depthIn(const FineBall& ball, const std::vector<Coord>& unit)
+{
+    int64_t farthest = 0;
+    for (const Coord& p : unit) {
+        farthest = std::max(farthest, radiusSqToHold(ball, voxelBall(p)));
+    }
+    return ball.radiusSq - farthest;
+}
+
+/// @return for each unit the ball it is deepest in; for an empty one, any that is near.
+std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& finer,
+    const std::vector<FineBall>& balls, openvdb::util::NullInterrupter* interrupter)
+{
+    BallGrid grid;
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+        if (!balls[b].empty()) grid.add(int32_t(b), balls[b]);
+    }
+    std::vector<int32_t> parents(units.size(), -1);
+    detail::parallelFor(units.size(), interrupter, [&](std::size_t i) {
+        if (units[i].empty()) {
+            parents[i] = leastProtruding(finer[i], balls);
+            return;
+        }
+        int64_t best = -1;
+        for (const int32_t b : grid.near(voxelBall(units[i].front()), 1)) {
+            const int64_t depth = depthIn(balls[b], units[i]);
+            if (depth <= best) continue;
+            best = depth;
+            parents[i] = b;
+        }
+        assert(parents[i] >= 0); // some ball holds each unit
+    });
+    return parents;
+}
+
+/// Balls that went because they owed nothing leave their children to others. No voxel needs these
+/// children for its chain.
+void adopt(const TightLevel& level, TightLevel& finer)
+{
+    for (std::size_t i = 0; i < finer.balls.size(); ++i) {
+        if (!level.balls[finer.parent[i]].empty()) continue;
+        finer.parent[i] = leastProtruding(finer.balls[i], level.balls);
+    }
+}
+
+/// The balls, each for itself, while what they hold counts in their own regions only.
+std::vector<FineBall> settled(const std::vector<FineBall>& balls,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
+{
+    const VoxelDebt debt(maker.object.level(0), regions);
+    return ballsOf(maker.improve(eachInItsGroup(balls), {}, debt));
+}
+
+} // namespace
+
+TightLevel coarserLevel(
+    TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    const SampleLevel& object = maker.object.level(0);
+    const Units units = extremePoints(
+        cellRegions(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
+    TightLevel level;
+    level.balls = finer.balls;
+    if (count < int64_t(finer.balls.size())) {
+        level.balls =
+            ballsOf(maker.improve(ungrouped(mergedBalls(finer.balls, units, count, maker)),
+                ungrouped(finer.balls), UnitDebt(units)));
+    }
+    finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
+    dropChildless(level, finer);
+    for (int turn = 0; turn < kTurns; ++turn) {
+        moveChildren(level.balls, finer, regions, maker);
+        const auto below =
+            regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+        level.balls = settled(level.balls, below, maker);
+        adopt(level, finer);
+        dropChildless(level, finer);
+    }
+    regions = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        regions[i] = clipped(regions[i], level.balls[i], object);
+    }
+    return level;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

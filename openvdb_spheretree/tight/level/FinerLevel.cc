@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FinerLevel.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+int64_t voxelsIn(const VoxelRegion& region)
+{
+    int64_t count = 0;
+    for (const RegionLeaf& part : region) {
+        for (const uint64_t word : part.mask) count += __builtin_popcountll(word);
+    }
+    return count;
+}
+
+/// @return the voxels of @a cell in @a region, or those outside of it.
+VoxelRegion partOf(const VoxelRegion& cell, const VoxelRegion& region, bool inside)
+{
+    VoxelRegion result;
+    for (const RegionLeaf& part : cell) {
+        const LeafMask& other = maskIn(region, part.leaf);
+        LeafMask mask;
+        for (int word = 0; word < 8; ++word) {
+            mask[word] = part.mask[word] & (inside ? other[word] : ~other[word]);
+        }
+        if (!isEmpty(mask)) result.push_back({part.leaf, mask});
+    }
+    return result;
+}
+
+/// @return the groups that share a cell, those with the largest parts first.
+std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& candidates,
+    const std::vector<VoxelRegion>& regions)
+{
+    std::vector<int32_t> groups;
+    while (!cell.empty()) {
+        int64_t most = 0;
+        int32_t best = -1;
+        for (const int32_t group : candidates) {
+            const int64_t held = voxelsIn(partOf(cell, regions[group], true));
+            if (held <= most) continue;
+            most = held;
+            best = group;
+        }
+        assert(best >= 0); // regions together are the object
+        if (best < 0) break;
+        groups.push_back(best);
+        cell = partOf(cell, regions[best], false);
+    }
+    return groups;
+}
+
+/// @return the leaves in their groups, some in more than one.
+std::vector<CoverBall> dealtOut(const LeafCells& leaves, const TightLevel& coarser,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
+{
+    BallGrid grid;
+    for (std::size_t i = 0; i < coarser.balls.size(); ++i) grid.add(int32_t(i), coarser.balls[i]);
+    std::vector<std::vector<int32_t>> groups(leaves.balls.size());
+    detail::parallelFor(groups.size(), maker.interrupter, [&](std::size_t i) {
+        groups[i] = groupsFor(leaves.cells[i], grid.near(leaves.balls[i], 1), regions);
+    });
+    std::vector<CoverBall> dealt;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (const int32_t group : groups[i]) dealt.push_back({leaves.balls[i], group});
+    }
+    return dealt;
+}
+
+/// The balls of a level before the search: leaves merged within their groups.
+std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leaves,
+    const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    std::vector<VoxelRegion> held(leaves.size());
+    detail::parallelFor(held.size(), maker.interrupter, [&](std::size_t i) {
+        const VoxelRegion region = regionOf(leaves[i].ball, maker.object.level(0));
+        held[i] = partOf(region, regions[leaves[i].group], true);
+    });
+    SlackMerging merging(
+        maker.object, leaves, std::move(held), maker.fit, maker.flat, maker.interrupter);
+    constexpr int kNeighbours = 6;
+    const std::vector<ForestNode> forest = mergeToRoots(merging, kNeighbours, maker.interrupter);
+    std::vector<int32_t> group(groupsOf(leaves));
+    group.resize(forest.size(), -1);
+    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
+        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
+    }
+    std::vector<CoverBall> balls;
+    for (const int32_t node : cutOf(forest, count)) {
+        balls.push_back({forest[node].ball, group[node]});
+    }
+    return balls;
+}
+
+} // namespace
+
+std::vector<VoxelRegion> chainRegions(
+    const TightLevel& level, const std::vector<VoxelRegion>& above, const LevelMaker& maker)
+{
+    const SampleLevel& object = maker.object.level(0);
+    std::vector<VoxelRegion> regions(level.balls.size());
+    detail::parallelFor(regions.size(), maker.interrupter, [&](std::size_t i) {
+        regions[i] = above.empty() ? regionOf(level.balls[i], object)
+                                   : clipped(above[level.parent[i]], level.balls[i], object);
+    });
+    return regions;
+}
+
+TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
+    const LeafCells& leaves, int64_t count, const LevelMaker& maker)
+{
+    const std::vector<CoverBall> dealt = dealtOut(leaves, coarser, regions, maker);
+    const VoxelDebt debt(maker.object.level(0), regions);
+    const auto balls =
+        filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, debt), dealt);
+    TightLevel level;
+    level.balls = ballsOf(balls);
+    level.parent = groupsOf(balls);
+    return level;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TightLevels.h"
+
+#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+bool isIn(const ForestNode& node, int64_t count)
+{
+    return node.first <= count && count <= node.last;
+}
+
+Vec3d centerOf(const FineBall& ball)
+{
+    const double unit = 1.0 / double(kFine);
+    return unit * Vec3d(double(ball.center[0]), double(ball.center[1]), double(ball.center[2]));
+}
+
+/// In voxels, rounded up.
+double radiusOf(const FineBall& ball)
+{
+    return detail::sqrtUp(detail::toDoubleUp(ball.radiusSq)) / double(kFine); // 16 is exact
+}
+
+Coord nearestVoxel(const Vec3d& center)
+{
+    const auto axis = [&](int a) { return int32_t(std::floor(center[a] + 0.5)); };
+    return Coord(axis(0), axis(1), axis(2));
+}
+
+/// The parents of the nodes of a cut in a coarser one.
+std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
+    const std::vector<int32_t>& nodes, int64_t coarser, const std::vector<FineBall>& coarserBalls)
+{
+    const std::vector<int32_t> cut = cutOf(forest, coarser);
+    std::vector<int32_t> parents;
+    for (const int32_t node : nodes) {
+        int32_t ancestor = node;
+        while (ancestor >= 0 && !isIn(forest[ancestor], coarser)) {
+            ancestor = forest[ancestor].parent;
+        }
+        parents.push_back(ancestor < 0
+                ? leastProtruding(forest[node].ball, coarserBalls)
+                : int32_t(std::lower_bound(cut.begin(), cut.end(), ancestor) - cut.begin()));
+    }
+    return parents;
+}
+
+/// @return the order in which a level's balls get their ids: by voxel, x first.
+std::vector<int32_t> idOrder(const std::vector<Coord>& ijk)
+{
+    std::vector<int32_t> order(ijk.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(
+        order.begin(), order.end(), [&](int32_t a, int32_t b) { return ijk[a] < ijk[b]; });
+    return order;
+}
+
+/// Appends one level, and @return the id of each of its balls.
+std::vector<int32_t> appendLevel(
+    const TightLevel& from, int level, const std::vector<int32_t>& idsAbove, SphereTree& tree)
+{
+    const FlatAxis flat(tree.settings.flatAxis);
+    std::vector<Coord> ijk;
+    std::vector<Vec3d> centers;
+    for (std::size_t i = 0; i < from.balls.size(); ++i) {
+        centers.push_back(flat.fromZ(centerOf(from.balls[i])));
+        ijk.push_back(nearestVoxel(centers.back()));
+    }
+    SphereTreeLevel& range = tree.levels[level];
+    range.level = level;
+    range.begin = tree.size();
+    range.pyramidVoxels = from.digital.empty() ? 0 : tree.object.voxels;
+    std::vector<int32_t> ids(from.balls.size());
+    for (const int32_t i : idOrder(ijk)) {
+        ids[i] = tree.size();
+        tree.center.push_back(centers[i]);
+        tree.radius.push_back(radiusOf(from.balls[i]));
+        tree.coverSq.push_back(from.balls[i].radiusSq);
+        tree.parent.push_back(from.parent.empty() ? -1 : idsAbove[from.parent[i]]);
+        tree.ijk.push_back(ijk[i]);
+        tree.radiusSq.push_back(from.digital.empty() ? -1 : from.digital[i].radiusSq);
+    }
+    range.end = tree.size();
+    return ids;
+}
+
+} // namespace
+
+std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
+{
+    std::vector<int32_t> nodes;
+    for (std::size_t i = 0; i < forest.size(); ++i) {
+        if (isIn(forest[i], count)) nodes.push_back(int32_t(i));
+    }
+    return nodes;
+}
+
+std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count)
+{
+    std::vector<FineBall> balls;
+    for (const int32_t node : cutOf(forest, count)) balls.push_back(forest[node].ball);
+    return balls;
+}
+
+void dropChildless(TightLevel& level, TightLevel& finer)
+{
+    std::vector<int32_t> index(level.balls.size(), -1);
+    for (const int32_t parent : finer.parent) index[parent] = 0;
+    TightLevel kept;
+    for (std::size_t b = 0; b < level.balls.size(); ++b) {
+        if (index[b] < 0) continue;
+        index[b] = int32_t(kept.balls.size());
+        kept.balls.push_back(level.balls[b]);
+        if (!level.parent.empty()) kept.parent.push_back(level.parent[b]);
+    }
+    for (int32_t& parent : finer.parent) parent = index[parent];
+    level = std::move(kept);
+}
+
+int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level)
+{
+    const auto protrusion = [&](const FineBall& other) {
+        return other.empty() ? std::numeric_limits<double>::infinity()
+                             : centerDistance(ball, other) + ball.radius() - other.radius();
+    };
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < level.size(); ++i) {
+        if (protrusion(level[i]) < protrusion(level[best])) best = i;
+    }
+    return int32_t(best);
+}
+
+std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves)
+{
+    std::vector<TightLevel> levels(counts.size());
+    for (std::size_t k = counts.size(); k-- > 0;) {
+        const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
+        levels[k].balls = ballsOfCut(forest, counts[k]);
+        if (nodes.size() == leaves.size()) levels[k].digital = leaves;
+        if (k + 1 < counts.size()) {
+            levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);
+        }
+    }
+    return levels;
+}
+
+void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree)
+{
+    tree.subdivision = int(kFine);
+    tree.levels.resize(levels.size());
+    std::vector<int32_t> ids;
+    for (std::size_t k = levels.size(); k-- > 0;) {
+        ids = appendLevel(levels[k], int(k), ids, tree);
+    }
+}
+
+SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSettings& settings)
+{
+    const FlatAxis flat(settings.flatAxis);
+    SphereCuts cuts;
+    for (const ForestNode& node : forest) {
+        cuts.center.push_back(flat.fromZ(centerOf(node.ball)));
+        cuts.radius.push_back(radiusOf(node.ball));
+        cuts.coverSq.push_back(node.ball.radiusSq);
+        cuts.parent.push_back(node.parent);
+        cuts.first.push_back(node.first);
+        cuts.last.push_back(node.last);
+    }
+    return cuts;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TightLevels.h
+/// @brief From lists of balls to the nodes of a SphereTree.
+
+#pragma once
+
+#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/merge/MergeForest.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// The balls of one level.
+struct TightLevel {
+    std::vector<FineBall> balls;
+    std::vector<int32_t> parent; ///< in the next coarser level; empty for the coarsest
+    /// Per ball, the digital ball that it is; empty where they are none.
+    std::vector<MedialBall> digital;
+};
+
+/// @return the nodes of the cut with @a count balls, ascending.
+std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
+
+/// @return the balls of the cut with @a count balls.
+std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
+
+/// Balls of @a level that are the parent of none of @a finer go: no chain needs them.
+void dropChildless(TightLevel& level, TightLevel& finer);
+
+/// @return the ball of @a level that @a ball sticks out of least; empty ones are none.
+int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level);
+
+/// @param counts  finest first, falling, none above the number of leaves
+/// @param leaves  the first nodes of the forest, as medial balls
+/// @return a level for each count. A node's parent is its ancestor in the coarser cut; a ball that
+/// ended owing nothing hangs below the one it sticks out of least.
+std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves);
+
+/// @brief Make the levels those of @a tree, which has none: all but its stored radii.
+/// @param levels  finest first; flat objects are flat along z
+void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
+
+/// @return the forest in the form of SphereTree, without stored radii.
+SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSettings& settings);
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file CoverBall.h
+/// @brief A ball of a level that is being made, and the group it is in.
+///
+/// A level that is split from a coarser one has a group for each ball of that: its children. What a
+/// ball holds counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls
+/// of other levels are in group 0.
+
+#pragma once
+
+#include <openvdb_spheretree/tight/fit/FineBall.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+struct CoverBall {
+    FineBall ball;
+    int32_t group = 0;
+
+    bool empty() const { return ball.empty(); }
+    bool operator==(const CoverBall& o) const { return ball == o.ball && group == o.group; }
+};
+
+/// @return the balls, all in group 0.
+inline std::vector<CoverBall> ungrouped(const std::vector<FineBall>& balls)
+{
+    std::vector<CoverBall> cover;
+    for (const FineBall& ball : balls) cover.push_back({ball, 0});
+    return cover;
+}
+
+/// @return the balls, each in a group of its own: those of its number.
+inline std::vector<CoverBall> eachInItsGroup(const std::vector<FineBall>& balls)
+{
+    std::vector<CoverBall> cover;
+    for (const FineBall& ball : balls) cover.push_back({ball, int32_t(cover.size())});
+    return cover;
+}
+
+inline std::vector<FineBall> ballsOf(const std::vector<CoverBall>& cover)
+{
+    std::vector<FineBall> balls;
+    for (const CoverBall& ball : cover) balls.push_back(ball.ball);
+    return balls;
+}
+
+inline std::vector<int32_t> groupsOf(const std::vector<CoverBall>& cover)
+{
+    std::vector<int32_t> groups;
+    for (const CoverBall& ball : cover) groups.push_back(ball.group);
+    return groups;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

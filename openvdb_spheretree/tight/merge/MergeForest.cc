@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MergeForest.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using Pair = std::pair<int32_t, int32_t>;
+
+/// All pairs are looked at anew when the count has shrunk to this part: more often where costs change
+/// with what is around.
+constexpr double kRebuild = 0.7, kRebuildOfMoving = 0.85;
+constexpr int32_t kShare = 64;
+constexpr double kTouch = 8 * kFine; // balls nearer than this to a change are looked at again
+
+class Forest {
+public:
+    Forest(MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
+        : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
+    {
+        const std::vector<FineBall> leaves = model.leaves();
+        int32_t groups = 1;
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            groups = std::max(groups, model.groupOf(int32_t(i)) + 1);
+        }
+        mGrids.resize(std::size_t(groups));
+        for (const FineBall& ball : leaves) {
+            addNode(ball, model.groupOf(int32_t(mNodes.size())));
+        }
+        mLeafCount = mLive = int32_t(mNodes.size());
+        for (ForestNode& node : mNodes) node.last = mLive;
+    }
+
+    std::vector<ForestNode> run()
+    {
+        int32_t rebuildAt = mLive;
+        while (mLive > 1) {
+            detail::checkInterrupt(mInterrupter, 100 - int(100.0 * mLive / mLeafCount));
+            if (mLive <= rebuildAt || mQueue.empty()) {
+                rebuildQueue();
+                if (mQueue.empty()) break; // each group is one ball
+                const bool moving = mModel.dependsOnOthers();
+                rebuildAt = int32_t(mLive * (moving ? kRebuildOfMoving : kRebuild));
+            }
+            refreshTop();
+            doMerges(takeMerges());
+        }
+        return std::move(mNodes);
+    }
+
+private:
+    bool alive(int32_t node) const { return mNodes[node].parent == -1 && !mGone[node]; }
+    int32_t perRound() const { return std::max(1, mLive / kShare); }
+
+    void addNode(const FineBall& ball, int32_t group)
+    {
+        mGrids[group].add(int32_t(mNodes.size()), ball);
+        if (mGrids.size() > 1) mAllGroups.add(int32_t(mNodes.size()), ball);
+        mGroup.push_back(group);
+        mNodes.push_back({ball, -1, 1, 0});
+        mGone.push_back(0);
+        mTouched.push_back(mRound);
+        mLocked.push_back(-1);
+    }
+
+    // ---- The queue: a heap, the cheapest first
+
+    static bool later(const MergeCandidate& x, const MergeCandidate& y) { return y < x; }
+
+    void push(const MergeCandidate& candidate)
+    {
+        mQueue.push_back(candidate);
+        std::push_heap(mQueue.begin(), mQueue.end(), later);
+    }
+
+    /// Takes the cheapest pair of living nodes; false if there is none.
+    bool pop(MergeCandidate& candidate)
+    {
+        while (!mQueue.empty()) {
+            std::pop_heap(mQueue.begin(), mQueue.end(), later);
+            candidate = mQueue.back();
+            mQueue.pop_back();
+            if (alive(candidate.a) && alive(candidate.b)) return true;
+        }
+        return false;
+    }
+
+    bool isStale(const MergeCandidate& c) const
+    {
+        return mModel.dependsOnOthers() && std::max(mTouched[c.a], mTouched[c.b]) > c.round;
+    }
+
+    /// Evaluates those of the candidates that are stale.
+    bool refresh(std::vector<MergeCandidate>& candidates)
+    {
+        std::vector<std::size_t> stale;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (isStale(candidates[i])) stale.push_back(i);
+        }
+        detail::parallelFor(stale.size(), mInterrupter, [&](std::size_t i) {
+            MergeCandidate& c = candidates[stale[i]];
+            c = mModel.evaluate(c.a, c.b);
+            c.round = mRound;
+        });
+        return !stale.empty();
+    }
+
+    std::vector<MergeCandidate> evaluateAll(const std::vector<Pair>& pairs)
+    {
+        std::vector<MergeCandidate> candidates(pairs.size());
+        detail::parallelFor(pairs.size(), mInterrupter, [&](std::size_t i) {
+            candidates[i] = mModel.evaluate(pairs[i].first, pairs[i].second);
+            candidates[i].round = mRound;
+        });
+        return candidates;
+    }
+
+    /// @return the pairs of nodes with their nearest, unique and sorted.
+    std::vector<Pair> pairsOf(const std::vector<int32_t>& nodes)
+    {
+        std::vector<std::vector<int32_t>> nearest(nodes.size());
+        detail::parallelFor(nodes.size(), mInterrupter, [&](std::size_t i) {
+            const BallGrid& grid = mGrids[mGroup[nodes[i]]];
+            nearest[i] = grid.nearest(nodes[i], mNodes[nodes[i]].ball, mNeighbours);
+        });
+        std::vector<Pair> pairs;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            for (const int32_t other : nearest[i]) pairs.push_back(std::minmax(nodes[i], other));
+        }
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        return pairs;
+    }
+
+    void rebuildQueue()
+    {
+        std::vector<int32_t> living;
+        for (int32_t node = 0; node < int32_t(mNodes.size()); ++node) {
+            if (alive(node)) living.push_back(node);
+        }
+        std::vector<MergeCandidate> fresh;
+        for (const MergeCandidate& c : mQueue) {
+            if (alive(c.a) && alive(c.b) && !isStale(c)) fresh.push_back(c);
+        }
+        const auto byPair = [](const MergeCandidate& x, const MergeCandidate& y) {
+            return std::make_pair(x.a, x.b) < std::make_pair(y.a, y.b);
+        };
+        std::sort(fresh.begin(), fresh.end(), byPair);
+        std::vector<Pair> unknown;
+        mQueue.clear();
+        for (const Pair& pair : pairsOf(living)) {
+            MergeCandidate key;
+            std::tie(key.a, key.b) = pair;
+            const auto known = std::lower_bound(fresh.begin(), fresh.end(), key, byPair);
+            if (known != fresh.end() && known->a == key.a && known->b == key.b) {
+                mQueue.push_back(*known);
+            } else {
+                unknown.push_back(pair);
+            }
+        }
+        const auto evaluated = evaluateAll(unknown);
+        mQueue.insert(mQueue.end(), evaluated.begin(), evaluated.end());
+        std::make_heap(mQueue.begin(), mQueue.end(), later);
+    }
+
+    /// Until the cheapest pairs, as many as the round takes, are known to be.
+    void refreshTop()
+    {
+        if (!mModel.dependsOnOthers()) return;
+        const auto wanted = std::size_t(perRound());
+        const std::size_t batch = std::max<std::size_t>(8, 2 * wanted);
+        for (bool fresh = false; !fresh;) {
+            std::vector<MergeCandidate> top;
+            MergeCandidate candidate;
+            bool staleAhead = false;
+            while (top.size() < (staleAhead ? batch : wanted) && pop(candidate)) {
+                staleAhead = staleAhead || isStale(candidate);
+                top.push_back(candidate);
+            }
+            fresh = !staleAhead;
+            if (staleAhead) refresh(top);
+            for (const MergeCandidate& c : top) push(c);
+        }
+    }
+
+    // ---- Merges
+
+    template <typename Body>
+    void forEachNear(const FineBall& ball, double slack, const Body& body) const
+    {
+        const BallGrid& all = mGrids.size() > 1 ? mAllGroups : mGrids.front();
+        for (const int32_t node : all.near(ball, slack)) body(node);
+    }
+
+    void lockAround(const MergeCandidate& c)
+    {
+        for (const FineBall& ball : {mNodes[c.a].ball, mNodes[c.b].ball, c.ball}) {
+            if (ball.empty()) continue;
+            // Balls may share a voxel where they touch, and gaps are rounded.
+            forEachNear(ball, 1, [&](int32_t node) { mLocked[node] = mRound; });
+        }
+    }
+
+    std::vector<MergeCandidate> takeMerges()
+    {
+        std::vector<MergeCandidate> taken, aside;
+        MergeCandidate c;
+        while (int32_t(taken.size()) < perRound() && int32_t(taken.size()) + 1 < mLive && pop(c)) {
+            const bool locked = mLocked[c.a] == mRound || mLocked[c.b] == mRound;
+            if (!taken.empty() && (locked || isStale(c))) {
+                aside.push_back(c);
+                if (isStale(c)) break; // what comes after it may not be the cheapest
+                if (aside.size() > std::size_t(4 * perRound())) break;
+                continue;
+            }
+            if (mModel.dependsOnOthers()) lockAround(c);
+            else mLocked[c.a] = mLocked[c.b] = mRound;
+            mModel.complete(c);
+            taken.push_back(c);
+        }
+        for (const MergeCandidate& waiting : aside) push(waiting);
+        return taken;
+    }
+
+    void touchAround(const FineBall& ball)
+    {
+        if (ball.empty()) return;
+        forEachNear(ball, kTouch, [&](int32_t node) { mTouched[node] = mRound; });
+    }
+
+    void end(int32_t node, int32_t parent)
+    {
+        mNodes[node].parent = parent;
+        mNodes[node].first = mLive;
+        mGone[node] = 1;
+        mGrids[mGroup[node]].remove(node, mNodes[node].ball);
+        if (mGrids.size() > 1) mAllGroups.remove(node, mNodes[node].ball);
+    }
+
+    void doMerges(const std::vector<MergeCandidate>& taken)
+    {
+        std::vector<MergeCandidate> merges, dropped;
+        std::vector<int32_t> born;
+        const auto firstNode = int32_t(mNodes.size());
+        for (const MergeCandidate& c : taken) {
+            if (c.ball.empty()) {
+                end(c.a, -1);
+                --mLive;
+                end(c.b, -1);
+                --mLive;
+                dropped.push_back(c);
+                continue;
+            }
+            const auto node = int32_t(mNodes.size());
+            end(c.a, node);
+            end(c.b, node);
+            --mLive;
+            addNode(c.ball, mGroup[c.a]);
+            mNodes[node].last = mLive;
+            born.push_back(node);
+            merges.push_back(c);
+        }
+        if (!dropped.empty()) mModel.merge(dropped, -1);
+        if (!merges.empty()) mModel.merge(merges, firstNode);
+        ++mRound; // what is evaluated from here on knows of these merges
+        if (mModel.dependsOnOthers()) {
+            for (const MergeCandidate& c : taken) {
+                touchAround(mNodes[c.a].ball);
+                touchAround(mNodes[c.b].ball);
+                touchAround(c.ball);
+            }
+        }
+        for (const MergeCandidate& c : evaluateAll(pairsOf(born))) push(c);
+    }
+
+    MergeModel& mModel;
+    std::size_t mNeighbours;
+    openvdb::util::NullInterrupter* mInterrupter;
+    std::vector<BallGrid> mGrids; ///< of the groups: living nodes
+    BallGrid mAllGroups;          ///< of all together, if there is more than one
+    std::vector<ForestNode> mNodes;
+    std::vector<int32_t> mGroup;
+    std::vector<char> mGone;
+    std::vector<int32_t> mTouched; ///< the last round that changed something near a node
+    std::vector<int32_t> mLocked;  ///< the last round that took a merge near a node
+    std::vector<MergeCandidate> mQueue;
+    int32_t mLeafCount = 0, mLive = 0, mRound = 0;
+};
+
+} // namespace
+
+std::vector<ForestNode> mergeToRoots(
+    MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
+{
+    return Forest(model, neighbours, interrupter).run();
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SlackMerging.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/ExtremePoints.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+/// @return the most regions that have a part in the same leaf.
+uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
+{
+    std::vector<uint32_t> counts(leaves, 0);
+    for (const VoxelRegion& region : regions) {
+        for (const RegionLeaf& part : region) ++counts[part.leaf];
+    }
+    return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+}
+
+} // namespace
+
+SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
+    std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
+    openvdb::util::NullInterrupter* interrupter)
+    : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
+      mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(ballsOf(leaves)),
+      mGroups(groupsOf(leaves)), mRegions(std::move(regions)),
+      mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
+{
+    for (const VoxelRegion& region : mRegions) {
+        for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);
+    }
+}
+
+void SlackMerging::collectDebt(int32_t a, int32_t b, ExtremePoints& points) const
+{
+    points.clear();
+    forEachLeafOfBoth(
+        mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
+            const LeafMask once = mCounts.once(leaf), twice = mCounts.twice(leaf);
+            LeafMask owed;
+            uint64_t any = 0;
+            for (int word = 0; word < 8; ++word) {
+                owed[word] =
+                    (once[word] & (inA[word] ^ inB[word])) | (twice[word] & inA[word] & inB[word]);
+                any |= owed[word];
+            }
+            if (any) points.add(mVoxels.origin(leaf), owed);
+        });
+}
+
+MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
+{
+    thread_local DebtFit fit;
+    thread_local ExtremePoints points;
+    collectDebt(a, b, points);
+    std::vector<openvdb::Coord>& debt = points.finish();
+    if (debt.empty()) return {-1e300, a, b, FineBall(), 0}; // nothing is better than this
+
+    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
+    for (const int32_t other : mMerged.meeting(fit.box())) {
+        if (other != a && other != b) fit.cover(mBalls[other]);
+    }
+    std::vector<FineBall> olds;
+    for (const int32_t node : {a, b}) {
+        if (!isLeaf(node)) olds.push_back(mBalls[node]);
+    }
+    const double freed = fit.costOf(olds);
+    const PaidDebt paid = fit.pay(mEffort, mFlat);
+    return {paid.cost - freed, a, b, paid.ball, 0};
+}
+
+void SlackMerging::forget(int32_t node)
+{
+    for (const RegionLeaf& part : mRegions[node]) mCounts.remove(part.leaf, part.mask);
+    VoxelRegion().swap(mRegions[node]);
+    if (!isLeaf(node)) mMerged.remove(node, mBalls[node]);
+}
+
+void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)
+{
+    std::vector<VoxelRegion> regions(merges.size());
+    detail::parallelFor(merges.size(), mInterrupter, [&](std::size_t i) {
+        const MergeCandidate& c = merges[i];
+        if (c.ball.empty()) return;
+        regions[i] = clippedUnion(mRegions[c.a], mRegions[c.b], c.ball, mVoxels);
+    });
+    for (std::size_t i = 0; i < merges.size(); ++i) {
+        const MergeCandidate& c = merges[i];
+        forget(c.a);
+        forget(c.b);
+        if (c.ball.empty()) continue;
+        for (const RegionLeaf& part : regions[i]) mCounts.add(part.leaf, part.mask);
+        mRegions.push_back(std::move(regions[i]));
+        mBalls.push_back(c.ball);
+        mMerged.add(node + int32_t(i), c.ball);
+    }
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StrictMerging.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/ExtremePoints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+Held joined(const Held& a, const Held& b)
+{
+    Held held(a);
+    held.insert(held.end(), b.begin(), b.end());
+    return held;
+}
+
+Coord voxelOf(const FineBall& ball)
+{
+    const auto axis = [&](int a) { return int32_t(ball.center[a] / kFine); };
+    return Coord(axis(0), axis(1), axis(2));
+}
+
+Held extremeVoxels(const Held& held)
+{
+    std::vector<Coord> points;
+    for (const FineBall& voxel : held) points.push_back(voxelOf(voxel));
+    dropInnerPoints(points);
+    Held extreme;
+    for (const Coord& p : points) extreme.push_back(voxelBall(p));
+    return extreme;
+}
+
+/// The balls that reach furthest along each of 98 directions: those with components up to 2. A
+/// ball that holds these nearly holds all.
+Held extremeBalls(const Held& held)
+{
+    constexpr std::size_t kFew = 32;
+    if (held.size() <= kFew) return held;
+    std::vector<std::size_t> chosen;
+    for (int direction = 0; direction < 125; ++direction) {
+        const int u[3] = {direction / 25 - 2, direction / 5 % 5 - 2, direction % 5 - 2};
+        const bool twice = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
+        if (twice) continue; // none at all, or a direction that comes without the factor, too
+        const double length = std::sqrt(double(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+        const auto reach = [&](const FineBall& ball) {
+            double along = 0;
+            for (int a = 0; a < 3; ++a) along += u[a] * double(ball.center[a]);
+            return along / length + ball.radius();
+        };
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < held.size(); ++i) {
+            if (reach(held[i]) > reach(held[best])) best = i;
+        }
+        chosen.push_back(best);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    Held extreme;
+    for (const std::size_t i : chosen) extreme.push_back(held[i]);
+    return extreme;
+}
+
+} // namespace
+
+StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> leaves,
+    HeldByLeaves held, const FitEffort& effort, bool flat,
+    openvdb::util::NullInterrupter* interrupter)
+    : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
+      mInterrupter(interrupter), mBalls(std::move(leaves)), mHeld(held.held),
+      mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
+{
+    if (held.areInside) return;
+    detail::parallelFor(mBalls.size(), interrupter, [&](std::size_t i) {
+        thread_local DebtFit fit;
+        fit.open(mObject, std::vector<FineBall>{mBalls[i]}, {}, mEffort.samples);
+        mCost[i] = fit.costOf({mBalls[i]});
+    });
+}
+
+MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
+{
+    thread_local DebtFit fit;
+    const Held debt = joined(mExtreme[a], mExtreme[b]);
+    if (debt.empty()) return {-mCost[b], a, b, mBalls[a], 0}; // either would do
+    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
+    const PaidDebt paid = fit.pay(mEffort, mFlat);
+    return {paid.cost - mCost[a] - mCost[b], a, b, paid.ball, 0};
+}
+
+void StrictMerging::complete(MergeCandidate& merge) const
+{
+    for (const int32_t node : {merge.a, merge.b}) {
+        for (const FineBall& held : mHeld[node]) {
+            merge.ball.radiusSq = std::max(merge.ball.radiusSq, radiusSqToHold(merge.ball, held));
+        }
+    }
+}
+
+void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)
+{
+    mHeld.resize(std::size_t(node) + merges.size());
+    mExtreme.resize(mHeld.size());
+    detail::parallelFor(merges.size(), mInterrupter, [&](std::size_t i) {
+        const MergeCandidate& c = merges[i];
+        const std::size_t m = std::size_t(node) + i;
+        mHeld[m] = joined(mHeld[c.a], mHeld[c.b]);
+        if (mVoxels) {
+            mHeld[m] = extremeVoxels(mHeld[m]);
+            mExtreme[m] = mHeld[m];
+        } else {
+            mExtreme[m] = extremeBalls(mHeld[m]);
+        }
+        for (const int32_t child : {c.a, c.b}) {
+            Held().swap(mHeld[child]);
+            Held().swap(mExtreme[child]);
+        }
+    });
+    for (const MergeCandidate& c : merges) {
+        mBalls.push_back(c.ball);
+        mCost.push_back(c.cost + mCost[c.a] + mCost[c.b]);
+    }
+}
+
+HeldByLeaves heldVoxels(const std::vector<std::vector<Coord>>& cellPoints)
+{
+    std::vector<Held> held(cellPoints.size());
+    for (std::size_t i = 0; i < held.size(); ++i) {
+        for (const Coord& p : cellPoints[i]) held[i].push_back(voxelBall(p));
+    }
+    return {std::move(held), true, true};
+}
+
+HeldByLeaves heldBalls(const std::vector<FineBall>& leaves)
+{
+    std::vector<Held> held;
+    for (const FineBall& leaf : leaves) held.push_back({leaf});
+    return {std::move(held), false, true};
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

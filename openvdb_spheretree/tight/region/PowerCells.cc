@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PowerCells.h"
+
+#include "LeafDescent.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/tight/fit/ExtremePoints.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+/// A part of a cell.
+struct CellLeaf {
+    int32_t ball;
+    LeafMask mask;
+};
+
+/// The power of a ball at every voxel of a leaf is a sum of three terms, one for each axis.
+struct PowerTerms {
+    std::array<int64_t, 8> axis[3];
+
+    PowerTerms(const FineBall& ball, const openvdb::Coord& origin)
+    {
+        for (int a = 0; a < 3; ++a) {
+            for (int i = 0; i < 8; ++i) {
+                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
+                axis[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
+            }
+        }
+    }
+};
+
+/// Twice the middle of a box: an integer.
+struct Middle {
+    int64_t twice[3];
+
+    explicit Middle(const openvdb::CoordBBox& box)
+    {
+        for (int a = 0; a < 3; ++a) twice[a] = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+    }
+    double powerOf(const FineBall& ball) const
+    {
+        double power = double(ball.radiusSq);
+        for (int a = 0; a < 3; ++a) {
+            const double d = 0.5 * double(twice[a]) - double(ball.center[a]);
+            power -= d * d;
+        }
+        return power;
+    }
+};
+
+/// @return whether the power of @a ball is larger than that of @a other in all of the box: the
+/// difference is linear, so it is smallest at an end of each axis.
+bool dominates(const FineBall& ball, const FineBall& other, const openvdb::CoordBBox& box)
+{
+    int64_t least = ball.radiusSq - other.radiusSq;
+    for (int a = 0; a < 3; ++a) {
+        const auto gain = [&](int64_t at) {
+            const int64_t mine = kFine * at - ball.center[a], theirs = kFine * at - other.center[a];
+            return theirs * theirs - mine * mine;
+        };
+        least += std::min(gain(box.min()[a]), gain(box.max()[a]));
+    }
+    return least > 0;
+}
+
+/// Leaves out the balls that are weaker everywhere than the one that is strongest in the middle.
+BallFilter ballsWithPower(const std::vector<FineBall>& balls)
+{
+    return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
+               std::vector<int32_t>& to) {
+        const Middle middle(box);
+        int32_t strongest = -1;
+        for (const int32_t ball : from) {
+            if (strongest < 0 || middle.powerOf(balls[ball]) > middle.powerOf(balls[strongest])) {
+                strongest = ball;
+            }
+        }
+        for (const int32_t ball : from) {
+            if (!BoxReach(balls[ball], box).meets(balls[ball])) continue;
+            if (!dominates(balls[strongest], balls[ball], box)) to.push_back(ball);
+        }
+    };
+}
+
+/// A ball that may have a part of a leaf, and the voxels that count.
+struct Claim {
+    int32_t ball;
+    const LeafMask* within;
+};
+
+/// @param claims  by ball
+/// @return the parts of cells in the leaf at @a origin, by ball.
+std::vector<CellLeaf> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
+    const std::vector<FineBall>& balls)
+{
+    std::array<int64_t, kLeafVoxels> best;
+    std::array<int32_t, kLeafVoxels> label; // place in `claims`
+    best.fill(-1); // a ball without a power of 0 or more does not hold the voxel
+    label.fill(0);
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+        const FineBall& ball = balls[claims[k].ball];
+        const LeafMask& within = *claims[k].within;
+        const PowerTerms terms(ball, origin);
+        for (int i = 0; i < kLeafVoxels; ++i) {
+            const int64_t power =
+                terms.axis[0][i >> 6] + terms.axis[1][i >> 3 & 7] + terms.axis[2][i & 7];
+            const bool more = power > best[i]
+                || (power == best[i] && power >= 0
+                    && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
+            const bool wins = more && (within[i >> 6] >> (i & 63) & 1);
+            best[i] = wins ? power : best[i];
+            label[i] = wins ? int32_t(k) : label[i];
+        }
+    }
+    std::vector<CellLeaf> parts;
+    for (const Claim& claim : claims) parts.push_back({claim.ball, {}});
+    for (int i = 0; i < kLeafVoxels; ++i) {
+        if (best[i] >= 0) parts[label[i]].mask[i >> 6] |= uint64_t(1) << (i & 63);
+    }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                    [](const CellLeaf& part) { return isEmpty(part.mask); }),
+        parts.end());
+    return parts;
+}
+
+/// @param parts  of each leaf; they are taken apart
+std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellLeaf>>& parts, std::size_t balls)
+{
+    std::vector<VoxelRegion> cells(balls);
+    for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
+        for (const CellLeaf& part : parts[leaf]) {
+            cells[part.ball].push_back({uint32_t(leaf), part.mask});
+        }
+        std::vector<CellLeaf>().swap(parts[leaf]);
+    }
+    return cells;
+}
+
+} // namespace
+
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
+    const std::vector<VoxelRegion>& regions, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<std::vector<Claim>> claims(object.leafCount());
+    for (std::size_t ball = 0; ball < regions.size(); ++ball) {
+        for (const RegionLeaf& part : regions[ball]) {
+            claims[part.leaf].push_back({int32_t(ball), &part.mask});
+        }
+    }
+    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    detail::parallelFor(parts.size(), interrupter,
+        [&](std::size_t leaf) { parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls); });
+    return cellsOf(parts, balls.size());
+}
+
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> all(balls.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    const auto body = [&](std::size_t leaf, const std::vector<int32_t>& among) {
+        std::vector<Claim> claims;
+        for (const int32_t ball : among) claims.push_back({ball, &object.mask(leaf)});
+        parts[leaf] = partsOf(object.origin(leaf), claims, balls);
+    };
+    forEachLeafWithBalls(object, std::move(all), ballsWithPower(balls), body, interrupter);
+    return cellsOf(parts, balls.size());
+}
+
+std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<std::vector<openvdb::Coord>> points(regions.size());
+    detail::parallelForWithScratch<ExtremePoints>(
+        regions.size(), interrupter, [&](std::size_t i, ExtremePoints& extreme) {
+            extreme.clear();
+            for (const RegionLeaf& part : regions[i]) {
+                extreme.add(object.origin(part.leaf), part.mask);
+            }
+            points[i] = extreme.finish();
+        });
+    return points;
+}
+
+std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
+{
+    return extremePoints(cellRegions(balls, object, interrupter), object, interrupter);
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

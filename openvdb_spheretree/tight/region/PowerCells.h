@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file PowerCells.h
+/// @brief The object cut into cells, one for each leaf ball: the voxels it covers best.
+///
+/// The cell of a voxel is that of the ball with the largest power, radiusSq - distance^2; of equals,
+/// the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
+///
+/// The difference of two powers is linear: a ball that is weaker than another one at all corners of a
+/// box is so in all of the box, and left out there and in its parts (LeafDescent.h). With dragon-512
+/// that is 0.6 s in place of 2.7 s.
+
+#pragma once
+
+#include "VoxelRegion.h"
+#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/SampledObject.h>
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// @param balls    that cover @a object
+/// @param regions  where each of them counts; together the object
+/// @return the cell of each ball.
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
+    const std::vector<VoxelRegion>& regions, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return the cell of each ball, if every one counts everywhere.
+std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return for each region its extreme points: ExtremePoints.h; none for an empty one.
+std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
+
+/// @param balls  that cover @a object
+/// @return for each ball the extreme points of its cell: ExtremePoints.h; none for an empty cell.
+std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VoxelRegion.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+
+#include <algorithm>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+LeafMask intersection(const LeafMask& a, const LeafMask& b)
+{
+    LeafMask result;
+    for (int word = 0; word < 8; ++word) result[word] = a[word] & b[word];
+    return result;
+}
+
+void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
+{
+    if (!isEmpty(mask)) region.push_back({uint32_t(leaf), mask});
+}
+
+} // namespace
+
+VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object)
+{
+    VoxelRegion region;
+    openvdb::CoordBBox box;
+    if (!ballBox(ball, box)) return region;
+    object.forEachLeaf(box, [&](std::size_t leaf) {
+        append(region, leaf, intersection(ballMask(ball, object.origin(leaf)), object.mask(leaf)));
+    });
+    return region;
+}
+
+std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<VoxelRegion> regions(balls.size());
+    detail::parallelFor(
+        balls.size(), interrupter, [&](std::size_t i) { regions[i] = regionOf(balls[i], object); });
+    return regions;
+}
+
+const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)
+{
+    static const LeafMask kNone{};
+    const auto found = std::lower_bound(region.begin(), region.end(), leaf,
+        [](const RegionLeaf& part, uint32_t wanted) { return part.leaf < wanted; });
+    return found != region.end() && found->leaf == leaf ? found->mask : kNone;
+}
+
+VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object)
+{
+    VoxelRegion inside;
+    for (const RegionLeaf& part : region) {
+        const openvdb::Coord& origin = object.origin(part.leaf);
+        if (!mayReach(ball, origin)) continue;
+        append(inside, part.leaf, intersection(ballMask(ball, origin), part.mask));
+    }
+    return inside;
+}
+
+void joinLeaves(VoxelRegion& parts)
+{
+    std::sort(parts.begin(), parts.end(),
+        [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
+    std::size_t size = 0;
+    for (const RegionLeaf& part : parts) {
+        if (size == 0 || parts[size - 1].leaf != part.leaf) {
+            parts[size++] = part;
+            continue;
+        }
+        for (int word = 0; word < 8; ++word) parts[size - 1].mask[word] |= part.mask[word];
+    }
+    parts.resize(size);
+}
+
+VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
+{
+    VoxelRegion region;
+    forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
+        LeafMask mask;
+        for (int word = 0; word < 8; ++word) mask[word] = inA[word] | inB[word];
+        region.push_back({leaf, mask});
+    });
+    return region;
+}
+
+VoxelRegion clippedUnion(
+    const VoxelRegion& a, const VoxelRegion& b, const FineBall& ball, const SampleLevel& object)
+{
+    VoxelRegion region;
+    forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
+        LeafMask mask = ballMask(ball, object.origin(leaf));
+        for (int word = 0; word < 8; ++word) mask[word] &= inA[word] | inB[word];
+        append(region, leaf, mask);
+    });
+    return region;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file VoxelRegion.h
+/// @brief A sparse set of object voxels: what a ball of a cover answers for.
+
+#pragma once
+
+#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/tight/fit/SampledObject.h>
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// Leaves of the object in order, none without voxels.
+struct RegionLeaf {
+    uint32_t leaf;
+    LeafMask mask;
+};
+using VoxelRegion = std::vector<RegionLeaf>;
+
+inline bool isEmpty(const LeafMask& mask)
+{
+    uint64_t any = 0;
+    for (const uint64_t word : mask) any |= word;
+    return any == 0;
+}
+
+/// @return the object voxels in @a ball.
+VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object);
+
+/// @return the object voxels in each ball.
+std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+    openvdb::util::NullInterrupter* interrupter);
+
+/// @return the voxels of the region in one leaf.
+const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf);
+
+/// Calls body(leaf, maskOfA, maskOfB) for the leaves of either region, in order.
+template <typename Body>
+void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& body)
+{
+    constexpr LeafMask kNone{};
+    std::size_t i = 0, j = 0;
+    while (i < a.size() || j < b.size()) {
+        const bool fromA = i < a.size() && (j == b.size() || a[i].leaf <= b[j].leaf);
+        const bool fromB = j < b.size() && (i == a.size() || b[j].leaf <= a[i].leaf);
+        body(fromA ? a[i].leaf : b[j].leaf, fromA ? a[i].mask : kNone, fromB ? b[j].mask : kNone);
+        i += fromA;
+        j += fromB;
+    }
+}
+
+/// @return the voxels of a region that lie in @a ball.
+VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object);
+
+/// Makes a region of leaves in any order, some of them in several parts.
+void joinLeaves(VoxelRegion& parts);
+
+VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
+
+/// @return the voxels of either region that lie in @a ball.
+VoxelRegion clippedUnion(
+    const VoxelRegion& a, const VoxelRegion& b, const FineBall& ball, const SampleLevel& object);
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BallCover.h
+/// @brief The balls of a level while they are searched: numbered, and found by place.
+
+#pragma once
+
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
+#include <openvdb_spheretree/tight/fit/CostWindow.h>
+#include <openvdb_spheretree/tight/merge/CoverBall.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+class BallCover {
+public:
+    explicit BallCover(std::vector<CoverBall> balls)
+        : mBalls(std::move(balls)), mPlacedFor(mBalls.size(), 0)
+    {
+        for (std::size_t i = 0; i < mBalls.size(); ++i) {
+            if (!mBalls[i].empty()) mGrid.add(int32_t(i), mBalls[i].ball);
+        }
+    }
+
+    std::size_t size() const { return mBalls.size(); }
+    /// @return the ball of a number, empty where one was dropped.
+    const CoverBall& operator[](int32_t id) const { return mBalls[id]; }
+    const std::vector<CoverBall>& balls() const { return mBalls; }
+
+    /// @return a hash of the debt for which a ball was placed last, 0 if it never was.
+    uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
+
+    /// @return as BallGrid::nearest.
+    std::vector<int32_t> nearest(int32_t id, const FineBall& ball, std::size_t count) const
+    {
+        return mGrid.nearest(id, ball, count);
+    }
+    /// @return as BallGrid::meeting.
+    std::vector<int32_t> meeting(const FineBox& box) const { return mGrid.meeting(box); }
+
+    void put(int32_t id, const CoverBall& ball)
+    {
+        if (!mBalls[id].empty()) mGrid.remove(id, mBalls[id].ball);
+        mBalls[id] = ball;
+        if (!ball.empty()) mGrid.add(id, ball.ball);
+    }
+    void setPlacedFor(int32_t id, uint64_t debt) { mPlacedFor[id] = debt; }
+
+private:
+    std::vector<CoverBall> mBalls;
+    std::vector<uint64_t> mPlacedFor;
+    BallGrid mGrid;
+};
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CoverTrial.h"
+
+#include "RandomMoves.h"
+#include <openvdb_spheretree/tight/fit/DebtFit.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+namespace {
+
+using openvdb::Coord;
+
+/// Somewhere else, and as large as it has to be there.
+FineBall moved(const FineBall& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
+{
+    const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
+    FineBall result = shifted(ball, step, flat, dice);
+    result.radiusSq = 0;
+    for (const Coord& p : points) {
+        result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
+    }
+    return result;
+}
+
+void shuffle(std::vector<int32_t>& ids, Dice& dice)
+{
+    for (std::size_t k = ids.size(); k > 1; --k) std::swap(ids[k - 1], ids[dice.below(k)]);
+}
+
+} // namespace
+
+CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t number)
+{
+    Dice dice(number);
+    const auto id = int32_t(dice.below(cover.size()));
+    const FineBall& ball = cover[id].ball;
+    if (ball.empty()) return {};
+    std::vector<int32_t> around = cover.nearest(id, ball, kChangedNeighbours);
+    std::vector<int32_t> all(around);
+    all.push_back(id);
+    CoverPart part = fit.around(all);
+    const std::size_t i = part.indexOf(id);
+    const bool grow = dice.uniform() < 0.5;
+    const FineBall spoilt =
+        grow ? grown(ball, dice) : moved(ball, fit.debtOf(part, i), fit.effort().flat, dice);
+    if (!PartFit::inside(spoilt, part.box)) return {};
+    fit.replace(part, i, spoilt);
+    if (dice.uniform() < 0.5) shuffle(around, dice);
+    fit.refitNear(part, around, spoilt);
+    fit.refit(part, i);
+    return fit.changeOf(part);
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

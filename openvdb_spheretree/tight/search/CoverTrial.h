@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file CoverTrial.h
+/// @brief A trial spoils one ball of a cover and lets its neighbours make the best of it: the ball
+/// grows, or moves, and then each ball near it is placed anew for what it still owes.
+
+#pragma once
+
+#include "CoverPart.h"
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// @param number  of the trial: decides which ball, and what is done to it
+/// @return the change of the cover, which need not pay.
+CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t number);
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file RandomMoves.h
+/// @brief Random changes of a ball, the same ones for the same number of a trial.
+
+#pragma once
+
+#include <openvdb_spheretree/base/Hash.h>
+#include <openvdb_spheretree/tight/fit/FineBall.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+/// Random numbers of one trial.
+class Dice {
+public:
+    explicit Dice(uint64_t trial) : mState(detail::hash(trial)) {}
+    /// In [0, 1).
+    double uniform() { return detail::unitInterval(mState = detail::hash(mState)); }
+    std::size_t below(std::size_t n) { return std::min(n - 1, std::size_t(uniform() * double(n))); }
+
+private:
+    uint64_t mState;
+};
+
+/// @return the ball, up to 1.3 times as large, or by up to 2.3 voxels.
+inline FineBall grown(const FineBall& ball, Dice& dice)
+{
+    const double r = ball.radius();
+    const double larger = dice.uniform() < 0.5 ? r * (1 + 0.3 * dice.uniform())
+                                               : r + double(kFine) * (0.3 + 2 * dice.uniform());
+    FineBall result = ball;
+    result.radiusSq = std::max(ball.radiusSq, int64_t(larger * larger));
+    return result;
+}
+
+/// @return the ball, moved by @a step (1/16 voxel) in some direction; @a flat: not along z.
+inline FineBall shifted(const FineBall& ball, double step, bool flat, Dice& dice)
+{
+    const double z = flat ? 0 : 2 * dice.uniform() - 1;
+    const double angle = 2 * M_PI * dice.uniform(), xy = std::sqrt(1 - z * z);
+    FineBall result = ball;
+    result.center[0] += std::lrint(step * xy * std::cos(angle));
+    result.center[1] += std::lrint(step * xy * std::sin(angle));
+    result.center[2] += std::lrint(step * z);
+    return result;
+}
+
+/// @return about half of the ball: which half, and how much of it, is random.
+inline FineBall halved(const FineBall& ball, bool flat, Dice& dice)
+{
+    FineBall half = shifted(ball, ball.radius() * (0.3 + 0.3 * dice.uniform()), flat, dice);
+    const double radius = ball.radius() * (0.55 + 0.3 * dice.uniform());
+    half.radiusSq = int64_t(radius * radius);
+    return half;
+}
+
+} // namespace tight
+} // namespace openvdb_spheretree

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file MaskNodes.h
+/// @brief The nodes of a mask tree, by the cubes they stand for.
+
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+using RootCellNode = openvdb::MaskTree::RootNodeType::ChildNodeType; ///< 4096^3 voxels
+using BlockNode = RootCellNode::ChildNodeType;                       ///< 128^3
+using LeafNode = openvdb::MaskTree::LeafNodeType;                    ///< 8^3
+
+/// Calls f(box) for every active tile of a tree, of whatever size; box is inclusive.
+template <typename TreeType, typename F>
+void forEachTile(const TreeType& tree, const F& f)
+{
+    auto tile = tree.cbeginValueOn();
+    tile.setMaxDepth(TreeType::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        openvdb::CoordBBox box;
+        tile.getBoundingBox(box);
+        f(box);
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SlabOrder.h
+/// @brief The order of medial balls: by centre, x first, which is not the order of leaves.
+
+#pragma once
+
+#include "LeafLayout.h"
+
+#include <openvdb/util/NodeMasks.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+inline bool hasMarks(const LeafMask& mask)
+{
+    uint64_t words = 0;
+    for (const uint64_t word : mask) words |= word;
+    return words != 0;
+}
+
+/// @return the voxels that some masks have on.
+inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
+{
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const uint64_t word : masks[i]) sum += openvdb::util::CountOn(word);
+    }
+    return sum;
+}
+
+/// @return where the rows of leaves of equal y begin in a slab, and the slab's end.
+inline std::vector<uint32_t> rowsOfSlab(const LeafLayout& layout, const LeafLayout::Slab& slab)
+{
+    std::vector<uint32_t> begin;
+    for (uint32_t leaf = slab.begin; leaf < slab.end; ++leaf) {
+        const bool starts =
+            leaf == slab.begin || layout.origin(leaf)[1] != layout.origin(leaf - 1)[1];
+        if (starts) begin.push_back(leaf);
+    }
+    begin.push_back(slab.end);
+    return begin;
+}
+
+/// Adds the bits of each byte of @a word to eight sums.
+inline void countBytes(uint64_t word, std::size_t* sums)
+{
+    word -= word >> 1 & 0x5555555555555555;
+    word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
+    word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    for (int y = 0; y < 8; ++y) sums[y] += word >> 8 * y & 0xff;
+}
+
+/// Calls visit(leaf, offset, place) for the marked voxels of a slab, leaf by leaf along each row:
+/// `place` is where a voxel stands among all of them by coordinate, from 0 on. That order has x,
+/// then the rows of leaves of equal y and y in them, then the leaves of a row and z in them.
+/// @param marks  one mask for each leaf of the slab
+template <typename Visit>
+void visitWithPlaces(
+    const LeafLayout& layout, uint32_t slabIndex, const LeafMask* marks, const Visit& visit)
+{
+    const LeafLayout::Slab slab = layout.slab(slabIndex);
+    const std::vector<uint32_t> rows = rowsOfSlab(layout, slab);
+    std::size_t before = 0;
+    for (uint32_t x = 0; x < 8; ++x) {
+        for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
+            std::size_t place[9] = {};
+            for (uint32_t leaf = rows[row]; leaf < rows[row + 1]; ++leaf) {
+                countBytes(marks[leaf - slab.begin][x], place + 1);
+            }
+            place[0] = before;
+            for (int y = 0; y < 8; ++y) place[y + 1] += place[y];
+            before = place[8];
+            for (uint32_t leaf = rows[row]; leaf < rows[row + 1]; ++leaf) {
+                for (uint64_t word = marks[leaf - slab.begin][x]; word; word &= word - 1) {
+                    const uint32_t bit = openvdb::util::FindLowestOn(word);
+                    visit(leaf, 64 * x + bit, place[bit >> 3]++);
+                }
+            }
+        }
+    }
+}
+
+} // namespace detail
+} // namespace openvdb_spheretree

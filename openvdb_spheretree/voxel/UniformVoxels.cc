@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "UniformVoxels.h"
+
+#include "DescribeGrid.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+/// Moves the surface of the largest ball allowed by 1/20 of a voxel.
+constexpr double kTolerance = 1e-6;
+
+/// What the voxel's three edges become in world space.
+struct VoxelEdges {
+    explicit VoxelEdges(const openvdb::math::Transform& transform)
+    {
+        const openvdb::math::MapBase::ConstPtr map = transform.baseMap();
+        edge[0] = map->applyJacobian({1, 0, 0});
+        edge[1] = map->applyJacobian({0, 1, 0});
+        edge[2] = map->applyJacobian({0, 0, 1});
+        for (int i = 0; i < 3; ++i) length[i] = edge[i].length();
+    }
+    double lengthMismatch() const
+    {
+        return *std::max_element(length, length + 3) - *std::min_element(length, length + 3);
+    }
+    /// The largest cosine of the angle between two edges.
+    double skew() const
+    {
+        double largest = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            largest = std::max(largest, std::abs(edge[i].dot(edge[j])) / (length[i] * length[j]));
+        }
+        return largest;
+    }
+
+    openvdb::Vec3d edge[3];
+    double length[3];
+};
+
+bool isFinite(const openvdb::Vec3d& v)
+{
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+} // namespace
+
+void requireUniformVoxels(const openvdb::GridBase& grid)
+{
+    const openvdb::math::Transform& transform = grid.transform();
+    if (!transform.isLinear()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " has a frustum transform, so "
+                   "its voxels are not of one size: resample it to cubic voxels");
+    }
+    const VoxelEdges voxel(transform);
+    const double* length = voxel.length;
+    const openvdb::Vec3d offset = transform.baseMap()->applyMap({0, 0, 0});
+    if (!isFinite(offset) || !isFinite({length[0], length[1], length[2]}) || !(length[0] > 0)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " has a transform with a zero, "
+                   "an infinity or a NaN in it: set its transform, or resample it to cubic voxels");
+    }
+    const bool uniform = voxel.lengthMismatch() <= kTolerance * length[0];
+    const bool orthogonal = voxel.skew() <= kTolerance;
+    if (uniform && orthogonal) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        detail::describe(grid)
+            << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
+            << (orthogonal ? "" : ", and its axes are sheared")
+            << "; spheres need cubic voxels: resample it to a uniform voxel size");
+}
+
+double largestStretch(const openvdb::math::Transform& transform)
+{
+    const VoxelEdges voxel(transform);
+    const double largest = *std::max_element(voxel.length, voxel.length + 3);
+    // |J v|^2 = sum of length^2 v_i^2 + 2 edge_i.edge_j v_i v_j <= largest^2 (1 + 2 skew) |v|^2.
+    const double skew = voxel.skew();
+    return skew < 1e-15 ? largest : largest * (1 + skew + 1e-15);
+}
+
+double smallestStretch(const openvdb::math::Transform& transform)
+{
+    const VoxelEdges voxel(transform);
+    const double* length = voxel.length;
+    const double smallest = *std::min_element(length, length + 3);
+    // As above, |J v|^2 >= smallest^2 (1 - 2 skew) |v|^2 but for 1e-6 of the skew, and the root of
+    // 1 - 2 skew is about 1 - skew.
+    const double skew = voxel.skew();
+    return skew < 1e-15 ? smallest : smallest * (1 - 2 * skew - 1e-15);
+}
+
+} // namespace openvdb_spheretree

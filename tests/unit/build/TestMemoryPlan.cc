@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestMemoryPlan.cc
+/// @brief Builds in little memory: what is planned, that trees are the same, and what is refused.
+
+#include <openvdb_spheretree/build/MemoryPlan.h>
+
+#include "support/Messages.h"
+#include "support/TemporaryFolder.h"
+
+#include <openvdb_spheretree/store/SphereTreeJson.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/LevelSetUtil.h>
+#include <tbb/global_control.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+constexpr int64_t kMiB = 1 << 20;
+
+openvdb::BoolGrid::Ptr ballGrid(float radius)
+{
+    const auto ball =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(radius, openvdb::Vec3f(0.f), 1.f);
+    return openvdb::tools::sdfInteriorMask(*ball);
+}
+
+openvdb::BoolGrid::Ptr plateGrid()
+{
+    auto plate = openvdb::BoolGrid::create();
+    plate->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(239, 199, 0)), true);
+    return plate;
+}
+
+std::string fileOf(const SphereTree& tree)
+{
+    std::ostringstream text;
+    writeJson(tree, text);
+    return text.str();
+}
+
+SphereTreeSettings settingsOf(TreeType tree, int64_t memory)
+{
+    SphereTreeSettings settings;
+    settings.tree = tree;
+    settings.memory = memory;
+    return settings;
+}
+
+class MemoryPlanTest : public testing::Test {
+protected:
+    void SetUp() override { openvdb::initialize(); }
+    const tbb::global_control limit{tbb::global_control::max_allowed_parallelism, 2};
+};
+
+TEST_F(MemoryPlanTest, LittleMemoryGivesTheSameFile)
+{
+    const auto ball = ballGrid(40);
+    for (const TreeType type : {TreeType::Reversible, TreeType::Extended, TreeType::Tight}) {
+        for (const bool special : {false, true}) {
+            SphereTreeSettings settings = settingsOf(type, 0);
+            if (special && type == TreeType::Tight) settings.side = Side::Inner;
+            settings.dag = special && type != TreeType::Tight;
+            const std::string expected = fileOf(buildSphereTree(*ball, settings));
+            settings.memory = (settings.dag ? 5 : 3) * kMiB / 2;
+            EXPECT_TRUE(memoryPlan(*ball, settings).packed);
+            EXPECT_EQ(fileOf(buildSphereTree(*ball, settings)), expected) << toString(type);
+            settings.memory = 100 * kMiB;
+            EXPECT_FALSE(memoryPlan(*ball, settings).packed);
+            EXPECT_EQ(fileOf(buildSphereTree(*ball, settings)), expected) << toString(type);
+        }
+    }
+}
+
+TEST_F(MemoryPlanTest, FlatObjectsToo)
+{
+    SphereTreeSettings settings = settingsOf(TreeType::Extended, 0);
+    settings.dim = 2;
+    const auto plate = plateGrid();
+    const std::string expected = fileOf(buildSphereTree(*plate, settings));
+    settings.memory = kMiB;
+    EXPECT_TRUE(memoryPlan(*plate, settings).packed);
+    EXPECT_EQ(fileOf(buildSphereTree(*plate, settings)), expected);
+}
+
+TEST_F(MemoryPlanTest, SaysWhatIsGoingToHappen)
+{
+    const auto ball = ballGrid(40);
+    const MemoryPlan usual = memoryPlan(*ball, settingsOf(TreeType::Extended, 100 * kMiB));
+    EXPECT_EQ(usual.allowed, 100 * kMiB);
+    EXPECT_EQ(usual.slabs, 10);
+    EXPECT_EQ(usual.slabsAtATime, 10);
+    EXPECT_LT(usual.needed, 100 * kMiB);
+    EXPECT_TRUE(mentions(toString(usual), "100 MiB allowed for power labels, at most "));
+    EXPECT_TRUE(mentions(toString(usual), ": 10 of 10 slabs at a time"));
+    const MemoryPlan packed = memoryPlan(*ball, settingsOf(TreeType::Extended, 2 * kMiB));
+    EXPECT_TRUE(packed.packed);
+    EXPECT_LE(packed.needed, 2 * kMiB);
+    EXPECT_LT(packed.storedBytes, packed.needed);
+    EXPECT_TRUE(mentions(toString(packed), "1.4 MiB before compression"));
+    const MemoryPlan machine = memoryPlan(*ball, settingsOf(TreeType::Extended, 0));
+    EXPECT_GT(machine.allowed, 100 * kMiB);
+    EXPECT_FALSE(machine.packed);
+}
+
+TEST_F(MemoryPlanTest, TooLittleIsRefused)
+{
+    const auto ball = ballGrid(20);
+    for (const TreeType type : {TreeType::Reversible, TreeType::Extended, TreeType::Tight}) {
+        for (const int64_t memory : {int64_t(1), int64_t(20000)}) {
+            const SphereTreeSettings settings = settingsOf(type, memory);
+            const std::string why =
+                messageOf<openvdb::ValueError>([&] { buildSphereTree(*ball, settings); });
+            EXPECT_TRUE(mentions(why, "leaf nodes, those inside its tiles included, need "));
+            EXPECT_TRUE(mentions(why, "memory= allows 0 MiB: allow more"));
+            EXPECT_EQ(messageOf<openvdb::ValueError>([&] { memoryPlan(*ball, settings); }), why);
+        }
+    }
+    const SphereTreeSettings negative = settingsOf(TreeType::Extended, -1);
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*ball, negative); }), "memory=-1"));
+}
+
+TEST_F(MemoryPlanTest, NormsNeedAllTheirLabels)
+{
+    const auto ball = ballGrid(20);
+    SphereTreeSettings settings = settingsOf(TreeType::Extended, 0);
+    settings.dist = distanceFromString("l1");
+    const MemoryPlan plan = memoryPlan(*ball, settings);
+    EXPECT_FALSE(plan.packed);
+    EXPECT_EQ(plan.slabsAtATime, plan.slabs);
+    const std::string expected = fileOf(buildSphereTree(*ball, settings));
+    settings.memory = plan.needed;
+    EXPECT_EQ(fileOf(buildSphereTree(*ball, settings)), expected);
+    settings.memory = plan.needed - 1;
+    EXPECT_THROW(buildSphereTree(*ball, settings), openvdb::ValueError);
+    EXPECT_THROW(memoryPlan(*ball, settings), openvdb::ValueError);
+}
+
+} // namespace

@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestSphereTree.cc
+/// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order,
+/// ids, world radii, records, errors, and that every tree ends.
+
+#include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/paper/IntersectionDag.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include "support/BuiltTrees.h"
+#include "support/Messages.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+constexpr int kFar = 1000000;
+
+openvdb::BoolGrid::Ptr someGrid(uint32_t seed = 8) { return gridOf(randomObject(seed).voxels); }
+
+/// A box that is no ball: its tree has several levels.
+Voxels block() { return translated(shapes::box(Coord(17, 9, 12)), Coord(3, -20, 6)); }
+
+std::string messageOfBuild(const openvdb::BoolGrid& grid, const SphereTreeSettings& settings = {})
+{
+    return messageOf<openvdb::ValueError>([&] { buildSphereTree(grid, settings); });
+}
+
+TEST(SphereTree, RejectsAnEmptyObject)
+{
+    const auto grid = openvdb::BoolGrid::create();
+    grid->setName("nothing");
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "nothing"));
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "no voxels"));
+}
+
+TEST(SphereTree, RejectsVoxelsThatAreNotUniform)
+{
+    const auto grid = gridOf(block());
+    grid->setName("flat");
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    transform->preScale(openvdb::Vec3d(1, 1, 0.5));
+    grid->setTransform(transform);
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "flat"));
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "uniform"));
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "1 x 1 x 0.5"));
+}
+
+TEST(SphereTree, RejectsAFrustum)
+{
+    const auto grid = gridOf(block());
+    grid->setTransform(openvdb::math::Transform::createFrustumTransform(
+        openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(100)), 0.5, 100, 1));
+    EXPECT_TRUE(mentions(messageOfBuild(*grid), "frustum"));
+}
+
+TEST(SphereTree, RejectsTwoDimensionsForAThickObject)
+{
+    SphereTreeSettings settings;
+    settings.dim = 2;
+    EXPECT_TRUE(mentions(messageOfBuild(*gridOf(block()), settings), "dim=2"));
+    EXPECT_TRUE(mentions(messageOfBuild(*gridOf(block()), settings), "12 voxels"));
+    EXPECT_NO_THROW(buildSphereTree(*gridOf(flattened(block())), settings));
+}
+
+TEST(SphereTree, RejectsSettingsOutOfRange)
+{
+    for (int factor : {1, 0, -2, 32769}) {
+        SphereTreeSettings settings;
+        settings.factor = factor;
+        EXPECT_TRUE(
+            mentions(messageOfBuild(*someGrid(), settings), "factor=" + std::to_string(factor)));
+    }
+    SphereTreeSettings settings;
+    settings.dim = 4;
+    EXPECT_TRUE(mentions(messageOfBuild(*someGrid(), settings), "dim=4"));
+}
+
+TEST(SphereTree, RejectsAnObjectThatIsTooWide)
+{
+    const Voxels voxels{Coord(0, 0, 0), Coord(0, int(kMaxExtent), 0)};
+    EXPECT_FALSE(messageOfBuild(*gridOf(voxels)).empty());
+}
+
+TEST(SphereTree, ParentsStandBeforeTheirChildrenAndLevelsAreRangesOfIds)
+{
+    for (const SphereTreeSettings& settings : bothTypes()) {
+        const SphereTree tree = buildSphereTree(*someGrid(), settings);
+        ASSERT_GT(tree.levels.size(), 2u);
+        int32_t begin = 0;
+        for (int level = int(tree.levels.size()) - 1; level >= 0; --level) {
+            const SphereTreeLevel& range = tree.levels[level];
+            EXPECT_EQ(range.level, level);
+            EXPECT_EQ(range.begin, begin);
+            EXPECT_GT(range.size(), 0);
+            begin = range.end;
+            for (int32_t id = range.begin; id < range.end; ++id) {
+                EXPECT_EQ(tree.levelOf(id), level);
+                EXPECT_LT(tree.parent[id], range.begin);
+                if (id > range.begin) {
+                    EXPECT_LT(tree.ijk[id - 1], tree.ijk[id]);
+                }
+            }
+        }
+        EXPECT_EQ(begin, tree.size());
+        EXPECT_EQ(&tree.root(), &tree.levels.back());
+        EXPECT_THROW(tree.levelOf(tree.size()), openvdb::LookupError);
+        EXPECT_THROW(tree.levelOf(-1), openvdb::LookupError);
+    }
+}
+
+TEST(SphereTree, HasAnEntryANodeInEveryArray)
+{
+    const SphereTree tree = buildSphereTree(*someGrid());
+    const std::size_t size = tree.center.size();
+    EXPECT_EQ(tree.radius.size(), size);
+    EXPECT_EQ(tree.coverSq.size(), size);
+    EXPECT_EQ(tree.radiusWorld.size(), size);
+    EXPECT_EQ(tree.parent.size(), size);
+    EXPECT_EQ(tree.ijk.size(), size);
+    EXPECT_EQ(tree.radiusSq.size(), size);
+}
+
+TEST(SphereTree, CollectsTheDagOnlyWhenAsked)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
+        settings.parent = ParentRule::Dag;
+        EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
+        settings.dag = true;
+        const SphereTree tree = buildSphereTree(*someGrid(), settings);
+        EXPECT_FALSE(tree.dag.empty());
+        EXPECT_TRUE(std::is_sorted(tree.dag.begin(), tree.dag.end()));
+        EXPECT_EQ(std::adjacent_find(tree.dag.begin(), tree.dag.end()), tree.dag.end());
+        for (const DagEdge& edge : tree.dag) {
+            EXPECT_EQ(tree.levelOf(edge.parent), tree.levelOf(edge.child) + 1);
+        }
+    }
+}
+
+TEST(SphereTree, TheDagDoesNotChangeTheTree)
+{
+    for (SphereTreeSettings settings : allSettings()) {
+        SphereTree with = buildSphereTree(*someGrid(), settings);
+        settings.dag = false;
+        with.dag.clear();
+        EXPECT_TRUE(sameNodes(with, buildSphereTree(*someGrid(), settings))) << describe(settings);
+    }
+}
+
+TEST(SphereTree, RecordsSettingsObjectAndTransform)
+{
+    auto mask = maskOf(block());
+    mask->fill(CoordBBox(Coord(64, 0, 0), Coord(71, 7, 7)), true); // a tile
+    const auto grid = gridOf(*mask);
+    grid->setName("bunny");
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+    SphereTreeSettings settings = extendedTree();
+    settings.factor = 3;
+    settings.finalFit = false;
+    settings.name = "my tree";
+    settings.padding = 0.75;
+    const SphereTree tree = buildSphereTree(*grid, settings);
+    EXPECT_EQ(tree.settings.factor, 3);
+    EXPECT_FALSE(tree.settings.finalFit);
+    EXPECT_EQ(tree.settings.name, "my tree");
+    EXPECT_EQ(tree.settings.padding, 0.75);
+    EXPECT_EQ(tree.settings.tree, TreeType::Extended);
+    EXPECT_EQ(tree.object.name, "bunny");
+    EXPECT_EQ(tree.object.voxels, 17 * 9 * 12 + 512);
+    EXPECT_EQ(tree.object.tiles, 1);
+    EXPECT_EQ(tree.object.leaves, int64_t(grid->tree().leafCount()));
+    EXPECT_EQ(tree.object.bbox, CoordBBox(Coord(3, -20, 0), Coord(71, 7, 17)));
+    EXPECT_EQ(tree.origin, Coord(0, -24, 0));
+    EXPECT_EQ(*tree.transform, grid->transform());
+    EXPECT_EQ(tree.voxelSize(), 0.25);
+    EXPECT_FALSE(tree.levels[0].error.has_value());
+}
+
+TEST(SphereTree, KeepsATransformOfItsOwn)
+{
+    const auto grid = someGrid();
+    const SphereTree tree = buildSphereTree(*grid);
+    grid->transform().postScale(2.0);
+    EXPECT_EQ(tree.voxelSize(), 1.0);
+}
+
+TEST(SphereTree, CountsVoxelsOfTheOwnPyramidOnReversibleLevels)
+{
+    const Voxels voxels = randomObject(30).voxels;
+    SphereTreeSettings settings;
+    settings.tree = TreeType::Reversible;
+    const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
+    const auto pyramid = naiveOrPyramid(voxels, 2);
+    for (const SphereTreeLevel& level : tree.levels) {
+        EXPECT_EQ(level.pyramidVoxels, int64_t(pyramid.at(level.level).size()));
+    }
+}
+
+TEST(SphereTree, StoresRadiiPaddedInWorldUnitsRoundedUp)
+{
+    for (const SphereTreeSettings& type : bothTypes()) {
+        for (double padding : {0.0, 1.25, SphereTreeSettings::kPadCubes}) {
+            for (double voxelSize : {1.0, 0.1, 12.5}) {
+                SphereTreeSettings settings = type;
+                settings.padding = padding;
+                const auto grid = someGrid();
+                grid->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
+                const SphereTree tree = buildSphereTree(*grid, settings);
+                const long double pad = padding < 0 ? std::sqrt(3.0L) / 2 : padding;
+                for (int32_t id = 0; id < tree.size(); ++id) {
+                    const long double exact = (tree.radius[id] + pad) * voxelSize;
+                    ASSERT_GE((long double)(tree.radiusWorld[id]), exact * (1 - 0x1p-50L));
+                    // A parent may hold its leaves' rounding as well as its own.
+                    ASSERT_LE((long double)(tree.radiusWorld[id]), exact * (1 + 0x1p-21L));
+                }
+            }
+        }
+    }
+}
+
+TEST(SphereTree, StoresARadiusThatIsAFloatAsItIs)
+{
+    SphereTreeSettings settings;
+    settings.tree = TreeType::Reversible;
+    settings.padding = 0;
+    const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(5, 6, 7)}), settings);
+    EXPECT_EQ(tree.radiusWorld[0], 0.0f);
+    settings.padding = 0.5;
+    const auto grid = gridOf(shapes::ball(10)); // radius 3: radiusSq - 1 = 9
+    const SphereTree ball = buildSphereTree(*grid, settings);
+    ASSERT_EQ(ball.radiusSq.back(), 10);
+    EXPECT_EQ(ball.radiusWorld.back(), 3.5f);
+}
+
+TEST(SphereTree, PadsCubesInTwoDimensionsByHalfASquaresDiagonal)
+{
+    SphereTreeSettings settings;
+    settings.dim = 2;
+    const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(5, 6, 7)}), settings);
+    EXPECT_NEAR(tree.radiusWorld[0], std::sqrt(2.0) / 2, 1e-6);
+}
+
+TEST(SphereTree, ATransformChangesOnlyTheWorldRadii)
+{
+    const auto grid = someGrid();
+    for (const SphereTreeSettings& settings : bothTypes()) {
+        SphereTree plain = buildSphereTree(*grid, settings);
+        const auto moved = grid->deepCopy();
+        const auto transform = openvdb::math::Transform::createLinearTransform(0.5);
+        transform->postRotate(1.0, openvdb::math::Y_AXIS);
+        transform->postTranslate(openvdb::Vec3d(10, 20, 30));
+        moved->setTransform(transform);
+        const SphereTree tree = buildSphereTree(*moved, settings);
+        EXPECT_EQ(tree.centerWorld(0), transform->indexToWorld(plain.center[0]));
+        plain.radiusWorld = tree.radiusWorld;
+        EXPECT_TRUE(sameNodes(plain, tree));
+    }
+}
+
+TEST(SphereTree, ASingleVoxelIsASingleNode)
+{
+    for (const SphereTreeSettings& settings : allSettings()) {
+        const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(-5, 6, 70000)}), settings);
+        ASSERT_EQ(tree.size(), 1);
+        EXPECT_EQ(tree.levels.size(), 1u);
+        EXPECT_EQ(tree.center[0], openvdb::Vec3d(-5, 6, 70000));
+        EXPECT_EQ(tree.radius[0], 0);
+        EXPECT_EQ(tree.coverSq[0], 0);
+        EXPECT_EQ(tree.parent[0], -1);
+        EXPECT_EQ(tree.ijk[0], Coord(-5, 6, 70000));
+        EXPECT_EQ(tree.radiusSq[0], 1);
+        EXPECT_TRUE(tree.dag.empty());
+    }
+}
+
+TEST(SphereTree, TwoVoxelsFarApartEndAtOneRootThatHoldsBoth)
+{
+    const Voxels voxels{Coord(-kFar / 2, 3, 0), Coord(kFar / 2, 3, 0)};
+    for (const SphereTreeSettings& settings : allSettings()) {
+        SCOPED_TRACE(describe(settings));
+        const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
+        EXPECT_TRUE(endsAtOneRoot(tree));
+        EXPECT_TRUE(covers(tree, voxels));
+        EXPECT_EQ(tree.levels.size(), settings.factor == 2 ? 21u : 14u);
+    }
+}
+
+/// A tree that holds both voxels, or an error that says why not.
+void checkWideObject(const SphereTreeSettings& settings)
+{
+    SCOPED_TRACE(describe(settings));
+    const Voxels voxels{Coord(-int(kMaxExtent / 2), 0, 0), Coord(int(kMaxExtent / 2) - 1, 5, 0)};
+    const auto grid = gridOf(voxels);
+    if (settings.factor == 5 || settings.factor == 11 || settings.factor == 64) {
+        const std::string message = messageOfBuild(*grid, settings); // f^k would pass 2^29
+        EXPECT_TRUE(mentions(message, "factor=" + std::to_string(settings.factor)));
+        return;
+    }
+    const SphereTree tree = buildSphereTree(*grid, settings);
+    EXPECT_TRUE(endsAtOneRoot(tree));
+    EXPECT_TRUE(covers(tree, voxels));
+    const double fourRSq = 4 * tree.radius[0] * tree.radius[0];
+    EXPECT_NEAR(double(tree.coverSq[0]), fourRSq, 1e-9 * fourRSq);
+}
+
+TEST(SphereTree, TheWidestObjectThereMayBeOverflowsNowhere)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        for (int i = 0; i < 4; ++i) {
+            settings.finalFit = i % 2 == 0;
+            settings.scale = i / 2 ? RadiusScale::Paper : RadiusScale::Tight;
+            for (int factor : {2, 3, 5, 6, 7, 11, 17, 64}) {
+                settings.factor = factor;
+                checkWideObject(settings);
+            }
+        }
+    }
+}
+
+TEST(SphereTree, AnObjectAcrossTheOriginEndsAtOneRoot)
+{
+    const Voxels voxels = translated(shapes::box(Coord(11, 10, 9)), Coord(-5, -5, -5));
+    for (const SphereTreeSettings& settings : allSettings()) {
+        SCOPED_TRACE(describe(settings));
+        const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
+        EXPECT_GT(tree.levels.size(), 1u);
+        EXPECT_TRUE(endsAtOneRoot(tree));
+        EXPECT_TRUE(covers(tree, voxels));
+    }
+}
+
+TEST(SphereTree, EveryCombinationOfSettingsEndsAtOneRootAndCoversTheObject)
+{
+    for (uint32_t seed : {3u, 6u, 8u, 21u, 30u, 41u}) {
+        const RandomObject object = randomObject(seed);
+        const auto grid = gridOf(object.voxels);
+        for (const SphereTreeSettings& settings : allSettings()) {
+            SCOPED_TRACE(object.name + ": " + describe(settings));
+            const SphereTree tree = buildSphereTree(*grid, settings);
+            ASSERT_TRUE(endsAtOneRoot(tree));
+            ASSERT_TRUE(covers(tree, object.voxels));
+        }
+    }
+}
+
+TEST(SphereTree, AnyFactorEndsAtOneRoot)
+{
+    const Voxels voxels = randomObject(8).voxels;
+    for (SphereTreeSettings settings : bothTypes()) {
+        for (int factor : {4, 5, 7, 8, 16, 33, 64}) {
+            settings.factor = factor;
+            SCOPED_TRACE(describe(settings));
+            const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
+            EXPECT_TRUE(endsAtOneRoot(tree));
+            EXPECT_TRUE(covers(tree, voxels));
+        }
+    }
+}
+
+TEST(SphereTree, StopsWhenInterruptedAtAnyQuestion)
+{
+    const auto grid = gridOf(block());
+    for (const SphereTreeSettings& settings : bothTypes()) {
+        int questions = 0;
+        for (bool finished = false; !finished; questions = 1 + questions * 5 / 4) {
+            ASSERT_LT(questions, 1000000);
+            StopAfter stop(questions);
+            try {
+                finished = buildSphereTree(*grid, settings, &stop).size() > 0;
+            } catch (const Interrupted&) {}
+        }
+        EXPECT_GT(questions, 20) << "the build hardly asks";
+    }
+}
+
+TEST(SphereTree, AddsTheTimesOfItsStages)
+{
+    BuildSeconds seconds;
+    seconds.pyramid = 1000;
+    buildSphereTree(*gridOf(block()), extendedTree(), nullptr, &seconds);
+    EXPECT_GT(seconds.pyramid, 1000);
+    EXPECT_GT(seconds.distance, 0);
+    EXPECT_GT(seconds.power, 0);
+    EXPECT_GT(seconds.medial, 0);
+    EXPECT_GT(seconds.tree, 0);
+    EXPECT_GT(seconds.topology, 0);
+}
+
+TEST(SphereTree, CountsTopologyUnlessToldNotTo)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        for (const bool topology : {true, false}) {
+            settings.topology = topology;
+            BuildSeconds seconds;
+            const SphereTree tree = buildSphereTree(*someGrid(), settings, nullptr, &seconds);
+            for (const SphereTreeLevel& level : tree.levels) {
+                EXPECT_EQ(level.topology.has_value(), topology);
+            }
+            EXPECT_EQ(seconds.topology > 0, topology);
+        }
+    }
+}
+
+TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
+{
+    SphereTreeSettings settings = extendedTree();
+    settings.dag = true;
+    const SphereTree tree = buildSphereTree(*someGrid(), settings);
+    ASSERT_GT(tree.levels.size(), 2u);
+    for (const SphereTreeLevel& level : tree.levels) {
+        const SphereTree kept = keepLevel(tree, level.level);
+        ASSERT_EQ(kept.size(), level.size());
+        for (int32_t i = 0; i < kept.size(); ++i) {
+            EXPECT_EQ(kept.center[i], tree.center[level.begin + i]);
+            EXPECT_EQ(kept.radius[i], tree.radius[level.begin + i]);
+            EXPECT_EQ(kept.coverSq[i], tree.coverSq[level.begin + i]);
+            EXPECT_EQ(kept.radiusWorld[i], tree.radiusWorld[level.begin + i]);
+            EXPECT_EQ(kept.ijk[i], tree.ijk[level.begin + i]);
+            EXPECT_EQ(kept.radiusSq[i], tree.radiusSq[level.begin + i]);
+            EXPECT_EQ(kept.parent[i], -1);
+            EXPECT_EQ(kept.levelOf(i), level.level);
+        }
+        ASSERT_EQ(kept.levels.size(), 1u);
+        EXPECT_EQ(kept.levels[0].pyramidVoxels, level.pyramidVoxels);
+        EXPECT_TRUE(kept.dag.empty());
+    }
+}
+
+TEST(KeepLevel, KeepsWhatTheTreeRecords)
+{
+    SphereTreeSettings settings = extendedTree();
+    settings.factor = 3;
+    settings.name = "kept";
+    const auto grid = someGrid();
+    grid->setName("object");
+    SphereTree tree = buildSphereTree(*grid, settings);
+    tree.levels[1].error = LevelError{5, 4, 3, 2, 1};
+    const SphereTree kept = keepLevel(tree, 1);
+    EXPECT_EQ(kept.settings.factor, 3);
+    EXPECT_EQ(kept.settings.name, "kept");
+    EXPECT_EQ(kept.object.name, "object");
+    EXPECT_EQ(kept.object.bbox, tree.object.bbox);
+    EXPECT_EQ(kept.object.voxels, tree.object.voxels);
+    EXPECT_EQ(kept.origin, tree.origin);
+    EXPECT_EQ(*kept.transform, *tree.transform);
+    EXPECT_NE(kept.transform, tree.transform);
+    ASSERT_TRUE(kept.levels[0].error.has_value());
+    EXPECT_EQ(kept.levels[0].error->covered, 5);
+    ASSERT_TRUE(kept.levels[0].topology.has_value());
+    EXPECT_TRUE(kept.levels[0].topology == tree.levels[1].topology);
+}
+
+TEST(KeepLevel, RejectsALevelThatIsNotThere)
+{
+    const SphereTree tree = buildSphereTree(*someGrid());
+    const int top = tree.root().level;
+    for (int level : {-1, top + 1}) {
+        const auto message = messageOf<openvdb::ValueError>([&] { keepLevel(tree, level); });
+        EXPECT_TRUE(mentions(message, "no level " + std::to_string(level)));
+        EXPECT_TRUE(mentions(message, "0 to " + std::to_string(top)));
+    }
+    EXPECT_THROW(keepLevel(keepLevel(tree, 1), 0), openvdb::ValueError);
+}
+
+TEST(SphereTree, ARadiusThatFitsNoFloatIsAnError)
+{
+    const auto object = someGrid();
+    object->setTransform(openvdb::math::Transform::createLinearTransform(1e31));
+    SphereTreeSettings settings;
+    settings.padding = 1e9;
+    EXPECT_TRUE(mentions(messageOfBuild(*object, settings), "does not fit a float"));
+}
+
+TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
+{
+    struct Listener : openvdb::util::NullInterrupter {
+        std::mutex mutex;
+        std::set<std::string> names;
+        int depth = 0, largest = -1;
+        void start(const char* name = nullptr) override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            names.insert(name);
+            ++depth;
+        }
+        void end() override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            --depth;
+        }
+        bool wasInterrupted(int percent = -1) override
+        {
+            const std::lock_guard<std::mutex> lock(mutex);
+            largest = std::max(largest, percent);
+            return false;
+        }
+    } listener;
+    buildSphereTree(*someGrid(), extendedTree(), &listener);
+    for (const char* name :
+        {"distances and power labels", "power labels along x", "medial balls", "pyramid"}) {
+        EXPECT_TRUE(listener.names.count(name)) << name;
+    }
+    EXPECT_EQ(listener.depth, 0);
+    EXPECT_GE(listener.largest, 0);
+    EXPECT_LE(listener.largest, 100);
+}
+
+TEST(SphereTree, StagesRefuseADimensionThatIsNone)
+{
+    const auto object = someGrid();
+    EXPECT_THROW(distanceTransform(*object, 1), openvdb::ValueError);
+    EXPECT_THROW(distanceTransform(*object, 4), openvdb::ValueError);
+    EXPECT_THROW(medialBalls(*object, 7), openvdb::ValueError);
+    EXPECT_THROW(buildOrPyramid(*object, 2, -1), openvdb::ValueError);
+    const openvdb::MaskTree mask(object->tree(), false, openvdb::TopologyCopy());
+    const LeafLayout layout(mask);
+    EXPECT_THROW(powerMap(layout, distanceTransform(layout), 4), openvdb::ValueError);
+}
+
+TEST(SphereTree, ParentsByTheDagLeaveNoEdgesBehindUnlessAsked)
+{
+    for (SphereTreeSettings settings : bothTypes()) {
+        settings.parent = ParentRule::Dag;
+        EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
+        settings.dag = true;
+        settings.edges = DagEdges::Intersecting;
+        const SphereTree tree = buildSphereTree(*someGrid(), settings);
+        EXPECT_TRUE(tree.dag == intersectionDag(tree));
+    }
+}
+
+} // namespace

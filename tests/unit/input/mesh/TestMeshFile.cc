@@ -1,0 +1,610 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestMeshFile.cc
+/// @brief Mesh files: the same cube out of every format, and every broken file refused; level sets.
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/input/mesh/MeshFile.h>
+
+#include <gtest/gtest.h>
+#include <openvdb/tools/LevelSetUtil.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using openvdb::Vec3d;
+using openvdb::Vec3I;
+using openvdb::Vec3s;
+
+constexpr int kQuads[6][4] = {
+    {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+
+int cornerOf(int point, int axis) { return (point >> axis) & 1; }
+
+// A cube from 0 to 1, facing outwards, in each format; nothing follows the last needed byte.
+
+std::string objCube()
+{
+    std::ostringstream out;
+    for (int p = 0; p < 8; ++p) {
+        out << "v " << cornerOf(p, 0) << ' ' << cornerOf(p, 1) << ' ' << cornerOf(p, 2) << '\n';
+    }
+    for (const auto& q : kQuads) {
+        out << "f " << q[0] + 1 << ' ' << q[1] + 1 << ' ' << q[2] + 1 << ' ' << q[3] + 1 << '\n';
+    }
+    return out.str().substr(0, out.str().size() - 1);
+}
+
+std::string plainRows() // of points and faces, as in OFF and ASCII PLY
+{
+    std::ostringstream out;
+    for (int p = 0; p < 8; ++p) {
+        out << cornerOf(p, 0) << ' ' << cornerOf(p, 1) << ' ' << cornerOf(p, 2) << '\n';
+    }
+    for (const auto& q : kQuads) {
+        out << "4 " << q[0] << ' ' << q[1] << ' ' << q[2] << ' ' << q[3] << '\n';
+    }
+    return out.str().substr(0, out.str().size() - 1);
+}
+
+std::string offCube() { return "OFF\n8 6 0\n" + plainRows(); }
+
+std::string plyHeader(const std::string& format, const std::string& vertices = "8")
+{
+    return "ply\nformat " + format + " 1.0\ncomment a cube\nelement vertex " + vertices
+        + "\nproperty float x\nproperty float y\nproperty float z\nelement face 6\n"
+          "property list uchar int vertex_indices\nend_header\n";
+}
+
+std::string plyCube() { return plyHeader("ascii") + plainRows(); }
+
+template <typename Value>
+std::string bytesOf(Value value, bool bigEndian = false)
+{
+    std::uint32_t bits;
+    static_assert(sizeof(Value) == sizeof(bits), "four bytes");
+    std::memcpy(&bits, &value, sizeof(bits));
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes.push_back(char(bits >> (8 * (bigEndian ? 3 - i : i))));
+    return bytes;
+}
+
+std::string binaryPlyCube(bool bigEndian)
+{
+    std::string bytes = plyHeader(bigEndian ? "binary_big_endian" : "binary_little_endian");
+    for (int p = 0; p < 8; ++p) {
+        for (int axis = 0; axis < 3; ++axis) bytes += bytesOf(float(cornerOf(p, axis)), bigEndian);
+    }
+    for (const auto& q : kQuads) {
+        bytes.push_back(4);
+        for (const int corner : q) bytes += bytesOf(corner, bigEndian);
+    }
+    return bytes;
+}
+
+/// Calls use(facet's three points) for the cube's twelve triangles.
+template <typename Use>
+void forEachFacet(const Use& use)
+{
+    for (const auto& q : kQuads) {
+        use(q[0], q[1], q[2]);
+        use(q[0], q[2], q[3]);
+    }
+}
+
+std::string stlCube()
+{
+    std::ostringstream out;
+    out << "solid cube\n";
+    forEachFacet([&](int a, int b, int c) {
+        out << "facet normal 0 0 0\n outer loop\n";
+        for (const int p : {a, b, c}) {
+            out << "  vertex " << cornerOf(p, 0) << ' ' << cornerOf(p, 1) << ' ' << cornerOf(p, 2)
+                << '\n';
+        }
+        out << " endloop\nendfacet\n";
+    });
+    out << "endsolid";
+    return out.str();
+}
+
+std::string binaryStlCube(const std::string& title = "cube")
+{
+    std::string bytes = title + std::string(80 - title.size(), ' ') + bytesOf(12);
+    forEachFacet([&](int a, int b, int c) {
+        bytes.append(12, '\0');
+        for (const int p : {a, b, c}) {
+            for (int axis = 0; axis < 3; ++axis) bytes += bytesOf(float(cornerOf(p, axis)));
+        }
+        bytes.append(2, '\0');
+    });
+    return bytes;
+}
+
+struct Sample {
+    std::string name, bytes;
+};
+
+std::vector<Sample> cubes()
+{
+    return {{"cube.obj", objCube()}, {"cube.off", offCube()}, {"cube.ply", plyCube()},
+        {"little.ply", binaryPlyCube(false)}, {"big.PLY", binaryPlyCube(true)},
+        {"cube.stl", stlCube()}, {"binary.stl", binaryStlCube()},
+        {"trap.stl", binaryStlCube("solid, says this binary file")}};
+}
+
+/// A file in the folder for temporary files, gone when the test is over.
+struct TempFile {
+    std::string path;
+
+    TempFile(const std::string& name, const std::string& contents)
+        : path(testing::TempDir() + "MeshFile_" // tests may run at the same time
+            + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name)
+    {
+        std::ofstream(path, std::ios::binary) << contents;
+    }
+    ~TempFile() { std::filesystem::remove(path); }
+};
+
+TriangleMesh read(const std::string& name, const std::string& bytes)
+{
+    const TempFile file(name, bytes);
+    return readMeshFile(file.path);
+}
+
+/// @return what readMeshFile() says of the file, or nothing if it read it.
+std::string errorOf(const std::string& path)
+{
+    try {
+        readMeshFile(path);
+    } catch (const openvdb::IoError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(std::string::npos, text.find(path)) << text;
+        EXPECT_LT(text.size(), path.size() + 400) << text;
+        return text;
+    }
+    return {};
+}
+
+std::string errorOf(const std::string& name, const std::string& bytes)
+{
+    const TempFile file(name, bytes);
+    return errorOf(file.path);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.rfind(from);
+    EXPECT_NE(std::string::npos, at) << from;
+    return text.replace(at, from.size(), to);
+}
+
+/// Positive where triangles face outwards.
+double volumeOf(const TriangleMesh& mesh)
+{
+    double sum = 0;
+    for (const Vec3I& t : mesh.triangles) {
+        const Vec3d a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
+        sum += a.dot(b.cross(c)) / 6;
+    }
+    return sum;
+}
+
+double areaOf(const TriangleMesh& mesh)
+{
+    double sum = 0;
+    for (const Vec3I& t : mesh.triangles) {
+        const Vec3d a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
+        sum += (b - a).cross(c - a).length() / 2;
+    }
+    return sum;
+}
+
+TEST(MeshFile, ReadsTheSameCubeFromEveryFormat)
+{
+    for (const auto& [name, bytes] : cubes()) {
+        const TempFile file(name, bytes);
+        const TriangleMesh mesh = readMeshFile(file.path);
+        EXPECT_EQ(8u, mesh.points.size()) << name;
+        EXPECT_EQ(12u, mesh.triangles.size()) << name;
+        EXPECT_DOUBLE_EQ(1, volumeOf(mesh)) << name;
+        EXPECT_DOUBLE_EQ(6, areaOf(mesh)) << name;
+        EXPECT_EQ(std::filesystem::path(file.path).stem().string(), mesh.name);
+    }
+}
+
+TEST(MeshFile, RejectsEveryTruncation)
+{
+    for (const auto& [name, bytes] : cubes()) {
+        if (name == "cube.obj") continue; // does not say how much it holds; see below
+        for (std::size_t length = 0; length < bytes.size(); ++length) {
+            ASSERT_NE("", errorOf(name, bytes.substr(0, length))) << name << " cut to " << length;
+        }
+    }
+}
+
+TEST(MeshFile, RejectsATruncatedObjOrReadsTheSmallerMeshThatItIs)
+{
+    const std::string bytes = objCube();
+    int rejected = 0;
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+        const TempFile file("cut.obj", bytes.substr(0, length));
+        try {
+            EXPECT_LT(readMeshFile(file.path).triangles.size(), 12u) << length;
+        } catch (const openvdb::IoError&) {
+            ++rejected;
+        }
+    }
+    EXPECT_GT(rejected, 80); // all within the points, and within a face's first two corners
+}
+
+TEST(MeshFile, RejectsWhatFollowsTheEnd)
+{
+    EXPECT_NE("", errorOf("tail.off", offCube() + "\n3 0 1 2\n"));
+    EXPECT_NE("", errorOf("tail.ply", plyCube() + "\n1\n"));
+    EXPECT_NE("", errorOf("tail.ply", binaryPlyCube(false) + "x"));
+    EXPECT_NE("", errorOf("tail.stl", stlCube() + "\nfacet"));
+    EXPECT_NE("", errorOf("tail.stl", binaryStlCube() + "x"));
+    EXPECT_EQ("", errorOf("blank.off", offCube() + " # the end\n\n"));
+    EXPECT_EQ("", errorOf("blank.ply", plyCube() + "\n \n"));
+    EXPECT_EQ("", errorOf("blank.stl", stlCube() + " cube\n"));
+}
+
+TEST(MeshFile, RejectsFacesThatNamePointsThatAreNotThere)
+{
+    for (const char* face : {"f 1 2 9", "f 0 1 2", "f 1 2 -9", "f 1 2 x", "f 1 2 3.5", "f 1/ 2/x 3",
+             "f 1 2", "f", "f 1 2 99999999999999999999"}) {
+        EXPECT_NE("", errorOf("index.obj", objCube() + "\n" + face + "\n")) << face;
+    }
+    for (const char* last : {"1 3 7 8", "1 3 7 -1", "1 3 7 x", "1 3 7 1e0", "1 3 7"}) {
+        EXPECT_NE("", errorOf("index.off", replaced(offCube(), "1 3 7 5", last))) << last;
+        EXPECT_NE("", errorOf("index.ply", replaced(plyCube(), "1 3 7 5", last))) << last;
+    }
+    for (const int last : {8, -1, 1 << 30}) {
+        std::string bytes = binaryPlyCube(false);
+        EXPECT_NE("", errorOf("index.ply", bytes.replace(bytes.size() - 4, 4, bytesOf(last))));
+    }
+}
+
+TEST(MeshFile, RejectsCoordinatesThatAreNotFinite)
+{
+    for (const char* bad : {"nan", "inf", "-inf", "1e39", "1e999", "NaN(1)", "0x10", "", "one"}) {
+        const std::string point = std::string("0 0 ") + bad;
+        EXPECT_NE("", errorOf("bad.obj", "v " + point + "\n" + objCube())) << bad;
+        EXPECT_NE("", errorOf("bad.off", replaced(offCube(), "\n0 0 0\n", "\n" + point + "\n")));
+        EXPECT_NE("", errorOf("bad.ply", replaced(plyCube(), "\n0 0 0\n", "\n" + point + "\n")));
+        EXPECT_NE("", errorOf("bad.stl", replaced(stlCube(), "vertex 0 0 0", "vertex " + point)));
+    }
+    for (const float bad :
+        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        std::string bytes = binaryStlCube();
+        EXPECT_NE("", errorOf("bad.stl", bytes.replace(84 + 12, 4, bytesOf(bad))));
+        bytes = binaryPlyCube(false);
+        EXPECT_NE("",
+            errorOf("bad.ply",
+                bytes.replace(plyHeader("binary_little_endian").size(), 4, bytesOf(bad))));
+    }
+}
+
+TEST(MeshFile, SaysInWhichLineOfATextTheErrorIs)
+{
+    EXPECT_NE(std::string::npos, errorOf("line.obj", "v 0 0 0\n\nv 0 x 0\n").find("line 3"));
+    EXPECT_NE(std::string::npos, errorOf("line.off", "OFF\n1 0 0\nx 0 0\n").find("line 3"));
+}
+
+TEST(MeshFile, AllocatesNothingForCountsThatLie)
+{
+    EXPECT_NE("", errorOf("lie.ply", plyHeader("ascii", "4000000000") + plainRows()));
+    EXPECT_NE("", errorOf("lie.ply", plyHeader("ascii", "-8") + plainRows()));
+    EXPECT_NE("", errorOf("lie.ply", plyHeader("ascii", "99999999999999999999") + plainRows()));
+    EXPECT_NE("", errorOf("lie.off", replaced(offCube(), "8 6 0", "4000000000 6 0")));
+    EXPECT_NE("", errorOf("lie.off", replaced(offCube(), "8 6 0", "8 -6 0")));
+    EXPECT_NE("", errorOf("lie.off", replaced(offCube(), "4 1 3 7 5", "4000000000 1 3 7 5")));
+    std::string bytes = binaryStlCube();
+    EXPECT_NE("", errorOf("lie.stl", bytes.replace(80, 4, bytesOf(-1))));
+}
+
+TEST(MeshFile, RejectsHeadersItDoesNotUnderstand)
+{
+    EXPECT_NE("", errorOf("a.off", replaced(offCube(), "OFF", "4OFF")));
+    EXPECT_NE("", errorOf("a.off", plainRows()));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "ascii 1.0", "ascii 2.0")));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "format ascii 1.0\n", "")));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "float z", "quad z")));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "float z", "float depth")));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "list uchar int", "int")));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "comment", "comet")));
+    EXPECT_NE("", errorOf("a.ply", "plywood\n"));
+    EXPECT_NE("", errorOf("a.stl", std::string(300, 'x')));
+    EXPECT_NE("", errorOf("a.obj", std::string("\x89PNG\r\n\x1a\n") + std::string(100, '\0')));
+}
+
+TEST(MeshFile, RejectsAFileWithoutTriangles)
+{
+    EXPECT_NE(std::string::npos, errorOf("none.obj", "v 0 0 0\n").find("no triangle"));
+    EXPECT_NE(std::string::npos, errorOf("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n").find("no tri"));
+    EXPECT_NE(std::string::npos, errorOf("flat.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\n").find("no tri"));
+    EXPECT_NE("", errorOf("none.stl", "solid nothing\nendsolid nothing\n"));
+}
+
+TEST(MeshFile, RejectsAMissingFileAnEmptyOneAndADirectory)
+{
+    EXPECT_NE("", errorOf(testing::TempDir() + "no_such_mesh.obj"));
+    EXPECT_NE("", errorOf(testing::TempDir()));
+    EXPECT_NE("", errorOf("empty.obj", ""));
+    EXPECT_NE("", errorOf("unknown.mesh_of_no_kind", "v 0 0 0\n"));
+}
+
+TEST(MeshFile, ReadsWhatObjWritersWrite)
+{
+    const TriangleMesh mesh = read("all.obj",
+        "# comment\r\nmtllib a.mtl\r\no thing\r\ng a b\r\ns off\r\n"
+        "v 0 0 0 1.0\r\nv +1 0 0 0.5 0.5 0.5\r\nv 1e0 1 0 # here\r\n\tv 0 1 1e-400\r\n"
+        "vt 0 0\r\nvn 0 0 1\r\nusemtl m\r\nf 1/1/1 2/1/1 3/1/1\r\n"
+        "f -4//1 \\\r\n -2//1 -1//1\r\np 1\r\nl 1 2\r\nf 5 6 7\r\nv 0 0 2\r\nv 1 0 2\r\n"
+        "v 0 1 2\r\n");
+    EXPECT_EQ(7u, mesh.points.size());
+    EXPECT_EQ(3u, mesh.triangles.size());
+    EXPECT_DOUBLE_EQ(1.5, areaOf(mesh));
+}
+
+TEST(MeshFile, ReadsWhatOffAndPlyWritersWrite)
+{
+    const TriangleMesh off = read("c.off",
+        "COFF # coloured\n\n# counts\n4 3 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n1 1 0 0 0 0 0\n"
+        "0 1 0 0 0 0 0\n3 0 1 2 255 0 0\n\n3 0 2 3\n2 0 1\n");
+    EXPECT_EQ(2u, off.triangles.size());
+    EXPECT_EQ(1u, read("one.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2").triangles.size());
+    const TriangleMesh ply = read("more.ply",
+        "ply\r\nformat ascii 1.0\r\nobj_info x\r\nelement face 1\r\nproperty uchar flag\r\n"
+        "property list uint8 uint32 vertex_index\r\nproperty list uchar float uv\r\n"
+        "element vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty float32 y\r\n"
+        "property float x\r\nelement edge 1\r\nproperty int vertex1\r\nproperty int vertex2\r\n"
+        "end_header\r\n7 3 0 1 2 2 0.5 0.5\r\n1 5 0 0\r\n2 5 0 1\r\n3 5 1 0\r\n0 1\r\n");
+    ASSERT_EQ(3u, ply.points.size());
+    EXPECT_EQ(Vec3s(1, 0, 5), ply.points[1]);
+}
+
+TEST(MeshFile, CutsConcavePolygonsIntoTrianglesThatStayInside)
+{
+    const TriangleMesh ell =
+        read("ell.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 3 4 5 6 1 2\n");
+    EXPECT_EQ(4u, ell.triangles.size());
+    EXPECT_DOUBLE_EQ(3, areaOf(ell));          // overlapping triangles would have more
+    const TriangleMesh comb = read("comb.obj", // in a plane that leans, the other way round
+        "v 0 0 0\nv 0 3 3\nv 1 3 3\nv 1 1 1\nv 2 1 1\nv 2 3 3\nv 3 3 3\nv 3 1 1\nv 4 1 1\nv 4 3 3\n"
+        "v 5 3 3\nv 5 0 0\nf 1 2 3 4 5 6 7 8 9 10 11 12\n");
+    EXPECT_NEAR(std::sqrt(2.0) * (5 + 3 * 2), areaOf(comb), 1e-6);
+}
+
+TEST(MeshFile, CutsUpAPolygonThatCrossesItself)
+{
+    const TriangleMesh mesh = read(
+        "star.obj", "v 0 3 0\nv 2 -2 0\nv -3 1 0\nv 3 1 0\nv -2 -2 0\nv 0 0 0\nf 1 2 3 4 5 6\n");
+    EXPECT_EQ(4u, mesh.triangles.size());
+}
+
+TEST(MeshFile, JoinsPointsAtTheSamePlaceAndDropsUnusedOnes)
+{
+    const TriangleMesh mesh = read("same.obj",
+        "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -0 0 0\nv 1 0 0\nv 0 0 1\nf 2 3 4\nf 5 6 7\n");
+    EXPECT_EQ(4u, mesh.points.size());
+    EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][0]);
+    EXPECT_EQ(mesh.triangles[0][1], mesh.triangles[1][1]);
+}
+
+TEST(MeshFile, KnowsItsFilesByTheirExtensionInAnyCase)
+{
+    for (const char* name :
+        {"a.obj", "b/c.PLY", "d.Stl", "e.off", "f.gltf", "g.GLB", "h.fbx", "i.dae", "j.3ds"}) {
+        EXPECT_TRUE(isMeshFileName(name)) << name;
+    }
+    for (const char* name : {"a.vdb", "a.vol", "a.longvol", "a", "", "obj", "a.obj.gz", "a.csv"}) {
+        EXPECT_FALSE(isMeshFileName(name)) << name;
+    }
+}
+
+std::string base64(const std::string& bytes)
+{
+    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) { // a multiple of three
+        std::uint32_t word = 0;
+        for (int k = 0; k < 3; ++k) word = word << 8 | std::uint8_t(bytes[i + k]);
+        for (int k = 18; k >= 0; k -= 6) text.push_back(digits[word >> k & 63]);
+    }
+    return text;
+}
+
+/// A scene that shows one tetrahedron, facing outwards, three times: moved, mirrored in a moved
+/// node, and nowhere at all (a mesh no node shows is no part of the scene).
+std::string gltfScene()
+{
+    std::string bytes;
+    for (const char* face : {"021", "013", "032", "123"}) {
+        for (int k = 0; k < 3; ++k) {
+            for (int axis = 0; axis < 3; ++axis) bytes += bytesOf(float(face[k] == '1' + axis));
+        }
+    }
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[
+{"mesh":0,"translation":[10,0,0]},{"translation":[0,20,0],"children":[2]},
+{"mesh":0,"scale":[-2,1,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
+{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,
+"count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],"bufferViews":[{"buffer":0,
+"byteLength":144}],"buffers":[{"byteLength":144,"uri":"data:application/octet-stream;base64,)"
+        + base64(bytes) + "\"}]}";
+}
+
+TEST(MeshFile, PlacesTheMeshesOfASceneByItsTransforms)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const TriangleMesh mesh = read("scene.gltf", gltfScene());
+    EXPECT_EQ(8u, mesh.points.size());
+    EXPECT_EQ(8u, mesh.triangles.size());
+    openvdb::BBoxd box;
+    for (const Vec3s& point : mesh.points) box.expand(Vec3d(point));
+    EXPECT_EQ(Vec3d(-2, 0, 0), box.min());
+    EXPECT_EQ(Vec3d(11, 21, 1), box.max());
+    EXPECT_NEAR(1 / 6. + 2 / 6., volumeOf(mesh), 1e-6); // the mirrored one faces outwards as well
+}
+
+TEST(MeshFile, RejectsEveryTruncationOfAScene)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const std::string bytes = gltfScene();
+    ASSERT_EQ("", errorOf("cut.gltf", bytes));
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+        ASSERT_NE("", errorOf("cut.gltf", bytes.substr(0, length))) << length;
+    }
+}
+
+TEST(MeshFile, SaysHowToGetWhatABuildWithoutAssimpLacks)
+{
+    if (readsOtherMeshFormats()) GTEST_SKIP() << "needs a build without assimp";
+    EXPECT_NE(std::string::npos, errorOf("scene.gltf", gltfScene()).find("libassimp-dev"));
+}
+
+TriangleMesh cubeMesh() { return read("cube.obj", objCube()); }
+
+openvdb::Index64 interiorVoxels(const openvdb::FloatGrid& grid)
+{
+    return openvdb::tools::sdfInteriorMask(grid)->activeVoxelCount();
+}
+
+TEST(MeshFile, MakesALevelSetWhoseInteriorIsTheSolid)
+{
+    openvdb::initialize();
+    TriangleMesh mesh = cubeMesh();
+    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.05f);
+    const auto grid = meshToLevelSet(mesh, 0.1, 4);
+    EXPECT_EQ(mesh.name, grid->getName());
+    EXPECT_EQ(openvdb::GRID_LEVEL_SET, grid->getGridClass());
+    EXPECT_NEAR(0.4, grid->background(), 1e-6);
+    EXPECT_EQ(Vec3d(0.1), grid->voxelSize());
+    EXPECT_EQ(1000000u, interiorVoxels(*grid)); // faces lie halfway between voxel centres
+}
+
+TEST(MeshFile, KeepsFarMeshesInPlace)
+{
+    openvdb::initialize();
+    TriangleMesh mesh = cubeMesh(); // at index 34952550, which no float holds
+    for (Vec3s& point : mesh.points) point = point * 4.f + Vec3s(1048576.5f);
+    const auto grid = meshToLevelSet(mesh, 0.03);
+    const auto box = openvdb::tools::sdfInteriorMask(*grid)->evalActiveVoxelBoundingBox();
+    EXPECT_NEAR(1048576.5 / 0.03, box.min().x(), 1);
+    EXPECT_NEAR(1048580.5 / 0.03, box.max().z(), 1);
+}
+
+TEST(MeshFile, MakesALevelSetOfAMeshWithTrianglesWithoutArea)
+{
+    openvdb::initialize();
+    TriangleMesh mesh = cubeMesh();
+    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.25f);
+    const auto count = interiorVoxels(*meshToLevelSet(mesh, 0.5));
+    const auto n = openvdb::Index32(mesh.points.size());
+    for (const float at : {0.3f, 5.f, 9.9f}) mesh.points.push_back(Vec3s(0.25f + at, 0.25f, 0.25f));
+    mesh.triangles.push_back(Vec3I(n, n + 1, n + 2)); // on an edge
+    mesh.triangles.push_back(Vec3I(n, n, n));
+    const auto grid = meshToLevelSet(mesh, 0.5);
+    EXPECT_EQ(count, interiorVoxels(*grid));
+    for (auto it = grid->cbeginValueOn(); it; ++it) ASSERT_TRUE(std::isfinite(*it));
+}
+
+TEST(MeshFile, RejectsLevelSetArgumentsOutOfRange)
+{
+    openvdb::initialize();
+    const TriangleMesh mesh = cubeMesh();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const double size : {0.0, -1.0, nan, inf, 1e-300, 1e-12}) {
+        EXPECT_THROW(meshToLevelSet(mesh, size), openvdb::ValueError) << size;
+    }
+    for (const double width : {0.0, 0.99, -3.0, nan, inf, 1001.0}) {
+        EXPECT_THROW(meshToLevelSet(mesh, 0.1, width), openvdb::ValueError) << width;
+    }
+}
+
+TEST(MeshFile, RejectsAMeshTooLargeForItsVoxels)
+{
+    TriangleMesh mesh = cubeMesh();
+    mesh.points[3] = Vec3s(0, 0, 2e9f);
+    EXPECT_THROW(meshToLevelSet(mesh, 1), openvdb::ValueError);
+    mesh.points[3] = Vec3s(0, -3e38f, 0);
+    EXPECT_THROW(meshToLevelSet(mesh, 0.01), openvdb::ValueError);
+}
+
+TEST(MeshFile, RejectsADamagedMesh)
+{
+    EXPECT_THROW(meshToLevelSet(TriangleMesh(), 0.1), openvdb::ValueError);
+    TriangleMesh mesh = cubeMesh();
+    mesh.triangles.push_back(Vec3I(0, 1, 8));
+    EXPECT_THROW(meshToLevelSet(mesh, 0.1), openvdb::ValueError);
+    mesh = cubeMesh();
+    mesh.points[2].y() = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(meshToLevelSet(mesh, 0.1), openvdb::ValueError);
+    EXPECT_THROW(voxelSizeForDim(mesh, 10), openvdb::ValueError);
+}
+
+TEST(MeshFile, FitsTheVoxelSizeToTheLongestSide)
+{
+    TriangleMesh mesh = cubeMesh();
+    for (Vec3s& point : mesh.points) point *= Vec3s(1, 8, 4);
+    EXPECT_DOUBLE_EQ(0.125, voxelSizeForDim(mesh, 64));
+    EXPECT_DOUBLE_EQ(8, voxelSizeForDim(mesh, 1));
+    for (const int dim : {0, -5}) EXPECT_THROW(voxelSizeForDim(mesh, dim), openvdb::ValueError);
+    EXPECT_THROW(voxelSizeForDim(TriangleMesh(), 10), openvdb::ValueError);
+    for (Vec3s& point : mesh.points) point = Vec3s(1);
+    EXPECT_THROW(voxelSizeForDim(mesh, 10), openvdb::ValueError);
+}
+
+struct StopAtOnce final : openvdb::util::NullInterrupter {
+    bool wasInterrupted(int = -1) override { return true; }
+};
+
+TEST(MeshFile, StopsWhenInterrupted)
+{
+    openvdb::initialize();
+    StopAtOnce interrupter;
+    EXPECT_THROW(meshToLevelSet(cubeMesh(), 0.1, 3, &interrupter), Interrupted);
+}
+
+TEST(MeshFile, ReadsTheSampleMeshes)
+{
+    const char* folder = std::getenv("SPHERETREE_DATA");
+    if (!folder) GTEST_SKIP() << "needs SPHERETREE_DATA";
+    const std::map<std::string, std::pair<std::size_t, std::size_t>> sizes = {{"cow", {2903, 5804}},
+        {"fandisk", {6475, 12946}}, {"rocker-arm", {10044, 20088}}, {"spot", {2930, 5856}}};
+    for (const auto& [name, size] : sizes) {
+        const TriangleMesh mesh = readMeshFile(folder + ("/mesh/" + name + ".obj"));
+        EXPECT_EQ(size.first, mesh.points.size()) << name;
+        EXPECT_EQ(size.second, mesh.triangles.size()) << name;
+        EXPECT_GT(volumeOf(mesh), 0) << name;
+    }
+}
+
+TEST(MeshFile, CountsTheEdgesWhereAMeshIsOpen)
+{
+    TriangleMesh mesh; // a tetrahedron
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    EXPECT_EQ(openEdges(mesh), 0);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(openEdges(mesh), 3);
+    mesh.triangles = {{0, 2, 1}};
+    EXPECT_EQ(openEdges(mesh), 3);
+    mesh.triangles.clear();
+    EXPECT_EQ(openEdges(mesh), 0);
+}
+
+} // namespace

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestSlabKernels.cc
+/// @brief What slabs are made of: steps along x, rows, transpositions, ends of steps and the order
+/// of balls, against plain loops.
+
+#include "support/CoreStages.h"
+#include "support/RandomObjects.h"
+
+#include <openvdb_spheretree/kernel/LabelStepEnds.h>
+#include <openvdb_spheretree/kernel/LargestValue.h>
+#include <openvdb_spheretree/kernel/LeafTranspose.h>
+#include <openvdb_spheretree/slab/SlabRows.h>
+#include <openvdb_spheretree/slab/XSteps.h>
+#include <openvdb_spheretree/voxel/SlabOrder.h>
+
+#include <hwy/cache_control.h>
+
+#include <array>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+/// Steps to the nearest voxel that is off on the line along x.
+int64_t stepsAlongX(const std::set<Coord>& voxels, const Coord& voxel)
+{
+    int64_t steps = 0;
+    while (voxels.count(voxel.offsetBy(int(steps), 0, 0))
+        && voxels.count(voxel.offsetBy(-int(steps), 0, 0))) {
+        ++steps;
+    }
+    return steps;
+}
+
+template <typename Step, typename Square>
+void expectSquares(const Voxels& voxels, int64_t most)
+{
+    const std::set<Coord> all(voxels.begin(), voxels.end());
+    const LeafLayout layout(*maskOf(voxels));
+    const slab::XSteps<Step> steps(layout, nullptr);
+    std::array<Square, kLeafVoxels> rows, squares;
+    for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
+        steps.squares(leaf, rows.data());
+        detail::rowsToLeaf(Axis::Y, rows.data(), squares.data());
+        for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+            const int64_t expected = std::min(most, stepsAlongX(all, layout.voxel(leaf, k)));
+            ASSERT_EQ(int64_t(squares[k]), expected * expected) << layout.voxel(leaf, k);
+        }
+    }
+}
+
+TEST(XSteps, AreThoseOfEveryLine)
+{
+    for (uint32_t seed = 0; seed < 30; ++seed) {
+        const Voxels voxels = randomObject(seed).voxels;
+        ASSERT_NO_FATAL_FAILURE((expectSquares<uint8_t, uint16_t>(voxels, 255))) << seed;
+        ASSERT_NO_FATAL_FAILURE((expectSquares<uint16_t, uint32_t>(voxels, 46340))) << seed;
+    }
+}
+
+TEST(XSteps, StayAtTheLargestNumberThatFits)
+{
+    Voxels line;
+    for (int x = -300; x < 400; ++x) line.push_back(Coord(x, 3, 5));
+    ASSERT_NO_FATAL_FAILURE((expectSquares<uint8_t, uint16_t>(line, 255)));
+    ASSERT_NO_FATAL_FAILURE((expectSquares<uint16_t, uint32_t>(line, 46340)));
+}
+
+template <typename T>
+void expectTranspositions()
+{
+    alignas(64) std::array<T, kLeafVoxels> rows, result, expected;
+    for (int i = 0; i < kLeafVoxels; ++i) rows[i] = T(i * 131 + 3); // 16 bits of any value
+    detail::swapRows(rows.data(), result.data());
+    for (int u = 0; u < 8; ++u) {
+        for (int x = 0; x < 8; ++x) {
+            for (int v = 0; v < 8; ++v) {
+                ASSERT_EQ(result[64 * v + 8 * x + u], rows[64 * u + 8 * x + v]);
+            }
+        }
+    }
+    detail::rowsZToLeaf(rows.data(), result.data());
+    detail::rowsToLeaf(Axis::Z, rows.data(), expected.data());
+    ASSERT_EQ(result, expected);
+    result.fill(0);
+    detail::streamRowsZToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
+    ASSERT_EQ(result, expected);
+    alignas(64) std::array<int32_t, kLeafVoxels> wide{}, expectedWide;
+    std::copy(expected.begin(), expected.end(), expectedWide.begin());
+    detail::streamRowsZToLeaf(rows.data(), wide.data());
+    hwy::FlushStream();
+    ASSERT_EQ(wide, expectedWide);
+    detail::streamRowsYToLeaf(rows.data(), result.data());
+    hwy::FlushStream();
+    detail::rowsToLeaf(Axis::Y, rows.data(), expected.data());
+    ASSERT_EQ(result, expected);
+}
+
+TEST(LeafTranspose, IsThatOfPlainLoops)
+{
+    ASSERT_NO_FATAL_FAILURE(expectTranspositions<int8_t>());
+    ASSERT_NO_FATAL_FAILURE(expectTranspositions<uint16_t>());
+    ASSERT_NO_FATAL_FAILURE(expectTranspositions<uint32_t>());
+    ASSERT_NO_FATAL_FAILURE(expectTranspositions<int32_t>());
+    ASSERT_NO_FATAL_FAILURE(expectTranspositions<int64_t>());
+}
+
+template <typename T>
+void expectLargest(T value)
+{
+    alignas(64) std::array<T, 128> values;
+    for (std::size_t at = 0; at < values.size(); ++at) {
+        values.fill(T(value - 1));
+        values[at] = value;
+        ASSERT_EQ(detail::largestValue(values.data(), values.size()), value) << at;
+    }
+    ASSERT_EQ(detail::largestValue(values.data(), 64), uint32_t(value - 1));
+    ASSERT_EQ(detail::largestValue(values.data(), 0), 0u);
+}
+
+TEST(LargestValue, IsFoundWhereverItIs)
+{
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(1));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint16_t>(65535));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(70000));
+    ASSERT_NO_FATAL_FAILURE(expectLargest<uint32_t>(UINT32_MAX));
+}
+
+TEST(SlabRows, KeepZerosAroundRunsThatDoNotOverlap)
+{
+    for (uint32_t seed = 0; seed < 20; ++seed) {
+        const LeafLayout layout(*maskOf(randomObject(seed).voxels));
+        slab::SlabRows<int32_t> rows;
+        for (uint32_t index = 0; index < layout.slabCount(); ++index) {
+            for (const Axis axis : {Axis::Y, Axis::Z}) {
+                rows.open(layout, index, axis);
+                const LeafLayout::Slab slab = layout.slab(index);
+                for (uint32_t leaf = slab.begin; leaf < slab.end; ++leaf) {
+                    std::fill_n(rows.ofLeaf(leaf), kLeafVoxels, int32_t(leaf) + 1);
+                }
+                const LeafLayout::Slab runs = layout.runsOfSlab(axis, index);
+                for (uint32_t i = runs.begin; i < runs.end; ++i) {
+                    const LeafLayout::Run run = layout.run(axis, i);
+                    const int32_t* row = rows.ofRun(i);
+                    ASSERT_TRUE(std::all_of(row - 64, row, [](int32_t v) { return v == 0; }));
+                    for (uint32_t k = 0; k < run.count; ++k, row += kLeafVoxels) {
+                        ASSERT_EQ(row, rows.ofLeaf(run.leaves[k]));
+                        ASSERT_EQ(row[0], int32_t(run.leaves[k]) + 1);
+                        ASSERT_EQ(row[kLeafVoxels - 1], int32_t(run.leaves[k]) + 1);
+                    }
+                    ASSERT_TRUE(std::all_of(row, row + 64, [](int32_t v) { return v == 0; }));
+                }
+            }
+        }
+    }
+}
+
+/// Random steps in a run of three leaves along an axis.
+template <typename Step>
+void expectEnds(Axis axis, int most, double density, Random& random)
+{
+    constexpr int kLeaves = 3;
+    const int shift = 6 - 3 * int(axis);
+    std::array<std::array<Step, kLeafVoxels>, kLeaves> steps;
+    std::array<LeafMask, kLeaves> masks{}, marks{}, expected{};
+    for (int leaf = 0; leaf < kLeaves; ++leaf) {
+        for (int k = 0; k < kLeafVoxels; ++k) {
+            const int here = 8 * leaf + (k >> shift & 7);
+            const int end = std::max(0, std::min(23, here + random.between(-most, most)));
+            steps[leaf][k] = Step(end - here);
+            if (!random.chance(density)) continue;
+            masks[leaf][k >> 6] |= uint64_t(1) << (k & 63);
+            const int there = k + ((end & 7) - (here & 7)) * (1 << shift);
+            expected[end >> 3][there >> 6] |= uint64_t(1) << (there & 63);
+        }
+    }
+    const auto marksOf = [&](uint32_t leaf) -> LeafMask& { return marks[leaf]; };
+    for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+        detail::markEnds(axis, leaf, steps[leaf].data(), masks[leaf], marksOf);
+    }
+    ASSERT_EQ(marks, expected);
+}
+
+TEST(StepEnds, AreMarkedOfEveryVoxelThatIsOn)
+{
+    Random random(3);
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        for (const int most : {0, 1, 2, 23}) {
+            for (const double density : {0.02, 0.5, 1.0}) {
+                ASSERT_NO_FATAL_FAILURE(expectEnds<int8_t>(axis, most, density, random));
+                ASSERT_NO_FATAL_FAILURE(expectEnds<int16_t>(axis, most, density, random));
+            }
+        }
+    }
+}
+
+/// Steps from some rows of a column, which may lead to all others.
+template <typename Step>
+void expectRowEnds(int most, double density, Random& random)
+{
+    constexpr int kRows = 40, kFirst = 8, kLast = 32;
+    std::array<Step, kRows * 64> steps{};
+    std::array<uint64_t, kRows> on{}, marks{}, expected{};
+    for (int row = kFirst; row < kLast; ++row) {
+        for (int lane = 0; lane < 64; ++lane) {
+            const int end = std::max(0, std::min(kRows - 1, row + random.between(-most, most)));
+            steps[row * 64 + lane] = Step(end - row);
+            if (!random.chance(density)) continue;
+            on[row] |= uint64_t(1) << lane;
+            expected[end] |= uint64_t(1) << lane;
+        }
+    }
+    detail::markRowEnds(&steps[kFirst * 64], &on[kFirst], kLast - kFirst, &marks[kFirst]);
+    ASSERT_EQ(marks, expected);
+}
+
+/// The steps that are worth following, one by one.
+template <typename Step>
+detail::FreshSteps freshOneByOne(
+    const std::array<Step, kLeafVoxels>& steps, Axis axis, LeafMask mask)
+{
+    const uint32_t shift = 6 - 3 * uint32_t(axis);
+    detail::FreshSteps fresh{};
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+        if (!isOn(mask, k)) continue;
+        const uint32_t before = k - (1u << shift);
+        const bool hasBefore = (k >> shift & 7) > 0 && isOn(mask, before);
+        if (hasBefore && steps[before] == steps[k] + 1) continue;
+        (steps[k] == 0 ? fresh.stay : fresh.go)[k >> 6] |= uint64_t(1) << (k & 63);
+    }
+    return fresh;
+}
+
+template <typename Step>
+void expectFresh(Axis axis, Random& random)
+{
+    std::array<Step, kLeafVoxels> steps;
+    LeafMask mask{};
+    for (int k = 0; k < kLeafVoxels; ++k) {
+        steps[k] = Step(random.chance(0.1) ? random.between(-128, 127) : random.between(-1, 1));
+        if (k >> 6 == 3 || random.chance(0.3)) continue;
+        mask[k >> 6] |= uint64_t(1) << (k & 63);
+    }
+    const detail::FreshSteps actual = detail::freshSteps(steps.data(), axis, mask);
+    const detail::FreshSteps expected = freshOneByOne(steps, axis, mask);
+    ASSERT_EQ(actual.stay, expected.stay);
+    ASSERT_EQ(actual.go, expected.go);
+}
+
+TEST(StepEnds, AreFollowedOnceWhereNeighboursShareThem)
+{
+    Random random(5);
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        for (int i = 0; i < 10; ++i) {
+            ASSERT_NO_FATAL_FAILURE(expectFresh<int8_t>(axis, random));
+            ASSERT_NO_FATAL_FAILURE(expectFresh<int16_t>(axis, random));
+        }
+    }
+}
+
+TEST(RowEnds, AreMarkedOfEveryLaneThatIsOn)
+{
+    Random random(4);
+    for (const int most : {0, 1, 3, 40}) {
+        for (const double density : {0.0, 0.02, 0.5, 1.0}) {
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int8_t>(most, density, random));
+            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int16_t>(most, density, random));
+        }
+    }
+}
+
+TEST(BallOrder, IsThatOfCoordinates)
+{
+    for (uint32_t seed = 0; seed < 20; ++seed) {
+        const Voxels voxels = randomObject(seed).voxels;
+        const LeafLayout layout(*maskOf(voxels));
+        Voxels ordered;
+        for (uint32_t index = 0; index < layout.slabCount(); ++index) {
+            const LeafLayout::Slab slab = layout.slab(index);
+            const LeafMask* marks = &layout.mask(slab.begin);
+            const std::size_t before = ordered.size();
+            ordered.resize(before + detail::countMarks(marks, slab.size()));
+            detail::visitWithPlaces(
+                layout, index, marks, [&](uint32_t leaf, uint32_t offset, std::size_t place) {
+                    ordered.at(before + place) = layout.voxel(leaf, offset);
+                });
+        }
+        Voxels sorted(voxels);
+        std::sort(sorted.begin(), sorted.end());
+        sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+        ASSERT_EQ(ordered, sorted) << seed;
+    }
+}
+
+} // namespace

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/measure/LeafReach.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+using namespace openvdb_spheretree;
+using detail::LeafReach;
+using detail::VoxelCell;
+using openvdb::Coord;
+using openvdb::MaskTree;
+
+namespace {
+
+const std::vector<Distance> kDistances = {Distance(), Distance::l1(), Distance::linf(),
+    Distance::chamfer(3, 4, 5), Distance::chamfer(5, 7, 8)};
+
+VoxelCell fullCell(const Coord& origin)
+{
+    VoxelCell cell;
+    cell.origin = origin;
+    std::fill(cell.words, cell.words + 8, ~uint64_t(0));
+    return cell;
+}
+
+/// The cell's voxels that are farther from all of @a object, one by one.
+VoxelCell farByOne(const std::vector<Coord>& object, const Distance& distance, int64_t limitSq,
+    const VoxelCell& cell)
+{
+    VoxelCell result = cell;
+    for (int n = 0; n < 512; ++n) {
+        const Coord q = cell.origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+        for (const Coord& p : object) {
+            const Coord d = p - q;
+            if (distance.lengthSq(d[0], d[1], d[2]) > limitSq) continue;
+            result.words[n >> 6] &= ~(uint64_t(1) << (n & 63));
+        }
+    }
+    return result;
+}
+
+void expectSame(const VoxelCell& actual, const VoxelCell& expected)
+{
+    for (int x = 0; x < 8; ++x) ASSERT_EQ(actual.words[x], expected.words[x]) << x;
+}
+
+} // namespace
+
+TEST(LeafReach, TakesWhatIsNearAndNothingElse)
+{
+    std::mt19937 random(31);
+    LeafReach reach;
+    const Coord origin(-8, 120, 4096);
+    for (int round = 0; round < 400; ++round) {
+        MaskTree mask;
+        std::vector<Coord> object;
+        const int count = 1 + int(random() % 4);
+        for (int i = 0; i < count; ++i) {
+            const int side = 24, x = int(random() % side), y = int(random() % side);
+            object.push_back(origin.offsetBy(x - 8, y - 8, int(random() % side) - 8));
+            mask.setValueOn(object.back());
+        }
+        const Distance distance = kDistances[random() % kDistances.size()];
+        const int64_t most = distance.lengthSq(LeafReach::kReach + 1, 0, 0) - 1;
+        const int64_t limitSq = int64_t(random() % uint64_t(most + 1));
+        VoxelCell cell = fullCell(origin);
+        for (uint64_t& word : cell.words) word = random() | uint64_t(random()) << 32;
+        const VoxelCell expected = farByOne(object, distance, limitSq, cell);
+        reach.takeNear(mask, distance, limitSq, cell);
+        SCOPED_TRACE(toString(distance) + " " + std::to_string(limitSq));
+        expectSame(cell, expected);
+    }
+}
+
+TEST(LeafReach, ReachesNoFartherThanItsReachWhateverTheLimit)
+{
+    MaskTree mask;
+    const Coord origin(0, 0, 0), voxel(4, 4, -8);
+    mask.setValueOn(voxel);
+    LeafReach reach;
+    for (const Distance& distance : kDistances) {
+        const int64_t most = distance.lengthSq(LeafReach::kReach + 1, 0, 0) - 1;
+        VoxelCell cell = fullCell(origin);
+        reach.takeNear(mask, distance, int64_t(1) << 60, cell);
+        SCOPED_TRACE(toString(distance));
+        expectSame(cell, farByOne({voxel}, distance, most, fullCell(origin)));
+    }
+}
+
+TEST(LeafReach, ATileIsAllOfItsVoxels)
+{
+    MaskTree mask;
+    mask.addTile(1, Coord(-8, 0, 0), true, true);
+    LeafReach reach;
+    VoxelCell cell = fullCell(Coord(0, 0, 0));
+    reach.takeNear(mask, {}, 9, cell); // three slices
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(cell.words[x], x < 3 ? 0 : ~uint64_t(0)) << x;
+}
+
+TEST(LeafReach, WhereNothingIsNearAllStays)
+{
+    LeafReach reach;
+    VoxelCell cell = fullCell(Coord(0, 0, 0));
+    reach.takeNear(MaskTree(), {}, 50, cell);
+    expectSame(cell, fullCell(Coord(0, 0, 0)));
+    MaskTree mask;
+    mask.setValueOn(Coord(3, 3, 3));
+    reach.takeNear(mask, {}, -1, cell);
+    expectSame(cell, fullCell(Coord(0, 0, 0)));
+    reach.takeNear(mask, {}, 0, cell);
+    EXPECT_EQ(cell.voxels(), 511);
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestExtendedTree.cc
+/// @brief What is special about an extended tree: radii that the leaf balls need, balls without
+/// children dropped, levels rebuilt from their spheres.
+
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include "support/BuiltTrees.h"
+
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/paper/TreeLevels.h>
+
+#include <map>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+SphereTreeSettings extended(Reconstruction reconstruct = Reconstruction::Clip, int factor = 2)
+{
+    SphereTreeSettings settings = extendedTree();
+    settings.reconstruct = reconstruct;
+    settings.factor = factor;
+    return settings;
+}
+
+const std::vector<Reconstruction> kReconstructions{
+    Reconstruction::Clip, Reconstruction::Free, Reconstruction::None};
+
+/// Per node: the radius that contains the leaf balls below it, around the node's own centre.
+std::vector<double> neededRadii(const SphereTree& tree)
+{
+    std::vector<double> needed(tree.radius.size(), -1);
+    for (int32_t leaf = tree.levels[0].begin; leaf < tree.levels[0].end; ++leaf) {
+        for (int32_t id = leaf; id >= 0; id = tree.parent[id]) {
+            const double apart = (tree.center[leaf] - tree.center[id]).length();
+            needed[id] = std::max(needed[id], apart + tree.radius[leaf]);
+        }
+    }
+    return needed;
+}
+
+TEST(ExtendedTree, RadiiAreTheSmallestThatContainTheLeafBallsBelow)
+{
+    for (const RandomObject& object : someObjects(400, 33)) {
+        for (const Reconstruction reconstruct : kReconstructions) {
+            SCOPED_TRACE(object.name + ", " + toString(reconstruct));
+            const SphereTree tree = buildSphereTree(*gridOf(object.voxels), extended(reconstruct));
+            const std::vector<double> needed = neededRadii(tree);
+            for (int32_t id = 0; id < tree.size(); ++id) {
+                ASSERT_NEAR(tree.radius[id], needed[id], 1e-9 * (1 + needed[id])) << id;
+            }
+        }
+    }
+}
+
+TEST(ExtendedTree, WithoutTheFinalFitRadiiGrowAsAnyBallsDoAndNothingElseChanges)
+{
+    for (const RandomObject& object : someObjects(500, 33)) {
+        SCOPED_TRACE(object.name);
+        SphereTreeSettings settings = extended();
+        const SphereTree fitted = buildSphereTree(*gridOf(object.voxels), settings);
+        settings.finalFit = false;
+        const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+        ASSERT_EQ(tree.ijk, fitted.ijk);
+        ASSERT_EQ(tree.parent, fitted.parent);
+        for (int32_t id = 0; id < tree.size(); ++id) {
+            const double side = std::pow(2.0, tree.levelOf(id)) - 1;
+            const double radius = fitted.radius[id] + std::sqrt(3.0) / 2 * side;
+            ASSERT_NEAR(tree.radius[id], radius, 1e-9 * (1 + radius));
+            ASSERT_GE(tree.coverSq[id], fitted.coverSq[id]);
+            ASSERT_LE(double(tree.coverSq[id]), 4 * radius * radius * (1 + 1e-12));
+            ASSERT_GT(double(tree.coverSq[id]) + 1, 4 * radius * radius * (1 - 1e-12));
+        }
+    }
+}
+
+TEST(ExtendedTree, EveryInnerNodeHasAChild)
+{
+    for (const RandomObject& object : someObjects(600, 33)) {
+        for (const SphereTreeSettings& settings : allSettings(TreeType::Extended, 3)) {
+            const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+            std::vector<int> children(tree.parent.size(), 0);
+            for (int32_t parent : tree.parent) {
+                if (parent >= 0) ++children[parent];
+            }
+            for (int32_t id = 0; id < tree.levels[0].begin; ++id) {
+                ASSERT_GT(children[id], 0) << object.name << ' ' << describe(settings);
+            }
+        }
+    }
+}
+
+TEST(ExtendedTree, DropsBallsThatAReversibleTreeKeeps)
+{
+    int dropped = 0;
+    for (const RandomObject& object : someObjects(700, 33)) {
+        SphereTreeSettings settings = extended();
+        const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+        settings.tree = TreeType::Reversible;
+        const SphereTree all = buildSphereTree(*gridOf(object.voxels), settings);
+        if (tree.levels.size() < 2) continue;
+        ASSERT_LE(tree.levels[1].size(), all.levels[1].size()) << object.name;
+        dropped += all.levels[1].size() - tree.levels[1].size();
+        // Level 1 comes from the same voxels in both.
+        EXPECT_EQ(tree.levels[1].pyramidVoxels, all.levels[1].pyramidVoxels);
+    }
+    EXPECT_GT(dropped, 50);
+}
+
+/// Per level, the box of the object's OR pyramid.
+std::vector<CoordBBox> pyramidBoxes(const Voxels& voxels)
+{
+    std::vector<CoordBBox> boxes;
+    for (const auto& level : naiveOrPyramid(voxels, 2)) {
+        boxes.push_back(boxOf(Voxels(level.begin(), level.end())));
+    }
+    return boxes;
+}
+
+TEST(ExtendedTree, TheClipKeepsLevelsInThePyramidsBoxAndTheirNumberInItsBound)
+{
+    for (const RandomObject& object : someObjects(800, 44)) {
+        SCOPED_TRACE(object.name);
+        const SphereTree tree = buildSphereTree(*gridOf(object.voxels), extended());
+        const auto boxes = pyramidBoxes(object.voxels);
+        ASSERT_LE(tree.levels.size(), boxes.size());
+        for (const SphereTreeLevel& level : tree.levels) {
+            const CoordBBox& box = boxes[level.level];
+            EXPECT_LE(level.pyramidVoxels, int64_t(box.volume()));
+            for (int32_t id = level.begin; id < level.end; ++id) {
+                ASSERT_TRUE(box.isInside(tree.ijk[id])) << tree.ijk[id];
+            }
+        }
+    }
+}
+
+TEST(ExtendedTree, WithoutTheClipLevelsMaySwellButTheTreeStillEnds)
+{
+    int swollen = 0;
+    for (const RandomObject& object : someObjects(900, 44)) {
+        SCOPED_TRACE(object.name);
+        const SphereTree clipped = buildSphereTree(*gridOf(object.voxels), extended());
+        const SphereTree tree =
+            buildSphereTree(*gridOf(object.voxels), extended(Reconstruction::Free));
+        EXPECT_TRUE(endsAtOneRoot(tree));
+        EXPECT_LE(tree.levels.size(), pyramidBoxes(object.voxels).size());
+        for (std::size_t k = 0; k < std::min(tree.levels.size(), clipped.levels.size()); ++k) {
+            swollen += tree.levels[k].pyramidVoxels > clipped.levels[k].pyramidVoxels;
+        }
+    }
+    EXPECT_GT(swollen, 10);
+}
+
+TEST(ExtendedTree, WithoutReconstructionLevelsAreThoseOfThePyramid)
+{
+    for (const RandomObject& object : someObjects(1000, 44)) {
+        SCOPED_TRACE(object.name);
+        const SphereTree tree =
+            buildSphereTree(*gridOf(object.voxels), extended(Reconstruction::None));
+        const auto pyramid = naiveOrPyramid(object.voxels, 2);
+        for (const SphereTreeLevel& level : tree.levels) {
+            EXPECT_EQ(level.pyramidVoxels, int64_t(pyramid.at(level.level).size()));
+        }
+    }
+}
+
+TEST(ExtendedTree, Level0IsThatOfTheReversibleTree)
+{
+    for (const RandomObject& object : someObjects(1100, 11)) {
+        SphereTreeSettings settings = extended();
+        SphereTree a = keepLevel(buildSphereTree(*gridOf(object.voxels), settings), 0);
+        settings.tree = TreeType::Reversible;
+        SphereTree b = keepLevel(buildSphereTree(*gridOf(object.voxels), settings), 0);
+        EXPECT_TRUE(sameNodes(a, b)) << object.name;
+    }
+}
+
+TEST(ExtendedTree, TheRadiusScaleDoesNotMatterToFittedSpheres)
+{
+    const auto grid = gridOf(randomObject(8).voxels);
+    SphereTreeSettings settings = extended();
+    const SphereTree tight = buildSphereTree(*grid, settings);
+    settings.scale = RadiusScale::Paper;
+    EXPECT_TRUE(sameNodes(tight, buildSphereTree(*grid, settings)));
+}
+
+/// A row of eight voxels, by hand: level 1 is a row of four, whose medial balls are its voxels.
+TEST(ExtendedTree, ARowOfVoxelsIsWhatItIsByHand)
+{
+    SphereTreeSettings settings = extended();
+    settings.padding = 0;
+    const SphereTree tree = buildSphereTree(*gridOf(shapes::box(Coord(8, 1, 1))), settings);
+    ASSERT_EQ(tree.levels.size(), 4u);
+    EXPECT_EQ(tree.levels[1].size(), 4);
+    EXPECT_EQ(tree.levels[2].size(), 2);
+    for (int32_t i = 0; i < 4; ++i) { // two voxels each, at (2i, 0, 0) and (2i + 1, 0, 0)
+        const int32_t id = tree.levels[1].begin + i;
+        EXPECT_EQ(tree.center[id], openvdb::Vec3d(2 * i + 0.5, 0.5, 0.5));
+        EXPECT_DOUBLE_EQ(tree.radius[id], std::sqrt(3.0) / 2);
+        EXPECT_EQ(tree.coverSq[id], 3);
+    }
+    const int32_t first = tree.levels[2].begin; // four voxels, the farthest at (0, 0, 0)
+    EXPECT_EQ(tree.center[first], openvdb::Vec3d(1.5, 1.5, 1.5));
+    EXPECT_DOUBLE_EQ(tree.radius[first], std::sqrt(27.0) / 2);
+    EXPECT_EQ(tree.center[0], openvdb::Vec3d(3.5, 3.5, 3.5));
+    EXPECT_DOUBLE_EQ(tree.radius[0], std::sqrt(3 * 49.0) / 2);
+}
+
+TEST(ExtendedTree, IsRefusedBeforeItHasMoreNodesThanIdsOrMemory)
+{
+    EXPECT_NO_THROW(detail::requireRoomForNodes(1000000));
+    constexpr std::size_t kIds = std::size_t(1) << 31, kNodeBytes = 64;
+    if (detail::physicalMemory() > 0 && detail::physicalMemory() < double(kIds) * kNodeBytes) {
+        EXPECT_THROW(detail::requireRoomForNodes(kIds - 1), openvdb::ValueError);
+    }
+    try {
+        detail::requireRoomForNodes(kIds);
+        FAIL() << "has ids for all";
+    } catch (const openvdb::ValueError& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("the 2147483648 spheres of the tree"), std::string::npos) << what;
+    }
+}
+
+} // namespace

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestSpherePicture.cc
+/// @brief Pictures: outlines where geometry has them, the same bytes whatever must not matter,
+/// colours, .png files, and what is refused.
+
+#include "support/BuiltTrees.h"
+#include "support/Messages.h"
+#include "support/SampleTrees.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/picture/PictureColors.h>
+#include <openvdb_spheretree/picture/SpherePicture.h>
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using openvdb::Vec3d;
+
+PictureSettings small(PictureColor color = PictureColor::Parent)
+{
+    PictureSettings settings;
+    settings.width = 160;
+    settings.height = 120;
+    settings.color = color;
+    return settings;
+}
+
+/// One level, every node a root.
+SphereTree treeOf(const std::vector<std::pair<Vec3d, double>>& balls, double voxel = 1)
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(voxel);
+    tree.object.bbox.reset(Coord(-4, -4, -4), Coord(4, 4, 4));
+    addLevel(tree, int32_t(balls.size()), 1);
+    for (const auto& [center, radiusWorld] : balls) {
+        addNode(tree, center, Coord::round(center), 1, -1);
+        tree.radiusWorld.back() = float(radiusWorld);
+    }
+    return tree;
+}
+
+double linear(uint8_t byte)
+{
+    const double v = byte / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+/// Pixels of a black ball before the light background, at least half of each.
+int darkPixels(const Picture& picture)
+{
+    int dark = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) dark += linear(picture.rgb[i]) < 0.42;
+    return dark;
+}
+
+/// The pixels that a ball should take: its outline is a cone of half angle @a theta around an axis
+/// @a phi off the view, so an ellipse on the picture.
+double outlineArea(double theta, double phi, const PictureSettings& settings, double fovDegrees)
+{
+    const double s = std::sin(theta), cosSq = std::cos(phi) * std::cos(phi) - s * s;
+    const double pixel = 2 * std::tan(fovDegrees * M_PI / 360) / settings.height;
+    return M_PI * (s * std::cos(theta) / cosSq) * (s / std::sqrt(cosSq)) / (pixel * pixel);
+}
+
+Picture decoded(const std::string& file)
+{
+    png_image image = {};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()));
+    EXPECT_EQ(image.format, png_uint_32(PNG_FORMAT_RGB));
+    Picture picture{int(image.width), int(image.height), {}};
+    picture.rgb.resize(PNG_IMAGE_SIZE(image));
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr));
+    return picture;
+}
+
+Camera viewOfObject(const openvdb::BoolGrid& object)
+{
+    return viewOf(
+        object.evalActiveVoxelBoundingBox(), object.transform(), Vec3d(0, 1, 0), 30, 4.0 / 3);
+}
+
+Camera viewOfTree(const SphereTree& tree)
+{
+    return viewOf(tree.object.bbox, *tree.transform, Vec3d(0, 1, 0), 30, 4.0 / 3);
+}
+
+/// How many colours, at one hue and lightness each, are in the middle of balls in a row.
+std::set<std::vector<int>> colorsOf(const SphereTree& tree, int level, PictureColor color)
+{
+    std::set<std::vector<int>> colors;
+    const SphereTreeLevel& drawn = tree.levels[level];
+    for (int32_t id = drawn.begin; id < drawn.end; ++id) {
+        Camera camera;
+        camera.lookAt = tree.centerWorld(id);
+        camera.eye = camera.lookAt + Vec3d(0, 0, 50);
+        camera.fovDegrees = 0.01;
+        PictureSettings settings = small(color);
+        settings.width = settings.height = 1;
+        settings.lightRays = 64;
+        const Picture dot = renderLevel(tree, level, camera, settings);
+        colors.insert(std::vector<int>(dot.rgb.begin(), dot.rgb.end()));
+    }
+    return colors;
+}
+
+} // namespace
+
+TEST(SpherePicture, TheOutlineOfABallIsTheEllipseOfItsCone)
+{
+    const SphereTree tree = treeOf({{Vec3d(2, 0, 0), 3}}, 0.5); // at (1, 0, 0) in the world
+    PictureSettings settings;
+    settings.width = 640;
+    settings.height = 480;
+    settings.color = PictureColor::Fixed;
+    settings.fixed = Vec3d(0.0);
+    Camera camera;
+    camera.fovDegrees = 50;
+    camera.eye = Vec3d(1, 0, 10);
+    for (const Vec3d& lookAt :
+        {Vec3d(1, 0, 0), Vec3d(2.5, 0, 0), Vec3d(1, -1.2, 1), Vec3d(3, 0.5, 0)}) {
+        camera.lookAt = lookAt;
+        const Vec3d view = (lookAt - camera.eye).unit();
+        const double theta = std::asin(0.3), phi = std::acos(std::min(1.0, view.dot({0, 0, -1})));
+        const double expected = outlineArea(theta, phi, settings, camera.fovDegrees);
+        ASSERT_GT(expected, 20000);
+        EXPECT_NEAR(darkPixels(renderLevel(tree, 0, camera, settings)), expected, 0.002 * expected);
+    }
+}
+
+TEST(SpherePicture, TheRadiusDrawnIsTheStoredOneButHalfAVoxelAtLeast)
+{
+    PictureSettings settings = small(PictureColor::Fixed);
+    settings.fixed = Vec3d(0.0);
+    Camera camera;
+    camera.eye = Vec3d(0, 0, 100);
+    camera.fovDegrees = 5;
+    for (const double radius : {0.0, 0.6, 1.0, 3.0}) {
+        const SphereTree tree = treeOf({{Vec3d(0.0), radius}}, 2);
+        const double expected =
+            outlineArea(std::asin(std::max(radius, 1.0) / 100), 0, settings, camera.fovDegrees);
+        EXPECT_NEAR(darkPixels(renderLevel(tree, 0, camera, settings)), expected, 0.02 * expected);
+    }
+}
+
+TEST(SpherePicture, BallsOfNormsAreThePolyhedraThatTheyAre)
+{
+    PictureSettings settings = small(PictureColor::Fixed);
+    settings.fixed = Vec3d(0.0);
+    Camera camera;
+    camera.eye = Vec3d(0, 0, 1000); // so far off that what is seen is a projection
+    camera.fovDegrees = 0.8;
+    const double pixel = 2 * 1000 * std::tan(0.4 * M_PI / 180) / settings.height;
+    SphereTree tree = treeOf({{Vec3d(0.0), 6}}, 2); // three voxels
+    const auto areaOf = [&](const char* dist) {
+        tree.settings.dist = distanceFromString(dist);
+        return darkPixels(renderLevel(tree, 0, camera, settings)) * pixel * pixel;
+    };
+    // Seen along an axis: a square of 12 x 12, one half as large on its tip, and between them an
+    // octagon that the norm's corner (r a / b, r a / b) belongs to.
+    EXPECT_NEAR(areaOf("linf"), 144, 3);
+    EXPECT_NEAR(areaOf("l1"), 72, 2);
+    EXPECT_NEAR(areaOf("chamfer:3,4,5"), 8 * 6 * (6 * 0.75) / 2, 3);
+    EXPECT_NEAR(areaOf("l2"), M_PI * 36, 3);
+    // Turned by 45 degrees the cube shows two of its sides, and the octahedron two tips.
+    tree.transform->postRotate(M_PI / 4, openvdb::math::Y_AXIS);
+    EXPECT_NEAR(areaOf("linf"), 144 * std::sqrt(2), 4);
+    EXPECT_NEAR(areaOf("l1"), 72 / std::sqrt(2), 2);
+}
+
+TEST(SpherePicture, WhatStandsBeforeTheLampCastsASoftShadowWithoutGrain)
+{
+    PictureSettings settings = small(PictureColor::Fixed);
+    Camera camera;
+    camera.eye = Vec3d(0, 0, 30);
+    camera.fovDegrees = 4;
+    // The lamp is to the left, above and behind the viewer; the second ball is out of sight.
+    const Vec3d towardsLamp = Vec3d(-0.55, 0.8, 0.6).unit();
+    const Vec3d front(0, 0, 6);
+    const auto facing = [&](const std::vector<std::pair<Vec3d, double>>& balls) {
+        return renderLevel(treeOf(balls), 0, camera, settings);
+    };
+    const std::pair<Vec3d, double> lit(Vec3d(0.0), 6), before(front + 10 * towardsLamp, 2);
+    const Picture open = facing({lit}), dark = facing({lit, before});
+    const std::size_t middle = 3 * (60 * 160 + 80);
+    EXPECT_LT(linear(dark.rgb[middle]), 0.75 * linear(open.rgb[middle]));
+    EXPECT_GT(linear(dark.rgb[middle]), 0.3 * linear(open.rgb[middle]));
+    const Picture edge = facing({lit, {before.first, 0.8}}); // smaller than the lamp seems
+    double steps = 0;
+    for (std::size_t i = 3; i < edge.rgb.size(); ++i) {
+        steps += std::abs(edge.rgb[i] - edge.rgb[i - 3]);
+    }
+    EXPECT_LT(steps / double(edge.rgb.size()), 1.2) << "of 256";
+}
+
+TEST(SpherePicture, TheNumberOfThreadsMakesNoDifference)
+{
+    const auto object = gridOf(shapes::ball(60));
+    const SphereTree tree = buildSphereTree(*object);
+    std::vector<Picture> ofLevel, ofObject;
+    for (const int threads : {1, 2, 5}) {
+        const tbb::global_control limit(
+            tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+        ofLevel.push_back(renderLevel(tree, 0, viewOfTree(tree), small()));
+        ofObject.push_back(renderObject(*object, viewOfObject(*object), small()));
+    }
+    for (int i = 1; i < 3; ++i) {
+        EXPECT_TRUE(ofLevel[i].rgb == ofLevel[0].rgb);
+        EXPECT_TRUE(ofObject[i].rgb == ofObject[0].rgb);
+    }
+    EXPECT_FALSE(ofLevel[0].rgb == ofObject[0].rgb);
+}
+
+TEST(SpherePicture, TilesAreDrawnAsTheirVoxels)
+{
+    auto tiles = openvdb::BoolGrid::create();
+    tiles->tree().sparseFill(openvdb::CoordBBox(Coord(-9, 0, -128), Coord(140, 130, 30)), true);
+    tiles->tree().setValueOff(Coord(140, 130, 30));
+    ASSERT_GT(tiles->tree().activeTileCount(), 0u);
+    const auto voxels = tiles->deepCopy();
+    voxels->tree().voxelizeActiveTiles();
+    const Camera camera = viewOfObject(*tiles);
+    EXPECT_TRUE(
+        renderObject(*tiles, camera, small()).rgb == renderObject(*voxels, camera, small()).rgb);
+}
+
+TEST(SpherePicture, TheBoundingBoxCostsNothing)
+{
+    const auto near = gridOf(shapes::ball(30));
+    auto far = near->deepCopy();
+    far->tree().addTile(2, Coord(1 << 27, 1 << 27, -(1 << 27)), true, true);
+    Camera camera;
+    camera.eye = Vec3d(3, 4, 30);
+    const Picture picture = renderObject(*far, camera, small());
+    EXPECT_GT(darkPixels(picture), 100);
+}
+
+TEST(SpherePicture, AMirroringTransformMirrorsThePicture)
+{
+    SphereTree tree = treeOf({{Vec3d(0.0), 1}, {Vec3d(3, 0, 0), 1}});
+    Camera camera;
+    camera.eye = Vec3d(0, 0, 30);
+    const auto leftOf = [&] {
+        const Picture picture = renderLevel(tree, 0, camera, small(PictureColor::Fixed));
+        int left = 0;
+        for (int y = 0; y < 120; ++y) {
+            for (int x = 0; x < 50; ++x) left += picture.rgb[3 * (y * 160 + x)] < 180;
+        }
+        return left;
+    };
+    camera.fovDegrees = 18;
+    EXPECT_EQ(leftOf(), 0);
+    openvdb::math::Mat4d mirror = openvdb::math::Mat4d::identity();
+    mirror[0][0] = -1;
+    tree.transform = openvdb::math::Transform::createLinearTransform(mirror);
+    EXPECT_GT(leftOf(), 20);
+}
+
+TEST(SpherePicture, SiblingsShareAColorAndNeighboursDiffer)
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(1);
+    tree.object.bbox.reset(Coord(0, 0, 0), Coord(40, 1, 1));
+    addLevel(tree, 4, 1);
+    addLevel(tree, 8, 1);
+    for (int i = 0; i < 4; ++i) addNode(tree, Vec3d(10 * i, 0, 0), Coord(i, 0, 0), 26, -1);
+    for (int i = 0; i < 8; ++i) addNode(tree, Vec3d(5 * i, 0, 0), Coord(i, 0, 0), 2, i / 2);
+    for (int32_t id = 4; id < 12; ++id) tree.radiusWorld[id] = 1;
+    EXPECT_EQ(colorsOf(tree, 0, PictureColor::Parent).size(), 4u);
+    EXPECT_EQ(colorsOf(tree, 1, PictureColor::Parent).size(), 1u) << "no parents: one colour";
+    EXPECT_EQ(colorsOf(tree, 0, PictureColor::Level).size(), 1u);
+    EXPECT_GE(colorsOf(tree, 0, PictureColor::Id).size(), 4u);
+    EXPECT_NE(colorsOf(tree, 0, PictureColor::Level), colorsOf(tree, 0, PictureColor::Fixed));
+}
+
+TEST(SpherePicture, SpheresSideBySideNeverHaveOneColor)
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(1);
+    addLevel(tree, 300, 1);
+    for (int i = 0; i < 300; ++i) addNode(tree, Vec3d(2 * i, 0, 0), Coord(i, 0, 0), 2, -1);
+    const auto colors = detail::levelColors(tree, tree.levels[0], small(PictureColor::Id), nullptr);
+    for (int i = 1; i < 300; ++i) ASSERT_NE(colors[i - 1], colors[i]) << i;
+}
+
+TEST(SpherePicture, APngReadsBackToTheSamePixels)
+{
+    const SphereTree tree = buildSphereTree(*gridOf(shapes::ball(40)));
+    const Picture picture = renderLevel(tree, 0, viewOfTree(tree), small());
+    std::ostringstream out, again;
+    writePng(picture, out);
+    writePng(picture, again);
+    EXPECT_EQ(out.str(), again.str());
+    const Picture read = decoded(out.str());
+    EXPECT_EQ(read.width, 160);
+    EXPECT_EQ(read.height, 120);
+    EXPECT_TRUE(read.rgb == picture.rgb);
+}
+
+TEST(SpherePicture, AnEmptyPictureAndAStreamThatFailsAreErrors)
+{
+    std::ostringstream out;
+    messageOf<openvdb::ValueError>([&] { writePng(Picture(), out); });
+    messageOf<openvdb::ValueError>([&] { writePng(Picture{2, 2, std::vector<uint8_t>(11)}, out); });
+    EXPECT_EQ(out.str(), "");
+    out.setstate(std::ios::badbit);
+    const Picture dot{1, 1, {1, 2, 3}};
+    EXPECT_TRUE(mentions(messageOf<openvdb::IoError>([&] { writePng(dot, out); }), "disk full"));
+}
+
+TEST(SpherePicture, AnInterrupterStopsIt)
+{
+    const auto object = gridOf(shapes::ball(60));
+    const SphereTree tree = buildSphereTree(*object);
+    for (const int after : {0, 3}) {
+        StopAfter level(after), voxels(after);
+        EXPECT_THROW(renderLevel(tree, 0, viewOfTree(tree), small(), &level), Interrupted);
+        EXPECT_THROW(renderObject(*object, viewOfObject(*object), small(), &voxels), Interrupted);
+    }
+}
+
+TEST(SpherePicture, WhatIsOutOfRangeIsNamed)
+{
+    const SphereTree tree = treeOf({{Vec3d(0.0), 1}});
+    const auto whyNot = [&](int level, const Camera& camera, const PictureSettings& settings) {
+        return messageOf<openvdb::ValueError>([&] { renderLevel(tree, level, camera, settings); });
+    };
+    EXPECT_TRUE(mentions(whyNot(3, Camera(), small()), "no level 3: it has levels 0 to 0"));
+    Camera blind;
+    blind.eye = blind.lookAt;
+    EXPECT_TRUE(mentions(whyNot(0, blind, small()), "eye"));
+    PictureSettings settings = small();
+    settings.width = 0;
+    EXPECT_TRUE(mentions(whyNot(0, Camera(), settings), "width=0"));
+    settings = small();
+    settings.height = 16385;
+    EXPECT_TRUE(mentions(whyNot(0, Camera(), settings), "height=16385"));
+    settings = small();
+    settings.samples = 1;
+    EXPECT_TRUE(mentions(whyNot(0, Camera(), settings), "samples=1"));
+    settings = small();
+    settings.fixed[1] = 1.5;
+    EXPECT_TRUE(mentions(whyNot(0, Camera(), settings), "color="));
+    messageOf<openvdb::ValueError>(
+        [&] { renderObject(*openvdb::BoolGrid::create(), Camera(), small()); });
+}

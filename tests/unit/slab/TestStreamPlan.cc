@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestStreamPlan.cc
+/// @brief How many slabs enter at a time, and how packed ones are cut into blocks.
+
+#include <openvdb_spheretree/slab/StreamPlan.h>
+
+#include "support/CoreStages.h"
+#include "support/Messages.h"
+#include "support/RandomObjects.h"
+
+#include <set>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using slab::PackedBlock;
+using slab::PackedBlocks;
+using slab::planWithin;
+using slab::StreamMemory;
+using slab::StreamPlan;
+
+/// A hundred slabs of a leaf each.
+LeafLayout hundredSlabs()
+{
+    Voxels line;
+    for (int x = 0; x < 800; ++x) line.push_back(Coord(x, 3, 5));
+    return LeafLayout(*maskOf(line));
+}
+
+TEST(StreamPlan, IsTheLargestWindowThatFits)
+{
+    const LeafLayout layout = hundredSlabs();
+    const StreamMemory memory{700, 300, 1, 10, 5, 3};
+    // Beside those that enter: two and two for the reach of a ball within a voxel of them.
+    EXPECT_EQ(slab::windowBytes(layout, memory, 1, 1), 50);
+    EXPECT_EQ(slab::windowBytes(layout, memory, 64, 1), 70);
+    EXPECT_EQ(slab::windowBytes(layout, memory, 1, 1000), 1000);
+    const auto windowIn = [&](int64_t bytes) {
+        const StreamPlan plan = planWithin(layout, memory, 1, bytes, 4);
+        EXPECT_FALSE(plan.packed) << bytes;
+        EXPECT_LE(plan.bytes, bytes);
+        return plan.slabs;
+    };
+    EXPECT_EQ(windowIn(2004), 100u); // 1000, 4 x 1 of threads and 100 x 10
+    EXPECT_EQ(windowIn(2003), 50u);
+    EXPECT_EQ(windowIn(1051), 1u); // a single thread
+    EXPECT_TRUE(planWithin(layout, memory, 1, 1050 + 500, 4).slabs >= 1);
+}
+
+TEST(StreamPlan, PacksWhatHasNoWindow)
+{
+    const LeafLayout layout = hundredSlabs();
+    const StreamMemory memory{700, 300, 10, 30, 2, 5}; // 50 a thread, 200 for the run's keys
+    constexpr uint32_t kReach = 1000 * 1000;           // so all slabs are open at once
+    EXPECT_FALSE(planWithin(layout, memory, kReach, 4010, 1).packed);
+    const StreamPlan all = planWithin(layout, memory, kReach, 4009, 4);
+    EXPECT_TRUE(all.packed);
+    EXPECT_EQ(all.slabs, 4u);
+    EXPECT_EQ(all.storedBytes, 4009 - 1000 - 4 * 50 - 4009 / 16);
+    EXPECT_EQ(all.packedBytes, 500);
+    EXPECT_EQ(all.bandBytes, 300 + 3 * 40);
+    const StreamPlan two = planWithin(layout, memory, kReach, 1107, 4);
+    EXPECT_EQ(two.slabs, 2u);
+    EXPECT_EQ(two.storedBytes, 0);
+    const StreamPlan one = planWithin(layout, memory, kReach, 1050, 4);
+    EXPECT_EQ(one.slabs, 1u);
+    EXPECT_EQ(one.storedBytes, 0);
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { planWithin(layout, memory, kReach, 1049, 4); });
+    EXPECT_TRUE(mentions(why, "the object's 100 leaf nodes"));
+    EXPECT_TRUE(mentions(why, "memory="));
+}
+
+/// Every leaf is in one block of its slab, and in the band of its run.
+void expectBlocks(const LeafLayout& layout, const PackedBlocks& cut)
+{
+    std::vector<uint32_t> bandOf(layout.leafCount());
+    for (std::size_t band = 0; band + 1 < cut.firstRunOfBand.size(); ++band) {
+        for (uint32_t i = cut.firstRunOfBand[band]; i < cut.firstRunOfBand[band + 1]; ++i) {
+            const LeafLayout::Run run = layout.run(Axis::X, i);
+            for (uint32_t k = 0; k < run.count; ++k) bandOf[run.leaves[k]] = uint32_t(band);
+        }
+    }
+    ASSERT_EQ(cut.firstRunOfBand.size(), cut.firstOfBand.size());
+    ASSERT_EQ(cut.firstRunOfBand.back(), layout.runCount(Axis::X));
+    ASSERT_EQ(cut.firstOfBand.back(), cut.blocks.size());
+    std::set<uint32_t> seen;
+    for (std::size_t band = 0; band + 1 < cut.firstOfBand.size(); ++band) {
+        for (uint32_t index = cut.firstOfBand[band]; index < cut.firstOfBand[band + 1]; ++index) {
+            const PackedBlock& block = cut.blocks[index];
+            ASSERT_LT(block.begin, block.end);
+            ASSERT_LE(block.end - block.begin, slab::kBlockLeaves);
+            for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+                ASSERT_TRUE(seen.insert(leaf).second);
+                ASSERT_EQ(bandOf[leaf], band);
+                ASSERT_EQ(layout.slabOf(leaf), block.slab);
+            }
+        }
+    }
+    ASSERT_EQ(seen.size(), layout.leafCount());
+}
+
+TEST(PackedBlocks, ArePartsOfSlabsAndOfBands)
+{
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+        const LeafLayout layout(*maskOf(randomObject(seed).voxels));
+        for (const int64_t bytes : {0, 1, 2, 5, 1 << 20}) {
+            const PackedBlocks cut(layout, 1, bytes);
+            SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(bytes));
+            ASSERT_NO_FATAL_FAILURE(expectBlocks(layout, cut));
+            const std::size_t bands = cut.firstOfBand.size() - 1;
+            EXPECT_TRUE(bytes > 0 || bands == layout.runCount(Axis::X));
+            EXPECT_TRUE(bytes < 1000 || bands == 1);
+            std::size_t count = 0;
+            for (const auto& ofSlab : cut.ofSlab) count += ofSlab.size();
+            EXPECT_EQ(count, cut.blocks.size());
+        }
+    }
+}
+
+TEST(PackedBlocks, LargeSlabsHaveSeveral)
+{
+    const LeafLayout layout(*maskOf(CoordBBox(Coord(0), Coord(15, 399, 399)))); // 2 x 2500
+    const PackedBlocks cut(layout, 1, INT64_MAX);
+    ASSERT_NO_FATAL_FAILURE(expectBlocks(layout, cut));
+    EXPECT_EQ(cut.blocks.size(), 6u);
+    EXPECT_EQ(cut.ofSlab[1].size(), 3u);
+}
+
+} // namespace

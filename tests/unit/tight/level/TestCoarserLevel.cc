@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/tight/level/CoarserLevel.h>
+
+#include "support/MergedLeaves.h"
+
+#include <set>
+
+namespace {
+
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+
+/// Makes a level above, and the next ones above that.
+/// @return the voxels around all of these.
+int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& finest,
+    const std::vector<int64_t>& counts)
+{
+    const SampleLevel& object = merged.object.level(0);
+    TightLevel finer;
+    finer.balls = finest;
+    auto regions = merged.regions(finer.balls);
+    int64_t around = 0;
+    for (const int64_t count : counts) {
+        const auto before = voxelsOf(regions, object);
+        const TightLevel level = coarserLevel(finer, regions, count, merged.maker);
+        EXPECT_LE(level.balls.size(), std::size_t(count));
+        EXPECT_EQ(finer.parent.size(), finer.balls.size());
+        const std::set<int32_t> parents(finer.parent.begin(), finer.parent.end());
+        EXPECT_EQ(parents.size(), level.balls.size()) << "each has a child";
+        for (const FineBall& ball : level.balls) EXPECT_FALSE(ball.empty());
+        const auto held = heldBelow(level.balls, finer.parent, before);
+        EXPECT_EQ(together(held), merged.voxels);
+        EXPECT_EQ(voxelsOf(regions, object), held);
+        around += excess(thereOf(ungrouped(level.balls)), merged.voxels);
+        finer = level;
+    }
+    return around;
+}
+
+TEST(CoarserLevel, KeepsChainsAndIsTighterThanMergedBalls)
+{
+    Random random(1);
+    int64_t merging = 0, searched = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+        const MergedLeaves merged(shapes::noise(Coord(7, 6, 5), 0.5, random));
+        const std::vector<int64_t> counts{13, 5, 2};
+        for (const int64_t count : counts) merging += excess(merged.cut(count), merged.voxels);
+        searched += expectLevels(merged, merged.cut(13), counts);
+    }
+    EXPECT_LT(searched, merging);
+}
+
+} // namespace

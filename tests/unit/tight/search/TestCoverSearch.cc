@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/tight/search/CoverSearch.h>
+
+#include "support/FineBalls.h"
+
+#include <openvdb_spheretree/tight/level/TightLevels.h>
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
+
+namespace {
+
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+
+const FitEffort kEffort{true, 12, 1, false, 40};
+
+bool anyHolds(const std::vector<FineBall>& balls, const Voxels& voxels)
+{
+    return std::any_of(balls.begin(), balls.end(), [&](const FineBall& ball) {
+        return std::all_of(
+            voxels.begin(), voxels.end(), [&](const Coord& v) { return holds(ball, v); });
+    });
+}
+
+/// Starts from a cut of merged leaves.
+struct Start {
+    Voxels voxels;
+    SampledObject object;
+    std::vector<FineBall> leaves, balls;
+
+    Start(const Voxels& some, int64_t count) : voxels(some), object(sampled(voxels))
+    {
+        for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+        SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
+            kEffort, false, nullptr);
+        const auto forest = mergeToRoots(model, 6, nullptr);
+        for (const int32_t node : cutOf(forest, count)) balls.push_back(forest[node].ball);
+    }
+};
+
+/// @param units  each to be held by one ball
+void expectBetter(const Start& start, const CoverDebt& debt, const std::vector<Voxels>& units)
+{
+    const SearchedCover found = improveCover(ungrouped(start.balls), ungrouped(start.leaves),
+        start.object, debt, {kEffort, 30, 0, false}, nullptr);
+    const auto balls = ballsOf(found.balls);
+    ASSERT_EQ(balls.size(), start.balls.size());
+    for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
+    for (const Voxels& unit : units) ASSERT_TRUE(anyHolds(balls, unit));
+    const auto before = excess(start.balls, start.voxels), after = excess(balls, start.voxels);
+    ASSERT_LE(after, before);
+    ASSERT_EQ(found.change, double(after - before)); // small balls are not sampled
+}
+
+TEST(CoverSearch, KeepsACoverOfVoxelsAndIsNeverWorse)
+{
+    Random random(1);
+    for (const int64_t count : {1, 2, 5, 9}) {
+        const Start start(shapes::noise(Coord(8, 7, 7), 0.5, random), count);
+        std::vector<Voxels> alone;
+        for (const Coord& v : start.voxels) alone.push_back({v});
+        const VoxelDebt debt(start.object.level(0));
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, debt, alone)) << count;
+    }
+}
+
+TEST(CoverSearch, KeepsACoverOfUnitsAndIsNeverWorse)
+{
+    Random random(2);
+    for (const int64_t count : {1, 3, 6}) {
+        const Start start(shapes::noise(Coord(8, 7, 7), 0.5, random), count);
+        const auto units = cellPoints(start.balls, start.object.level(0), nullptr);
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, UnitDebt(units), units)) << count;
+    }
+}
+
+/// Six balls far apart, the last one of two voxels, and a cover whose first ball holds two of them.
+struct Parted {
+    std::vector<Voxels> parts;
+    Voxels voxels;
+    std::vector<FineBall> leaves, start;
+
+    Parted()
+    {
+        for (int i = 0; i < 6; ++i) {
+            const Voxels part = i < 5 ? shapes::ball(8) : shapes::box(Coord(1, 1, 2));
+            parts.push_back(translated(part, Coord(14 * i, 0, 0)));
+            voxels.insert(voxels.end(), parts.back().begin(), parts.back().end());
+        }
+        sortVoxels(voxels);
+        for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+        start.push_back({{16 * 7, 0, 0}, 160 * 160});
+        for (int i = 2; i < 5; ++i) start.push_back({{16 * 14 * i, 0, 0}, 16 * 16 * 7});
+        for (int z = 0; z < 2; ++z) start.push_back({{16 * 14 * 5, 0, 16 * z}, 0});
+    }
+};
+
+/// @param trials  for each ball
+void expectApart(const Parted& parted, const std::vector<FineBall>& start, int trials)
+{
+    const SampledObject object = sampled(parted.voxels);
+    ASSERT_GT(excess(start, parted.voxels), 0);
+    const SearchedCover found = improveCover(ungrouped(start), ungrouped(parted.leaves), object,
+        VoxelDebt(object.level(0)), {kEffort, trials, 0, false}, nullptr);
+    const auto balls = ballsOf(found.balls);
+    ASSERT_EQ(balls.size(), parted.parts.size());
+    for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
+    for (const Voxels& part : parted.parts) EXPECT_TRUE(anyHolds(balls, part));
+    EXPECT_EQ(excess(balls, parted.voxels), 0);
+    EXPECT_EQ(found.change, -double(excess(start, parted.voxels)));
+}
+
+TEST(CoverSearch, PutsABallThatOwesNothingWhereOneIsMissing)
+{
+    const Parted parted;
+    std::vector<FineBall> start = parted.start;
+    start[4] = {{16 * 14 * 5, 0, 8}, 8 * 8};
+    start[5] = {{16 * 14 * 4, 0, 0}, 16 * 16};
+    for (const int trials : {0, 5}) expectApart(parted, start, trials);
+}
+
+TEST(CoverSearch, TakesABallAwayWhereAnotherOneCanDo)
+{
+    const Parted parted;
+    expectApart(parted, parted.start, 1);
+}
+
+TEST(CoverSearch, KeepsACoverWhereManyBallsChangeAtATime)
+{
+    Random random(4);
+    for (const int64_t count : {20, 40}) {
+        const Start start(shapes::noise(Coord(50, 5, 5), 0.5, random), count);
+        std::vector<Voxels> alone;
+        for (const Coord& v : start.voxels) alone.push_back({v});
+        const VoxelDebt debt(start.object.level(0));
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, debt, alone)) << count;
+    }
+}
+
+/// Without trials every ball is placed anew, and that is all.
+TEST(CoverSearch, TrialsGainHalfAsMuchAgain)
+{
+    Random random(5);
+    double without = 0, with = 0;
+    for (const int64_t count : {9, 12, 18}) {
+        const Start start(shapes::noise(Coord(10, 8, 7), 0.5, random), count);
+        const VoxelDebt debt(start.object.level(0));
+        const auto change = [&](int trials) {
+            return improveCover(ungrouped(start.balls), ungrouped(start.leaves), start.object, debt,
+                {kEffort, trials, 0, false}, nullptr)
+                .change;
+        };
+        without += change(0);
+        with += change(20);
+    }
+    EXPECT_LT(without, 0);
+    EXPECT_LT(with, 1.5 * without);
+}
+
+/// Two balls that are not in each other's region share nothing.
+TEST(CoverSearch, LeavesBallsInTheirGroups)
+{
+    Random random(3);
+    const Start start(shapes::noise(Coord(9, 8, 8), 0.5, random), 5);
+    std::vector<CoverBall> cover;
+    for (const FineBall& ball : start.balls) cover.push_back({ball, int32_t(cover.size())});
+    const SampleLevel& object = start.object.level(0);
+    const auto cells = cellRegions(start.balls, object, nullptr);
+    const auto found = improveCover(
+        cover, {}, start.object, VoxelDebt(object, cells), {kEffort, 30, 0, false}, nullptr);
+    ASSERT_EQ(found.balls.size(), cover.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        EXPECT_EQ(found.balls[i].group, int32_t(i));
+        for (const RegionLeaf& part : cells[i]) {
+            const LeafMask held = ballMask(found.balls[i].ball, object.origin(part.leaf));
+            for (int w = 0; w < 8; ++w) EXPECT_EQ(part.mask[w] & ~held[w], 0u);
+        }
+    }
+}
+
+} // namespace
