@@ -2,6 +2,7 @@
 /// @file main.cc
 /// @brief A level set to a sphere-tree to VDB points, from outside the project.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/input/ObjectMask.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/tree/SphereTree.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Memory.h"
 
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
-
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -46,7 +44,7 @@ int64_t allowedMemory(int64_t memory)
 {
     if (memory > 0) return memory;
     const double there = physicalMemory();
-    return there == 0 ? INT64_MAX : int64_t(SphereTreeSettings::kMemoryShare * there);
+    return there == 0 ? INT64_MAX : int64_t(kMemoryShare * there);
 }
 
 std::string asText(double bytes, bool up)

@@ -13,7 +13,11 @@ namespace detail {
 /// @return the bytes of this machine, or of the container; 0 if they are not known.
 double physicalMemory();
 
-/// @return the bytes that SphereTreeSettings::memory stands for; INT64_MAX if nobody knows.
+/// Of the machine's memory, what labels may take unless the settings say otherwise.
+constexpr double kMemoryShare = 0.75;
+
+/// @param memory  bytes, or 0 for kMemoryShare of the machine's
+/// @return the bytes; INT64_MAX if nobody knows the machine's.
 int64_t allowedMemory(int64_t memory);
 
 /// @return bytes for messages: as GiB with one decimal, or MiB, rounded up (or down).

@@ -7,6 +7,7 @@
 #include "TreeCheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
 #include <openvdb_spheretree/tree/CutsLayout.h>
+#include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <algorithm>

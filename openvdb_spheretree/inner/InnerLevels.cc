@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/RoundDown.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/index/PowerTree.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
@@ -145,28 +146,33 @@ int64_t mostWanted(const SphereTreeSettings& settings)
 
 } // namespace
 
-void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, const BuildContext& context)
+void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
+    openvdb::util::NullInterrupter* interrupter)
 {
-    const auto medial = context.medialLevel(voxels, 0);
-    const InnerOrder order = timed("inner balls", context.interrupter, &context.seconds->tree, [&] {
-        return innerOrder(medial->layout, medial->balls, tree.settings.dim, context.interrupter,
-            mostWanted(tree.settings));
+    LevelWants wants;
+    wants.memory = tree.settings.memory;
+    const MedialLevel medial(
+        voxels, tree.settings.dim, tree.settings.dist, interrupter, &seconds, wants);
+    const InnerOrder order = timed("inner balls", interrupter, &seconds.tree, [&] {
+        return innerOrder(
+            medial.layout, medial.balls, tree.settings.dim, interrupter, mostWanted(tree.settings));
     });
     const std::vector<MedialBall> balls =
-        ballsInOrder(medial->balls, order, FlatAxis(tree.settings.flatAxis));
+        ballsInOrder(medial.balls, order, FlatAxis(tree.settings.flatAxis));
     const std::vector<int64_t> counts = tree.settings.budget.counts(int64_t(balls.size()));
     tree.settings.padding = 0;
     tree.levels.resize(counts.size());
-    timed("inner levels", context.interrupter, &context.seconds->tree, [&] {
-        LevelAppender levels(tree, balls, context.interrupter);
+    timed("inner levels", interrupter, &seconds.tree, [&] {
+        LevelAppender levels(tree, balls, interrupter);
         for (int k = int(counts.size()) - 1; k >= 0; --k) {
             tree.levels[k].level = k;
             tree.levels[k].pyramidVoxels = order.covered[counts[k] - 1];
             levels.append(tree.levels[k], counts[k]);
         }
     });
-    if (order.covered[counts[0] - 1] == medial->layout.voxelCount()) {
-        tree.levels[0].topology = topologyOf(*medial, context);
+    if (order.covered[counts[0] - 1] == medial.layout.voxelCount() && tree.settings.topology) {
+        tree.levels[0].topology = timed("topology", interrupter, &seconds.topology,
+            [&] { return levelTopology(medial.layout, interrupter); });
     }
     if (tree.settings.cuts) appendCuts(tree, balls);
 }

@@ -10,7 +10,11 @@
 
 #pragma once
 
-#include <openvdb_spheretree/paper/TreeLevels.h>
+#include <openvdb_spheretree/base/StageSeconds.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -18,9 +22,10 @@ namespace detail {
 /// @param tree    with settings, object, origin and transform, and no nodes; with
 ///                settings.flatAxis, if dim is 2
 /// @param voxels  of the object, flat along z if dim is 2
+/// @param seconds  receives the time that the stages take
 /// @throw openvdb::ValueError as MedialLevel, or if a radius does not fit a float
-void appendInnerTree(
-    SphereTree& tree, const openvdb::MaskTree& voxels, const BuildContext& context);
+void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
+    openvdb::util::NullInterrupter* interrupter);
 
 } // namespace detail
 } // namespace openvdb_spheretree

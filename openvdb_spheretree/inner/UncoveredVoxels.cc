@@ -2,7 +2,7 @@
 #include "UncoveredVoxels.h"
 
 #include <openvdb_spheretree/base/RoundUp.h>
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include <hwy/base.h>
 
@@ -42,9 +42,10 @@ struct Gap {
 
 LeafMask voxelsInside(const Coord& center, int64_t closedSq)
 {
-    tight::FineBall ball = tight::voxelBall(center);
-    ball.radiusSq = tight::kFine * tight::kFine * closedSq;
-    return tight::ballMask(ball, Coord(0));
+    constexpr int64_t kUnits = 2; // a voxel, the fewest that a sphere is measured in
+    const ExactSphere sphere{
+        {kUnits * center[0], kUnits * center[1], kUnits * center[2]}, kUnits * kUnits * closedSq};
+    return voxelsOf(sphere, /*shift=*/1, Coord(0));
 }
 
 UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)

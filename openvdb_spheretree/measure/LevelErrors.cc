@@ -15,6 +15,7 @@
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <cmath>

@@ -28,10 +28,10 @@ public:
         openvdb::util::NullInterrupter* interrupter);
 
     /// @return the rank of the ball that is centred at @a center; there must be one.
-    int32_t rankAt(PowerMap::Voxel center) const
+    int32_t rankAt(VoxelRef center) const
     {
-        const Centres& centres = mCentres[wordOf(center.leaf, center.offset)];
-        const uint64_t before = (uint64_t(1) << (center.offset & 63)) - 1;
+        const Centres& centres = mCentres[wordOf(center.leaf, center.index)];
+        const uint64_t before = (uint64_t(1) << (center.index & 63)) - 1;
         return centres.rank + int32_t(hwy::PopCount(centres.mask & before));
     }
     /// @return the index of the ball of that rank in the order of balls: by centre.

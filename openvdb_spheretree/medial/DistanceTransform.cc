@@ -8,7 +8,7 @@
 #include <openvdb_spheretree/kernel/LeafTranspose.h>
 #include <openvdb_spheretree/kernel/MinPlus.h>
 #include <openvdb_spheretree/slab/SlabDistance.h>
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <hwy/cache_control.h>
@@ -149,7 +149,7 @@ openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int d
 
     std::array<uint32_t, kLeafVoxels> place; // of a voxel of the turned leaf
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-        place[k] = leafOffset(flat.fromZ(openvdb::Coord(k >> 6, k >> 3 & 7, k & 7)));
+        place[k] = leafIndex(flat.fromZ(openvdb::Coord(k >> 6, k >> 3 & 7, k & 7)));
     }
     using Leaf = openvdb::Int32Tree::LeafNodeType;
     std::vector<std::unique_ptr<Leaf>> leaves(layout.leafCount());
@@ -160,7 +160,7 @@ openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int d
         Leaf::NodeMaskType on;
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
             values[place[k]] = int32_t(map.at(uint32_t(i), k));
-            if (isOn(mask, k)) on.setOn(place[k]);
+            if (mask.isOn(k)) on.setOn(place[k]);
         }
         leaves[i]->setValueMask(on);
     });

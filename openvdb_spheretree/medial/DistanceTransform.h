@@ -33,7 +33,7 @@ namespace openvdb_spheretree {
 /// are squared, in voxels^2; those of a norm are not, and in its units (Distance::unit() a voxel).
 class DistanceMap {
 public:
-    /// @return the distance at a voxel of a leaf, by leafOffset().
+    /// @return the distance at a voxel of a leaf, by leafIndex().
     uint32_t at(uint32_t leaf, uint32_t offset) const
     {
         const std::size_t i = std::size_t(leaf) * kLeafVoxels + offset;

@@ -43,9 +43,9 @@ Masks ownLabels(const PowerMap& labels, NullInterrupter* interrupter)
     detail::parallelFor(marks.size(), interrupter, [&](std::size_t i) {
         const auto leaf = uint32_t(i);
         for (uint32_t offset = 0; offset < kLeafVoxels; ++offset) {
-            if (!isOn(layout.mask(leaf), offset)) continue;
-            const PowerMap::Voxel site = labels.label(PowerMap::Voxel{leaf, offset});
-            if (site.leaf != leaf || site.offset != offset) continue;
+            if (!layout.mask(leaf).isOn(offset)) continue;
+            const VoxelRef site = labels.label(VoxelRef{leaf, offset});
+            if (site.leaf != leaf || site.index != offset) continue;
             marks[leaf][offset >> 6] |= uint64_t(1) << (offset & 63);
         }
     });

@@ -14,6 +14,7 @@
 #include "DistanceTransform.h"
 #include "PowerMap.h"
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -22,18 +23,6 @@
 #include <vector>
 
 namespace openvdb_spheretree {
-
-/// The digital ball { q : |q - center|^2 < radiusSq }, in voxels of its level; of a norm,
-/// { q : N(q - center)^2 < radiusSq }, in its units.
-struct MedialBall {
-    openvdb::Coord center;
-    int32_t radiusSq;
-
-    bool operator==(const MedialBall& o) const
-    {
-        return center == o.center && radiusSq == o.radiusSq;
-    }
-};
 
 /// @return the medial balls, in the order of their centres (x first).
 std::vector<MedialBall> medialBalls(const PowerMap& labels, const DistanceMap& distances,

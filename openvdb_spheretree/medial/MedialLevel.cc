@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
 #include <openvdb_spheretree/voxel/LeafFinder.h>
 
@@ -22,25 +23,25 @@ using slab::kNoLeaf;
 
 /// @return the places of voxels; those that are off have no leaf.
 template <typename VoxelOf>
-std::vector<PowerMap::Voxel> placesOf(std::size_t count, const VoxelOf& voxelOf,
-    const LeafLayout& layout, NullInterrupter* interrupter)
+std::vector<VoxelRef> placesOf(std::size_t count, const VoxelOf& voxelOf, const LeafLayout& layout,
+    NullInterrupter* interrupter)
 {
-    std::vector<PowerMap::Voxel> places;
+    std::vector<VoxelRef> places;
     detail::resizeLarge(places, count);
     detail::parallelForWith(
         count, interrupter, [&] { return detail::LeafFinder(layout); },
         [&](std::size_t i, detail::LeafFinder& finder) {
             const openvdb::Coord voxel = voxelOf(i);
             const auto leaf = finder.find(voxel);
-            const uint32_t offset = leafOffset(voxel);
-            const bool on = leaf && isOn(layout.mask(*leaf), offset);
+            const uint32_t offset = leafIndex(voxel);
+            const bool on = leaf && layout.mask(*leaf).isOn(offset);
             places[i] = {on ? *leaf : kNoLeaf, offset};
         });
     return places;
 }
 
 /// @return the balls that are centred at @a labels; -1 where there is no label.
-std::vector<int32_t> ballsAt(const std::vector<PowerMap::Voxel>& labels, const LeafLayout& layout,
+std::vector<int32_t> ballsAt(const std::vector<VoxelRef>& labels, const LeafLayout& layout,
     const std::vector<LeafMask>& centers, NullInterrupter* interrupter)
 {
     std::vector<int32_t> balls;
@@ -64,7 +65,7 @@ int64_t normBytes(const LeafLayout& layout)
 }
 
 MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
-    NullInterrupter* interrupter, BuildSeconds* seconds, const LevelWants& wants)
+    NullInterrupter* interrupter, StageSeconds* seconds, const LevelWants& wants)
     : layout(detail::timed("layout of leaves", interrupter, seconds ? &seconds->distance : nullptr,
         [&] { return LeafLayout(voxels); }))
 {
@@ -76,9 +77,9 @@ MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distanc
 }
 
 void MedialLevel::findBalls(
-    int dim, const LevelWants& wants, NullInterrupter* interrupter, BuildSeconds* seconds)
+    int dim, const LevelWants& wants, NullInterrupter* interrupter, StageSeconds* seconds)
 {
-    std::vector<PowerMap::Voxel> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
+    std::vector<VoxelRef> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
     slab::LabelStream stream(layout, dim);
     stream.ask(asked);
     stream.setMemory(wants.memory);
@@ -98,7 +99,7 @@ void MedialLevel::findBalls(
 
 /// Norms have no stream: everything is in memory.
 void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWants& wants,
-    NullInterrupter* interrupter, BuildSeconds* seconds)
+    NullInterrupter* interrupter, StageSeconds* seconds)
 {
     detail::requireAllowed(
         layout.leafCount(), normBytes(layout), detail::allowedMemory(wants.memory));
@@ -110,12 +111,12 @@ void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWa
     balls = detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,
         [&] { return medialBalls(labels, distances, interrupter); });
     centers.resize(layout.leafCount());
-    for (const PowerMap::Voxel& place : placesOf(
+    for (const VoxelRef& place : placesOf(
              balls.size(), [&](std::size_t i) { return balls[i].center; }, layout, interrupter)) {
-        centers[place.leaf][place.offset >> 6] |= uint64_t(1) << (place.offset & 63);
+        centers[place.leaf][place.index >> 6] |= uint64_t(1) << (place.index & 63);
     }
-    std::vector<PowerMap::Voxel> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
-    for (PowerMap::Voxel& voxel : asked) {
+    std::vector<VoxelRef> asked = placesOf(wants.count, wants.voxel, layout, interrupter);
+    for (VoxelRef& voxel : asked) {
         if (voxel.leaf != kNoLeaf) voxel = labels.label(voxel);
     }
     wantedLabel = ballsAt(asked, layout, centers, interrupter);

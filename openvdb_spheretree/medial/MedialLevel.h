@@ -7,7 +7,7 @@
 
 #include "MedialAxis.h"
 #include "PowerMap.h"
-#include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
@@ -36,7 +36,7 @@ struct MedialLevel {
     /// @param seconds   may be null; the stages' times are added to it
     /// @throw as distanceTransform() and powerMap()
     MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distance& distance,
-        openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds = nullptr,
+        openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds = nullptr,
         const LevelWants& wants = {});
     MedialLevel(const MedialLevel&) = delete; // labels refer to the layout
     MedialLevel& operator=(const MedialLevel&) = delete;
@@ -56,9 +56,9 @@ struct MedialLevel {
 
 private:
     void findBalls(int dim, const LevelWants& wants, openvdb::util::NullInterrupter* interrupter,
-        BuildSeconds* seconds);
+        StageSeconds* seconds);
     void findNormBalls(int dim, const Distance& distance, const LevelWants& wants,
-        openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds);
+        openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 };
 
 } // namespace openvdb_spheretree

@@ -159,7 +159,7 @@ void NormSweep::distances(uint32_t* values) const
     parallelFor(mLayout.leafCount(), mInterrupter, [&](std::size_t leaf) {
         uint32_t* of = values + leaf * kLeafVoxels;
         const LeafMask& mask = mLayout.mask(uint32_t(leaf));
-        for (uint32_t i = 0; i < kLeafVoxels; ++i) of[i] = isOn(mask, i) ? kFarAway : 0;
+        for (uint32_t i = 0; i < kLeafVoxels; ++i) of[i] = mask.isOn(i) ? kFarAway : 0;
     });
     sweep([&](const PlanePair& planes) { relax(planes, values); });
 }

@@ -4,7 +4,7 @@
 #include "NormSweep.h"
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -55,11 +55,11 @@ PowerMap powerMap(
 openvdb::Coord PowerMap::label(const openvdb::Coord& ijk) const
 {
     const auto leaf = mLayout->findLeaf(ijk);
-    if (!leaf || !isOn(mLayout->mask(*leaf), leafOffset(ijk))) {
+    if (!leaf || !mLayout->mask(*leaf).isOn(leafIndex(ijk))) {
         OPENVDB_THROW(openvdb::LookupError, "voxel " << ijk << " is not in the object: no label");
     }
-    const Voxel site = label(Voxel{*leaf, leafOffset(ijk)});
-    return mLayout->voxel(site.leaf, site.offset);
+    const VoxelRef site = label(VoxelRef{*leaf, leafIndex(ijk)});
+    return mLayout->voxel(site.leaf, site.index);
 }
 
 } // namespace openvdb_spheretree

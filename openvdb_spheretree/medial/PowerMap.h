@@ -24,6 +24,7 @@
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/slab/LabelSteps.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -41,16 +42,11 @@ public:
         : mLayout(&layout), mSteps(std::move(steps))
     {}
 
-    /// A voxel by its leaf in the layout and its offset there.
-    struct Voxel {
-        uint32_t leaf, offset;
-    };
-
     /// @return the label of the object voxel @a voxel.
-    Voxel label(Voxel voxel) const
+    VoxelRef label(VoxelRef voxel) const
     {
         if (mSites) {
-            const uint32_t site = mSites[std::size_t(voxel.leaf) * kLeafVoxels + voxel.offset];
+            const uint32_t site = mSites[std::size_t(voxel.leaf) * kLeafVoxels + voxel.index];
             return {site / kLeafVoxels, site % kLeafVoxels};
         }
         voxel = step(Axis::X, voxel);
@@ -66,28 +62,17 @@ public:
     bool hasSteps() const { return !mSites; }
 
     /// @return how far along @a axis the voxel's own step goes.
-    int offset(Axis axis, Voxel voxel) const
+    int offset(Axis axis, VoxelRef voxel) const
     {
-        const std::size_t i = std::size_t(voxel.leaf) * kLeafVoxels + voxel.offset;
+        const std::size_t i = std::size_t(voxel.leaf) * kLeafVoxels + voxel.index;
         const detail::AxisSteps& steps = mSteps[int(axis)];
         return steps.narrow ? steps.narrow[i] : steps.wide[i];
     }
     /// @return the voxel at the end of that step, in the same run.
-    Voxel step(Axis axis, Voxel voxel) const { return moved(axis, voxel, offset(axis, voxel)); }
-    Voxel moved(Axis axis, Voxel voxel, int steps) const
+    VoxelRef step(Axis axis, VoxelRef voxel) const
     {
-        return moved(*mLayout, axis, voxel, steps);
+        return moved(*mLayout, axis, voxel, offset(axis, voxel));
     }
-    /// @return the voxel @a steps further along @a axis, in the same run.
-    static Voxel moved(const LeafLayout& layout, Axis axis, Voxel voxel, int steps)
-    {
-        const int shift = 6 - 3 * int(axis);
-        const int here = int(voxel.offset >> shift & 7), there = here + steps;
-        if (there < 0 || there > 7) voxel.leaf = layout.neighbour(voxel.leaf, axis, there >> 3);
-        voxel.offset = uint32_t(int(voxel.offset) + (((there & 7) - here) << shift));
-        return voxel;
-    }
-
     /// The 512 steps of a leaf along @a axis, as they are stored: one of these two is null.
     const int8_t* narrowSteps(Axis axis, uint32_t leaf) const
     {

@@ -59,21 +59,21 @@ public:
 private:
     void findRanks(uint32_t x, uint64_t bits);
     void prefetch(uint32_t i) const;
-    PowerMap::Voxel label(uint32_t x, uint32_t lane) const
+    VoxelRef label(uint32_t x, uint32_t lane) const
     {
         if (!mSteps) return mLabels.label({leaf(), 64 * x + lane});
         const int end = kLeafDim * int(mPlace) + int(x) + mSteps[64 * x + lane];
-        const PowerMap::Voxel onX{mRun.leaves[end >> 3], uint32_t(end & 7) << 6 | lane};
-        const PowerMap::Voxel onY = narrowStep(Axis::Y, onX);
+        const VoxelRef onX{mRun.leaves[end >> 3], uint32_t(end & 7) << 6 | lane};
+        const VoxelRef onY = narrowStep(Axis::Y, onX);
         return mLabels.usesZ() ? narrowStep(Axis::Z, onY) : onY;
     }
     /// PowerMap::step() without a branch: whether a label lies in another leaf is hard to predict.
-    PowerMap::Voxel narrowStep(Axis axis, PowerMap::Voxel voxel) const
+    VoxelRef narrowStep(Axis axis, VoxelRef voxel) const
     {
-        const int shift = 6 - 3 * int(axis), here = int(voxel.offset >> shift & 7);
-        const int there = here + mLabels.narrowSteps(axis, voxel.leaf)[voxel.offset];
+        const int shift = 6 - 3 * int(axis), here = int(voxel.index >> shift & 7);
+        const int there = here + mLabels.narrowSteps(axis, voxel.leaf)[voxel.index];
         return {layout().neighbour(voxel.leaf, axis, there >> 3),
-            uint32_t(int(voxel.offset) + (((there & 7) - here) * (1 << shift)))};
+            uint32_t(int(voxel.index) + (((there & 7) - here) * (1 << shift)))};
     }
 
     const PowerMap& mLabels;

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
@@ -45,7 +46,7 @@ struct BuildContext {
     openvdb::Coord origin;
     openvdb::CoordBBox bbox; ///< of the object
     openvdb::util::NullInterrupter* interrupter;
-    BuildSeconds* seconds;
+    StageSeconds* seconds;
     PyramidModel model; ///< empty: OR
 
     /// The step from @a level to the one above it.

@@ -4,7 +4,7 @@
 #include "OrPyramid.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/medial/DistanceTransform.h>
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 
@@ -79,7 +79,7 @@ MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrup
         const LeafMask& voxels = layout.mask(uint32_t(i));
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
             const bool near = distances.at(uint32_t(i), k) <= uint32_t(radius * radius);
-            if (near && isOn(voxels, k)) mask.setOn(k);
+            if (near && voxels.isOn(k)) mask.setOn(k);
         }
         if (mask.isOff()) return;
         leaves[i] = std::make_unique<LeafNode>(layout.origin(uint32_t(i)), false);
@@ -110,6 +110,13 @@ MaskTree::Ptr nearSet(const MaskTree& set, int radius, int dim, NullInterrupter*
 }
 
 } // namespace
+
+void requireClosing(int radius)
+{
+    if (radius >= 0 && radius <= kMaxClosing) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "closing=" << radius << " is out of range: it must be 0 to " << kMaxClosing);
+}
 
 MaskTree::Ptr closing(const MaskTree& voxels, int radius, int dim, NullInterrupter* interrupter)
 {

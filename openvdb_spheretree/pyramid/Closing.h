@@ -29,7 +29,13 @@
 
 namespace openvdb_spheretree {
 
-/// @param radius  of the ball, in voxels: 0 (changes nothing) to SphereTreeSettings::kMaxClosing
+/// The largest radius of a closing, in voxels.
+constexpr int kMaxClosing = 64;
+
+/// @throw openvdb::ValueError unless @a radius is 0 to kMaxClosing
+void requireClosing(int radius);
+
+/// @param radius  of the ball, in voxels: 0 (changes nothing) to kMaxClosing
 /// @param dim     3, or 2 to close every plane of equal z by itself
 /// @throw openvdb::ValueError if radius or dim is out of range
 /// @throw Interrupted if the interrupter (may be null) said so

@@ -6,7 +6,7 @@
 #include "LeafCoarsener.h"
 #include <openvdb_spheretree/base/FloorDiv.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 
@@ -196,6 +196,13 @@ void requireIncluding(
 }
 
 } // namespace
+
+void requireFactor(int factor)
+{
+    if (factor >= 2 && factor <= kMaxFactor) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "factor=" << factor << " is out of range: it must be 2 to " << kMaxFactor);
+}
 
 Coord PyramidStep::parentVoxel(const Coord& ijk) const
 {

@@ -19,6 +19,12 @@
 
 namespace openvdb_spheretree {
 
+/// Voxels merged per axis from level to level: 2 to this.
+constexpr int kMaxFactor = 1 << 15;
+
+/// @throw openvdb::ValueError unless @a factor is 2 to kMaxFactor
+void requireFactor(int factor);
+
 /// How voxels of one level become voxels of the next.
 struct PyramidStep {
     openvdb::Coord origin; ///< of the finer level's cells: parent = floor((ijk - origin) / factor)

@@ -13,7 +13,7 @@
 
 #include "SlabLabels.h"
 #include <openvdb_spheretree/base/LargeArray.h>
-#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cassert>
@@ -31,7 +31,7 @@ class Questions {
 public:
     /// @param layout  kept by reference
     /// @param asked   each becomes its label; those in kNoLeaf stay; may be null
-    Questions(const LeafLayout& layout, std::vector<PowerMap::Voxel>* asked)
+    Questions(const LeafLayout& layout, std::vector<VoxelRef>* asked)
         : mLayout(layout), mAsked(asked)
     {
         if (!asked || asked->empty()) return;
@@ -53,8 +53,8 @@ public:
         if (mOfLeaf.empty()) return;
         for (uint32_t i = mOfLeaf[leaf], next; i != kEnd; i = next) {
             next = mNext[i];
-            PowerMap::Voxel& voxel = (*mAsked)[i];
-            voxel = PowerMap::moved(mLayout, Axis::X, voxel, steps[voxel.offset]);
+            VoxelRef& voxel = (*mAsked)[i];
+            voxel = moved(mLayout, Axis::X, voxel, steps[voxel.index]);
             mNext[i] = std::exchange(mMoved[voxel.leaf], i);
         }
     }
@@ -68,7 +68,7 @@ public:
         const LeafLayout::Slab leaves = mLayout.slab(slab);
         for (uint32_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
             for (uint32_t i = mMoved[leaf]; i != kEnd; i = mNext[i]) {
-                PowerMap::Voxel& voxel = (*mAsked)[i];
+                VoxelRef& voxel = (*mAsked)[i];
                 voxel = labels.center(mLayout, voxel);
             }
         }
@@ -78,7 +78,7 @@ private:
     static constexpr uint32_t kEnd = UINT32_MAX; ///< of a list
 
     const LeafLayout& mLayout;
-    std::vector<PowerMap::Voxel>* mAsked;
+    std::vector<VoxelRef>* mAsked;
     std::vector<uint32_t> mOfLeaf; ///< the first one that waits for a leaf's steps along x
     std::vector<uint32_t> mMoved;  ///< the same, for those along y and z
     std::vector<uint32_t> mNext;   ///< in the list that a question is in

@@ -5,7 +5,7 @@
 #include "PackedStream.h"
 #include "WindowStream.h"
 #include <openvdb_spheretree/base/Memory.h>
-#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 
 #include <tbb/task_arena.h>
 

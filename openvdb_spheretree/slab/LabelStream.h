@@ -16,7 +16,7 @@
 #include "LabelSteps.h"
 #include "LevelBalls.h"
 #include "StreamPlan.h"
-#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -35,7 +35,7 @@ public:
     LabelStream(const LeafLayout& layout, int dim) : mLayout(layout), mDim(dim) {}
 
     /// @param voxels  of the object: run() makes each of them its label; those in kNoLeaf stay
-    void ask(std::vector<PowerMap::Voxel>& voxels) { mAsked = &voxels; }
+    void ask(std::vector<VoxelRef>& voxels) { mAsked = &voxels; }
     /// @param steps  receives the labels of all voxels
     void keepSteps(detail::LabelSteps& steps) { mKeep = &steps; }
     /// @param bytes  as SphereTreeSettings::memory, layout and what is kept included
@@ -62,7 +62,7 @@ private:
 
     const LeafLayout& mLayout;
     int mDim;
-    std::vector<PowerMap::Voxel>* mAsked = nullptr;
+    std::vector<VoxelRef>* mAsked = nullptr;
     detail::LabelSteps* mKeep = nullptr;
     std::optional<StreamPlan> mPlan; ///< none: as memory allows
     int64_t mMemory = 0;

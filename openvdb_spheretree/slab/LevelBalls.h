@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <vector>

@@ -36,8 +36,8 @@ void packLeaf(const LeafLayout& layout, uint32_t leaf, const SlabLabels<Power>& 
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
         packed[k].siteSq = detail::siteSqOf<Power>(keys[k]);
         packed[k].dy = dy[k];
-        const PowerMap::Voxel voxel{leaf, k};
-        const PowerMap::Voxel there = PowerMap::moved(layout, Axis::Y, voxel, dy[k]);
+        const VoxelRef voxel{leaf, k};
+        const VoxelRef there = moved(layout, Axis::Y, voxel, dy[k]);
         packed[k].dz = typename Power::Offset(labels.dzAfter(voxel, there));
     }
 }

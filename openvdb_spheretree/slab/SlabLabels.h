@@ -5,7 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/base/LargeArray.h>
-#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <array>
@@ -24,7 +24,6 @@ template <typename Power>
 struct SlabLabels {
     using Key = typename Power::Key;
     using Offset = typename Power::Offset;
-    using Voxel = PowerMap::Voxel;
 
     uint32_t firstLeaf = 0;
     Key* keys = nullptr;                 ///< after the passes along z and y
@@ -38,17 +37,17 @@ struct SlabLabels {
     Offset* dzOf(uint32_t leaf) const { return dz + place(leaf); }
 
     /// @return the end of a voxel's way along y and z.
-    Voxel center(const LeafLayout& layout, Voxel voxel) const
+    VoxelRef center(const LeafLayout& layout, VoxelRef voxel) const
     {
-        const Voxel there = PowerMap::moved(layout, Axis::Y, voxel, dyOf(voxel.leaf)[voxel.offset]);
-        return PowerMap::moved(layout, Axis::Z, there, dzAfter(voxel, there));
+        const VoxelRef there = moved(layout, Axis::Y, voxel, dyOf(voxel.leaf)[voxel.index]);
+        return moved(layout, Axis::Z, there, dzAfter(voxel, there));
     }
     /// @return the step along z from @a there, to where @a voxel leads along y.
-    int dzAfter(Voxel voxel, Voxel there) const
+    int dzAfter(VoxelRef voxel, VoxelRef there) const
     {
         if (!dz) return 0;
-        const Voxel& from = dzFollowsDy ? voxel : there;
-        return dzOf(from.leaf)[from.offset];
+        const VoxelRef& from = dzFollowsDy ? voxel : there;
+        return dzOf(from.leaf)[from.index];
     }
 
 private:

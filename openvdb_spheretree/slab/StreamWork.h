@@ -33,7 +33,7 @@ public:
     using Key = typename Power::Key;
     using Entry = SlabEntry<Power, T>;
 
-    StreamWork(const LeafLayout& layoutOfLevel, int dimension, std::vector<PowerMap::Voxel>* asked,
+    StreamWork(const LeafLayout& layoutOfLevel, int dimension, std::vector<VoxelRef>* asked,
         const KeptSteps<Power>& steps, openvdb::util::NullInterrupter* stop)
         : layout(layoutOfLevel), dim(dimension), kept(steps), interrupter(stop),
           mQuestions(layout, asked), mSteps(std::make_unique<Steps>(layout, stop)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereUnion.cc
-/// @brief The public face of the rasteriser, and the spheres of a level.
+/// @brief The public face of the rasteriser.
 
 #include "SphereUnion.h"
 
@@ -12,26 +12,11 @@
 
 namespace openvdb_spheretree {
 
-SphereMetric metricOf(const SphereTree& tree) { return {tree.settings.dist, tree.subdivision}; }
-
 openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
     const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter,
     const SphereMetric& metric)
 {
     return detail::rasterSpheres(spheres, metric, clip, nullptr, interrupter);
-}
-
-std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level)
-{
-    std::vector<ExactSphere> spheres;
-    spheres.reserve(level.size());
-    for (int32_t id = level.begin; id < level.end; ++id) {
-        const openvdb::Vec3d c =
-            tree.center[id] * double(tree.subdivision); // exact: a power of two
-        spheres.push_back(
-            {{std::llround(c[0]), std::llround(c[1]), std::llround(c[2])}, tree.coverSq[id]});
-    }
-    return spheres;
 }
 
 openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres, const SphereMetric& metric)
@@ -54,14 +39,6 @@ openvdb::CoordBBox boundingBox(const std::vector<ExactSphere>& spheres, const Sp
     return box;
 }
 
-openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
-{
-    openvdb::CoordBBox box = boundingBox(spheres, metricOf(tree));
-    const int flat = tree.settings.flatAxis;
-    if (tree.settings.dim == 2) box.min()[flat] = box.max()[flat] = tree.object.bbox.min()[flat];
-    return box;
-}
-
 double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::CoordBBox& box,
     const SphereMetric& metric)
 {
@@ -72,19 +49,6 @@ double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::Coord
     for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : area * double(s.coverSq);
     const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
     return std::min(discs, side(0) * side(1));
-}
-
-openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const std::vector<ExactSphere> spheres = levelSpheres(tree, level);
-    const openvdb::CoordBBox box = levelBox(tree, spheres);
-    if (crossedRows(spheres, box, metricOf(tree)) > double(kMaxUnionRows)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the spheres of level " << level.level << " reach over " << box.extents()
-                                    << " voxels, more than are drawn: choose a finer level");
-    }
-    return sphereUnion(spheres, box, interrupter, metricOf(tree));
 }
 
 } // namespace openvdb_spheretree

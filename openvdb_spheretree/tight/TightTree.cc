@@ -2,6 +2,7 @@
 #include "TightTree.h"
 
 #include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
@@ -128,7 +129,7 @@ void requireRoom(const SphereTree& tree)
 } // namespace
 
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds)
+    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
     requireRoom(tree);
     const SphereTreeSettings& settings = tree.settings;

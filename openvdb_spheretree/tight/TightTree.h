@@ -14,6 +14,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/openvdb.h>
@@ -28,7 +29,7 @@ namespace tight {
 /// @param seconds  must not be null
 /// @throw openvdb::ValueError if a bound on the error cannot be reached within the count allowed
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter, BuildSeconds* seconds);
+    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
 } // namespace tight
 } // namespace openvdb_spheretree

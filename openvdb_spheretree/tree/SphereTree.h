@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTree.h
-/// @brief The result: a hierarchy of spheres over an object, as flat arrays, and the call that
-/// builds one.
+/// @brief The result: a hierarchy of spheres over an object, as flat arrays.
 ///
 /// Nodes are ordered from the top level to level 0, and by level-grid coordinate (x first) within a
 /// level; the index of a node is its id. A parent therefore always stands before its children, and
@@ -21,7 +20,6 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/math/Transform.h>
-#include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
 #include <optional>
@@ -105,27 +103,6 @@ struct SphereTree {
     openvdb::Vec3d centerWorld(int32_t id) const { return transform->indexToWorld(center[id]); }
     double voxelSize() const { return transform->voxelSize()[0]; }
 };
-
-/// Seconds spent in the stages of a build, summed over levels.
-struct BuildSeconds {
-    double pyramid = 0, distance = 0, power = 0, medial = 0, tree = 0, topology = 0;
-};
-
-/// @brief Build the sphere-tree of the active voxels of @a object.
-/// @param object       its topology is the object; its transform must have uniform voxels
-/// @param settings     what to build
-/// @param interrupter  may be null; asked from many threads
-/// @param seconds      may be null; receives the time each stage took
-/// @throw openvdb::ValueError if the object is empty or too wide, its voxels are not uniform, a
-///        setting is out of range, a radius does not fit (32767 voxels), or there is too little
-///        memory (MemoryPlan.h)
-/// @throw openvdb::IoError if a temporary file is needed, and cannot be made or has no room
-/// @throw Interrupted if the interrupter said so
-/// @note Cost is linear in active voxels per level (each level has about 1/factor^dim of the one
-///       before), whatever the bounding box. The result is the same to the last bit for any number
-///       of threads. Thread-safe for concurrent calls, also on the same object.
-SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
-    openvdb::util::NullInterrupter* interrupter = nullptr, BuildSeconds* seconds = nullptr);
 
 /// @return a tree of one level, ids renumbered from 0, every node a root.
 /// @throw openvdb::ValueError if @a tree has no such level.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeSettings.h"
 
+#include <openvdb_spheretree/base/Memory.h>
+
 #include <openvdb_spheretree/base/EnumNames.h>
 #include <openvdb_spheretree/base/Memory.h>
 
@@ -184,28 +186,6 @@ void SphereTreeSettings::validate() const
     }
 }
 
-void requireFactor(int factor)
-{
-    if (factor >= 2 && factor <= SphereTreeSettings::kMaxFactor) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "factor=" << factor << " is out of range: it must be 2 to "
-                  << SphereTreeSettings::kMaxFactor);
-}
-
-void requireDim(int dim)
-{
-    if (dim == 2 || dim == 3) return;
-    OPENVDB_THROW(openvdb::ValueError, "dim=" << dim << " is out of range: it must be 2 or 3");
-}
-
-void requireClosing(int radius)
-{
-    if (radius >= 0 && radius <= SphereTreeSettings::kMaxClosing) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "closing=" << radius << " is out of range: it must be 0 to "
-                   << SphereTreeSettings::kMaxClosing);
-}
-
 const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
 const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
 const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
@@ -228,7 +208,7 @@ std::string paddingToString(double padding)
 
 std::string memoryToString(int64_t memory)
 {
-    if (memory == 0) return std::to_string(int(100 * SphereTreeSettings::kMemoryShare)) + '%';
+    if (memory == 0) return std::to_string(int(100 * detail::kMemoryShare)) + '%';
     constexpr std::array<Named<int64_t>, 4> kUnits{{{int64_t(1) << 40, "TiB"},
         {int64_t(1) << 30, "GiB"}, {int64_t(1) << 20, "MiB"}, {int64_t(1) << 10, "KiB"}}};
     for (const auto& unit : kUnits) {
@@ -294,8 +274,7 @@ int64_t memoryFromString(const std::string& text)
     const char* const end = text.data() + text.size();
     const auto parsed = std::from_chars(text.data(), end, value);
     const std::string unit(parsed.ptr, end);
-    if (parsed.ec == std::errc() && unit == "%" && value == 100 * SphereTreeSettings::kMemoryShare)
-        return 0;
+    if (parsed.ec == std::errc() && unit == "%" && value == 100 * detail::kMemoryShare) return 0;
     const double bytes = parsed.ec == std::errc() ? bytesOf(value, unit) : std::nan("");
     if (bytes >= 1 && bytes < double(INT64_MAX)) return int64_t(bytes);
     const char* what = std::isnan(bytes) ? "unknown" : bytes < 1 ? "too little" : "too much";
@@ -313,11 +292,11 @@ int closingFromString(const std::string& text)
     const bool named = text.compare(0, kClosing.size(), kClosing) == 0;
     const auto parsed = std::from_chars(text.data() + (named ? kClosing.size() : 0), end, radius);
     if (!named || parsed.ec != std::errc() || parsed.ptr != end || radius < 1
-        || radius > SphereTreeSettings::kMaxClosing) {
+        || radius > kMaxClosing) {
         OPENVDB_THROW(openvdb::ValueError,
             "model=" << quoted(text)
                      << " is unknown: choose or, or closing:R with a radius R of 1 to "
-                     << SphereTreeSettings::kMaxClosing << " voxels");
+                     << kMaxClosing << " voxels");
     }
     return radius;
 }

@@ -6,7 +6,9 @@
 #pragma once
 
 #include "SphereBudget.h"
+#include <openvdb_spheretree/pyramid/Closing.h>
 #include <openvdb_spheretree/pyramid/PyramidModel.h>
+#include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/Distance.h>
 
 #include <cstdint>
@@ -125,22 +127,11 @@ struct SphereTreeSettings {
 
     static constexpr double kPadCubes = -1.0;
     static constexpr double kMaxPadding = 1e9;
-    static constexpr int kMaxFactor = 1 << 15;
-    static constexpr int kMaxClosing = 64;
-    static constexpr double kMemoryShare = 0.75; ///< of the machine's, unless `memory` says more
     /// @return the padding in voxels of level 0.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
     void validate() const;
 };
-
-/// @throw openvdb::ValueError unless @a factor is 2 to SphereTreeSettings::kMaxFactor
-void requireFactor(int factor);
-/// @throw openvdb::ValueError unless @a dim is 2 or 3
-void requireDim(int dim);
-
-/// @throw openvdb::ValueError unless @a radius is 0 to SphereTreeSettings::kMaxClosing
-void requireClosing(int radius);
 
 /// @name The names that the command line and the metadata of files use
 /// @{

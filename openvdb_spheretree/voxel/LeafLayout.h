@@ -17,9 +17,10 @@
 
 #pragma once
 
+#include "LeafMask.h"
+
 #include <openvdb/openvdb.h>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,23 +28,6 @@
 namespace openvdb_spheretree {
 
 enum class Axis { X, Y, Z };
-
-/// The voxels of a leaf, in the order of OpenVDB's leaf nodes: word x, bit 8 y + z.
-using LeafMask = std::array<uint64_t, 8>;
-
-constexpr int kLeafDim = 8;
-constexpr int kLeafVoxels = 512;
-
-/// Offset of a voxel in its leaf: 64 x + 8 y + z of the coordinates modulo 8.
-inline uint32_t leafOffset(const openvdb::Coord& ijk)
-{
-    return uint32_t(ijk[0] & 7) << 6 | uint32_t(ijk[1] & 7) << 3 | uint32_t(ijk[2] & 7);
-}
-
-inline bool isOn(const LeafMask& mask, uint32_t offset)
-{
-    return mask[offset >> 6] >> (offset & 63) & 1;
-}
 
 class LeafLayout {
 public:
@@ -90,7 +74,7 @@ public:
         return {lines.leaves.data() + begin, lines.runBegin[index + 1] - begin};
     }
 
-    /// @return the coordinates of a voxel of a leaf, by leafOffset().
+    /// @return the coordinates of a voxel of a leaf, by leafIndex().
     openvdb::Coord voxel(uint32_t leaf, uint32_t offset) const
     {
         return mOrigins[leaf].offsetBy(offset >> 6, offset >> 3 & 7, offset & 7);

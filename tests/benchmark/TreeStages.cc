@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeStages.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <benchmark/benchmark.h>

@@ -4,6 +4,7 @@
 /// from the text files tests/data/<object>.<tree>.txt. Independent dense programs gave the
 /// numbers.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/input/ObjectMask.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>

@@ -5,6 +5,7 @@
 
 #include "support/DenseAgreement.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>

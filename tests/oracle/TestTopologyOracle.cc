@@ -8,6 +8,7 @@
 #include "support/DenseTopology.h"
 #include "support/RandomObjects.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 /// radii and DAG.
 
 #include "support/DenseAgreement.h"
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "support/BuiltTrees.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>

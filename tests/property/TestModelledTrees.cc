@@ -6,6 +6,7 @@
 #include "support/BuiltTrees.h"
 #include "support/Messages.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/pyramid/BlockModel.h>
 #include <openvdb_spheretree/pyramid/Closing.h>

@@ -8,6 +8,7 @@
 #include "support/NaiveChains.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 

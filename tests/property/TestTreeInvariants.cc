@@ -5,6 +5,7 @@
 
 #include "support/BuiltTrees.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/input/ObjectMask.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 

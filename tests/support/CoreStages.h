@@ -66,7 +66,7 @@ void forEachVoxel(const openvdb_spheretree::LeafLayout& layout, const F& f)
 {
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
         for (uint32_t k = 0; k < openvdb_spheretree::kLeafVoxels; ++k) {
-            if (openvdb_spheretree::isOn(layout.mask(leaf), k)) f(leaf, k, layout.voxel(leaf, k));
+            if (layout.mask(leaf).isOn(k)) f(leaf, k, layout.voxel(leaf, k));
         }
     }
 }
@@ -93,7 +93,7 @@ struct CoreStages {
     uint32_t distSq(const Coord& ijk) const
     {
         const auto leaf = layout.findLeaf(ijk);
-        return leaf ? distances.at(*leaf, openvdb_spheretree::leafOffset(ijk)) : 0;
+        return leaf ? distances.at(*leaf, openvdb_spheretree::leafIndex(ijk)) : 0;
     }
 
     openvdb_spheretree::LeafLayout layout;

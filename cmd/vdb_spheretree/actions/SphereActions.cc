@@ -10,6 +10,7 @@
 
 #include <openvdb/tools/ParticlesToLevelSet.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/LevelSpheres.h>
 
 namespace command {
 

@@ -7,6 +7,7 @@
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/build/MemoryPlan.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>

@@ -58,7 +58,7 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
 
 std::vector<OptionSpec> pyramidOptions()
 {
-    return {integer("factor", "2", 2, SphereTreeSettings::kMaxFactor,
+    return {integer("factor", "2", 2, openvdb_spheretree::kMaxFactor,
                 "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
         text("model", "or",
             "what becomes of 2x2x2 voxels (or factor per axis): or, one voxel if any is on; or "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StatsReport.h"
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>

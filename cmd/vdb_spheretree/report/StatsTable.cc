@@ -3,6 +3,7 @@
 
 #include "base/Terminal.h"
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "line/Plan.h"
 #include "Stack.h"
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <tbb/global_control.h>
 
@@ -33,7 +34,7 @@ private:
 /// Seconds spent so far, by the whole line.
 struct StageSeconds {
     double read = 0, mask = 0, error = 0, write = 0;
-    openvdb_spheretree::BuildSeconds build;
+    openvdb_spheretree::StageSeconds build;
 };
 
 enum class Verbosity { Quiet, Normal, Verbose, Debug };

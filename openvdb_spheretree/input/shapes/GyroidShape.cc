@@ -40,7 +40,7 @@ public:
                     const Coord at(x - 1, y - 1, z - 1);
                     const int leaf =
                         ((at[0] >> 3) * kLeaves + (at[1] >> 3)) * kLeaves + (at[2] >> 3);
-                    row += isOn(period[std::size_t(leaf)], leafOffset(at));
+                    row += period[std::size_t(leaf)].isOn(leafIndex(at));
                     count(x, y, z) =
                         row + count(x - 1, y, z) + count(x, y - 1, z) - count(x - 1, y - 1, z);
                 }

@@ -2,7 +2,7 @@
 #include "BallMask.h"
 
 #include <openvdb_spheretree/base/RoundUp.h>
-#include <openvdb_spheretree/kernel/LeafBall.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include <algorithm>
 #include <limits>
@@ -15,15 +15,6 @@ namespace {
 openvdb::CoordBBox leafBox(const openvdb::Coord& origin)
 {
     return openvdb::CoordBBox::createCube(origin, kLeafDim);
-}
-
-/// The voxels i in 0...7 of a row with |16 i - center| <= half, as a byte.
-uint64_t rowByte(int64_t center, int64_t half)
-{
-    const int64_t first = std::max<int64_t>(0, (center - half + 15) >> 4);
-    const int64_t last = std::min<int64_t>(7, (center + half) >> 4);
-    if (first > last) return 0;
-    return (uint64_t(0xff) << first) & (uint64_t(0xff) >> (7 - last));
 }
 
 } // namespace
@@ -42,32 +33,8 @@ BoxReach::BoxReach(const FineBall& ball, const openvdb::CoordBBox& box)
 
 LeafMask ballMask(const FineBall& ball, const openvdb::Coord& origin)
 {
-    LeafMask mask{};
-    const BoxReach reach(ball, leafBox(origin));
-    if (!reach.meets(ball)) return mask;
-    if (reach.isHeldBy(ball)) {
-        mask.fill(~uint64_t(0));
-        return mask;
-    }
-    int64_t center[3];
-    int64_t farthest = 0; // of the leaf's voxels, along any axis
-    for (int a = 0; a < 3; ++a) {
-        center[a] = ball.center[a] - kFine * int64_t(origin[a]);
-        farthest = std::max(farthest, std::max(center[a], 7 * kFine - center[a]));
-    }
-    using detail::kLeafBallReach;
-    if (farthest <= kLeafBallReach && ball.radiusSq <= kLeafBallReach * kLeafBallReach) {
-        detail::orBallIntoLeaf(center, ball.radiusSq, /*shift=*/4, mask.data());
-        return mask;
-    }
-    for (int x = 0; x < 8; ++x) {
-        const int64_t dx = kFine * x - center[0], slice = ball.radiusSq - dx * dx;
-        for (int y = 0; y < 8; ++y) {
-            const int64_t dy = kFine * y - center[1], row = slice - dy * dy;
-            if (row >= 0) mask[x] |= rowByte(center[2], detail::floorSqrt(row)) << (8 * y);
-        }
-    }
-    return mask;
+    const ExactSphere sphere{{ball.center[0], ball.center[1], ball.center[2]}, ball.radiusSq};
+    return detail::voxelsOf(sphere, /*shift=*/4, origin);
 }
 
 bool mayReach(const FineBall& ball, const openvdb::Coord& origin)

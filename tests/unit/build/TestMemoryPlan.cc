@@ -2,6 +2,7 @@
 /// @file TestMemoryPlan.cc
 /// @brief Builds in little memory: what is planned, that trees are the same, and what is refused.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/build/MemoryPlan.h>
 
 #include "support/Messages.h"

@@ -3,6 +3,8 @@
 /// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order,
 /// ids, world radii, records, errors, and that every tree ends.
 
+#include <openvdb_spheretree/base/StageSeconds.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
@@ -381,7 +383,7 @@ TEST(SphereTree, StopsWhenInterruptedAtAnyQuestion)
 
 TEST(SphereTree, AddsTheTimesOfItsStages)
 {
-    BuildSeconds seconds;
+    StageSeconds seconds;
     seconds.pyramid = 1000;
     buildSphereTree(*gridOf(block()), extendedTree(), nullptr, &seconds);
     EXPECT_GT(seconds.pyramid, 1000);
@@ -397,7 +399,7 @@ TEST(SphereTree, CountsTopologyUnlessToldNotTo)
     for (SphereTreeSettings settings : bothTypes()) {
         for (const bool topology : {true, false}) {
             settings.topology = topology;
-            BuildSeconds seconds;
+            StageSeconds seconds;
             const SphereTree tree = buildSphereTree(*someGrid(), settings, nullptr, &seconds);
             for (const SphereTreeLevel& level : tree.levels) {
                 EXPECT_EQ(level.topology.has_value(), topology);

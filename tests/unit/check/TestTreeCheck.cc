@@ -2,6 +2,7 @@
 /// @file TestTreeCheck.cc
 /// @brief Each invariant is broken once in a small valid tree, and the check must say so.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 
 #include <openvdb_spheretree/base/Interrupted.h>

@@ -4,6 +4,7 @@
 /// trees made of it.
 
 #include <openvdb_spheretree/base/RoundDown.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/index/PowerTree.h>
 #include <openvdb_spheretree/inner/InnerTree.h>
 #include <openvdb_spheretree/inner/UncoveredVoxels.h>

@@ -224,9 +224,9 @@ detail::FreshSteps freshOneByOne(
     const uint32_t shift = 6 - 3 * uint32_t(axis);
     detail::FreshSteps fresh{};
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-        if (!isOn(mask, k)) continue;
+        if (!mask.isOn(k)) continue;
         const uint32_t before = k - (1u << shift);
-        const bool hasBefore = (k >> shift & 7) > 0 && isOn(mask, before);
+        const bool hasBefore = (k >> shift & 7) > 0 && mask.isOn(before);
         if (hasBefore && steps[before] == steps[k] + 1) continue;
         (steps[k] == 0 ? fresh.stay : fresh.go)[k >> 6] |= uint64_t(1) << (k & 63);
     }

@@ -2,6 +2,7 @@
 /// @file TestMedialCover.cc
 /// @brief A level whose spheres are the object's medial balls is known to be one, and none else is.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/measure/MedialCover.h>
 #include <openvdb_spheretree/tree/SphereTree.h>

@@ -16,7 +16,7 @@ using openvdb::MaskTree;
 
 uint32_t distSqAt(const LeafLayout& layout, const DistanceMap& map, const Coord& ijk)
 {
-    return map.at(*layout.findLeaf(ijk), leafOffset(ijk));
+    return map.at(*layout.findLeaf(ijk), leafIndex(ijk));
 }
 
 /// Of every voxel of a solid box, the squared steps to its nearest face.
@@ -52,7 +52,7 @@ TEST(DistanceTransform, BackgroundIsZeroAllOverTheLeaf)
     const DistanceMap map = distanceTransform(layout);
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-            ASSERT_EQ(map.at(leaf, k) > 0, isOn(layout.mask(leaf), k));
+            ASSERT_EQ(map.at(leaf, k) > 0, layout.mask(leaf).isOn(k));
         }
     }
 }

@@ -3,6 +3,7 @@
 /// @brief A level's stages in one piece: the same as one by one, and found again by centre and
 /// voxel.
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 
 #include "support/BuiltTrees.h"
@@ -76,7 +77,7 @@ TEST(MedialLevel, MarksTheCentresOfItsBalls)
     EXPECT_EQ(centers, level.balls.size());
     for (const MedialBall& ball : level.balls) {
         const uint32_t leaf = level.layout.findLeaf(ball.center).value();
-        EXPECT_TRUE(isOn(level.centers[leaf], leafOffset(ball.center)));
+        EXPECT_TRUE(level.centers[leaf].isOn(leafIndex(ball.center)));
     }
 }
 
@@ -90,7 +91,7 @@ TEST(MedialLevel, RejectsAVoxelThatIsOff)
 
 TEST(MedialLevel, AddsTheTimesOfItsStages)
 {
-    BuildSeconds seconds;
+    StageSeconds seconds;
     seconds.distance = seconds.power = seconds.medial = 1000;
     seconds.pyramid = seconds.tree = 7;
     const MedialLevel level(*maskOf(shapes::box(Coord(20, 20, 20))), 3, {}, nullptr, &seconds);

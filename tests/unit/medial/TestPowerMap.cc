@@ -92,16 +92,16 @@ TEST(PowerMap, StepsLeadFromVoxelToLabelInsideTheObject)
         const RandomObject object = randomObject(seed);
         const CoreStages stages(*maskOf(object.voxels));
         forEachVoxel(stages.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
-            PowerMap::Voxel at{leaf, k};
+            VoxelRef at{leaf, k};
             Coord ijk = voxel;
             for (Axis axis : kAxes) {
                 ijk[int(axis)] += stages.labels.offset(axis, at);
                 at = stages.labels.step(axis, at);
                 ASSERT_EQ(stages.layout.voxel(at.leaf, at.offset), ijk) << object.name;
-                ASSERT_TRUE(isOn(stages.layout.mask(at.leaf), at.offset)) << object.name;
+                ASSERT_TRUE(stages.layout.mask(at.leaf).isOn(at.index)) << object.name;
             }
             ASSERT_EQ(stages.labels.label(voxel), ijk) << object.name;
-            const PowerMap::Voxel label = stages.labels.label(PowerMap::Voxel{leaf, k});
+            const VoxelRef label = stages.labels.label(VoxelRef{leaf, k});
             ASSERT_EQ(stages.layout.voxel(label.leaf, label.offset), ijk) << object.name;
         });
     }
@@ -115,8 +115,8 @@ TEST(PowerMap, MovedCrossesLeafBorders)
         for (int steps = -15; steps <= 12; ++steps) {
             Coord end = start;
             end[int(axis)] += steps;
-            const PowerMap::Voxel from{*stages.layout.findLeaf(start), leafOffset(start)};
-            const PowerMap::Voxel to = stages.labels.moved(axis, from, steps);
+            const VoxelRef from{*stages.layout.findLeaf(start), leafIndex(start)};
+            const VoxelRef to = stages.labels.moved(axis, from, steps);
             ASSERT_EQ(stages.layout.voxel(to.leaf, to.offset), end);
         }
     }

@@ -3,6 +3,7 @@
 /// @brief What is special about an extended tree: radii that the leaf balls need, balls without
 /// children dropped, levels rebuilt from their spheres.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include "support/BuiltTrees.h"

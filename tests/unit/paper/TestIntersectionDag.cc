@@ -5,6 +5,7 @@
 #include "support/BuiltTrees.h"
 #include "support/RandomObjects.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 

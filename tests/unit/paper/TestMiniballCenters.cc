@@ -6,6 +6,7 @@
 #include "support/BuiltTrees.h"
 #include "support/Messages.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 
 #include <tbb/global_control.h>

@@ -3,6 +3,7 @@
 /// @brief What is special about a reversible tree: all medial balls of all pyramid levels, each
 /// level rebuilding its own, and parents by the label of the parent voxel.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include "support/BuiltTrees.h"

@@ -2,6 +2,7 @@
 /// @file TestSphereDag.cc
 /// @brief The Sphere-DAG against its definition, voxel by voxel.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/paper/SphereDag.h>
 
 #include "support/BuiltTrees.h"
@@ -69,9 +70,9 @@ std::vector<int32_t> ballsOfLabels(const MedialLevel& level)
     const std::size_t size = std::size_t(level.layout.leafCount()) * kLeafVoxels;
     std::vector<int32_t> balls(size, -1), ballAt(size, -1);
     forEachVoxel(level.layout, [&](uint32_t leaf, uint32_t k, const Coord&) {
-        const PowerMap::Voxel site = level.labels.label(PowerMap::Voxel{leaf, k});
-        int32_t& ball = ballAt[std::size_t(site.leaf) * kLeafVoxels + site.offset];
-        if (ball < 0) ball = level.ballAt(level.layout.voxel(site.leaf, site.offset));
+        const VoxelRef site = level.labels.label(VoxelRef{leaf, k});
+        int32_t& ball = ballAt[std::size_t(site.leaf) * kLeafVoxels + site.index];
+        if (ball < 0) ball = level.ballAt(level.layout.voxel(site.leaf, site.index));
         balls[std::size_t(leaf) * kLeafVoxels + k] = ball;
     });
     return balls;
@@ -87,8 +88,8 @@ std::vector<DagEdge> edgesOfLabels(
     forEachVoxel(fine.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
         const Coord parent = step.parentVoxel(voxel);
         const auto parentLeaf = coarse.layout.findLeaf(parent);
-        if (!parentLeaf || !isOn(coarse.layout.mask(*parentLeaf), leafOffset(parent))) return;
-        const std::size_t place = std::size_t(*parentLeaf) * kLeafVoxels + leafOffset(parent);
+        if (!parentLeaf || !coarse.layout.mask(*parentLeaf).isOn(leafIndex(parent))) return;
+        const std::size_t place = std::size_t(*parentLeaf) * kLeafVoxels + leafIndex(parent);
         const DagEdge edge{parents[place], children[std::size_t(leaf) * kLeafVoxels + k]};
         if (edges.empty() || !(edges.back() == edge)) edges.push_back(edge);
     });

@@ -8,6 +8,7 @@
 #include "support/SampleTrees.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/picture/PictureColors.h>
 #include <openvdb_spheretree/picture/SpherePicture.h>
 

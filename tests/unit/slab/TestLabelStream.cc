@@ -72,7 +72,7 @@ struct Labelled {
         });
     }
     Voxels voxels;
-    std::vector<PowerMap::Voxel> asked;
+    std::vector<VoxelRef> asked;
 };
 
 /// Balls, answers and kept labels are those of the reference.
@@ -92,11 +92,11 @@ void expectReference(const NaiveReference& naive, int dim, const StreamPlan& pla
         ASSERT_EQ(labels.label(naive.voxels()[i]), naive.label(i));
     }
     for (std::size_t i = 0; i < labelled.voxels.size(); ++i) {
-        const PowerMap::Voxel& answer = labelled.asked[i];
+        const VoxelRef& answer = labelled.asked[i];
         ASSERT_EQ(layout.voxel(answer.leaf, answer.offset), labels.label(labelled.voxels[i]));
     }
     for (const MedialBall& ball : found.balls) {
-        ASSERT_TRUE(isOn(found.centers[*layout.findLeaf(ball.center)], leafOffset(ball.center)));
+        ASSERT_TRUE(found.centers[*layout.findLeaf(ball.center)].isOn(leafIndex(ball.center)));
     }
 }
 
@@ -161,7 +161,7 @@ void expectSame(const Streamed& some, const Streamed& all)
     EXPECT_EQ(some.level.centers, all.level.centers);
     ASSERT_EQ(some.labelled.asked.size(), all.labelled.asked.size());
     for (std::size_t i = 0; i < all.labelled.asked.size(); ++i) {
-        const PowerMap::Voxel &one = some.labelled.asked[i], &other = all.labelled.asked[i];
+        const VoxelRef &one = some.labelled.asked[i], &other = all.labelled.asked[i];
         ASSERT_TRUE(one.leaf == other.leaf && one.offset == other.offset) << i;
     }
 }

@@ -2,11 +2,13 @@
 /// @file TestSphereUnion.cc
 /// @brief The rasteriser of sphere unions against brute force over every voxel of a box.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 #include <openvdb_spheretree/sphere/SphereRaster.h>
+#include <openvdb_spheretree/tree/LevelSpheres.h>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -2,6 +2,7 @@
 /// @file TestSphereTreeJson.cc
 /// @brief Trees as JSON, read back by a parser that is not ours: every number is the tree's.
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
 
 #include "support/BuiltTrees.h"

@@ -5,6 +5,7 @@
 #include "support/BuiltTrees.h"
 #include "support/RandomObjects.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 #include <gtest/gtest.h>

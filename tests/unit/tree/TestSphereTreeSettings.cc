@@ -29,7 +29,7 @@ TEST(SphereTreeSettings, ModelsHaveNamesThatReadBack)
 {
     SphereTreeSettings settings;
     EXPECT_EQ(modelToString(settings), "or");
-    for (const int radius : {1, 2, 17, SphereTreeSettings::kMaxClosing}) {
+    for (const int radius : {1, 2, 17, kMaxClosing}) {
         settings.closing = radius;
         EXPECT_EQ(modelToString(settings), "closing:" + std::to_string(radius));
         EXPECT_EQ(closingFromString(modelToString(settings)), radius);

@@ -41,10 +41,10 @@ TEST(LeafLayout, OffsetsAreThoseOfOpenVdbsLeafNodes)
 {
     using Leaf = MaskTree::LeafNodeType;
     for (const Coord& ijk : voxelsOfBox(CoordBBox(Coord(-9, -9, -9), Coord(9, 9, 9)))) {
-        ASSERT_EQ(leafOffset(ijk), Leaf::coordToOffset(ijk)) << ijk;
+        ASSERT_EQ(leafIndex(ijk), Leaf::coordToOffset(ijk)) << ijk;
     }
-    EXPECT_EQ(leafOffset(Coord(-1, -1, -1)), 511u);
-    EXPECT_EQ(leafOffset(Coord(1, 2, 3)), 64u + 16u + 3u);
+    EXPECT_EQ(leafIndex(Coord(-1, -1, -1)), 511u);
+    EXPECT_EQ(leafIndex(Coord(1, 2, 3)), 64u + 16u + 3u);
 }
 
 TEST(LeafLayout, VoxelIsTheInverseOfTheOffset)
@@ -54,7 +54,7 @@ TEST(LeafLayout, VoxelIsTheInverseOfTheOffset)
     EXPECT_EQ(layout.origin(0), Coord(-8, 128, -4104));
     for (uint32_t offset = 0; offset < 512; ++offset) {
         const Coord voxel = layout.voxel(0, offset);
-        ASSERT_EQ(leafOffset(voxel), offset);
+        ASSERT_EQ(leafIndex(voxel), offset);
         ASSERT_EQ(voxel & ~7, layout.origin(0));
     }
 }

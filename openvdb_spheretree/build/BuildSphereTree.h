@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BuildSphereTree.h
+/// @brief The call that builds a sphere-tree, of whatever kind.
+
+#pragma once
+
+#include <openvdb_spheretree/base/StageSeconds.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+namespace openvdb_spheretree {
+
+/// @brief Build the sphere-tree of the active voxels of @a object.
+/// @param object       its topology is the object; its transform must have uniform voxels
+/// @param settings     what to build
+/// @param interrupter  may be null; asked from many threads
+/// @param seconds      may be null; receives the time each stage took
+/// @throw openvdb::ValueError if the object is empty or too wide, its voxels are not uniform, a
+///        setting is out of range, a radius does not fit (32767 voxels), or there is too little
+///        memory (MemoryPlan.h)
+/// @throw openvdb::IoError if a temporary file is needed, and cannot be made or has no room
+/// @throw Interrupted if the interrupter said so
+/// @note Cost is linear in active voxels per level (each level has about 1/factor^dim of the one
+///       before), whatever the bounding box. The result is the same to the last bit for any number
+///       of threads. Thread-safe for concurrent calls, also on the same object.
+SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr, StageSeconds* seconds = nullptr);
+
+} // namespace openvdb_spheretree

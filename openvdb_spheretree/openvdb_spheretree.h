@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file openvdb_spheretree.h
+/// @brief All of the library, as a table of contents: the public headers in the order of the data.
+///
+/// What reads meshes and volume files, generates objects and draws pictures is a library of its own:
+/// openvdb_spheretree_extras.h.
+
+#pragma once
+
+// What long calls throw when they are interrupted, and the time that stages take.
+#include "base/Interrupted.h"
+#include "base/StageSeconds.h"
+
+// Voxels: what distances and balls are measured in.
+#include "voxel/Dimension.h"
+#include "voxel/Distance.h"
+#include "voxel/MedialBall.h"
+
+// A grid to the object that it stands for.
+#include "input/ObjectMask.h"
+
+// The object to a pyramid of ever coarser ones.
+#include "pyramid/BlockModel.h"
+#include "pyramid/Closing.h"
+#include "pyramid/OrPyramid.h"
+#include "pyramid/PyramidModel.h"
+
+// A level's voxels to distances, to medial balls, to spheres inside, and its parts and tunnels.
+#include "inner/InnerTree.h"
+#include "medial/DistanceTransform.h"
+#include "medial/MedialAxis.h"
+#include "topology/LevelTopology.h"
+
+// What a tree can be asked for, what it is, and the call that builds one.
+#include "build/BuildSphereTree.h"
+#include "build/MemoryPlan.h"
+#include "tree/DagAdjacency.h"
+#include "tree/SphereBudget.h"
+#include "tree/SphereCuts.h"
+#include "tree/SphereTree.h"
+#include "tree/SphereTreeSettings.h"
+
+// A tree's spheres as voxels, its errors, and whether it is right.
+#include "check/TreeCheck.h"
+#include "measure/LevelErrors.h"
+#include "sphere/ExactSphere.h"
+#include "sphere/SphereUnion.h"
+#include "tree/LevelSpheres.h"
+
+// To files and back.
+#include "store/SphereTreeCsv.h"
+#include "store/SphereTreeJson.h"
+#include "store/SphereTreePoints.h"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LevelSpheres.h
+/// @brief The spheres of a level of a tree as exact spheres, and the voxels that they cover.
+
+#pragma once
+
+#include "SphereTree.h"
+#include <openvdb_spheretree/sphere/SphereUnion.h>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/util/NullInterrupter.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+
+/// @return that of the spheres of a tree.
+SphereMetric metricOf(const SphereTree& tree);
+
+/// @return the spheres of a level, in index space of the tree's source grid (without padding), by
+///         metricOf() the tree.
+std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+
+/// @return the smallest box that holds every voxel centre in spheres of a level of @a tree; in 2-D only their plane.
+openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres);
+
+/// @brief The voxels that a level covers: those whose centres lie in its spheres.
+/// @throw openvdb::ValueError if they cross more than kMaxUnionRows
+openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree
