@@ -3,79 +3,30 @@
 /// @brief Exact distance of every object voxel to the nearest background voxel: Euclidean, squared,
 /// or by a norm of the 3x3x3 neighbourhood (Distance.h).
 ///
-/// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of
-/// object voxels: no value crosses background, so no background voxel is stored or visited.
+/// The separable transform of D. Coeurjolly and A. Montanvert, "Optimal separable algorithms to
+/// compute the reverse Euclidean distance transformation and discrete medial axis in arbitrary
+/// dimension" (IEEE PAMI 2007), restricted to the object: no background voxel is stored or visited.
 ///
-/// 1. x: steps to the background on the voxel's own line, squared (slab/XSteps.h);
-/// 2. y, then z: min over the line of value + step^2 (kernel detail/MinPlus.h), slab by slab
-///    (slab/SlabDistance.h).
-///
-/// Norms have sweeps of their own, detail/NormSweep.h.
-///
-/// Values are computed in 16 bits, and again in 32 bits if one did not fit: by check, not by hope.
-/// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding
-/// box. Tests: TestDistanceTransform.cc, against all background voxels one by one.
+/// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding box.
+/// Tests: TestDistanceTransform.cc, against all background voxels one by one.
 
 #pragma once
 
-#include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/voxel/Distance.h>
-#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <cstdint>
-
 namespace openvdb_spheretree {
 
-/// Distances of the voxels of a level, 0 for background; 512 a leaf, in leaf order. Euclidean ones
-/// are squared, in voxels^2; those of a norm are not, and in its units (Distance::unit() a voxel).
-class DistanceMap {
-public:
-    /// @return the distance at a voxel of a leaf, by leafIndex().
-    uint32_t at(uint32_t leaf, uint32_t offset) const
-    {
-        const std::size_t i = std::size_t(leaf) * kLeafVoxels + offset;
-        return mNarrow ? mNarrow[i] : mWide[i];
-    }
-    /// The largest value in the level; 0 only if the level is empty.
-    uint32_t maxDistSq() const { return mMaxDistSq; }
-    const Distance& distance() const { return mDistance; }
-
-    /// The values as they are stored: one of these two is null.
-    const uint16_t* narrow() const { return mNarrow.get(); }
-    const uint32_t* wide() const { return mWide.get(); }
-
-private:
-    friend DistanceMap distanceTransform(
-        const LeafLayout&, int, openvdb::util::NullInterrupter*, const Distance&);
-
-    detail::LargeArray<uint16_t> mNarrow;
-    detail::LargeArray<uint32_t> mWide;
-    uint32_t mMaxDistSq = 0;
-    Distance mDistance;
-};
-
-/// @param dim  3, or 2 to leave the z axis out
+/// @param object       its active voxels are the object
+/// @param dim          3, or 2 to leave the flat axis out
+/// @param interrupter  may be null
+/// @return for every active voxel its distance to the nearest inactive one, squared if Euclidean, in
+///         units of the distance (Distance::unit()) if of a norm; background 0, transform of @a object.
 /// @throw openvdb::ValueError if a radius is 46340 voxels (units of a norm) or more: 32 bits do not
 ///        hold its square
-/// @throw Interrupted if the interrupter (may be null) said so
-DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
-
-/// @brief The same, Euclidean, into memory of the caller's, which may be used again from object to
-/// object: as 32 bits, and as fast as the map.
-/// @param values  512 a leaf, in leaf order; aligned to 16 bytes. All are written, those of
-///                background with 0.
-/// @return the largest of them.
-/// @throw openvdb::ValueError if memory is not aligned, or a radius is 46340 voxels or more
-/// @throw Interrupted
-uint32_t distanceTransform(const LeafLayout& layout, int32_t* values, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr);
-
-/// @brief The same for people who come for just this: the values of DistanceMap for the active
-/// voxels of @a object, as a grid of its own with the object's transform and background 0.
+/// @throw Interrupted if the interrupter said so
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
 

@@ -11,25 +11,23 @@
 
 #pragma once
 
-#include "DistanceTransform.h"
-#include "PowerMap.h"
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
 
-/// @return the medial balls, in the order of their centres (x first).
-std::vector<MedialBall> medialBalls(const PowerMap& labels, const DistanceMap& distances,
-    openvdb::util::NullInterrupter* interrupter = nullptr);
-
-/// @brief The same for people who come for just this: the medial balls of the active voxels of
-/// @a object, centres in its index space.
+/// @param object       its active voxels are the object
+/// @param dim          3, or 2 to leave the flat axis out
+/// @param interrupter  may be null
+/// @return the medial balls, in the order of their centers (x first); centers in the index space of
+///         @a object.
+/// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or there is too little memory
+/// @throw Interrupted if the interrupter said so
 std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
 

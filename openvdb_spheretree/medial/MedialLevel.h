@@ -5,11 +5,12 @@
 
 #pragma once
 
-#include "MedialAxis.h"
+#include "DistanceMap.h"
 #include "PowerMap.h"
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <openvdb/openvdb.h>
 
@@ -19,6 +20,10 @@
 #include <vector>
 
 namespace openvdb_spheretree {
+
+/// @return the medial balls, in the order of their centers (x first).
+std::vector<MedialBall> medialBalls(const PowerMap& labels, const DistanceMap& distances,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// What is wanted of a level beside its balls.
 struct LevelWants {

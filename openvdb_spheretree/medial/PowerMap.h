@@ -20,7 +20,7 @@
 
 #pragma once
 
-#include "DistanceTransform.h"
+#include "DistanceMap.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/slab/LabelSteps.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>

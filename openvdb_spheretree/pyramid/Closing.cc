@@ -3,7 +3,7 @@
 
 #include "OrPyramid.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/medial/DistanceMap.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>

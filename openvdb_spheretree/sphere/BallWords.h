@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ExactBall.h"
+#include <openvdb_spheretree/base/RoundUp.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Distance.h"
 
+#include <openvdb_spheretree/base/RoundUp.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <charconv>
@@ -57,6 +59,8 @@ Distance Distance::chamfer(int face, int edge, int corner)
     }
     return {face, edge, corner};
 }
+
+int64_t Distance::farReach(int64_t leftSq) { return detail::floorSqrt(leftSq); }
 
 int64_t Distance::normReach(int64_t x, int64_t y, int64_t limitSq) const
 {

@@ -17,8 +17,6 @@
 
 #pragma once
 
-#include <openvdb_spheretree/base/RoundUp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -62,9 +60,8 @@ public:
     {
         return isEuclidean() ? std::sqrt(x * x + y * y + z * z) : norm(x, y, z);
     }
-    /// @return the squared length of an integer vector, exactly; or INT64_MAX, where it does not
-    /// fit
-    ///         63 bits.
+    /// @return the squared length of an integer vector, exactly; INT64_MAX where it does not fit 63
+    ///         bits.
     int64_t lengthSq(int64_t x, int64_t y, int64_t z) const
     {
         if (std::max(std::abs(x), std::max(std::abs(y), std::abs(z))) > kFar) return INT64_MAX;
@@ -83,7 +80,11 @@ public:
     {
         const int64_t soFar = lengthSq(x, y, 0);
         if (soFar > limitSq || soFar == INT64_MAX) return -1;
-        return isEuclidean() ? detail::floorSqrt(limitSq - soFar) : normReach(x, y, limitSq);
+        const int64_t left = limitSq - soFar;
+        constexpr int64_t kExact = int64_t(1)
+            << 52; // below, rounding makes no root an integer
+        if (isEuclidean() && left < kExact) return int64_t(std::sqrt(double(left)));
+        return isEuclidean() ? farReach(left) : normReach(x, y, limitSq);
     }
 
     /// @return a closed radius, squared, whose ball holds just the voxels of the open ball
@@ -99,6 +100,7 @@ public:
     bool operator!=(const Distance& o) const { return !(*this == o); }
 
 private:
+    static int64_t farReach(int64_t leftSq);
     int64_t normReach(int64_t x, int64_t y, int64_t limitSq) const;
 
     Distance(int face, int edge, int corner) : mFace(face), mEdge(edge), mCorner(corner) {}

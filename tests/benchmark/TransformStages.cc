@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/medial/DistanceTransform.h>
 #include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/medial/PowerMap.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
 #include <openvdb_spheretree/topology/LevelTopology.h>

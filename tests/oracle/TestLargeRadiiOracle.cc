@@ -128,7 +128,7 @@ TEST(LargeRadiiOracle, ADiscOfRadius300HasTheDistancesToItsBoundary)
     Voxels voxels = translated(disc(300 * 300, -5), Coord(-8, 131, 0));
     sortVoxels(voxels);
     const CoreStages stages(*maskOf(voxels), 2);
-    ASSERT_GE(stages.distances.maxDistSq(), kWideDistances);
+    ASSERT_GE(stages.distances.largest(), kWideDistances);
     const std::vector<int64_t> expected = distancesToBoundary(voxels);
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         ASSERT_EQ(stages.distSq(voxels[i]), expected[i]) << voxels[i];
@@ -145,7 +145,7 @@ TEST(LargeRadiiOracle, ADiscOfRadius300WithHolesKeepsTiesInOrder)
         if (!hole) voxels.push_back(v);
     }
     const CoreStages stages(*maskOf(voxels), 2);
-    ASSERT_GT(int64_t(stages.distances.maxDistSq()), kNarrowLabels);
+    ASSERT_GT(int64_t(stages.distances.largest()), kNarrowLabels);
     EXPECT_TRUE(agree(LineReference(voxels, 2), stages));
 }
 
@@ -156,7 +156,7 @@ TEST(LargeRadiiOracle, BoxesHaveTheirClosedFormAroundTheSwitchOfWidth)
             const CoordBBox box(Coord(-13, -300, 7), Coord(-14, -301, 6) + size);
             const CoreStages stages(*maskOf(box), 2);
             const int64_t radius = (width + 1) / 2;
-            EXPECT_EQ(stages.distances.maxDistSq(), radius * radius) << size;
+            EXPECT_EQ(stages.distances.largest(), radius * radius) << size;
             EXPECT_EQ(stages.distances.narrow() == nullptr, radius >= 255) << size;
             EXPECT_TRUE(boxIsRight(box, stages, 2));
         }
@@ -167,7 +167,7 @@ TEST(LargeRadiiOracle, WideLabelsInThreeDimensionsMatchOnSampledPlanes)
 {
     const CoordBBox box(Coord(-3, 5, -130), Coord(254, 263, 129));
     const CoreStages stages(*maskOf(box));
-    ASSERT_GT(int64_t(stages.distances.maxDistSq()), kNarrowLabels);
+    ASSERT_GT(int64_t(stages.distances.largest()), kNarrowLabels);
     ASSERT_TRUE(boxIsRight(box, stages, 3));
     const LineReference reference(
         box, [&](const Coord& ijk) { return distSqInBox(box, ijk, 3); }, 3);

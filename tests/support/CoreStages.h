@@ -10,6 +10,7 @@
 
 #include <openvdb_spheretree/medial/DistanceTransform.h>
 #include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/medial/PowerMap.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 

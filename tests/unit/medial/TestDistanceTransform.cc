@@ -41,7 +41,7 @@ TEST(DistanceTransform, ASingleVoxelIsOneAwayFromBackground)
         const LeafLayout layout(*maskOf(Voxels{voxel}));
         const DistanceMap map = distanceTransform(layout);
         EXPECT_EQ(distSqAt(layout, map, voxel), 1u);
-        EXPECT_EQ(map.maxDistSq(), 1u);
+        EXPECT_EQ(map.largest(), 1u);
     }
 }
 
@@ -60,8 +60,8 @@ TEST(DistanceTransform, BackgroundIsZeroAllOverTheLeaf)
 TEST(DistanceTransform, AnEmptyLayoutHasNoDistances)
 {
     const LeafLayout layout((MaskTree(false)));
-    EXPECT_EQ(distanceTransform(layout).maxDistSq(), 0u);
-    EXPECT_EQ(distanceTransform(layout, 2).maxDistSq(), 0u);
+    EXPECT_EQ(distanceTransform(layout).largest(), 0u);
+    EXPECT_EQ(distanceTransform(layout, 2).largest(), 0u);
 }
 
 TEST(DistanceTransform, TheLargestDistanceIsThatOfTheDeepestVoxel)
@@ -69,7 +69,7 @@ TEST(DistanceTransform, TheLargestDistanceIsThatOfTheDeepestVoxel)
     const Voxels voxels = shapes::ball(81);
     const LeafLayout layout(*maskOf(voxels));
     const DistanceMap map = distanceTransform(layout);
-    EXPECT_EQ(map.maxDistSq(), 81u);
+    EXPECT_EQ(map.largest(), 81u);
     EXPECT_EQ(distSqAt(layout, map, Coord(0, 0, 0)), 81u);
 }
 
@@ -79,7 +79,7 @@ TEST(DistanceTransform, TheLargestDistanceIsFoundInWhicheverLeafItIs)
     for (const Coord& deepest : corners) {
         auto mask = maskOf(Voxels(std::begin(corners), std::end(corners)));
         mask->fill(CoordBBox(deepest, deepest.offsetBy(4)), true);
-        EXPECT_EQ(distanceTransform(LeafLayout(*mask)).maxDistSq(), 9u) << deepest;
+        EXPECT_EQ(distanceTransform(LeafLayout(*mask)).largest(), 9u) << deepest;
     }
 }
 
@@ -97,8 +97,8 @@ TEST(DistanceTransform, TwoDimensionsLeaveTheZAxisOut)
     expectBox(*maskOf(plate), plate, 2);
     expectBox(*maskOf(box), box, 2);
     const LeafLayout layout(*maskOf(plate));
-    EXPECT_EQ(distanceTransform(layout, 3).maxDistSq(), 1u);
-    EXPECT_EQ(distanceTransform(layout, 2).maxDistSq(), 225u);
+    EXPECT_EQ(distanceTransform(layout, 3).largest(), 1u);
+    EXPECT_EQ(distanceTransform(layout, 2).largest(), 225u);
 }
 
 TEST(DistanceTransform, TilesHaveTheDistancesOfTheirVoxels)
@@ -120,7 +120,7 @@ TEST(DistanceTransform, VoxelsFarApartDoNotSeeEachOther)
     for (int far : {1000000, 1 << 27}) {
         const LeafLayout layout(
             *maskOf(Voxels{Coord(0, 0, 0), Coord(far, 0, 0), Coord(0, far, far)}));
-        EXPECT_EQ(distanceTransform(layout).maxDistSq(), 1u);
+        EXPECT_EQ(distanceTransform(layout).largest(), 1u);
     }
 }
 
@@ -131,17 +131,17 @@ TEST(DistanceTransform, ValuesAreStoredIn16BitsWhereTheyFit)
     const DistanceMap narrow = distanceTransform(thin, 2), wide = distanceTransform(thick, 2);
     EXPECT_NE(narrow.narrow(), nullptr);
     EXPECT_EQ(narrow.wide(), nullptr);
-    EXPECT_EQ(narrow.maxDistSq(), 254u * 254u);
+    EXPECT_EQ(narrow.largest(), 254u * 254u);
     EXPECT_EQ(wide.narrow(), nullptr);
     EXPECT_NE(wide.wide(), nullptr);
-    EXPECT_EQ(wide.maxDistSq(), 255u * 255u);
+    EXPECT_EQ(wide.largest(), 255u * 255u);
 }
 
 void expectValuesOfMap(const LeafLayout& layout, int dim)
 {
     const DistanceMap map = distanceTransform(layout, dim);
     std::vector<int32_t> values(std::size_t(layout.leafCount()) * kLeafVoxels, -1);
-    ASSERT_EQ(distanceTransform(layout, values.data(), dim), map.maxDistSq());
+    ASSERT_EQ(distanceTransform(layout, values.data(), dim), map.largest());
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
             ASSERT_EQ(values[std::size_t(leaf) * kLeafVoxels + k], int32_t(map.at(leaf, k)));
@@ -212,7 +212,7 @@ TEST(DistanceTransform, StopsWhenInterrupted)
         EXPECT_THROW(distanceTransform(layout, 3, &interrupter), Interrupted) << after;
     }
     StopAfter never(1 << 30);
-    EXPECT_EQ(distanceTransform(layout, 3, &never).maxDistSq(), 100u);
+    EXPECT_EQ(distanceTransform(layout, 3, &never).largest(), 100u);
     StopAfter interrupter;
     EXPECT_THROW(distanceTransform(*gridOf(*mask), 3, &interrupter), Interrupted);
 }

@@ -283,7 +283,7 @@ TEST(LargestDistSq, IsNeverTooSmall)
         for (const int dim : {2, 3}) {
             const LeafLayout layout(*maskOf(object.voxels));
             EXPECT_GE(slab::largestDistSq(layout, dim, 2, nullptr),
-                distanceTransform(layout, dim).maxDistSq())
+                distanceTransform(layout, dim).largest())
                 << object.name;
         }
     }
@@ -312,7 +312,7 @@ TEST(LargestDistSq, IsCloseWhereRunsAreLong)
             }
             const LeafLayout layout(voxels);
             const uint32_t bound = slab::largestDistSq(layout, dim, 2, nullptr);
-            const uint32_t largest = distanceTransform(layout, dim).maxDistSq();
+            const uint32_t largest = distanceTransform(layout, dim).largest();
             EXPECT_GE(bound, largest) << half;
             EXPECT_LE(std::sqrt(bound), std::sqrt(largest) + 2 * 8 * std::sqrt(dim)) << half;
         }
