@@ -28,7 +28,6 @@
 #pragma once
 
 #include <openvdb_spheretree/medial/MedialAxis.h>
-#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -37,6 +36,8 @@
 #include <vector>
 
 namespace openvdb_spheretree {
+
+class LeafLayout;
 
 struct InnerOrder {
     std::vector<int32_t> ball;    ///< indices of the balls, in the order they are taken

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeJson.h"
 
+#include "JsonWriter.h"
 #include "SphereTreeCsv.h"
 
 #include <openvdb/Exceptions.h>

@@ -4,12 +4,13 @@
 
 #pragma once
 
-#include "JsonWriter.h"
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <iosfwd>
 
 namespace openvdb_spheretree {
+
+class JsonWriter;
 
 /// @brief Write one object:
 ///

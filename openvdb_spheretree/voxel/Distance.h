@@ -81,8 +81,8 @@ public:
         const int64_t soFar = lengthSq(x, y, 0);
         if (soFar > limitSq || soFar == INT64_MAX) return -1;
         const int64_t left = limitSq - soFar;
-        constexpr int64_t kExact = int64_t(1)
-            << 52; // below, rounding makes no root an integer
+        // Below 2^52, rounding makes no root an integer that is none.
+        constexpr int64_t kExact = int64_t(1) << 52;
         if (isEuclidean() && left < kExact) return int64_t(std::sqrt(double(left)));
         return isEuclidean() ? farReach(left) : normReach(x, y, limitSq);
     }
