@@ -15,7 +15,7 @@ import check_includes
 import draw_floors
 
 ROOT = check_includes.ROOT
-BASES = ["", "openvdb_spheretree/", "cmd/vdb_spheretree/", "tests/", "tests/unit/", "docs/"]
+BASES = ["", "openvdb_spheretree/", "cmd/vdb_spheretree/", "tests/", "docs/"]
 CODE = {".h", ".cc", ".py", ".sh", ".cmake", ".txt", ".tsv"}
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 TICKS = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
