@@ -1,113 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+/// @file TestSphereTreePoints.cc
+/// @brief A tree becomes a grid of points and comes back; and what other programs see of it.
+
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include "support/Messages.h"
+#include "support/PointsFiles.h"
 #include "support/SampleTrees.h"
 
-#include <openvdb/io/Stream.h>
-#include <openvdb/points/PointAttribute.h>
-#include <openvdb/points/PointConversion.h>
 #include <openvdb/points/PointCount.h>
 #include <openvdb/points/PointGroup.h>
 
-#include <gtest/gtest.h>
-
-#include <functional>
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
+
+namespace {
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 namespace math = openvdb::math;
 namespace points = openvdb::points;
-using openvdb::points::PointDataGrid;
-
-namespace {
-
-std::string testFile()
-{
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    return (std::filesystem::temp_directory_path() / ("spheretree_" + name + ".vdb")).string();
-}
-
-/// Writes the grids to a file as people do, and reads them back.
-std::vector<PointDataGrid::Ptr> throughFile(const openvdb::GridCPtrVec& grids)
-{
-    openvdb::initialize();
-    const std::string path = testFile();
-    openvdb::io::File out(path);
-    out.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-    out.write(grids);
-    out.close();
-
-    std::vector<PointDataGrid::Ptr> read;
-    openvdb::io::File in(path);
-    in.open(/*delayLoad=*/false);
-    const openvdb::GridPtrVec stored = *in.getGrids();
-    for (const openvdb::GridBase::Ptr& grid : stored) {
-        read.push_back(openvdb::gridPtrCast<PointDataGrid>(grid));
-    }
-    in.close();
-    std::filesystem::remove(path);
-    return read;
-}
-
-/// The grid as bytes, without the random number that every file starts with.
-std::string bytesOf(const PointDataGrid::Ptr& grid)
-{
-    std::ostringstream out(std::ios::binary);
-    openvdb::io::Stream stream(out);
-    stream.write(openvdb::GridCPtrVec{grid});
-    constexpr std::size_t kUuidBegin = 21, kUuidSize = 36;
-    return out.str().erase(kUuidBegin, kUuidSize);
-}
-
-/// Sets an attribute of the node with that id.
-template <typename T>
-void damage(PointDataGrid& grid, const char* attribute, int32_t id, const T& value)
-{
-    for (auto leaf = grid.tree().beginLeaf(); leaf; ++leaf) {
-        const points::AttributeHandle<int32_t> ids(leaf->constAttributeArray("id"));
-        std::vector<openvdb::Index> found;
-        for (openvdb::Index n = 0; n < ids.size(); ++n) {
-            if (ids.get(n) == id) found.push_back(n);
-        }
-        points::AttributeWriteHandle<T> handle(leaf->attributeArray(attribute));
-        for (openvdb::Index n : found) handle.set(n, value);
-    }
-}
-
-std::string whyDamaged(const PointDataGrid& grid, const PointDataGrid* dag = nullptr)
-{
-    const std::string why = messageOf<openvdb::ValueError>([&] { fromPoints(grid, dag); });
-    EXPECT_TRUE(mentions(why, "'" + grid.getName())) << "the message must name the grid";
-    return why;
-}
-
-/// What fromPoints() says of the sample tree after one value of one node was changed.
-template <typename T>
-std::string whyDamaged(const char* attribute, int32_t id, const T& value)
-{
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    damage<T>(*grid, attribute, id, value);
-    return whyDamaged(*grid);
-}
-
-template <typename T>
-std::string whyDamagedMeta(const char* key, const T& value)
-{
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    grid->removeMeta(key);
-    grid->insertMeta(key, openvdb::TypedMetadata<T>(value));
-    return whyDamaged(*grid);
-}
 
 std::vector<math::Transform::Ptr> transformsOfEveryKind()
 {
@@ -133,8 +47,6 @@ std::vector<math::Transform::Ptr> transformsOfEveryKind()
     transforms.back()->preRotate(0.3, Y_AXIS);
     return transforms;
 }
-
-} // namespace
 
 // ---- Round trips
 
@@ -223,32 +135,6 @@ TEST(SphereTreePoints, SettingsOfTightTreesComeBack)
     expectSameTree(fromPoints(*toPoints(tree)), tree);
 }
 
-TEST(SphereTreePoints, ATightTreeWithItsCutsComesBack)
-{
-    const SphereTree tree = tightSampleTree();
-    const PointDataGrid::Ptr nodes = toPoints(tree), cuts = cutsToPoints(tree);
-    EXPECT_TRUE(isCutsOf(*cuts, "tight tree"));
-    EXPECT_FALSE(isCutsOf(*cuts, "tight"));
-    EXPECT_FALSE(isCutsOf(*nodes, "tight tree"));
-    EXPECT_FALSE(isSphereTree(*cuts));
-    EXPECT_FALSE(isDagOf(*cuts, "tight tree"));
-    expectSameTree(fromPoints(*nodes, nullptr, cuts.get()), tree);
-    const auto grids = throughFile({nodes, cuts});
-    ASSERT_EQ(grids.size(), 2u);
-    const bool inOrder = isSphereTree(*grids[0]);
-    expectSameTree(
-        fromPoints(*grids[inOrder ? 0 : 1], nullptr, grids[inOrder ? 1 : 0].get()), tree);
-}
-
-TEST(SphereTreePoints, ATreeReadWithoutItsCutsSaysThatItHasNone)
-{
-    const SphereTree read = fromPoints(*toPoints(tightSampleTree()));
-    EXPECT_TRUE(read.cuts.empty());
-    EXPECT_FALSE(read.settings.cuts);
-    EXPECT_EQ(read.subdivision, 16);
-    EXPECT_FALSE(cutsToPoints(read));
-}
-
 TEST(SphereTreePoints, AFileFromBeforeTightTreesIsReadAsItWas)
 {
     SphereTree tree = randomTree(50, 3);
@@ -260,6 +146,22 @@ TEST(SphereTreePoints, AFileFromBeforeTightTreesIsReadAsItWas)
         EXPECT_TRUE((*grid)["spheretree_" + std::string(key)]) << key;
         grid->removeMeta("spheretree_" + std::string(key));
     }
+    expectSameTree(fromPoints(*grid), tree);
+}
+
+TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
+{
+    SphereTree tree = sampleTree();
+    tree.dag.clear(); // which is a grid of its own
+    tree.settings.dag = false;
+    tree.settings.topology = true;
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    for (const char* key :
+        {"topology", "level_0_components", "level_0_tunnels", "level_0_cavities"}) {
+        grid->removeMeta("spheretree_" + std::string(key));
+    }
+    tree.settings.topology = false;
+    tree.levels[0].topology.reset();
     expectSameTree(fromPoints(*grid), tree);
 }
 
@@ -310,8 +212,6 @@ TEST(SphereTreePoints, TheGridDoesNotDependOnThreads)
     }
 }
 
-// ---- The grid as other programs see it
-
 TEST(SphereTreePoints, ATreeThatIsGivenUpMakesTheSameGridAndIsReleased)
 {
     for (const SphereTree& tree : {sampleTree(), tightSampleTree()}) {
@@ -334,6 +234,8 @@ TEST(SphereTreePoints, ATreeThatCannotBeWrittenIsNotReleased)
     EXPECT_THROW(toPoints(std::move(given)), openvdb::ValueError);
     EXPECT_EQ(given.size(), sampleTree().size());
 }
+
+// ---- The grid as other programs see it
 
 TEST(SphereTreePoints, WorldPositionsOfThePointsAreTheCentres)
 {
@@ -434,466 +336,4 @@ TEST(SphereTreePoints, OnlySphereTreesClaimToBeOne)
     EXPECT_FALSE(isSphereTree(*mask));
 }
 
-// ---- The DAG
-
-TEST(SphereTreePoints, ATreeWithoutEdgesHasNoDagGrid) { EXPECT_FALSE(dagToPoints(oneVoxelTree())); }
-
-TEST(SphereTreePoints, TheDagGridIsNamedAfterTheTreeAndHoldsAPointAnEdge)
-{
-    const SphereTree tree = sampleTree();
-    const PointDataGrid::Ptr dag = dagToPoints(tree);
-    EXPECT_EQ(dag->getName(), "sample tree_dag");
-    EXPECT_EQ(points::pointCount(dag->tree()), tree.dag.size());
-}
-
-TEST(SphereTreePoints, WithoutItsDagGridATreeHasNoEdges)
-{
-    const SphereTree tree = fromPoints(*toPoints(sampleTree()));
-    EXPECT_TRUE(tree.dag.empty());
-    EXPECT_EQ(tree.size(), sampleTree().size());
-}
-
-TEST(SphereTreePoints, ADagOfAnotherTreeIsAnError)
-{
-    const PointDataGrid::Ptr dag = dagToPoints(sampleTree());
-    const std::string why =
-        messageOf<openvdb::ValueError>([&] { fromPoints(*toPoints(oneVoxelTree()), dag.get()); });
-    EXPECT_TRUE(mentions(why, "sample tree_dag"));
-    EXPECT_TRUE(mentions(why, "8 nodes"));
-}
-
-/// Puts @a edge in the place of the first one that is another.
-static void replaceOneEdge(PointDataGrid& dag, const DagEdge& edge)
-{
-    for (auto leaf = dag.tree().beginLeaf(); leaf; ++leaf) {
-        points::AttributeWriteHandle<int32_t> parents(leaf->attributeArray("parent"));
-        points::AttributeWriteHandle<int32_t> children(leaf->attributeArray("child"));
-        for (openvdb::Index n = 0; n < parents.size(); ++n) {
-            if (parents.get(n) == edge.parent && children.get(n) == edge.child) continue;
-            parents.set(n, edge.parent);
-            children.set(n, edge.child);
-            return;
-        }
-    }
-}
-
-TEST(SphereTreePoints, ADagEdgeThatSkipsALevelOrRepeatsIsAnError)
-{
-    for (const DagEdge& edge : {DagEdge{0, 3}, DagEdge{1, 2}, DagEdge{3, 1}, DagEdge{0, 8},
-             DagEdge{0, -1}, DagEdge{0, 1}}) {
-        SphereTree tree = sampleTree();
-        const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
-        replaceOneEdge(*dag, edge);
-        const std::string read =
-            messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
-        EXPECT_TRUE(mentions(read, "damaged Sphere-DAG"));
-        EXPECT_TRUE(mentions(read, "from node " + std::to_string(edge.parent) + " to node "));
-        tree.dag.push_back(edge);
-        const std::string write = messageOf<openvdb::ValueError>([&] { dagToPoints(tree); });
-        EXPECT_TRUE(mentions(write, "from node " + std::to_string(edge.parent) + " to node "));
-    }
-    const PointDataGrid::Ptr points = toPoints(sampleTree());
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*points, points.get()); }),
-        "spheretree_dag_format"));
-}
-
-TEST(SphereTreePoints, ADagEdgeFromANodeThatDoesNotExistIsAnError)
-{
-    const SphereTree tree = sampleTree();
-    const PointDataGrid::Ptr points = toPoints(tree);
-    for (int32_t parent : {-1, 8, 1 << 30, std::numeric_limits<int32_t>::min()}) {
-        const PointDataGrid::Ptr dag = dagToPoints(tree);
-        for (auto leaf = dag->tree().beginLeaf(); leaf; ++leaf) {
-            points::AttributeWriteHandle<int32_t> parents(leaf->attributeArray("parent"));
-            for (openvdb::Index n = 0; n < parents.size(); ++n) parents.set(n, parent);
-        }
-        const std::string why =
-            messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
-        EXPECT_TRUE(mentions(why, "from node " + std::to_string(parent) + " to node "));
-    }
-}
-
-TEST(SphereTreePoints, ADagThatWasCutShortIsAnError)
-{
-    const SphereTree tree = sampleTree();
-    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
-    dag->removeMeta("spheretree_edges");
-    dag->insertMeta("spheretree_edges", openvdb::Int32Metadata(int32_t(tree.dag.size()) + 1));
-    const std::string why = messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
-    EXPECT_TRUE(mentions(why, "9 edges of 8 nodes are expected"));
-}
-
-TEST(SphereTreePoints, DagEdgesComeBackSortedWhereverTheirPointsAre)
-{
-    SphereTree tree = sampleTree();
-    std::reverse(tree.center.begin(), tree.center.end());
-    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
-    EXPECT_EQ(fromPoints(*points, dag.get()).dag, tree.dag);
-}
-
-// ---- Damage
-
-/// What fromPoints() says of the tight sample tree after one value of its cuts was changed.
-template <typename T>
-static std::string whyCutsDamaged(const char* attribute, int32_t id, const T& value)
-{
-    const PointDataGrid::Ptr grid = toPoints(tightSampleTree());
-    const PointDataGrid::Ptr cuts = cutsToPoints(tightSampleTree());
-    damage<T>(*cuts, attribute, id, value);
-    const std::string why =
-        messageOf<openvdb::ValueError>([&] { fromPoints(*grid, nullptr, cuts.get()); });
-    EXPECT_TRUE(mentions(why, "'tight tree_cuts' is a damaged list of cuts"));
-    return why;
-}
-
-TEST(SphereTreePoints, DamagedCutsAreErrorsThatNameTheNode)
-{
-    using Int = int32_t;
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("id", 3, 2), "two points have the id 2"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("id", 3, 6), "there is an id 6"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 2), "node 3 has the parent 2"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 3), "node 3 has the parent 3"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, 6), "node 3 has the parent 6"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("parent", 3, -2), "node 3 has the parent -2"));
-    EXPECT_TRUE(
-        mentions(whyCutsDamaged<Int>("parent", 0, 5), "its parent 5 begins with that of 1"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 0), "cuts of 0 to 4"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 5), "cuts of 5 to 4"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("first", 2, 2), "the cut of 2 spheres has 3"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 2, 3), "node 2 has no child"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 2, 1 << 30), "of 1073741824 spheres, but"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 5, 0), "its parent 5 begins with that of 0"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<Int>("last", 4, 4), "node 0 ends with the cut of 4"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<double>("radius", 1, -1.0), "node 1 has the radius -1"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<float>("pscale", 1, -1.f), "node 1 has the pscale -1"));
-    EXPECT_TRUE(mentions(whyCutsDamaged<int64_t>("cover_sq", 1, -1), "node 1 has the cover_sq -1"));
-    SphereTree coarse = tightSampleTree();
-    for (openvdb::Vec3d& center : coarse.center) center *= 16;
-    coarse.subdivision = 2;
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { cutsToPoints(coarse); }),
-        "cannot be stored: in its cuts, node 0 has the position"));
-}
-
-TEST(SphereTreePoints, CutsOfAnotherTreeOrCutShortAreAnError)
-{
-    const SphereTree tree = tightSampleTree();
-    const PointDataGrid::Ptr points = toPoints(tree), cuts = cutsToPoints(tree);
-    const auto why = [&] {
-        return messageOf<openvdb::ValueError>([&] { fromPoints(*points, nullptr, cuts.get()); });
-    };
-    cuts->insertMeta("spheretree_nodes", openvdb::Int32Metadata(5));
-    EXPECT_TRUE(mentions(why(), "beside a tree of 5 nodes"));
-    cuts->insertMeta("spheretree_nodes", openvdb::Int32Metadata(4));
-    EXPECT_NO_THROW(fromPoints(*points, nullptr, cuts.get()));
-    cuts->insertMeta("spheretree_cuts_nodes", openvdb::Int32Metadata(7));
-    EXPECT_TRUE(mentions(why(), "7 spheres beside 4 nodes are expected"));
-    cuts->insertMeta("spheretree_cuts_format", openvdb::Int32Metadata(kPointsFormat + 1));
-    EXPECT_TRUE(mentions(why(), "update openvdb_spheretree"));
-    EXPECT_TRUE(mentions(
-        messageOf<openvdb::ValueError>([&] { fromPoints(*points, nullptr, points.get()); }),
-        "spheretree_cuts_format"));
-}
-
-TEST(SphereTreePoints, OrdinaryPointsAreNoSphereTree)
-{
-    openvdb::initialize();
-    const auto grid = points::createPointDataGrid<points::NullCodec, PointDataGrid>(
-        std::vector<openvdb::Vec3d>{{1, 2, 3}}, *math::Transform::createLinearTransform(1.0));
-    grid->setName("dust");
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "is no sphere-tree"));
-}
-
-TEST(SphereTreePoints, ANewerFormatIsAnErrorThatSaysToUpdate)
-{
-    const std::string why = whyDamagedMeta<int32_t>("spheretree_format", 2);
-    EXPECT_TRUE(mentions(why, "format 2"));
-    EXPECT_TRUE(mentions(why, "update"));
-    EXPECT_FALSE(mentions(why, "damaged"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_format", 0), "damaged"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_format", "1"), "type string"));
-}
-
-TEST(SphereTreePoints, AMissingAttributeIsNamed)
-{
-    for (const char* name :
-        {"pscale", "id", "parent", "level", "radius_sq", "ijk", "radius", "cover_sq"}) {
-        const PointDataGrid::Ptr grid = toPoints(sampleTree());
-        points::dropAttribute(grid->tree(), name);
-        EXPECT_TRUE(mentions(whyDamaged(*grid), "no attribute '" + std::string(name) + "'"));
-    }
-}
-
-TEST(SphereTreePoints, AnAttributeOfAnotherTypeIsNamed)
-{
-    for (const char* name :
-        {"pscale", "id", "parent", "level", "radius_sq", "ijk", "radius", "cover_sq"}) {
-        const PointDataGrid::Ptr grid = toPoints(sampleTree());
-        points::dropAttribute(grid->tree(), name);
-        points::appendAttribute<int16_t>(grid->tree(), name);
-        EXPECT_TRUE(
-            mentions(whyDamaged(*grid), "attribute '" + std::string(name) + "' is of type"));
-    }
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    points::dropAttribute(grid->tree(), "pscale");
-    points::appendAttribute<float, points::TruncateCodec>(grid->tree(), "pscale");
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "float/trnc"));
-    points::dropAttribute(grid->tree(), "pscale");
-    points::appendAttribute<float>(grid->tree(), "pscale", 1.0f, /*stride=*/3);
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "3 values a point"));
-}
-
-TEST(SphereTreePoints, CompressedPositionsAreAnError)
-{
-    SphereTree tree = oneVoxelTree();
-    tree.center[0] = {0, 0, 0};
-    const PointDataGrid::Ptr grid = toPoints(tree);
-    const auto lossy = points::createPointDataGrid<points::FixedPointCodec<false>, PointDataGrid>(
-        std::vector<openvdb::Vec3d>{{0, 0, 0}}, grid->transform());
-    lossy->insertMeta(*grid);
-    points::appendAttribute<int32_t>(lossy->tree(), "id", 0);
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*lossy); }), "'P'"));
-}
-
-TEST(SphereTreePoints, IdsThatAreNotEachOfThePossibleOnesOnceAreAnError)
-{
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 4), "two points have the id 4"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, 8), "there is an id 8"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, -1), "there is an id -1"));
-    const int32_t lowest = std::numeric_limits<int32_t>::min();
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("id", 3, lowest), "id -2147483648"));
-}
-
-TEST(SphereTreePoints, AParentThatDoesNotExistIsAnErrorThatNamesNodeAndParent)
-{
-    for (int32_t parent : {8, -2, -1, 1 << 30}) {
-        const std::string why = whyDamaged<int32_t>("parent", 5, parent);
-        EXPECT_TRUE(mentions(why, "node 5"));
-        EXPECT_TRUE(mentions(why, "parent " + std::to_string(parent)));
-        EXPECT_TRUE(mentions(why, "must be a node of the next level up"));
-    }
-    const std::string why = whyDamaged<int32_t>("parent", 0, -2);
-    EXPECT_TRUE(mentions(why, "the top level has no parents"));
-}
-
-TEST(SphereTreePoints, AParentThatIsNotOnTheNextLevelUpIsAnError)
-{
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 0), "on level 2"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 4), "on level 0"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 5, 5), "node 5")) << "its own parent";
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 1, 3), "node 1")) << "a cycle of 1 and 3";
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("parent", 0, 1), "top level")) << "a root with parent";
-}
-
-TEST(SphereTreePoints, ALevelThatIsMissingOrOutOfOrderIsAnError)
-{
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, 3), "level 3"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, -1), "level -1"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("level", 0, 1), "level 1 has 3 nodes"));
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    damage<int32_t>(*grid, "level", 1, 0);
-    damage<int32_t>(*grid, "level", 3, 1);
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "node 2 is on level 1"));
-}
-
-TEST(SphereTreePoints, RadiiThatNoSphereHasAreErrorsThatNameTheNode)
-{
-    const double inf = std::numeric_limits<double>::infinity();
-    for (double bad : {std::nan(""), inf, -inf, -1.0}) {
-        EXPECT_TRUE(mentions(whyDamaged<float>("pscale", 4, float(bad)), "node 4 has the pscale"));
-        EXPECT_TRUE(mentions(whyDamaged<double>("radius", 4, bad), "node 4 has the radius"));
-    }
-    EXPECT_TRUE(mentions(whyDamaged<int64_t>("cover_sq", 4, -1), "node 4 has the cover_sq -1"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("radius_sq", 4, 0), "node 4 has the radius_sq 0"));
-    EXPECT_TRUE(mentions(whyDamaged<int32_t>("radius_sq", 4, -2), "node 4 has the radius_sq -2"));
-    EXPECT_TRUE(
-        mentions(whyDamaged<openvdb::Vec3f>("P", 4, openvdb::Vec3f(0, float(std::nan("")), 0)),
-            "node 4 has the position"));
-}
-
-TEST(SphereTreePoints, AnEmptyGridIsNotMistakenForATree)
-{
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    grid->clear();
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "0 points, by its metadata 8"));
-}
-
-static int expectMissingMetadataIsNamed(const SphereTree& tree)
-{
-    const PointDataGrid::Ptr complete = toPoints(tree);
-    const bool tight = tree.settings.tree == TreeType::Tight;
-    int keys = 0;
-    for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
-        const std::string key = it->first;
-        const bool optional = key == "spheretree_level_1_error_unknown"
-            || key == "spheretree_level_0_covered" || key == "spheretree_level_0_components"
-            || key == "spheretree_topology" || key == "spheretree_dist" || key == "spheretree_model"
-            || (!tight && (key == "spheretree_quality" || key == "spheretree_subdivision"))
-            || key.rfind("spheretree_", 0) != 0;
-        if (optional || key == "spheretree_format") continue;
-        const PointDataGrid::Ptr grid = toPoints(tree);
-        grid->removeMeta(key);
-        EXPECT_TRUE(mentions(whyDamaged(*grid), "'" + key + "'"));
-        ++keys;
-    }
-    return keys;
-}
-
-TEST(SphereTreePoints, MissingMetadataIsNamed)
-{
-    SphereTree coarse = sampleTree(); // without its subdivision it is one in halves
-    for (openvdb::Vec3d& center : coarse.center) center *= 8;
-    EXPECT_GE(expectMissingMetadataIsNamed(coarse), 25);
-    EXPECT_GE(expectMissingMetadataIsNamed(tightSampleTree()), 30);
-}
-
-TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
-{
-    SphereTree tree = sampleTree();
-    tree.dag.clear(); // which is a grid of its own
-    tree.settings.dag = false;
-    tree.settings.topology = true;
-    const PointDataGrid::Ptr grid = toPoints(tree);
-    for (const char* key :
-        {"topology", "level_0_components", "level_0_tunnels", "level_0_cavities"}) {
-        grid->removeMeta("spheretree_" + std::string(key));
-    }
-    tree.settings.topology = false;
-    tree.levels[0].topology.reset();
-    expectSameTree(fromPoints(*grid), tree);
-}
-
-TEST(SphereTreePoints, MetadataOutOfRangeIsAnError)
-{
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_factor", 1), "factor=1"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_dim", 4), "dim=4"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_subdivision", 3), "units of 1/3"));
-    EXPECT_TRUE(
-        mentions(whyDamagedMeta<std::string>("spheretree_spheres", "8,x"), "spheres='8,x'"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_side", "left"), "side='left'"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_branching", 1), "branching=1"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_cuts", true), "cuts"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_tree", "oak"), "tree='oak'"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_padding", "x"), "padding='x'"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_factor", true), "of type bool"));
-    for (int32_t scale : {0, -1, 3, 8192}) {
-        EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_point_scale", scale), "power of"));
-    }
-    for (int32_t count : {0, -1, 4, 1 << 30}) {
-        EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_levels", count),
-            count == 4 ? "level_3" : "it has " + std::to_string(count) + " levels"));
-    }
-    for (int32_t lowest : {-1, 1025}) {
-        const PointDataGrid::Ptr grid = toPoints(oneLevelOf(sampleTree(), 0));
-        grid->insertMeta("spheretree_lowest_level", openvdb::Int32Metadata(lowest));
-        EXPECT_TRUE(mentions(whyDamaged(*grid), "from level " + std::to_string(lowest) + " on"));
-    }
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_levels", 2), "by its metadata 7"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_lowest_level", 1), "from level 1 on"));
-    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_level_0_spheres", 0), "level 0"));
-    for (int32_t above : {0, 2}) { // three spheres stand on the levels above
-        const int32_t spheres = std::numeric_limits<int32_t>::max() - above;
-        EXPECT_TRUE(mentions(
-            whyDamagedMeta<int32_t>("spheretree_level_0_spheres", spheres), "more than 2^31"));
-    }
-}
-
-TEST(SphereTreePoints, AFrustumIsNoTransformOfATree)
-{
-    const PointDataGrid::Ptr grid = toPoints(sampleTree());
-    grid->setTransform(math::Transform::createFrustumTransform(
-        openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(10)), 0.5, 10.0, 1.0));
-    EXPECT_TRUE(mentions(whyDamaged(*grid), "its transform is a frustum"));
-}
-
-TEST(SphereTreePoints, AMessageStaysOnOneShortLine)
-{
-    const std::string junk = std::string(100000, 'x') + "\n\n";
-    const std::string why = whyDamagedMeta<std::string>("spheretree_tree", junk);
-    EXPECT_LT(why.size(), 600u);
-    EXPECT_EQ(why.find('\n'), std::string::npos);
-}
-
-TEST(SphereTreePoints, ATreeThatContradictsItselfIsNotWritten)
-{
-    const auto why = [](const SphereTree& tree) {
-        return messageOf<openvdb::ValueError>([&] { toPoints(tree); });
-    };
-    EXPECT_TRUE(mentions(why(SphereTree()), "no nodes"));
-    SphereTree tree = sampleTree();
-    tree.subdivision = 4;
-    EXPECT_TRUE(mentions(why(tree), "units of 1/4"));
-    tree = sampleTree();
-    tree.radius.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = sampleTree();
-    tree.coverSq.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = sampleTree();
-    tree.radiusWorld.push_back(1);
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = sampleTree();
-    tree.parent.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = sampleTree();
-    tree.ijk.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = sampleTree();
-    tree.radiusSq.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "length"));
-    tree = oneLevelOf(sampleTree(), 1);
-    tree.levels[0].level = -1;
-    EXPECT_TRUE(mentions(why(tree), "start at 0"));
-    tree = sampleTree();
-    for (SphereTreeLevel& level : tree.levels) ++level.level;
-    EXPECT_TRUE(mentions(why(tree), "start at 0"));
-    tree = sampleTree();
-    tree.levels[1].end = 2;
-    EXPECT_TRUE(mentions(why(tree), "divide")) << "node 2 is on no level";
-    tree = sampleTree();
-    tree.levels[1].begin = tree.levels[1].end = tree.levels[0].begin;
-    tree.levels[2].end = tree.levels[0].begin;
-    EXPECT_TRUE(mentions(why(tree), "divide")) << "level 1 is empty";
-    tree = sampleTree();
-    tree.transform.reset();
-    EXPECT_TRUE(mentions(why(tree), "transform"));
-    tree = sampleTree();
-    tree.levels[1].level = 2;
-    EXPECT_TRUE(mentions(why(tree), "levels"));
-    tree = sampleTree();
-    tree.levels.pop_back();
-    EXPECT_TRUE(mentions(why(tree), "levels"));
-    tree = sampleTree();
-    tree.settings.factor = 1;
-    EXPECT_TRUE(mentions(why(tree), "factor=1"));
-    for (int32_t parent : {-1, 8, 99}) {
-        tree = sampleTree();
-        tree.dag.push_back({parent, 1});
-        EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
-    }
-}
-
-TEST(SphereTreePoints, ATreeReadWithoutItsEdgesSaysThatItHasNone)
-{
-    const SphereTree tree = sampleTree();
-    ASSERT_TRUE(tree.settings.dag);
-    const SphereTree read = fromPoints(*toPoints(tree));
-    EXPECT_TRUE(read.dag.empty());
-    EXPECT_FALSE(read.settings.dag);
-}
-
-TEST(SphereTreePoints, WhatCouldNotBeReadBackIsNotWritten)
-{
-    const auto expectRefused = [](const std::function<void(SphereTree&)>& damage) {
-        SphereTree tree = sampleTree();
-        ASSERT_NO_THROW(toPoints(tree));
-        damage(tree);
-        EXPECT_THROW(toPoints(tree), openvdb::ValueError);
-    };
-    expectRefused([](SphereTree& t) { t.radiusWorld[2] = std::numeric_limits<float>::infinity(); });
-    expectRefused([](SphereTree& t) { t.coverSq[2] = std::numeric_limits<int64_t>::max(); });
-    expectRefused([](SphereTree& t) { t.center[2][1] = 1e10; });
-    expectRefused([](SphereTree& t) { t.radius[2] = -1; });
-    expectRefused([](SphereTree& t) { t.parent[5] = 1 << 30; });
-    expectRefused([](SphereTree& t) { t.parent[5] = 4; });
-    expectRefused([](SphereTree& t) { t.radiusSq[2] = 0; });
-}
+} // namespace

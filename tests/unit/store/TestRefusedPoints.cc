@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestRefusedPoints.cc
+/// @brief A tree that could not be read back is not written.
+
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+
+#include "support/Messages.h"
+#include "support/SampleTrees.h"
+
+#include <functional>
+#include <limits>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+TEST(RefusedPoints, ATreeThatContradictsItselfIsNotWritten)
+{
+    const auto why = [](const SphereTree& tree) {
+        return messageOf<openvdb::ValueError>([&] { toPoints(tree); });
+    };
+    EXPECT_TRUE(mentions(why(SphereTree()), "no nodes"));
+    SphereTree tree = sampleTree();
+    tree.subdivision = 4;
+    EXPECT_TRUE(mentions(why(tree), "units of 1/4"));
+    tree = sampleTree();
+    tree.radius.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.coverSq.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.radiusWorld.push_back(1);
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.parent.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.ijk.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = sampleTree();
+    tree.radiusSq.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "length"));
+    tree = oneLevelOf(sampleTree(), 1);
+    tree.levels[0].level = -1;
+    EXPECT_TRUE(mentions(why(tree), "start at 0"));
+    tree = sampleTree();
+    for (SphereTreeLevel& level : tree.levels) ++level.level;
+    EXPECT_TRUE(mentions(why(tree), "start at 0"));
+    tree = sampleTree();
+    tree.levels[1].end = 2;
+    EXPECT_TRUE(mentions(why(tree), "divide")) << "node 2 is on no level";
+    tree = sampleTree();
+    tree.levels[1].begin = tree.levels[1].end = tree.levels[0].begin;
+    tree.levels[2].end = tree.levels[0].begin;
+    EXPECT_TRUE(mentions(why(tree), "divide")) << "level 1 is empty";
+    tree = sampleTree();
+    tree.transform.reset();
+    EXPECT_TRUE(mentions(why(tree), "transform"));
+    tree = sampleTree();
+    tree.levels[1].level = 2;
+    EXPECT_TRUE(mentions(why(tree), "levels"));
+    tree = sampleTree();
+    tree.levels.pop_back();
+    EXPECT_TRUE(mentions(why(tree), "levels"));
+    tree = sampleTree();
+    tree.settings.factor = 1;
+    EXPECT_TRUE(mentions(why(tree), "factor=1"));
+    for (int32_t parent : {-1, 8, 99}) {
+        tree = sampleTree();
+        tree.dag.push_back({parent, 1});
+        EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { dagToPoints(tree); }), "DAG"));
+    }
+}
+
+TEST(RefusedPoints, WhatCouldNotBeReadBackIsNotWritten)
+{
+    const auto expectRefused = [](const std::function<void(SphereTree&)>& damage) {
+        SphereTree tree = sampleTree();
+        ASSERT_NO_THROW(toPoints(tree));
+        damage(tree);
+        EXPECT_THROW(toPoints(tree), openvdb::ValueError);
+    };
+    expectRefused([](SphereTree& t) { t.radiusWorld[2] = std::numeric_limits<float>::infinity(); });
+    expectRefused([](SphereTree& t) { t.coverSq[2] = std::numeric_limits<int64_t>::max(); });
+    expectRefused([](SphereTree& t) { t.center[2][1] = 1e10; });
+    expectRefused([](SphereTree& t) { t.radius[2] = -1; });
+    expectRefused([](SphereTree& t) { t.parent[5] = 1 << 30; });
+    expectRefused([](SphereTree& t) { t.parent[5] = 4; });
+    expectRefused([](SphereTree& t) { t.radiusSq[2] = 0; });
+}
+
+} // namespace
