@@ -4,8 +4,8 @@
 
 In README.md, CONTRIBUTING.md and docs/*.md: links and their anchors; names between backticks that are files, folders
 (also below openvdb_spheretree/, cmd/vdb_spheretree/ and tests/), or of the code's own (`UpperCamel`, `call()`). In the
-comments of code and scripts: names of headers and of other files of the project, and `docs/page.md, "Section"`. And that the
-picture of the floors is that of today.
+comments of code and scripts: names of headers and of other files of the project, and `docs/page.md, "Section"`. That
+docs/formats.md has every key and attribute that is written. And that the picture of the floors is that of today.
 """
 import re
 import subprocess
@@ -23,6 +23,10 @@ FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)*/?")
 FILE = re.compile(r"\b(?:[\w-]+/)*[A-Za-z][\w-]*\.(?:h|cc|md|py|sh|tsv|cmake)\b")
 SECTION = re.compile(r'(docs/[\w-]+\.md),?\s+"([^"]+)"')
+# Names under which something is stored: keys of JSON and of metadata, attributes.
+KEY = re.compile(r'(?:(?:value|null|beginObject|beginArray|addAttribute<[\w:]+>|key|writeDegrees)\((?:json, )?"(\w+)")|'
+                 r'"(spheretree_\w+)"')
+COLUMNS = re.compile(r"Columns\[\] = \{([^}]*)\}")
 NAME = re.compile(r"[A-Z][a-z0-9]+(?:[A-Z]\w*)+|(?:\w+::)*[A-Za-z]\w+\(\)")
 # Files of others that comments name: OpenVDB's headers, those of the standard library, and examples of names.
 OTHERS = re.compile(r"openvdb/.*|LevelSetSphere\.h|VolumeToSpheres\.h|FastSweeping\.h|hwy/.*|sys/.*|FindOpenVDB\.cmake|[A-Z]\.md")
@@ -116,6 +120,21 @@ class Checker:
             if page not in self.files or section not in headings(page):
                 self.wrong(path, f'refers to {page}, "{section}": there is no such section')
 
+    def check_formats(self):
+        """That every name under which something is stored is described."""
+        page = (ROOT / "docs/formats.md").read_text()
+        described = set(re.findall(r"\w+", " ".join(TICKS.findall(page))))
+        for start in re.findall(r"`(spheretree_\w+?)_?`((?:, `_\w+`)+)", page):  # `a_b`, `_c`: a_c too
+            stem = start[0].rsplit("_", 1)[0]
+            described.update(stem + end for end in re.findall(r"`(_\w+)`", start[1]))
+        for path, text in self.texts.items():
+            if not path.startswith(("openvdb_spheretree/store/", "cmd/vdb_spheretree/report/")):
+                continue
+            keys = [match[1] or match[2] for match in KEY.finditer(text)]
+            for key in keys + re.findall(r'"(\w+)"', " ".join(COLUMNS.findall(text))):
+                if key not in described and not key.endswith("_"):
+                    self.wrong(path, f"stores {key}, which docs/formats.md does not describe")
+
 
 def main():
     checker = Checker()
@@ -125,6 +144,7 @@ def main():
     for path in checker.texts:
         if path != "scripts/check_docs.py":
             checker.check_code(path)
+    checker.check_formats()
     for error in checker.errors:
         print(error, file=sys.stderr)
     floors = check_includes.read_floors()
