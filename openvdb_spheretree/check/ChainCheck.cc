@@ -75,14 +75,14 @@ private:
     {
         return mForest.sections[node] >> (mForest.sectionCount - 1) & 1;
     }
-    bool reachesInto(const Ball& ball, const openvdb::CoordBBox& box) const;
+    bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const;
     Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const;
     void searchLeaf(
         const VoxelCell& cell, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
     Words chainedVoxels(const Candidate& candidate, const Words& below, const Coord& origin) const;
 
     const ChainForest& mForest;
-    std::vector<Ball> mBalls;
+    std::vector<ClippedSphere> mBalls;
 };
 
 ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) : mForest(forest)
@@ -91,8 +91,8 @@ ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) 
     const int shift = shiftOf(metric);
     mBalls.resize(forest.spheres.size());
     for (std::size_t i = 0; i < mBalls.size(); ++i) {
-        Ball& ball = mBalls[i];
-        if (clippedBall(forest.spheres[i], metric.distance, shift, everywhere, ball)) continue;
+        ClippedSphere& ball = mBalls[i];
+        if (clipSphere(forest.spheres[i], metric.distance, shift, everywhere, ball)) continue;
         ball.lo[0] = 1; // an empty box
         ball.hi[0] = 0;
     }
@@ -107,7 +107,7 @@ Part ChainSearch::whole(std::vector<VoxelCell>& cells) const
     return {cells.data(), cells.data() + cells.size(), nullptr, all};
 }
 
-bool ChainSearch::reachesInto(const Ball& ball, const openvdb::CoordBBox& box) const
+bool ChainSearch::reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const
 {
     for (int a = 0; a < 3; ++a) {
         if (ball.lo[a] > ball.hi[a]) return false;
@@ -125,7 +125,7 @@ Candidates ChainSearch::narrowed(const Candidates& from, const openvdb::CoordBBo
     Candidates kept;
     for (std::size_t i = 0; i < from.size(); ++i) {
         Candidate candidate = from[i];
-        const Ball& ball = mBalls[candidate.node];
+        const ClippedSphere& ball = mBalls[candidate.node];
         const bool leaf = isLeaf(candidate.node);
         if (!leaf && !hasChild[i]) continue;
         if (!candidate.holdsAll) {

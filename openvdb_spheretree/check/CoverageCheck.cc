@@ -160,7 +160,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
         const double radius =
             double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
         const double reach = tree.subdivision * radius * tree.settings.dist.unit() * (1 + 1e-12);
-        spheres[id - level.begin].coverSq =
+        spheres[id - level.begin].radiusSq =
             radius < 0 ? -1 : int64_t(std::min(reach * reach, 9e18));
     }
     return spheres;
@@ -169,7 +169,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
 bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than)
 {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
-        if (spheres[i].coverSq < than[i].coverSq) return false;
+        if (spheres[i].radiusSq < than[i].radiusSq) return false;
     }
     return true;
 }

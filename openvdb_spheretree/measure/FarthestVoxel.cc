@@ -177,13 +177,13 @@ private:
     /// Takes off the voxels within B of an object voxel.
     void takeWithin(const Coord& voxel, VoxelCell& cell) const
     {
-        Ball ball;
+        ClippedSphere ball;
         for (int a = 0; a < 3; ++a) {
             ball.center[a] = 2 * int64_t(voxel[a]);
             ball.lo[a] = INT32_MIN;
             ball.hi[a] = INT32_MAX;
         }
-        ball.coverSq = bestSq2();
+        ball.radiusSq = bestSq2();
         ball.distance = mObject.distance();
         ball.clipped = ball.plain = false;
         ball.shift = 1; // doubled coordinates

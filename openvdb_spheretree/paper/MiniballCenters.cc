@@ -3,6 +3,7 @@
 
 #include "Miniball.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/sphere/ExactSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 
 #include <openvdb/Exceptions.h>
@@ -18,11 +19,10 @@ namespace {
 
 constexpr int64_t kUnits = kMiniballSubdivision;
 
-/// A sphere in units of 1/16 voxel, as SphereTree has it.
-struct FineSphere {
-    int64_t center[3];
-    int64_t coverSq = 0;
-    double radius = 0; ///< voxels
+/// A sphere that contains leaf balls, as SphereTree has it.
+struct FittedSphere {
+    ExactSphere exact{{0, 0, 0}, 0}; ///< units of 1/16 voxel
+    double radius = 0;               ///< voxels
 };
 
 /// RootSum is made for halves of voxels: sums of units come out twice as large.
@@ -79,7 +79,7 @@ private:
     std::vector<int32_t> mFirst, mLeaves;
 };
 
-int64_t apartSq(const SphereTree& tree, int32_t leaf, const FineSphere& sphere)
+int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
 {
     const openvdb::Coord& c = tree.ijk[leaf];
     return Distance().lengthSq(kUnits * c[0] - sphere.center[0], kUnits * c[1] - sphere.center[1],
@@ -88,24 +88,24 @@ int64_t apartSq(const SphereTree& tree, int32_t leaf, const FineSphere& sphere)
 
 /// The smallest radius around the sphere's centre that contains the leaf balls. Only those that
 /// reach farthest in floating point are measured exactly.
-void measure(FineSphere& sphere, const SphereTree& tree, const LeafBalls& leaves,
+void measure(FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leaves,
     const LeafBalls::Range& below)
 {
     const auto reach = [&](int32_t leaf) {
-        return std::sqrt(double(apartSq(tree, leaf, sphere)))
+        return std::sqrt(double(apartSq(tree, leaf, sphere.exact)))
             + double(kUnits) * leaves.radius(leaf);
     };
     double most = 0;
     for (const int32_t leaf : below) most = std::max(most, reach(leaf));
     for (const int32_t leaf : below) {
         if (reach(leaf) < most * (1 - 1e-12)) continue;
-        const RootSum needed{apartSq(tree, leaf, sphere), leaves.fineRadiusSq(leaf)};
-        sphere.coverSq = std::max(sphere.coverSq, needed.coverSq());
+        const RootSum needed{apartSq(tree, leaf, sphere.exact), leaves.fineRadiusSq(leaf)};
+        sphere.exact.radiusSq = std::max(sphere.exact.radiusSq, needed.coverSq());
         sphere.radius = std::max(sphere.radius, voxelsOf(needed));
     }
 }
 
-FineSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
+FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
     const LeafBalls::Range& below, std::vector<RealBall>& balls)
 {
     const openvdb::Coord& base = tree.ijk[*below.begin()];
@@ -115,32 +115,33 @@ FineSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
         balls.push_back({apart, leaves.radius(leaf)});
     }
     const openvdb::Vec3d center = miniball(balls).center;
-    FineSphere sphere;
+    FittedSphere sphere;
     for (int axis = 0; axis < 3; ++axis) {
-        sphere.center[axis] = kUnits * base[axis] + std::llround(double(kUnits) * center[axis]);
+        sphere.exact.center[axis] =
+            kUnits * base[axis] + std::llround(double(kUnits) * center[axis]);
     }
     measure(sphere, tree, leaves, below);
     return sphere;
 }
 
 /// The medial centre of a node; around it the radius that the leaf balls below need.
-FineSphere aroundMedialCentre(
+FittedSphere aroundMedialCentre(
     const SphereTree& tree, int32_t id, const LeafBalls& leaves, const LeafBalls::Range& below)
 {
-    FineSphere sphere;
+    FittedSphere sphere;
     for (int axis = 0; axis < 3; ++axis) {
-        sphere.center[axis] = std::llround(double(kUnits) * tree.center[id][axis]);
+        sphere.exact.center[axis] = std::llround(double(kUnits) * tree.center[id][axis]);
     }
     measure(sphere, tree, leaves, below);
     return sphere;
 }
 
-void store(SphereTree& tree, int32_t id, const FineSphere& sphere)
+void store(SphereTree& tree, int32_t id, const FittedSphere& sphere)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        tree.center[id][axis] = double(sphere.center[axis]) / double(kUnits);
+        tree.center[id][axis] = double(sphere.exact.center[axis]) / double(kUnits);
     }
-    tree.coverSq[id] = sphere.coverSq;
+    tree.coverSq[id] = sphere.exact.radiusSq;
     tree.radius[id] = sphere.radius;
 }
 
@@ -186,10 +187,10 @@ void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interru
                 const int32_t id = level.begin + int32_t(place);
                 const auto below = inner ? leaves.below(int32_t(place)) : LeafBalls::Range{};
                 if (below.empty()) return refineOwn(tree, id, frame);
-                FineSphere best = smallestSphere(tree, leaves, below, scratch);
+                FittedSphere best = smallestSphere(tree, leaves, below, scratch);
                 if (extended) {
-                    const FineSphere medial = aroundMedialCentre(tree, id, leaves, below);
-                    if (medial.coverSq < best.coverSq) best = medial;
+                    const FittedSphere medial = aroundMedialCentre(tree, id, leaves, below);
+                    if (medial.exact.radiusSq < best.exact.radiusSq) best = medial;
                 }
                 store(tree, id, best);
             });

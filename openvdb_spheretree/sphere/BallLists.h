@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "ExactBall.h"
+#include "ClippedSphere.h"
 
 #include <algorithm>
 #include <cassert>
@@ -28,7 +28,7 @@ public:
     /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered x
     ///                        slowest, as in OpenVDB
     /// @param alongX          those wanted; others get no ball
-    void build(const Ball* balls, const int32_t* begin, const int32_t* end,
+    void build(const ClippedSphere* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
     {
         assert(log2 - childLog2 <= kMostAlongLog2);
@@ -73,7 +73,7 @@ private:
         int32_t first[3], last[3];
     };
 
-    void enter(const Ball& ball, int32_t index)
+    void enter(const ClippedSphere& ball, int32_t index)
     {
         Children under;
         const int32_t size = int32_t(1) << mLog2;
@@ -89,29 +89,29 @@ private:
     }
 
     /// Squares of each axis are computed once; one that is beyond the ball's has no sum within it.
-    void enterPlain(const Ball& ball, int32_t index, const Children& under)
+    void enterPlain(const ClippedSphere& ball, int32_t index, const Children& under)
     {
         for (int a = 0; a < 3; ++a) {
             for (int32_t i = under.first[a]; i <= under.last[a]; ++i) {
                 mNearSq[a][i] = squareOf(ball.nearest(a, lowest(a, i), highest(a, i)));
                 mFarSq[a][i] = ball.isInBox(a, lowest(a, i), highest(a, i))
                     ? squareOf(ball.farthest(a, lowest(a, i), highest(a, i)))
-                    : ball.coverSq + 1;
+                    : ball.radiusSq + 1;
             }
         }
         for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
             for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {
                 const int64_t nearSq = mNearSq[0][x] + mNearSq[1][y];
                 const int64_t farSq = mFarSq[0][x] + mFarSq[1][y];
-                if (nearSq > ball.coverSq) continue;
+                if (nearSq > ball.radiusSq) continue;
                 for (int32_t z = under.first[2]; z <= under.last[2]; ++z) {
-                    if (nearSq + mNearSq[2][z] > ball.coverSq) continue;
-                    enterChild(childAt(x, y, z), index, farSq + mFarSq[2][z] <= ball.coverSq);
+                    if (nearSq + mNearSq[2][z] > ball.radiusSq) continue;
+                    enterChild(childAt(x, y, z), index, farSq + mFarSq[2][z] <= ball.radiusSq);
                 }
             }
         }
     }
-    void enterAny(const Ball& ball, int32_t index, const Children& under)
+    void enterAny(const ClippedSphere& ball, int32_t index, const Children& under)
     {
         for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
             for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {

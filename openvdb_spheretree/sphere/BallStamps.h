@@ -31,7 +31,7 @@ struct BallStamp {
 class BallStamps {
 public:
     /// @return whether a ball has one: it is not clipped, and its box no wider than a leaf.
-    static bool has(const Ball& ball)
+    static bool has(const ClippedSphere& ball)
     {
         if (ball.clipped || ball.shift > 1) return false; // finer centres are hardly ever alike
         for (int a = 0; a < 3; ++a) {
@@ -40,7 +40,7 @@ public:
         return true;
     }
 
-    const BallStamp& of(const Ball& ball)
+    const BallStamp& of(const ClippedSphere& ball)
     {
         const uint64_t key = keyOf(ball);
         const auto found = mStamps.find(key);
@@ -50,20 +50,21 @@ public:
 
 private:
     /// Which ball it is, from the corner of the leaf that its box begins in along y and z, and from
-    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its coverSq is
+    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its radiusSq is
     /// below 2^32 in any distance's units.
-    static uint64_t keyOf(const Ball& ball)
+    static uint64_t keyOf(const ClippedSphere& ball)
     {
-        uint64_t key = uint64_t(ball.coverSq);
+        uint64_t key = uint64_t(ball.radiusSq);
         for (int a = 0; a < 3; ++a) key = key << 1 | uint64_t(ball.center[a] & 1);
         return key << 6 | uint64_t(ball.lo[1] & 7) << 3 | uint64_t(ball.lo[2] & 7);
     }
 
-    static BallStamp make(const Ball& ball)
+    static BallStamp make(const ClippedSphere& ball)
     {
         BallStamp stamp;
         const openvdb::Coord corner(ball.lo[0], ball.lo[1] & ~7, ball.lo[2] & ~7);
-        Ball local = ball; // in place of the corner of the leaf, which may be the last of all
+        ClippedSphere local =
+            ball; // in place of the corner of the leaf, which may be the last of all
         for (int a = 0; a < 3; ++a) {
             local.lo[a] -= corner[a];
             local.hi[a] -= corner[a];

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "ExactBall.h"
+#include "ClippedSphere.h"
 #include <openvdb_spheretree/base/RoundUp.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 
@@ -20,7 +20,7 @@ namespace detail {
 /// its box must meet: voxels (x, y, lo...hi), counted from the cube's corner. Some rows may be
 /// empty (lo > hi).
 template <typename F>
-void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, const F& f)
+void forEachRow(const ClippedSphere& ball, const openvdb::Coord& origin, int32_t size, const F& f)
 {
     int32_t first[3], last[3]; // of the ball's box
     int64_t center[3];
@@ -34,7 +34,7 @@ void forEachRow(const Ball& ball, const openvdb::Coord& origin, int32_t size, co
     for (int32_t x = first[0]; x <= last[0]; ++x, dx += voxel) {
         int64_t dy = inUnits(first[1], ball.shift) - center[1];
         for (int32_t y = first[1]; y <= last[1]; ++y, dy += voxel) {
-            const int64_t reach = ball.distance.reach(dx, dy, ball.coverSq);
+            const int64_t reach = ball.distance.reach(dx, dy, ball.radiusSq);
             if (reach < 0) continue;
             const Interval run(center[2], reach, ball.shift);
             f(x, y, int32_t(std::max<int64_t>(run.lo, first[2])),
@@ -48,8 +48,8 @@ inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (
 
 /// ORs what is in a ball's box of the words of the leaf at @a origin, which it must meet, into
 /// others.
-inline void orBoxOfWords(
-    const uint64_t from[8], const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
+inline void orBoxOfWords(const uint64_t from[8], const ClippedSphere& ball,
+    const openvdb::Coord& origin, uint64_t words[8])
 {
     int32_t first[3], last[3];
     for (int a = 0; a < 3; ++a) {
@@ -64,7 +64,8 @@ inline void orBoxOfWords(
 
 /// ORs the voxels of a ball into the words of the leaf at @a origin (word x, bit 8 y + z), which
 /// its box must meet. By a kernel where that is exact.
-inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint64_t words[8])
+inline void orBallIntoWords(
+    const ClippedSphere& ball, const openvdb::Coord& origin, uint64_t words[8])
 {
     int64_t center[3], farthest = 0;
     const int64_t middle = inUnits(7, ball.shift - 1);
@@ -74,7 +75,7 @@ inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint
     }
     const bool euclidean = ball.distance.isEuclidean();
     const int64_t most = euclidean ? kLeafBallReach : kLeafNormReach;
-    if (farthest > most || ball.coverSq > most * most) {
+    if (farthest > most || ball.radiusSq > most * most) {
         forEachRow(ball, origin, 8, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
             if (lo <= hi) words[x] |= rowBits(lo, hi) << (8 * y);
         });
@@ -83,9 +84,9 @@ inline void orBallIntoWords(const Ball& ball, const openvdb::Coord& origin, uint
     uint64_t drawn[8] = {};
     uint64_t* const target = ball.clipped ? drawn : words;
     if (euclidean) {
-        orBallIntoLeaf(center, ball.coverSq, ball.shift, target);
+        orBallIntoLeaf(center, ball.radiusSq, ball.shift, target);
     } else {
-        orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.coverSq), ball.shift, target);
+        orNormBallIntoLeaf(center, ball.distance, floorSqrt(ball.radiusSq), ball.shift, target);
     }
     if (ball.clipped) orBoxOfWords(drawn, ball, origin, words);
 }

@@ -25,10 +25,10 @@ public:
 
     /// @return whether the ball is too small to hold a leaf, some corner of which is 3.5 voxels or
     /// more away along each axis.
-    static bool isSmall(const Ball& ball)
+    static bool isSmall(const ClippedSphere& ball)
     {
         const int64_t corner = inUnits(7, ball.shift - 1);
-        return ball.coverSq < ball.distance.lengthSq(corner, corner, corner);
+        return ball.radiusSq < ball.distance.lengthSq(corner, corner, corner);
     }
 
     BlockCanvas() : mWords(64 * 64 * 8, 0) {}
@@ -44,7 +44,7 @@ public:
     int firstCell() const { return kSlabCells * mSlab; }
     int endCell() const { return kSlabCells * (mSlab + 1); }
     /// @return whether the ball's box reaches into the slab.
-    bool touches(const Ball& ball) const
+    bool touches(const ClippedSphere& ball) const
     {
         const int32_t slab = (mOrigin[0] >> kCellLog2) + mSlab; // of all of space
         return ball.lo[0] >> kCellLog2 <= slab && ball.hi[0] >> kCellLog2 >= slab;
@@ -62,7 +62,7 @@ public:
     bool isFull(int cell, int leaf) const { return mFull[cell] & bit(leaf); }
 
     /// Draws what of a ball is in the slab.
-    void drawSmall(const Ball& ball)
+    void drawSmall(const ClippedSphere& ball)
     {
         if (BallStamps::has(ball)) {
             drawStamp(ball, mStamps.of(ball));
@@ -73,7 +73,7 @@ public:
     }
 
     /// Draws the part of a ball that is in a leaf; @a origin is the leaf's.
-    void drawLeaf(const Ball& ball, int cell, int leaf, const openvdb::Coord& origin)
+    void drawLeaf(const ClippedSphere& ball, int cell, int leaf, const openvdb::Coord& origin)
     {
         if (isFull(cell, leaf)) return;
         uint64_t* word = &mWords[(64 * cell + leaf) * 8];
@@ -116,7 +116,7 @@ private:
     }
 
     /// A stamp may begin or end in another block.
-    void drawStamp(const Ball& ball, const BallStamp& stamp)
+    void drawStamp(const ClippedSphere& ball, const BallStamp& stamp)
     {
         const int32_t y0 = (ball.lo[1] - mOrigin[1]) >> kLeafLog2; // in leaves
         const int32_t z0 = (ball.lo[2] - mOrigin[2]) >> kLeafLog2;

@@ -24,7 +24,7 @@ namespace detail {
 class BlockPainter {
 public:
     /// The slab must have been begun on the canvas.
-    void draw(const Ball* balls, const std::vector<int32_t>& ofBlock)
+    void draw(const ClippedSphere* balls, const std::vector<int32_t>& ofBlock)
     {
         mLarge.clear();
         for (const int32_t i : ofBlock) {
@@ -41,7 +41,7 @@ public:
     BlockCanvas canvas;
 
 private:
-    void drawCell(const Ball* balls, int cell)
+    void drawCell(const ClippedSphere* balls, int cell)
     {
         if (mCells.full(cell)) {
             canvas.fillCell(cell);
@@ -56,7 +56,7 @@ private:
         for (int leaf = 0; leaf < 64; ++leaf) drawLeaf(balls, cell, leaf);
     }
 
-    void drawLeaf(const Ball* balls, int cell, int leaf)
+    void drawLeaf(const ClippedSphere* balls, int cell, int leaf)
     {
         if (mLeaves.full(leaf)) {
             canvas.fillLeaf(cell, leaf);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ExactSphere.h
-/// @brief A closed sphere in exact integers, centred on a voxel or between voxels.
+/// @brief A closed sphere in exact integers, centered on a voxel or between voxels.
 
 #pragma once
 
 #include <openvdb_spheretree/voxel/Distance.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace openvdb_spheretree {
@@ -25,12 +26,21 @@ struct SphereMetric {
     {}
 };
 
-/// The closed sphere { q : |subdivision q - center|^2 <= coverSq } of voxels q of the grid it is
-/// drawn on; subdivision and length are those of the SphereMetric beside it. So centres between
-/// voxels stay integers.
+/// The voxels q of the grid it is drawn on with |subdivision q - center|^2 <= radiusSq, where the
+/// subdivision and the length are those of the SphereMetric beside it. Centers between voxels are
+/// integers too, so which voxels a sphere holds is exact. An aggregate: ExactSphere() is empty.
 struct ExactSphere {
-    int64_t center[3];
-    int64_t coverSq; ///< negative: empty
+    int64_t center[3] = {0, 0, 0}; ///< units
+    int64_t radiusSq = -1;         ///< units squared; negative: the empty sphere
+
+    bool empty() const { return radiusSq < 0; }
+    /// Units; the sphere must not be empty.
+    double radius() const { return std::sqrt(double(radiusSq)); }
+    bool operator==(const ExactSphere& o) const
+    {
+        return center[0] == o.center[0] && center[1] == o.center[1] && center[2] == o.center[2]
+            && radiusSq == o.radiusSq;
+    }
 };
 
 } // namespace openvdb_spheretree

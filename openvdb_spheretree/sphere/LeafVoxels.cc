@@ -35,17 +35,17 @@ LeafMask voxelsOf(const ExactSphere& sphere, int shift, const openvdb::Coord& or
         farthestSq += far * far;
         farthest = std::max(farthest, far);
     }
-    if (nearestSq > sphere.coverSq) return mask;
-    if (farthestSq <= sphere.coverSq) {
+    if (nearestSq > sphere.radiusSq) return mask;
+    if (farthestSq <= sphere.radiusSq) {
         mask.fill(~uint64_t(0));
         return mask;
     }
-    if (farthest <= kLeafBallReach && sphere.coverSq <= kLeafBallReach * kLeafBallReach) {
-        orBallIntoLeaf(center, sphere.coverSq, shift, mask.data());
+    if (farthest <= kLeafBallReach && sphere.radiusSq <= kLeafBallReach * kLeafBallReach) {
+        orBallIntoLeaf(center, sphere.radiusSq, shift, mask.data());
         return mask;
     }
     for (int x = 0; x < kLeafDim; ++x) {
-        const int64_t dx = (int64_t(x) << shift) - center[0], slice = sphere.coverSq - dx * dx;
+        const int64_t dx = (int64_t(x) << shift) - center[0], slice = sphere.radiusSq - dx * dx;
         for (int y = 0; y < kLeafDim; ++y) {
             const int64_t dy = (int64_t(y) << shift) - center[1], row = slice - dy * dy;
             if (row >= 0) mask[x] |= rowByte(center[2], floorSqrt(row), shift) << (8 * y);

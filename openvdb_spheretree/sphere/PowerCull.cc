@@ -18,14 +18,14 @@ constexpr int64_t kFarthest = int64_t(1) << 29;
 } // namespace
 
 /// @return false if the balls are such that they are left alone.
-bool PowerCull::collect(
-    const Ball* balls, const int32_t origin[3], int32_t size, const std::vector<int32_t>& list)
+bool PowerCull::collect(const ClippedSphere* balls, const int32_t origin[3], int32_t size,
+    const std::vector<int32_t>& list)
 {
     mEntries.clear();
     for (const int32_t index : list) {
-        const Ball& ball = balls[index];
-        if (!ball.distance.isEuclidean() || ball.coverSq > kFarthest * kFarthest) return false;
-        Entry entry{ball.coverSq, {}};
+        const ClippedSphere& ball = balls[index];
+        if (!ball.distance.isEuclidean() || ball.radiusSq > kFarthest * kFarthest) return false;
+        Entry entry{ball.radiusSq, {}};
         for (int a = 0; a < 3; ++a) {
             const int64_t middle = 2 * int64_t(origin[a]) + size - 1; // in halves of a voxel
             const int64_t d = ball.center[a] - inUnits(middle, ball.shift - 1);
@@ -78,7 +78,7 @@ bool PowerCull::exceeded(std::size_t entry, const Champions& champions, int64_t 
 }
 
 void PowerCull::cull(
-    const Ball* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list)
+    const ClippedSphere* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list)
 {
     if (list.size() <= kFew || !collect(balls, origin, size, list)) return;
     // From the centre to the last voxels.

@@ -2,7 +2,7 @@
 /// @file PowerCull.h
 /// @brief Which of the balls that reach into a cube can add a voxel there to the others.
 ///
-/// A ball holds voxel q where its power coverSq - |2^shift q - center|^2 is not negative. The
+/// A ball holds voxel q where its power radiusSq - |2^shift q - center|^2 is not negative. The
 /// powers of two balls differ by a linear function of q, so that one of them is the larger in all
 /// of a cube just when it is so at a corner that is known beforehand: the other ball adds nothing
 /// there. (Thousands of medial balls reach into a leaf on the surface of a solid, and a few dozen
@@ -13,7 +13,7 @@
 
 #pragma once
 
-#include "ExactBall.h"
+#include "ClippedSphere.h"
 
 #include <array>
 #include <cstdint>
@@ -28,7 +28,8 @@ public:
     ///                off and the others keep their order. All of them must have the same clip and
     ///                units.
     /// @param origin  of the cube, whose side has @a size voxels
-    void cull(const Ball* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list);
+    void cull(const ClippedSphere* balls, const int32_t origin[3], int32_t size,
+        std::vector<int32_t>& list);
 
 private:
     /// From the cube's centre.
@@ -39,8 +40,8 @@ private:
     static constexpr std::size_t kPlaces = 9; ///< centre and corners
     using Champions = std::array<std::size_t, kPlaces>;
 
-    bool collect(
-        const Ball* balls, const int32_t origin[3], int32_t size, const std::vector<int32_t>& list);
+    bool collect(const ClippedSphere* balls, const int32_t origin[3], int32_t size,
+        const std::vector<int32_t>& list);
     Champions champions(int64_t reach) const;
     bool exceeded(std::size_t entry, const Champions& champions, int64_t reach) const;
 

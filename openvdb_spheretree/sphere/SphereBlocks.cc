@@ -32,7 +32,7 @@ struct RootCell {
 };
 using RootCells = std::map<Coord, RootCell>;
 
-void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_t index)
+void enterRootCell(RootCell& cell, const Coord& origin, const ClippedSphere& ball, int32_t index)
 {
     if (cell.full || !ball.touches(origin.data(), 1 << kRootCellLog2)) return;
     cell.full = ball.contains(origin.data(), 1 << kRootCellLog2);
@@ -40,8 +40,8 @@ void enterRootCell(RootCell& cell, const Coord& origin, const Ball& ball, int32_
 }
 
 /// @param visited  cells so far, of this and other balls
-void enterRootCells(RootCells& cells, const Ball& ball, int32_t index, const Wanted& wanted,
-    int64_t& visited, NullInterrupter* interrupter)
+void enterRootCells(RootCells& cells, const ClippedSphere& ball, int32_t index,
+    const Wanted& wanted, int64_t& visited, NullInterrupter* interrupter)
 {
     const openvdb::CoordBBox range(
         Coord(ball.lo) >> kRootCellLog2, Coord(ball.hi) >> kRootCellLog2);
@@ -183,11 +183,11 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
     enum class Kind : char { Empty, Small, Large };
     const int shift = shiftOf(metric);
     ClippedSpheres result;
-    result.balls = makeLargeArray<Ball>(spheres.size());
+    result.balls = makeLargeArray<ClippedSphere>(spheres.size());
     std::vector<Kind> kinds(spheres.size());
     parallelFor(spheres.size(), interrupter, [&](std::size_t i) {
-        Ball& ball = result.balls[i];
-        if (!clippedBall(spheres[i], metric.distance, shift, clip, ball)) return;
+        ClippedSphere& ball = result.balls[i];
+        if (!clipSphere(spheres[i], metric.distance, shift, clip, ball)) return;
         kinds[i] = BlockCanvas::isSmall(ball) ? Kind::Small : Kind::Large;
     });
     std::vector<int32_t>& order = result.order;
@@ -199,7 +199,7 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
     };
     add(Kind::Large);
     tbb::parallel_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-        const int64_t first = result.balls[a].coverSq, second = result.balls[b].coverSq;
+        const int64_t first = result.balls[a].radiusSq, second = result.balls[b].radiusSq;
         return first != second ? first > second : a < b;
     });
     add(Kind::Small);

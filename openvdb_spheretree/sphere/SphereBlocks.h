@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include "ExactBall.h"
+#include "ClippedSphere.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 
 #include <openvdb/openvdb.h>
@@ -44,7 +44,7 @@ private:
 
 /// Spheres with the boxes of their voxels.
 struct ClippedSpheres {
-    LargeArray<Ball> balls; ///< a ball each; undefined where a box is empty
+    LargeArray<ClippedSphere> balls; ///< a ball each; undefined where a box is empty
     /// All others: larger balls first, largest to smallest, since what they fill is not drawn again.
     /// The small ones (BlockCanvas::isSmall) are in the order of spheres, which is mostly that of
     /// their centres, and so kind to caches.

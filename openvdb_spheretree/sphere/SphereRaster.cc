@@ -76,7 +76,7 @@ void storeSlab(const BlockCanvas& canvas, const Wanted& wanted, BlockNode& node)
     }
 }
 
-void drawSlab(const Block& block, int slab, const Ball* balls, const Wanted& wanted,
+void drawSlab(const Block& block, int slab, const ClippedSphere* balls, const Wanted& wanted,
     BlockPainter& painter, BlockNode& node)
 {
     BlockCanvas& canvas = painter.canvas;
@@ -88,7 +88,7 @@ void drawSlab(const Block& block, int slab, const Ball* balls, const Wanted& wan
 }
 
 /// Lists of balls are given back as they are drawn.
-BlockNodes drawBlocks(std::vector<Block>& blocks, const Ball* balls, const Wanted& wanted,
+BlockNodes drawBlocks(std::vector<Block>& blocks, const ClippedSphere* balls, const Wanted& wanted,
     openvdb::util::NullInterrupter* interrupter)
 {
     constexpr std::size_t kSlabs = BlockCanvas::kSlabs;

@@ -4,7 +4,7 @@
 
 #include "SphereUnion.h"
 
-#include "ExactBall.h"
+#include "ClippedSphere.h"
 #include "SphereRaster.h"
 
 #include <cmath>
@@ -46,7 +46,7 @@ double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::Coord
     double discs = 0; // of a norm: squares, at least as large
     const double unit = double(metric.subdivision) * metric.distance.unit();
     const double area = (metric.distance.isEuclidean() ? M_PI : 4) / (unit * unit);
-    for (const ExactSphere& s : spheres) discs += s.coverSq < 0 ? 0 : area * double(s.coverSq);
+    for (const ExactSphere& s : spheres) discs += s.radiusSq < 0 ? 0 : area * double(s.radiusSq);
     const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
     return std::min(discs, side(0) * side(1));
 }

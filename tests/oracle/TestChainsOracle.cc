@@ -135,7 +135,7 @@ TEST(ChainsOracle, LargeTilesAreOnlyTakenApartWhereSpheresEnd)
     forest.sections = {1, 2};
     forest.sectionCount = 2;
     EXPECT_EQ(counts(brokenChains(forest, {{}, 16}, mask, nullptr)), (std::vector<int64_t>{0, 0}));
-    forest.spheres[0].coverSq = toCorner - 1; // the eight corners are a whole number of units away
+    forest.spheres[0].radiusSq = toCorner - 1; // the eight corners are a whole number of units away
     const auto losses = brokenChains(forest, {{}, 16}, mask, nullptr);
     EXPECT_EQ(counts(losses), (std::vector<int64_t>{8, 0}));
     EXPECT_EQ(losses[0].first, Coord(0));

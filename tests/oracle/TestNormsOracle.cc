@@ -203,7 +203,7 @@ TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
             for (const ExactSphere& ball : balls) {
                 const Coord c(int(ball.center[0]), int(ball.center[1]), int(ball.center[2]));
                 const int64_t d = length(Coord(2 * q[0], 2 * q[1], 2 * q[2]), c);
-                inside = inside || d * d <= ball.coverSq;
+                inside = inside || d * d <= ball.radiusSq;
             }
             inside = inside && clip.isInside(q);
             ASSERT_EQ(on.isValueOn(q), inside) << q << " round " << round;

@@ -33,9 +33,9 @@ protected:
     static void SetUpTestSuite() { openvdb::initialize(); }
 };
 
-ExactSphere ball(int64_t x2, int64_t y2, int64_t z2, int64_t coverSq)
+ExactSphere ball(int64_t x2, int64_t y2, int64_t z2, int64_t radiusSq)
 {
-    return {{x2, y2, z2}, coverSq};
+    return {{x2, y2, z2}, radiusSq};
 }
 
 bool inAny(const Spheres& spheres, const Coord& q, int subdivision = 2)
@@ -46,7 +46,7 @@ bool inAny(const Spheres& spheres, const Coord& q, int subdivision = 2)
             const int64_t d = int64_t(subdivision) * q[a] - s.center[a];
             sum += d * d;
         }
-        if (sum <= s.coverSq) return true;
+        if (sum <= s.radiusSq) return true;
     }
     return false;
 }
@@ -115,11 +115,11 @@ TEST_F(SphereUnion, MatchesBruteForceOnBallsThatJustTouchLeaves)
         const Coord touched(8 * int(random() % 3) - 8, int(random() % 8), -1);
         for (int a = 0; a < 3; ++a) {
             const int64_t d = 16 * touched[(a + trial) % 3] - sphere.center[a];
-            sphere.coverSq += d * d;
+            sphere.radiusSq += d * d;
         }
         const CoordBBox all(Coord(-40), Coord(40));
         expectLikeBruteForce({sphere}, kWide, all, 16);
-        --sphere.coverSq;
+        --sphere.radiusSq;
         expectLikeBruteForce({sphere}, kWide, all, 16);
     }
 }
@@ -209,7 +209,7 @@ TEST_F(SphereUnion, TheSameSpheresInOtherUnitsAreTheSameVoxels)
         Spheres finer = spheres;
         for (ExactSphere& s : finer) {
             for (int64_t& c : s.center) c *= units / 2;
-            s.coverSq *= units / 2 * units / 2;
+            s.radiusSq *= units / 2 * units / 2;
         }
         const MaskTree::Ptr same = sphereUnion(finer, kWide, nullptr, {{}, units});
         EXPECT_TRUE(expected->hasSameTopology(*same));
@@ -294,19 +294,19 @@ TEST_F(SphereUnion, NodesGrowWithTheSurfaceOnly)
 }
 
 /// Bits that lie in a ball, whose centre may be anywhere near or far.
-void expectKernelsLikeBruteForce(const int64_t center[3], int64_t coverSq, int shift)
+void expectKernelsLikeBruteForce(const int64_t center[3], int64_t radiusSq, int shift)
 {
-    const Spheres ball{{{center[0], center[1], center[2]}, coverSq}};
+    const Spheres ball{{{center[0], center[1], center[2]}, radiusSq}};
     uint64_t expected[8] = {}, vector[8] = {}, portable[8] = {};
     for (int i = 0; i < 512; ++i) {
         if (inAny(ball, Coord(i >> 6, i >> 3 & 7, i & 7), 1 << shift))
             expected[i >> 6] |= 1ull << (i & 63);
     }
-    detail::orBallIntoLeaf(center, coverSq, shift, vector);
-    detail::orBallIntoLeafPortable(center, coverSq, shift, portable);
+    detail::orBallIntoLeaf(center, radiusSq, shift, vector);
+    detail::orBallIntoLeafPortable(center, radiusSq, shift, portable);
     for (int x = 0; x < 8; ++x) {
         ASSERT_EQ(vector[x], expected[x])
-            << center[0] << ' ' << center[1] << ' ' << center[2] << ' ' << coverSq << ' ' << shift;
+            << center[0] << ' ' << center[1] << ' ' << center[2] << ' ' << radiusSq << ' ' << shift;
         ASSERT_EQ(portable[x], expected[x]);
     }
 }
@@ -331,11 +331,11 @@ TEST_F(SphereUnion, TheLeafKernelsMatchBruteForceUpToTheirLimits)
             }
         }
         for (int64_t x : {last - reach, reach}) {
-            for (int64_t coverSq : {int64_t(0), reach * reach - 1, reach * reach}) {
+            for (int64_t radiusSq : {int64_t(0), reach * reach - 1, reach * reach}) {
                 const int64_t alongX[3] = {x, 6, 7}, alongZ[3] = {7, 6, x}, diagonal[3] = {x, x, x};
-                expectKernelsLikeBruteForce(alongX, coverSq, shift);
-                expectKernelsLikeBruteForce(alongZ, coverSq, shift);
-                expectKernelsLikeBruteForce(diagonal, coverSq, shift);
+                expectKernelsLikeBruteForce(alongX, radiusSq, shift);
+                expectKernelsLikeBruteForce(alongZ, radiusSq, shift);
+                expectKernelsLikeBruteForce(diagonal, radiusSq, shift);
             }
         }
     }
@@ -490,9 +490,9 @@ TEST_F(SphereUnion, SpheresOfALevelAreItsRangeInTheTreesUnits)
     EXPECT_EQ(spheres[0].center[0], -3);
     EXPECT_EQ(spheres[0].center[1], 4);
     EXPECT_EQ(spheres[0].center[2], 2097153);
-    EXPECT_EQ(spheres[0].coverSq, 7);
+    EXPECT_EQ(spheres[0].radiusSq, 7);
     EXPECT_EQ(spheres[1].center[1], -8);
-    EXPECT_EQ(spheres[1].coverSq, 9);
+    EXPECT_EQ(spheres[1].radiusSq, 9);
     tree.subdivision = 16;
     tree.center[1] = {-1.4375, 2147483647.9375, -2147483648.0};
     const ExactSphere fine = levelSpheres(tree, level)[0];

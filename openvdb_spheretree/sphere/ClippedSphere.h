@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file ExactBall.h
+/// @file ClippedSphere.h
 /// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
 ///
 /// Everything is in units of a half or less of a voxel, so that centres between voxels stay
@@ -54,30 +54,30 @@ inline int64_t offVoxel(int64_t center, int shift)
 inline Interval extent(const ExactSphere& s, int axis, const Distance& distance, int shift)
 {
     const int64_t reach = distance.reach(offVoxel(s.center[(axis + 1) % 3], shift),
-        offVoxel(s.center[(axis + 2) % 3], shift), s.coverSq);
+        offVoxel(s.center[(axis + 2) % 3], shift), s.radiusSq);
     return Interval(reach < 0 ? 1 : s.center[axis], reach, reach < 0 ? 1 : shift);
 }
 
 /// A sphere to be drawn: with the box of its voxels, already clipped.
-struct Ball {
+struct ClippedSphere {
     int64_t center[3];
-    int64_t coverSq;
+    int64_t radiusSq;
     Distance distance;
     int32_t lo[3], hi[3]; ///< inclusive
     bool clipped;         ///< the box is smaller than the sphere's own
     bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
-    int8_t shift;         ///< 2^shift units of centre and coverSq are a voxel
+    int8_t shift;         ///< 2^shift units of centre and radiusSq are a voxel
 
     /// Balls of this size and less are plain: what is asked is within 2^29 units and a cube of 4096
     /// voxels, 2^16 units, of the centre; three such squares are below 2^60.
-    static constexpr int64_t kMaxPlainCoverSq = int64_t(1) << 58;
+    static constexpr int64_t kMaxPlainRadiusSq = int64_t(1) << 58;
 
     /// @return whether the ball holds what is so far from its centre; the most that is asked are
     /// the corners of a cube that meets its box.
     bool holds(const int64_t d[3]) const
     {
-        if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= coverSq;
-        return distance.lengthSq(d[0], d[1], d[2]) <= coverSq;
+        if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= radiusSq;
+        return distance.lengthSq(d[0], d[1], d[2]) <= radiusSq;
     }
 
     /// @name Along an axis: how far the nearest and the farthest of the voxels first...last are from
@@ -135,8 +135,8 @@ struct Ball {
 
 /// @param shift  that of the metric
 /// @return false if the clipped sphere is empty (or certainly holds no voxel).
-inline bool clippedBall(const ExactSphere& s, const Distance& distance, int shift,
-    const openvdb::CoordBBox& clip, Ball& ball)
+inline bool clipSphere(const ExactSphere& s, const Distance& distance, int shift,
+    const openvdb::CoordBBox& clip, ClippedSphere& ball)
 {
     ball.distance = distance;
     ball.shift = int8_t(shift);
@@ -151,8 +151,8 @@ inline bool clippedBall(const ExactSphere& s, const Distance& distance, int shif
         ball.center[a] = s.center[a];
         ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
-    ball.plain = distance.isEuclidean() && s.coverSq <= Ball::kMaxPlainCoverSq;
-    ball.coverSq = std::min(s.coverSq, INT64_MAX - 1); // lengths that do not fit are beyond it
+    ball.plain = distance.isEuclidean() && s.radiusSq <= ClippedSphere::kMaxPlainRadiusSq;
+    ball.radiusSq = std::min(s.radiusSq, INT64_MAX - 1); // lengths that do not fit are beyond it
     return true;
 }
 
