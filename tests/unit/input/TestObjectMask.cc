@@ -1,79 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+/// @file TestObjectMask.cc
+/// @brief Masks and points as objects; what is no object; what an object keeps of its grid.
+
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/input/ObjectMask.h>
 
-#include "support/Messages.h"
+#include "support/ObjectGrids.h"
 
 #include <openvdb/points/PointConversion.h>
 #include <openvdb/points/PointDataGrid.h>
-#include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/PointIndexGrid.h>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
-#include <random>
-#include <set>
 #include <vector>
-
-using namespace openvdb_spheretree;
-using openvdb::BoolGrid;
-using openvdb::Coord;
-using openvdb::CoordBBox;
-using openvdb::FloatGrid;
-using openvdb::Int64Grid;
-using spheretree_test::mentions;
-using spheretree_test::messageOf;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-ObjectMaskSettings threshold(double value)
-{
-    ObjectMaskSettings settings;
-    settings.threshold = value;
-    return settings;
-}
-
-ObjectMaskSettings iso(double value)
-{
-    ObjectMaskSettings settings;
-    settings.iso = value;
-    return settings;
-}
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
 
 ObjectMaskSettings trueValues()
 {
     ObjectMaskSettings settings;
     settings.values = true;
     return settings;
-}
-
-std::set<Coord> voxelsOf(const BoolGrid& grid)
-{
-    std::set<Coord> voxels;
-    for (auto it = grid.cbeginValueOn(); it; ++it) {
-        CoordBBox box;
-        it.getBoundingBox(box);
-        for (const Coord& ijk : box) voxels.insert(ijk);
-    }
-    return voxels;
-}
-
-std::string whyNot(const openvdb::GridBase& grid, const ObjectMaskSettings& settings = {})
-{
-    return messageOf<openvdb::ValueError>([&] { objectMask(grid, settings); });
-}
-
-template <typename GridT>
-typename GridT::Ptr named(const char* name, const typename GridT::ValueType& background)
-{
-    const auto grid = GridT::create(background);
-    grid->setName(name);
-    return grid;
 }
 
 /// A BoolGrid of one voxel under the given transform.
@@ -104,8 +56,6 @@ class AlwaysInterrupted : public openvdb::util::NullInterrupter {
 public:
     bool wasInterrupted(int = -1) override { return true; }
 };
-
-} // namespace
 
 // ---- Bool and mask grids
 
@@ -192,220 +142,6 @@ TEST(ObjectMask, TilesStayTilesOnEveryNodeLevel)
     EXPECT_EQ(object->tree().leafCount(), 0u);
     EXPECT_EQ(object->tree().activeTileCount(), 3u);
     EXPECT_LT(object->memUsage(), uint64_t(1) << 24);
-}
-
-// ---- Scalar grids
-
-TEST(ObjectMask, ValuesAboveTheThresholdCountAndOthersDoNot)
-{
-    const auto grid = named<FloatGrid>("fog", 0.0f);
-    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-    grid->tree().setValueOn(Coord(0, 0, 0), 0.5f);
-    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 1.0f));
-    grid->tree().setValueOn(Coord(-2, 0, 0), 1.0f);
-    grid->tree().setValueOn(Coord(-3, 0, 0), -1.0f);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
-    EXPECT_EQ(
-        voxelsOf(*objectMask(*grid, threshold(0.5))), (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
-}
-
-TEST(ObjectMask, InactiveValuesAboveTheThresholdCountAsWell)
-{
-    const auto grid = named<FloatGrid>("fog", 0.0f);
-    grid->tree().setValueOff(Coord(0, 0, 0), 1.0f);
-    grid->tree().addTile(1, Coord(8, 0, 0), 1.0f, false);
-    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), 513u);
-}
-
-TEST(ObjectMask, ABackgroundAboveTheThresholdIsAnUnboundedObject)
-{
-    const auto grid = named<FloatGrid>("fog", 0.25f);
-    grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
-    const std::string why = whyNot(*grid);
-    EXPECT_TRUE(mentions(why, "'fog'"));
-    EXPECT_TRUE(mentions(why, "0.25"));
-    EXPECT_TRUE(mentions(why, "threshold=0"));
-    EXPECT_EQ(objectMask(*grid, threshold(0.25))->activeVoxelCount(), 1u);
-}
-
-TEST(ObjectMask, AThresholdThatIsNoFiniteNumberIsAnError)
-{
-    const auto grid = named<FloatGrid>("fog", 0.0f);
-    grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
-    for (double value : {std::nan(""), kInfinity, -kInfinity}) {
-        EXPECT_TRUE(mentions(whyNot(*grid, threshold(value)), "threshold="));
-    }
-}
-
-TEST(ObjectMask, NanIsOutsideAndInfinityIsNot)
-{
-    const auto grid = named<FloatGrid>("fog", 0.0f);
-    grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
-    grid->tree().setValueOn(Coord(1, 0, 0), std::numeric_limits<float>::infinity());
-    grid->tree().setValueOn(Coord(2, 0, 0), -std::numeric_limits<float>::infinity());
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{1, 0, 0}}));
-}
-
-TEST(ObjectMask, DoublesKeepTheirPrecision)
-{
-    const auto grid = named<openvdb::DoubleGrid>("d", 0.0);
-    grid->tree().setValueOn(Coord(0, 0, 0), 1.0);
-    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(1.0, 2.0));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(1.0))), (std::set<Coord>{{1, 0, 0}}));
-}
-
-TEST(ObjectMask, IntegersAreComparedWithoutRounding)
-{
-    const int64_t big = (int64_t(1) << 53); // the last of the integers that doubles hold
-    const auto grid = named<Int64Grid>("labels", std::numeric_limits<int64_t>::lowest());
-    grid->tree().setValueOn(Coord(0, 0, 0), big);
-    grid->tree().setValueOn(Coord(1, 0, 0), big + 1);
-    grid->tree().setValueOn(Coord(2, 0, 0), std::numeric_limits<int64_t>::max());
-    grid->tree().setValueOn(Coord(3, 0, 0), -5);
-    using Voxels = std::set<Coord>;
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(double(big)))), (Voxels{{1, 0, 0}, {2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-5.5))),
-        (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
-    EXPECT_EQ(
-        voxelsOf(*objectMask(*grid, threshold(-5))), (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-std::ldexp(1.0, 63)))).size(), 4u);
-    EXPECT_TRUE(mentions(whyNot(*grid, threshold(std::ldexp(1.0, 63))), "threshold="));
-    EXPECT_TRUE(mentions(whyNot(*grid, threshold(-1e30)), "no bounds"));
-}
-
-TEST(ObjectMask, TakesThresholdsBeyondTheRangeOfTheGrid)
-{
-    const auto grid = named<openvdb::Int32Grid>("i", 0);
-    grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<int32_t>::max());
-    EXPECT_EQ(objectMask(*grid, threshold(0.5))->activeVoxelCount(), 1u);
-    EXPECT_EQ(objectMask(*grid, threshold(2147483646.5))->activeVoxelCount(), 1u);
-    EXPECT_TRUE(mentions(whyNot(*grid, threshold(2147483647.0)), "no value above"));
-    EXPECT_TRUE(mentions(whyNot(*grid, threshold(1e300)), "no value above"));
-}
-
-TEST(ObjectMask, AgreesWithAVoxelByVoxelScanOfARandomGrid)
-{
-    std::mt19937 random(11);
-    const auto grid = named<FloatGrid>("r", -1.0f);
-    std::set<Coord> expected;
-    for (int n = 0; n < 3000; ++n) {
-        const Coord ijk(int(random() % 60) - 30, int(random() % 60) - 30, int(random() % 60) - 30);
-        const float value = float(int(random() % 200) - 100) / 100;
-        grid->tree().setValueOnly(ijk, value);
-        if (random() % 2) grid->tree().setActiveState(ijk, true);
-        if (value > 0.2) expected.insert(ijk);
-        else expected.erase(ijk);
-    }
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(0.2))), expected);
-}
-
-// ---- Level sets
-
-TEST(ObjectMask, TheInteriorOfALevelSetIsWhereItsValueIsBelowTheIso)
-{
-    const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
-        20.0f, openvdb::Vec3f(0.3f, -5.2f, 7.1f), 0.5f);
-    for (double value : {0.0, 0.6, -0.6}) {
-        const auto object = objectMask(*grid, iso(value));
-        std::size_t wrong = 0;
-        for (const Coord& ijk : CoordBBox(Coord(-60), Coord(60))) {
-            wrong += object->tree().isValueOn(ijk) != (grid->tree().getValue(ijk) < value);
-        }
-        EXPECT_EQ(wrong, 0u) << "iso " << value;
-    }
-}
-
-TEST(ObjectMask, AVoxelOfJustTheIsoIsOutside)
-{
-    const auto grid = named<FloatGrid>("set", 3.0f);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    grid->tree().setValueOn(Coord(0, 0, 0), 0.5f);
-    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 0.0f));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
-
-    const auto doubles = named<openvdb::DoubleGrid>("doubles", 3.0);
-    doubles->setGridClass(openvdb::GRID_LEVEL_SET);
-    doubles->tree().setValueOn(Coord(0, 0, 0), 0.5);
-    doubles->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5, 0.0));
-    EXPECT_EQ(voxelsOf(*objectMask(*doubles, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
-}
-
-TEST(ObjectMask, ALevelSetMayBeOfIntegers)
-{
-    const auto grid = named<openvdb::Int32Grid>("set", 3);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    for (int x = -2; x <= 2; ++x) grid->tree().setValueOn(Coord(x, 0, 0), x);
-    using Voxels = std::set<Coord>;
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-1))), (Voxels{{-2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}}));
-}
-
-TEST(ObjectMask, TilesCountByTheirValueOnEveryNodeLevel)
-{
-    for (openvdb::Index level : {1, 2, 3}) {
-        const auto grid = named<FloatGrid>("tiles", 0.0f);
-        const Coord inactive(0, 0, 0), active(4096, 0, 0), below(8192, 0, 0);
-        grid->tree().addTile(level, inactive, 1.0f, false);
-        grid->tree().addTile(level, active, 1.0f, true);
-        grid->tree().addTile(level, below, -1.0f, true);
-        const auto object = objectMask(*grid);
-        const uint64_t side = uint64_t(level == 1 ? 8 : level == 2 ? 128 : 4096);
-        EXPECT_EQ(object->activeVoxelCount(), 2 * side * side * side);
-        EXPECT_TRUE(object->tree().isValueOn(inactive) && object->tree().isValueOn(active));
-    }
-}
-
-TEST(ObjectMask, TheDeepInteriorOfALevelSetStaysTiles)
-{
-    const auto grid =
-        openvdb::tools::createLevelSetSphere<FloatGrid>(100.0f, openvdb::Vec3f(0), 1.0f);
-    const auto object = objectMask(*grid);
-    EXPECT_GT(object->tree().activeTileCount(), 100u);
-    EXPECT_LE(object->tree().leafCount(), grid->tree().leafCount());
-    EXPECT_NEAR(double(object->activeVoxelCount()), 4.0 / 3 * M_PI * 1e6, 4e4);
-}
-
-TEST(ObjectMask, InteriorTilesFarFromAnyLeafCount)
-{
-    const auto grid = named<FloatGrid>("huge", 3.0f);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    grid->tree().addTile(3, Coord(0, 0, 0), -3.0f, false);
-    grid->tree().addTile(1, Coord(8192, 0, 0), -3.0f, false);
-    grid->tree().addTile(1, Coord(8200, 0, 0), 3.0f, false);
-    const uint64_t upper = 4096;
-    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), upper * upper * upper + 512);
-}
-
-TEST(ObjectMask, AnIsoBeyondTheNarrowBandIsAnErrorThatNamesTheBand)
-{
-    const auto grid =
-        openvdb::tools::createLevelSetSphere<FloatGrid>(10.0f, openvdb::Vec3f(0), 0.5f);
-    grid->setName("ball");
-    for (double value : {1.5, -1.5, 2.0, -2.0}) {
-        const std::string why = whyNot(*grid, iso(value));
-        EXPECT_TRUE(mentions(why, "'ball'"));
-        EXPECT_TRUE(mentions(why, "between -1.5 and 1.5"));
-    }
-    EXPECT_TRUE(mentions(whyNot(*grid, iso(std::nan(""))), "iso="));
-    EXPECT_NO_THROW(objectMask(*grid, iso(1.49)));
-    EXPECT_NO_THROW(objectMask(*grid, iso(-1.49)));
-}
-
-TEST(ObjectMask, AFogVolumeMarkedAsLevelSetIsAnErrorThatSaysSo)
-{
-    const auto grid = named<FloatGrid>("fog", 0.0f);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
-    EXPECT_TRUE(mentions(whyNot(*grid), "change the grid's class"));
-}
-
-TEST(ObjectMask, ALevelSetThatIsNotMarkedAsOneIsAnErrorThatSaysSo)
-{
-    const auto grid =
-        openvdb::tools::createLevelSetSphere<FloatGrid>(10.0f, openvdb::Vec3f(0), 0.5f);
-    grid->setGridClass(openvdb::GRID_UNKNOWN);
-    EXPECT_TRUE(mentions(whyNot(*grid), "'level set'"));
 }
 
 // ---- Points
@@ -520,3 +256,5 @@ TEST(ObjectMask, TakesTheGridsOfOtherPrograms)
         EXPECT_TRUE(any) << name;
     }
 }
+
+} // namespace

@@ -1,31 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestMeshFile.cc
-/// @brief Mesh files: the same cube out of every format, and every broken file refused; level sets.
+/// @brief Mesh files: the same cube out of every format, and every broken file refused.
 
-#include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
-#include <gtest/gtest.h>
-#include <openvdb/tools/LevelSetUtil.h>
+#include "support/MeshFiles.h"
 
-#include <cmath>
-#include <cstdint>
+#include <gtest/gtest.h>
+
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace {
 
 using namespace openvdb_spheretree;
-using openvdb::Vec3d;
-using openvdb::Vec3I;
-using openvdb::Vec3s;
+using namespace spheretree_test;
 
 constexpr int kQuads[6][4] = {
     {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -68,17 +60,6 @@ std::string plyHeader(const std::string& format, const std::string& vertices = "
 }
 
 std::string plyCube() { return plyHeader("ascii") + plainRows(); }
-
-template <typename Value>
-std::string bytesOf(Value value, bool bigEndian = false)
-{
-    std::uint32_t bits;
-    static_assert(sizeof(Value) == sizeof(bits), "four bytes");
-    std::memcpy(&bits, &value, sizeof(bits));
-    std::string bytes;
-    for (int i = 0; i < 4; ++i) bytes.push_back(char(bits >> (8 * (bigEndian ? 3 - i : i))));
-    return bytes;
-}
 
 std::string binaryPlyCube(bool bigEndian)
 {
@@ -144,61 +125,11 @@ std::vector<Sample> cubes()
         {"trap.stl", binaryStlCube("solid, says this binary file")}};
 }
 
-/// A file in the folder for temporary files, gone when the test is over.
-struct TempFile {
-    std::string path;
-
-    TempFile(const std::string& name, const std::string& contents)
-        : path(testing::TempDir() + "MeshFile_" // tests may run at the same time
-            + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name)
-    {
-        std::ofstream(path, std::ios::binary) << contents;
-    }
-    ~TempFile() { std::filesystem::remove(path); }
-};
-
-TriangleMesh read(const std::string& name, const std::string& bytes)
-{
-    const TempFile file(name, bytes);
-    return readMeshFile(file.path);
-}
-
-/// @return what readMeshFile() says of the file, or nothing if it read it.
-std::string errorOf(const std::string& path)
-{
-    try {
-        readMeshFile(path);
-    } catch (const openvdb::IoError& error) {
-        const std::string text = error.what();
-        EXPECT_NE(std::string::npos, text.find(path)) << text;
-        EXPECT_LT(text.size(), path.size() + 400) << text;
-        return text;
-    }
-    return {};
-}
-
-std::string errorOf(const std::string& name, const std::string& bytes)
-{
-    const TempFile file(name, bytes);
-    return errorOf(file.path);
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to)
 {
     const std::size_t at = text.rfind(from);
     EXPECT_NE(std::string::npos, at) << from;
     return text.replace(at, from.size(), to);
-}
-
-/// Positive where triangles face outwards.
-double volumeOf(const TriangleMesh& mesh)
-{
-    double sum = 0;
-    for (const Vec3I& t : mesh.triangles) {
-        const Vec3d a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
-        sum += a.dot(b.cross(c)) / 6;
-    }
-    return sum;
 }
 
 double areaOf(const TriangleMesh& mesh)
@@ -415,170 +346,6 @@ TEST(MeshFile, KnowsItsFilesByTheirExtensionInAnyCase)
     }
 }
 
-std::string base64(const std::string& bytes)
-{
-    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) { // a multiple of three
-        std::uint32_t word = 0;
-        for (int k = 0; k < 3; ++k) word = word << 8 | std::uint8_t(bytes[i + k]);
-        for (int k = 18; k >= 0; k -= 6) text.push_back(digits[word >> k & 63]);
-    }
-    return text;
-}
-
-/// A scene that shows one tetrahedron, facing outwards, three times: moved, mirrored in a moved
-/// node, and nowhere at all (a mesh no node shows is no part of the scene).
-std::string gltfScene()
-{
-    std::string bytes;
-    for (const char* face : {"021", "013", "032", "123"}) {
-        for (int k = 0; k < 3; ++k) {
-            for (int axis = 0; axis < 3; ++axis) bytes += bytesOf(float(face[k] == '1' + axis));
-        }
-    }
-    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[
-{"mesh":0,"translation":[10,0,0]},{"translation":[0,20,0],"children":[2]},
-{"mesh":0,"scale":[-2,1,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
-{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,
-"count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],"bufferViews":[{"buffer":0,
-"byteLength":144}],"buffers":[{"byteLength":144,"uri":"data:application/octet-stream;base64,)"
-        + base64(bytes) + "\"}]}";
-}
-
-TEST(MeshFile, PlacesTheMeshesOfASceneByItsTransforms)
-{
-    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
-    const TriangleMesh mesh = read("scene.gltf", gltfScene());
-    EXPECT_EQ(8u, mesh.points.size());
-    EXPECT_EQ(8u, mesh.triangles.size());
-    openvdb::BBoxd box;
-    for (const Vec3s& point : mesh.points) box.expand(Vec3d(point));
-    EXPECT_EQ(Vec3d(-2, 0, 0), box.min());
-    EXPECT_EQ(Vec3d(11, 21, 1), box.max());
-    EXPECT_NEAR(1 / 6. + 2 / 6., volumeOf(mesh), 1e-6); // the mirrored one faces outwards as well
-}
-
-TEST(MeshFile, RejectsEveryTruncationOfAScene)
-{
-    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
-    const std::string bytes = gltfScene();
-    ASSERT_EQ("", errorOf("cut.gltf", bytes));
-    for (std::size_t length = 0; length < bytes.size(); ++length) {
-        ASSERT_NE("", errorOf("cut.gltf", bytes.substr(0, length))) << length;
-    }
-}
-
-TEST(MeshFile, SaysHowToGetWhatABuildWithoutAssimpLacks)
-{
-    if (readsOtherMeshFormats()) GTEST_SKIP() << "needs a build without assimp";
-    EXPECT_NE(std::string::npos, errorOf("scene.gltf", gltfScene()).find("libassimp-dev"));
-}
-
-TriangleMesh cubeMesh() { return read("cube.obj", objCube()); }
-
-openvdb::Index64 interiorVoxels(const openvdb::FloatGrid& grid)
-{
-    return openvdb::tools::sdfInteriorMask(grid)->activeVoxelCount();
-}
-
-TEST(MeshFile, MakesALevelSetWhoseInteriorIsTheSolid)
-{
-    openvdb::initialize();
-    TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.05f);
-    const auto grid = meshToLevelSet(mesh, 0.1, 4);
-    EXPECT_EQ(mesh.name, grid->getName());
-    EXPECT_EQ(openvdb::GRID_LEVEL_SET, grid->getGridClass());
-    EXPECT_NEAR(0.4, grid->background(), 1e-6);
-    EXPECT_EQ(Vec3d(0.1), grid->voxelSize());
-    EXPECT_EQ(1000000u, interiorVoxels(*grid)); // faces lie halfway between voxel centres
-}
-
-TEST(MeshFile, KeepsFarMeshesInPlace)
-{
-    openvdb::initialize();
-    TriangleMesh mesh = cubeMesh(); // at index 34952550, which no float holds
-    for (Vec3s& point : mesh.points) point = point * 4.f + Vec3s(1048576.5f);
-    const auto grid = meshToLevelSet(mesh, 0.03);
-    const auto box = openvdb::tools::sdfInteriorMask(*grid)->evalActiveVoxelBoundingBox();
-    EXPECT_NEAR(1048576.5 / 0.03, box.min().x(), 1);
-    EXPECT_NEAR(1048580.5 / 0.03, box.max().z(), 1);
-}
-
-TEST(MeshFile, MakesALevelSetOfAMeshWithTrianglesWithoutArea)
-{
-    openvdb::initialize();
-    TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.25f);
-    const auto count = interiorVoxels(*meshToLevelSet(mesh, 0.5));
-    const auto n = openvdb::Index32(mesh.points.size());
-    for (const float at : {0.3f, 5.f, 9.9f}) mesh.points.push_back(Vec3s(0.25f + at, 0.25f, 0.25f));
-    mesh.triangles.push_back(Vec3I(n, n + 1, n + 2)); // on an edge
-    mesh.triangles.push_back(Vec3I(n, n, n));
-    const auto grid = meshToLevelSet(mesh, 0.5);
-    EXPECT_EQ(count, interiorVoxels(*grid));
-    for (auto it = grid->cbeginValueOn(); it; ++it) ASSERT_TRUE(std::isfinite(*it));
-}
-
-TEST(MeshFile, RejectsLevelSetArgumentsOutOfRange)
-{
-    openvdb::initialize();
-    const TriangleMesh mesh = cubeMesh();
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double inf = std::numeric_limits<double>::infinity();
-    for (const double size : {0.0, -1.0, nan, inf, 1e-300, 1e-12}) {
-        EXPECT_THROW(meshToLevelSet(mesh, size), openvdb::ValueError) << size;
-    }
-    for (const double width : {0.0, 0.99, -3.0, nan, inf, 1001.0}) {
-        EXPECT_THROW(meshToLevelSet(mesh, 0.1, width), openvdb::ValueError) << width;
-    }
-}
-
-TEST(MeshFile, RejectsAMeshTooLargeForItsVoxels)
-{
-    TriangleMesh mesh = cubeMesh();
-    mesh.points[3] = Vec3s(0, 0, 2e9f);
-    EXPECT_THROW(meshToLevelSet(mesh, 1), openvdb::ValueError);
-    mesh.points[3] = Vec3s(0, -3e38f, 0);
-    EXPECT_THROW(meshToLevelSet(mesh, 0.01), openvdb::ValueError);
-}
-
-TEST(MeshFile, RejectsADamagedMesh)
-{
-    EXPECT_THROW(meshToLevelSet(TriangleMesh(), 0.1), openvdb::ValueError);
-    TriangleMesh mesh = cubeMesh();
-    mesh.triangles.push_back(Vec3I(0, 1, 8));
-    EXPECT_THROW(meshToLevelSet(mesh, 0.1), openvdb::ValueError);
-    mesh = cubeMesh();
-    mesh.points[2].y() = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(meshToLevelSet(mesh, 0.1), openvdb::ValueError);
-    EXPECT_THROW(voxelSizeForDim(mesh, 10), openvdb::ValueError);
-}
-
-TEST(MeshFile, FitsTheVoxelSizeToTheLongestSide)
-{
-    TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point *= Vec3s(1, 8, 4);
-    EXPECT_DOUBLE_EQ(0.125, voxelSizeForDim(mesh, 64));
-    EXPECT_DOUBLE_EQ(8, voxelSizeForDim(mesh, 1));
-    for (const int dim : {0, -5}) EXPECT_THROW(voxelSizeForDim(mesh, dim), openvdb::ValueError);
-    EXPECT_THROW(voxelSizeForDim(TriangleMesh(), 10), openvdb::ValueError);
-    for (Vec3s& point : mesh.points) point = Vec3s(1);
-    EXPECT_THROW(voxelSizeForDim(mesh, 10), openvdb::ValueError);
-}
-
-struct StopAtOnce final : openvdb::util::NullInterrupter {
-    bool wasInterrupted(int = -1) override { return true; }
-};
-
-TEST(MeshFile, StopsWhenInterrupted)
-{
-    openvdb::initialize();
-    StopAtOnce interrupter;
-    EXPECT_THROW(meshToLevelSet(cubeMesh(), 0.1, 3, &interrupter), Interrupted);
-}
-
 TEST(MeshFile, ReadsTheSampleMeshes)
 {
     const char* folder = std::getenv("SPHERETREE_DATA");
@@ -591,20 +358,6 @@ TEST(MeshFile, ReadsTheSampleMeshes)
         EXPECT_EQ(size.second, mesh.triangles.size()) << name;
         EXPECT_GT(volumeOf(mesh), 0) << name;
     }
-}
-
-TEST(MeshFile, CountsTheEdgesWhereAMeshIsOpen)
-{
-    TriangleMesh mesh; // a tetrahedron
-    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-    EXPECT_EQ(openEdges(mesh), 0);
-    mesh.triangles.pop_back();
-    EXPECT_EQ(openEdges(mesh), 3);
-    mesh.triangles = {{0, 2, 1}};
-    EXPECT_EQ(openEdges(mesh), 3);
-    mesh.triangles.clear();
-    EXPECT_EQ(openEdges(mesh), 0);
 }
 
 } // namespace

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestThresholds.cc
+/// @brief Scalar grids as objects: the voxels of values above a threshold.
+
+#include <openvdb_spheretree/input/ObjectMask.h>
+
+#include "support/ObjectGrids.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+using openvdb::Int64Grid;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Thresholds, ValuesAboveTheThresholdCountAndOthersDoNot)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    grid->tree().setValueOn(Coord(0, 0, 0), 0.5f);
+    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 1.0f));
+    grid->tree().setValueOn(Coord(-2, 0, 0), 1.0f);
+    grid->tree().setValueOn(Coord(-3, 0, 0), -1.0f);
+    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectMask(*grid, threshold(0.5))), (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
+}
+
+TEST(Thresholds, InactiveValuesAboveTheThresholdCountAsWell)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->tree().setValueOff(Coord(0, 0, 0), 1.0f);
+    grid->tree().addTile(1, Coord(8, 0, 0), 1.0f, false);
+    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), 513u);
+}
+
+TEST(Thresholds, ABackgroundAboveTheThresholdIsAnUnboundedObject)
+{
+    const auto grid = named<FloatGrid>("fog", 0.25f);
+    grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
+    const std::string why = whyNot(*grid);
+    EXPECT_TRUE(mentions(why, "'fog'"));
+    EXPECT_TRUE(mentions(why, "0.25"));
+    EXPECT_TRUE(mentions(why, "threshold=0"));
+    EXPECT_EQ(objectMask(*grid, threshold(0.25))->activeVoxelCount(), 1u);
+}
+
+TEST(Thresholds, AThresholdThatIsNoFiniteNumberIsAnError)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
+    for (double value : {std::nan(""), kInfinity, -kInfinity}) {
+        EXPECT_TRUE(mentions(whyNot(*grid, threshold(value)), "threshold="));
+    }
+}
+
+TEST(Thresholds, NanIsOutsideAndInfinityIsNot)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
+    grid->tree().setValueOn(Coord(1, 0, 0), std::numeric_limits<float>::infinity());
+    grid->tree().setValueOn(Coord(2, 0, 0), -std::numeric_limits<float>::infinity());
+    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{1, 0, 0}}));
+}
+
+TEST(Thresholds, DoublesKeepTheirPrecision)
+{
+    const auto grid = named<openvdb::DoubleGrid>("d", 0.0);
+    grid->tree().setValueOn(Coord(0, 0, 0), 1.0);
+    grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(1.0, 2.0));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(1.0))), (std::set<Coord>{{1, 0, 0}}));
+}
+
+TEST(Thresholds, IntegersAreComparedWithoutRounding)
+{
+    const int64_t big = (int64_t(1) << 53); // the last of the integers that doubles hold
+    const auto grid = named<Int64Grid>("labels", std::numeric_limits<int64_t>::lowest());
+    grid->tree().setValueOn(Coord(0, 0, 0), big);
+    grid->tree().setValueOn(Coord(1, 0, 0), big + 1);
+    grid->tree().setValueOn(Coord(2, 0, 0), std::numeric_limits<int64_t>::max());
+    grid->tree().setValueOn(Coord(3, 0, 0), -5);
+    using Voxels = std::set<Coord>;
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(double(big)))), (Voxels{{1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-5.5))),
+        (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectMask(*grid, threshold(-5))), (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-std::ldexp(1.0, 63)))).size(), 4u);
+    EXPECT_TRUE(mentions(whyNot(*grid, threshold(std::ldexp(1.0, 63))), "threshold="));
+    EXPECT_TRUE(mentions(whyNot(*grid, threshold(-1e30)), "no bounds"));
+}
+
+TEST(Thresholds, TakesThresholdsBeyondTheRangeOfTheGrid)
+{
+    const auto grid = named<openvdb::Int32Grid>("i", 0);
+    grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<int32_t>::max());
+    EXPECT_EQ(objectMask(*grid, threshold(0.5))->activeVoxelCount(), 1u);
+    EXPECT_EQ(objectMask(*grid, threshold(2147483646.5))->activeVoxelCount(), 1u);
+    EXPECT_TRUE(mentions(whyNot(*grid, threshold(2147483647.0)), "no value above"));
+    EXPECT_TRUE(mentions(whyNot(*grid, threshold(1e300)), "no value above"));
+}
+
+TEST(Thresholds, AgreesWithAVoxelByVoxelScanOfARandomGrid)
+{
+    std::mt19937 random(11);
+    const auto grid = named<FloatGrid>("r", -1.0f);
+    std::set<Coord> expected;
+    for (int n = 0; n < 3000; ++n) {
+        const Coord ijk(int(random() % 60) - 30, int(random() % 60) - 30, int(random() % 60) - 30);
+        const float value = float(int(random() % 200) - 100) / 100;
+        grid->tree().setValueOnly(ijk, value);
+        if (random() % 2) grid->tree().setActiveState(ijk, true);
+        if (value > 0.2) expected.insert(ijk);
+        else expected.erase(ijk);
+    }
+    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(0.2))), expected);
+}
+
+} // namespace
