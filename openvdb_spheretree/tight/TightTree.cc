@@ -11,7 +11,7 @@
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
-#include <openvdb_spheretree/tight/region/LeafPruning.h>
+#include <openvdb_spheretree/tight/region/BallPruning.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
@@ -30,62 +30,63 @@ namespace {
 
 using detail::timed;
 
-/// How much a quality looks at.
 struct Effort {
     FitEffort fit;
-    int neighbours;
+    int neighbours; ///< of a ball that it may merge with
 };
 
-/// Large objects have large balls where small ones have small ones: what is fine for 4,000 leaves is
-/// too fine for more of them, or the time for a leaf would grow.
-int samplesFor(std::size_t leaves)
+/// The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time for
+/// each ball of a larger object would grow.
+int samplesFor(std::size_t leafBalls)
 {
     constexpr double kMost = 40, kLeast = 16, kFew = 4000;
-    return int(std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leaves)))));
+    return int(std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls)))));
 }
 
-Effort effortOf(Quality quality, std::size_t leaves)
+Effort effortOf(Quality quality, std::size_t leafBalls)
 {
     if (quality == Quality::Fast) return {{false, 4, 1, false, 16}, 6};
-    if (quality == Quality::Best) return {{true, 12, 1, true, samplesFor(leaves)}, 6};
-    return {{true, 12, 1, true, samplesFor(leaves)}, 8};
+    if (quality == Quality::Best) return {{true, 12, 1, true, samplesFor(leafBalls)}, 6};
+    return {{true, 12, 1, true, samplesFor(leafBalls)}, 8};
 }
 
-/// The leaves of the tree, as medial balls and as the balls they are.
-struct TreeLeaves {
+/// The leaf balls of the tree, in both forms.
+struct LeafBalls {
     std::vector<MedialBall> medial;
-    std::vector<FineBall> balls;
+    std::vector<FineBall> fine;
 };
 
-TreeLeaves leavesOf(const MedialLevel& level, const SampledObject& object, Leaves which,
+LeafBalls leafBallsOf(const MedialLevel& level, const SampledObject& object, Leaves which,
     openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<int32_t> kept(level.balls.size());
-    std::iota(kept.begin(), kept.end(), 0);
-    if (which == Leaves::Pruned) kept = prunedLeaves(level.balls, object.level(0), interrupter);
-    TreeLeaves leaves;
-    for (const int32_t i : kept) {
-        leaves.medial.push_back(level.balls[i]);
-        leaves.balls.push_back(fineBall(level.balls[i]));
+    LeafBalls leafBalls;
+    if (which == Leaves::Pruned) {
+        for (const int32_t i : prunedBalls(level.balls, object.level(0), interrupter)) {
+            leafBalls.medial.push_back(level.balls[i]);
+        }
+    } else {
+        leafBalls.medial = level.balls;
     }
-    return leaves;
+    for (const MedialBall& ball : leafBalls.medial) leafBalls.fine.push_back(fineBall(ball));
+    return leafBalls;
 }
 
 std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
-    const SampledObject& object, const std::vector<FineBall>& leaves, const FitEffort& fit,
+    const SampledObject& object, const std::vector<FineBall>& leafBalls, const FitEffort& fit,
     openvdb::util::NullInterrupter* interrupter)
 {
     const bool flat = settings.dim == 2;
     if (settings.cover == Cover::Balls) {
         return std::make_unique<StrictMerging>(
-            object, leaves, heldBalls(leaves), fit, flat, interrupter);
+            object, leafBalls, heldBalls(leafBalls), fit, flat, interrupter);
     }
     if (settings.quality == Quality::Fast) {
-        return std::make_unique<StrictMerging>(object, leaves,
-            heldVoxels(cellPoints(leaves, object.level(0), interrupter)), fit, flat, interrupter);
+        return std::make_unique<StrictMerging>(object, leafBalls,
+            heldVoxels(powerCellPoints(leafBalls, object.level(0), interrupter)), fit, flat,
+            interrupter);
     }
-    return std::make_unique<SlackMerging>(object, ungrouped(leaves),
-        regionsOf(leaves, object.level(0), interrupter), fit, flat, interrupter);
+    return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
+        regionsOf(leafBalls, object.level(0), interrupter), fit, flat, interrupter);
 }
 
 /// @param tree  with settings, object and transform
@@ -101,7 +102,7 @@ LevelError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
                         << only.errorUnknown << "; ask for spheres= instead");
 }
 
-/// The search looks at sampled excess alone, and not at distances.
+/// The search minimizes the sampled excess alone, and not distances.
 /// @return whether the finest level is still within the bounds that the tree has.
 bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter)
@@ -112,7 +113,8 @@ bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb
     return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, object, interrupter));
 }
 
-/// Squares of 1/16 voxel have 64 bits, here and in whoever reads the tree.
+/// Squared lengths in 1/16 voxel have to fit in 64 bits, here and in whoever reads the tree. Twice the
+/// object's diagonal is longer than any that occurs.
 void requireRoom(const SphereTree& tree)
 {
     const openvdb::Coord size = tree.object.bbox.extents();
@@ -140,25 +142,25 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     wants.memory = settings.memory;
     const MedialLevel level(*voxels, settings.dim, settings.dist, interrupter, seconds, wants);
     const SampledObject samples(level.layout);
-    const TreeLeaves leaves = timed("leaves", interrupter, &seconds->tree,
-        [&] { return leavesOf(level, samples, settings.leaves, interrupter); });
-    const Effort effort = effortOf(settings.quality, leaves.balls.size());
+    const LeafBalls leafBalls = timed("leaves", interrupter, &seconds->tree,
+        [&] { return leafBallsOf(level, samples, settings.leaves, interrupter); });
+    const Effort effort = effortOf(settings.quality, leafBalls.fine.size());
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
-        const auto model = modelFor(settings, samples, leaves.balls, effort.fit, interrupter);
+        const auto model = modelFor(settings, samples, leafBalls.fine, effort.fit, interrupter);
         return mergeToRoots(*model, effort.neighbours, interrupter);
     });
     const auto cutError = [&](int64_t count) {
-        return errorOf(levelsOf(forest, {count}, leaves.medial), tree, object, interrupter);
+        return errorOf(levelsOf(forest, {count}, leafBalls.medial), tree, object, interrupter);
     };
     const auto counts =
-        levelCounts(settings.budget, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
+        levelCounts(settings.budget, int64_t(leafBalls.fine.size()), tree.voxelSize(), cutError);
     const bool search = settings.quality == Quality::Best && settings.cover == Cover::Voxels;
-    // A bound is one of the finest level, which then must not be bound to others.
+    // A bound is on the finest level, which then is searched first and by itself.
     const std::size_t middle = settings.budget.hasBound() ? 0 : counts.size() / 2;
     const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
-        const auto cuts = levelsOf(forest, counts, leaves.medial);
+        const auto cuts = levelsOf(forest, counts, leafBalls.medial);
         if (!search) return cuts;
-        const auto searched = searchedLevels(forest, counts, leaves.medial, middle, samples,
+        const auto searched = searchedLevels(forest, counts, leafBalls.medial, middle, samples,
             effort.fit, settings.dim == 2, interrupter);
         return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
     });

@@ -2,13 +2,15 @@
 /// @file TightTree.h
 /// @brief Tight trees: few spheres for a small error, with the object covered for certain.
 ///
-/// The trees of the paper pay for containing whole leaf balls around centres that are given. A tight
-/// tree owes less: every object voxel has a chain of nodes, one a level, each the child of the one
-/// above, that all hold it (DESIGN 10). How one is made, step by step:
-/// 1. medial balls of the object, without those that others make superfluous (LeafPruning.h);
-/// 2. pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h): a binary
-///    forest, any cut of which is a cover;
-/// 3. levels are cuts of the forest, by count or by the error allowed.
+/// In the trees of the paper a sphere contains whole leaf balls, around a centre that is given. A
+/// tight tree promises less, and so needs smaller spheres: every object voxel has a chain of nodes,
+/// one a level, each the child of the one above, that all hold the voxel (docs/tight-trees.md).
+/// 1. The leaf balls are the object's medial balls, less those whose voxels lie in others
+///    (BallPruning.h).
+/// 2. Pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h). That is a
+///    binary forest, and the balls of each of its cuts cover the object.
+/// 3. Levels are cuts of the forest, by count or by the error allowed; quality=best searches for
+///    better ones (SearchedLevels.h).
 ///
 /// Deterministic: the same bytes for any number of threads.
 

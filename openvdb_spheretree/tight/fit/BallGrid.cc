@@ -27,7 +27,7 @@ Vec3i cellOf(const int64_t center[3], int log2)
     return {int32_t(center[0] >> log2), int32_t(center[1] >> log2), int32_t(center[2] >> log2)};
 }
 
-Vec3i blockOf(const Vec3i& cell) { return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}; }
+Vec3i clusterOf(const Vec3i& cell) { return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}; }
 
 uint64_t bitOf(const Vec3i& cell)
 {
@@ -39,15 +39,6 @@ bool contains(const Vec3i& lo, const Vec3i& hi, const Vec3i& at)
     bool inside = true;
     for (int a = 0; a < 3; ++a) inside = inside && at[a] >= lo[a] && at[a] <= hi[a];
     return inside;
-}
-
-bool boxesMeet(const FineBall& ball, const FineBox& box)
-{
-    const auto reach = int64_t(std::ceil(ball.radius()));
-    for (int a = 0; a < 3; ++a) {
-        if (ball.center[a] + reach < box.lo[a] || ball.center[a] - reach > box.hi[a]) return false;
-    }
-    return true;
 }
 
 } // namespace
@@ -64,7 +55,7 @@ void BallGrid::add(int32_t id, const FineBall& ball)
     const Vec3i at = cellOf(ball.center, log2);
     Grid& grid = mGrids[log2];
     grid.cells[at].push_back({id, ball, ball.radius()});
-    grid.blocks[blockOf(at)] |= bitOf(at);
+    grid.clusters[clusterOf(at)] |= bitOf(at);
     ++grid.size;
     ++mSize;
 }
@@ -80,30 +71,30 @@ void BallGrid::remove(int32_t id, const FineBall& ball)
         entries.begin(), entries.end(), [&](const Entry& entry) { return entry.id == id; }));
     if (entries.empty()) {
         grid->second.cells.erase(cell);
-        const auto block = grid->second.blocks.find(blockOf(at));
-        block->second &= ~bitOf(at);
-        if (!block->second) grid->second.blocks.erase(block);
+        const auto cluster = grid->second.clusters.find(clusterOf(at));
+        cluster->second &= ~bitOf(at);
+        if (!cluster->second) grid->second.clusters.erase(cluster);
     }
     if (--grid->second.size == 0) mGrids.erase(grid);
     --mSize;
 }
 
 template <typename Body>
-void BallGrid::forEachBlock(const Grid& grid, const Vec3i& lo, const Vec3i& hi, const Body& body)
+void BallGrid::forEachCluster(const Grid& grid, const Vec3i& lo, const Vec3i& hi, const Body& body)
 {
-    double blocks = 1;
-    for (int a = 0; a < 3; ++a) blocks *= double(hi[a]) - lo[a] + 1;
-    if (blocks > double(grid.blocks.size())) {
-        for (const auto& [block, cells] : grid.blocks) {
-            if (contains(lo, hi, block)) body(block, cells);
+    double clusters = 1;
+    for (int a = 0; a < 3; ++a) clusters *= double(hi[a]) - lo[a] + 1;
+    if (clusters > double(grid.clusters.size())) {
+        for (const auto& [cluster, cells] : grid.clusters) {
+            if (contains(lo, hi, cluster)) body(cluster, cells);
         }
         return;
     }
     for (int32_t x = lo[0]; x <= hi[0]; ++x) {
         for (int32_t y = lo[1]; y <= hi[1]; ++y) {
             for (int32_t z = lo[2]; z <= hi[2]; ++z) {
-                const auto block = grid.blocks.find({x, y, z});
-                if (block != grid.blocks.end()) body(block->first, block->second);
+                const auto cluster = grid.clusters.find({x, y, z});
+                if (cluster != grid.clusters.end()) body(cluster->first, cluster->second);
             }
         }
     }
@@ -120,22 +111,22 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
             hi[a] = int32_t((box.hi[a] + width) >> log2);
         }
         const auto& cells = grid.cells;
-        forEachBlock(grid, blockOf(lo), blockOf(hi), [&](const Vec3i& block, uint64_t bits) {
-            for (; bits; bits &= bits - 1) {
-                const int bit = __builtin_ctzll(bits);
-                const Vec3i at(4 * block[0] + (bit >> 4), 4 * block[1] + (bit >> 2 & 3),
-                    4 * block[2] + (bit & 3));
-                if (!contains(lo, hi, at)) continue;
-                for (const Entry& entry : cells.find(at)->second) body(entry);
-            }
-        });
+        forEachCluster(
+            grid, clusterOf(lo), clusterOf(hi), [&](const Vec3i& cluster, uint64_t bits) {
+                for (; bits; bits &= bits - 1) {
+                    const int bit = __builtin_ctzll(bits);
+                    const Vec3i at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
+                        4 * cluster[2] + (bit & 3));
+                    if (!contains(lo, hi, at)) continue;
+                    for (const Entry& entry : cells.find(at)->second) body(entry);
+                }
+            });
     }
 }
 
 std::vector<int32_t> BallGrid::near(const FineBall& ball, double slack) const
 {
-    FineBox box;
-    box.expand(ball, std::max(0.0, slack));
+    const FineBox box(ball, std::max(0.0, slack));
     std::vector<int32_t> found;
     forEachNear(box, [&](const Entry& entry) {
         if (gapBetween(entry.ball, ball) <= slack) found.push_back(entry.id);
@@ -148,7 +139,7 @@ std::vector<int32_t> BallGrid::meeting(const FineBox& box) const
 {
     std::vector<int32_t> found;
     forEachNear(box, [&](const Entry& entry) {
-        if (boxesMeet(entry.ball, box)) found.push_back(entry.id);
+        if (FineBox(entry.ball).meets(box)) found.push_back(entry.id);
     });
     std::sort(found.begin(), found.end());
     return found;
@@ -162,8 +153,7 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::si
     const double radius = ball.radius();
     std::vector<std::pair<double, int32_t>> found;
     for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
-        FineBox box;
-        box.expand(ball, slack);
+        const FineBox box(ball, slack);
         found.clear();
         forEachNear(box, [&](const Entry& entry) {
             const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;

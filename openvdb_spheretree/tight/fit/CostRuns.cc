@@ -15,7 +15,7 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-constexpr std::size_t kBlock = 32; // runs; a multiple of the lanes of every target
+constexpr std::size_t kRunsAtOnce = 32; // a multiple of the lanes of every target
 
 struct RunArrays {
     const float *x, *y;
@@ -33,8 +33,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// @param runs   readable for kBlock more, which have no samples
-/// @param bound  stop when there are more, after every block
+/// @param runs   readable for kRunsAtOnce more, which have no samples
+/// @param bound  stop when there are more, after every kRunsAtOnce
 int64_t countInBall(const RunArrays& runs, std::size_t count, const LocalBall& ball, int64_t bound)
 {
     const hn::CappedTag<float, 16> d;
@@ -43,9 +43,9 @@ int64_t countInBall(const RunArrays& runs, std::size_t count, const LocalBall& b
     const auto radiusSq = hn::Set(d, ball.radiusSq);
     const auto none = hn::Zero(di), one = hn::Set(di, 1), up = hn::Set(di, 15);
     int64_t sum = 0;
-    for (std::size_t begin = 0; begin < count && sum <= bound; begin += kBlock) {
+    for (std::size_t begin = 0; begin < count && sum <= bound; begin += kRunsAtOnce) {
         auto counts = none;
-        for (std::size_t i = begin; i < begin + kBlock; i += hn::Lanes(d)) {
+        for (std::size_t i = begin; i < begin + kRunsAtOnce; i += hn::Lanes(d)) {
             const auto dx = hn::Sub(hn::LoadU(d, runs.x + i), x);
             const auto dy = hn::Sub(hn::LoadU(d, runs.y + i), y);
             const auto left = hn::Sub(radiusSq, hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
@@ -94,13 +94,13 @@ void CostRuns::collect(const CostWindow& window, const LocalBall& place)
     mShellBegin[0] = 0;
     for (int s = 0; s < kShells; ++s) mShellBegin[s + 1] = mShellBegin[s] + sizes[s];
 
-    const std::size_t size = mFound.size() + kBlock;
+    const std::size_t size = mFound.size() + kRunsAtOnce;
     if (mX.size() < size) {
         for (auto* axis : {&mX, &mY}) axis->resize(size, 0.0f);
-        for (auto* end : {&mFirst, &mLast}) end->resize(size);
+        for (auto* samples : {&mFirst, &mLast}) samples->resize(size);
     }
-    std::fill_n(mFirst.begin() + std::ptrdiff_t(mFound.size()), kBlock, 0);
-    std::fill_n(mLast.begin() + std::ptrdiff_t(mFound.size()), kBlock, -1);
+    std::fill_n(mFirst.begin() + std::ptrdiff_t(mFound.size()), kRunsAtOnce, 0);
+    std::fill_n(mLast.begin() + std::ptrdiff_t(mFound.size()), kRunsAtOnce, -1);
     auto next = mShellBegin;
     for (const CostRun& run : mFound) {
         const uint32_t i = next[shellOf(run.distanceSq)]++;

@@ -9,15 +9,6 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-void FineBox::expand(const FineBall& ball, double margin)
-{
-    const auto reach = int64_t(std::ceil(ball.radius() + margin));
-    for (int a = 0; a < 3; ++a) {
-        lo[a] = std::min(lo[a], ball.center[a] - reach);
-        hi[a] = std::max(hi[a], ball.center[a] + reach);
-    }
-}
-
 int CostWindow::levelFor(double radius, int samples)
 {
     int level = 0;

@@ -42,13 +42,6 @@ struct CostRun {
     {}
 };
 
-/// A box in 1/16 voxel, inclusive.
-struct FineBox {
-    int64_t lo[3] = {INT64_MAX, INT64_MAX, INT64_MAX}, hi[3] = {INT64_MIN, INT64_MIN, INT64_MIN};
-
-    void expand(const FineBall& ball, double margin = 0);
-};
-
 class CostWindow {
 public:
     /// @return the finest level of samples that has no more than @a samples in @a radius.

@@ -2,7 +2,7 @@
 #include "ChildMoves.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/search/CoverDebt.h>
+#include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverPart.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ public:
         : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker)
     {}
 
-    /// @return whether any move paid.
+    /// @return whether any move was made.
     bool round()
     {
         mBelow = regionsBelow(mRegions, mFiner.parent, mCover.size(), mMaker.interrupter);
@@ -55,7 +55,7 @@ public:
             [](const auto& a, const auto& b) { return a.first.change < b.first.change; });
         std::vector<FineBox> taken;
         for (const auto& [change, i] : changes) {
-            if (!change.pays() || meetsAny(change.box, taken)) continue;
+            if (!change.improves() || change.box.meetsAny(taken)) continue;
             apply(change, mCover);
             mFiner.parent[moves[i].child] = moves[i].to;
             taken.push_back(change.box);
@@ -72,7 +72,7 @@ private:
         std::vector<Move> moves;
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
-            if (mCover[from].empty()) continue; // it owes nothing for them
+            if (mCover[from].empty()) continue; // no voxel needs it
             for (const int32_t to : mCover.nearest(kNewBall, mFiner.balls[c], kParents)) {
                 if (to != from) moves.push_back({int32_t(c), from, to});
             }
@@ -80,7 +80,7 @@ private:
         return moves;
     }
 
-    /// @return what the children of a parent answer for without one of them.
+    /// @return the union of the regions of a parent's children, less one child.
     VoxelRegion regionWithout(int32_t parent, int32_t child) const
     {
         VoxelRegion region;
@@ -100,13 +100,13 @@ private:
         for (const VoxelRegion& region : mBelow) regions.push_back(&region);
         regions[move.from] = &less;
         regions[move.to] = &more;
-        const VoxelDebt debt(mMaker.object.level(0), regions);
-        const PartFit fit(mCover, mMaker.object, debt, {mMaker.fit, 0, 0, mMaker.flat});
+        const VoxelGoal goal(mMaker.object.level(0), regions);
+        const PartFit fit(mCover, mMaker.object, goal, {mMaker.fit, 0, 0, mMaker.flat});
         CoverPart part = fit.around({move.from, move.to});
         const std::size_t to = part.indexOf(move.to);
         const FineBall& child = mFiner.balls[move.child];
         const FineBall grown = ballAround(mCover[move.to].ball, child);
-        if (!PartFit::inside(grown, part.box)) return {};
+        if (!part.box.contains(FineBox(grown))) return {};
         fit.replace(part, to, grown);
         fit.refit(part, part.indexOf(move.from));
         fit.refit(part, to);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ChildMoves.h
-/// @brief Children of a level go to other parents, as long as that pays.
+/// @brief Children of a level move to other parents, as long as that lowers the cost.
 ///
-/// In a trial the new parent grows around the child, then both parents, and who is near, are placed
-/// anew for what they owe now: voxels of their children's regions that no other parent has from its
-/// own. A round tries every child with the parents next to it, all from the same state and in
-/// parallel, and makes the best moves whose surroundings do not meet.
+/// In a trial, the new parent grows around the child. Then both parents and their neighbours are
+/// placed anew, each for those voxels of its children's regions that no other parent holds for
+/// children of its own. A round tries every child with the parents next to it, all from the same
+/// state and in parallel. It makes the best moves whose surroundings do not meet.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// @return for each of @a count parents the voxels that its children answer for.
+/// @return for each of @a count parents the union of its children's regions.
 std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
     const std::vector<int32_t>& parents, std::size_t count,
     openvdb::util::NullInterrupter* interrupter);

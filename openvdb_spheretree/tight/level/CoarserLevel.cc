@@ -4,7 +4,7 @@
 #include "ChildMoves.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
@@ -28,7 +28,7 @@ using Units = std::vector<std::vector<Coord>>;
 std::vector<FineBall> mergedBalls(
     const std::vector<FineBall>& finer, const Units& units, int64_t count, const LevelMaker& maker)
 {
-    HeldByLeaves held = heldVoxels(units);
+    HeldByLeafBalls held = heldVoxels(units);
     held.areInside = false;
     StrictMerging merging(
         maker.object, finer, std::move(held), maker.fit, maker.flat, maker.interrupter);
@@ -72,7 +72,7 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& 
     return parents;
 }
 
-/// Balls that went because they owed nothing leave their children to others. No voxel needs these
+/// Balls that went because they uncovered nothing leave their children to others. No voxel needs these
 /// children for its chain.
 void adopt(const TightLevel& level, TightLevel& finer)
 {
@@ -86,8 +86,8 @@ void adopt(const TightLevel& level, TightLevel& finer)
 std::vector<FineBall> settled(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
-    const VoxelDebt debt(maker.object.level(0), regions);
-    return ballsOf(maker.improve(eachInItsGroup(balls), {}, debt));
+    const VoxelGoal goal(maker.object.level(0), regions);
+    return ballsOf(maker.improve(eachInItsGroup(balls), {}, goal));
 }
 
 } // namespace
@@ -97,13 +97,13 @@ TightLevel coarserLevel(
 {
     const SampleLevel& object = maker.object.level(0);
     const Units units = extremePoints(
-        cellRegions(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
+        powerCells(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
     TightLevel level;
     level.balls = finer.balls;
     if (count < int64_t(finer.balls.size())) {
         level.balls =
             ballsOf(maker.improve(ungrouped(mergedBalls(finer.balls, units, count, maker)),
-                ungrouped(finer.balls), UnitDebt(units)));
+                ungrouped(finer.balls), UnitGoal(units)));
     }
     finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
     dropChildless(level, finer);

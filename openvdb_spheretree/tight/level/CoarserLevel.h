@@ -2,9 +2,10 @@
 /// @file CoarserLevel.h
 /// @brief A level above a finished one (quality=best).
 ///
-/// First its balls hold the finer one's cells as wholes: which ball holds which cell is free, and
-/// that decides who is whose child. Then parents are settled, and a ball owes only those voxels of
-/// its children's regions that no other ball of the level has from its own children.
+/// First its balls have to hold the power cells of the finer balls, each as a whole. A search is free
+/// to choose which ball holds which cell, and that makes the finer balls its children. Then parents
+/// are fixed, and a ball must hold only those voxels of its children's regions that no other ball
+/// holds for children of its own.
 
 #pragma once
 

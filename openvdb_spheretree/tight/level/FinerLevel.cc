@@ -17,9 +17,7 @@ namespace {
 int64_t voxelsIn(const VoxelRegion& region)
 {
     int64_t count = 0;
-    for (const RegionLeaf& part : region) {
-        for (const uint64_t word : part.mask) count += __builtin_popcountll(word);
-    }
+    for (const RegionLeaf& part : region) count += part.mask.count();
     return count;
 }
 
@@ -29,11 +27,8 @@ VoxelRegion partOf(const VoxelRegion& cell, const VoxelRegion& region, bool insi
     VoxelRegion result;
     for (const RegionLeaf& part : cell) {
         const LeafMask& other = maskIn(region, part.leaf);
-        LeafMask mask;
-        for (int word = 0; word < 8; ++word) {
-            mask[word] = part.mask[word] & (inside ? other[word] : ~other[word]);
-        }
-        if (!isEmpty(mask)) result.push_back({part.leaf, mask});
+        const LeafMask mask = inside ? part.mask & other : part.mask - other;
+        if (!mask.none()) result.push_back({part.leaf, mask});
     }
     return result;
 }
@@ -61,7 +56,7 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
 }
 
 /// @return the leaves in their groups, some in more than one.
-std::vector<CoverBall> dealtOut(const LeafCells& leaves, const TightLevel& coarser,
+std::vector<CoverBall> dealtOut(const BallCells& leaves, const TightLevel& coarser,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     BallGrid grid;
@@ -117,12 +112,12 @@ std::vector<VoxelRegion> chainRegions(
 }
 
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
-    const LeafCells& leaves, int64_t count, const LevelMaker& maker)
+    const BallCells& leaves, int64_t count, const LevelMaker& maker)
 {
     const std::vector<CoverBall> dealt = dealtOut(leaves, coarser, regions, maker);
-    const VoxelDebt debt(maker.object.level(0), regions);
+    const VoxelGoal goal(maker.object.level(0), regions);
     const auto balls =
-        filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, debt), dealt);
+        filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, goal), dealt);
     TightLevel level;
     level.balls = ballsOf(balls);
     level.parent = groupsOf(balls);

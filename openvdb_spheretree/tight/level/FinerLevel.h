@@ -20,7 +20,7 @@ namespace openvdb_spheretree {
 namespace tight {
 
 /// The leaves, and how the object is shared among them.
-struct LeafCells {
+struct BallCells {
     std::vector<FineBall> balls;
     std::vector<VoxelRegion> cells; ///< disjoint, each in its ball; together the object
 };
@@ -34,7 +34,7 @@ std::vector<VoxelRegion> chainRegions(
 /// @param regions  its chainRegions(): together the object
 /// @param count    of balls, at most
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
-    const LeafCells& leaves, int64_t count, const LevelMaker& maker);
+    const BallCells& leaves, int64_t count, const LevelMaker& maker);
 
 } // namespace tight
 } // namespace openvdb_spheretree

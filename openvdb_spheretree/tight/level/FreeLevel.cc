@@ -2,10 +2,10 @@
 #include "FreeLevel.h"
 
 #include "TightLevels.h"
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
-#include <openvdb_spheretree/tight/search/CoverDebt.h>
+#include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverPart.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ std::vector<FineBall> mergedTo(
     int64_t count, const std::vector<FineBall>& cover, const LevelMaker& maker)
 {
     constexpr int kNeighbours = 8;
-    HeldByLeaves cells = heldVoxels(cellPoints(cover, maker.object.level(0), maker.interrupter));
+    HeldByLeafBalls cells =
+        heldVoxels(powerCellPoints(cover, maker.object.level(0), maker.interrupter));
     cells.areInside = false;
     StrictMerging merging(
         maker.object, cover, std::move(cells), maker.fit, maker.flat, maker.interrupter);
@@ -44,7 +45,7 @@ class FreeSearch {
 public:
     FreeSearch(const std::vector<ForestNode>& forest, const std::vector<FineBall>& leaves,
         const LevelMaker& maker)
-        : mForest(forest), mLeaves(ungrouped(leaves)), mMaker(maker), mDebt(maker.object.level(0))
+        : mForest(forest), mLeaves(ungrouped(leaves)), mMaker(maker), mGoal(maker.object.level(0))
     {}
 
     std::vector<FineBall> cheapest(int64_t count) const
@@ -72,13 +73,13 @@ private:
         const std::vector<FineBall> cut = ballsOfCut(mForest, many);
         if (many == count) return cut;
         return mergedTo(
-            count, full(mMaker.search(ungrouped(cut), mLeaves, mDebt, kTrialsPerBall)), mMaker);
+            count, full(mMaker.search(ungrouped(cut), mLeaves, mGoal, kTrialsPerBall)), mMaker);
     }
 
     std::vector<FineBall> searched(const std::vector<FineBall>& start, int number) const
     {
         return full(mMaker.search(
-            ungrouped(start), mLeaves, mDebt, mMaker.trialsFor(start.size()), number));
+            ungrouped(start), mLeaves, mGoal, mMaker.trialsFor(start.size()), number));
     }
 
     std::vector<FineBall> full(const SearchedCover& cover) const
@@ -89,7 +90,7 @@ private:
     const std::vector<ForestNode>& mForest;
     std::vector<CoverBall> mLeaves;
     const LevelMaker& mMaker;
-    VoxelDebt mDebt;
+    VoxelGoal mGoal;
 };
 
 } // namespace
@@ -103,14 +104,12 @@ std::vector<FineBall> freeLevel(const std::vector<ForestNode>& forest, int64_t c
 double costOfCover(
     const std::vector<FineBall>& balls, const SampledObject& object, const FitEffort& effort)
 {
-    DebtFit fit;
+    CoveringFit fit;
     double cost = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
-        fit.open(object, std::vector<FineBall>{balls[i]}, {}, effort.samples);
+        fit.open(object, balls[i], effort.samples);
         for (std::size_t before = 0; before < i; ++before) {
-            FineBox box;
-            box.expand(balls[before]);
-            if (meet(box, fit.box())) fit.cover(balls[before]);
+            if (FineBox(balls[before]).meets(fit.box())) fit.cover(balls[before]);
         }
         cost += fit.costOf({balls[i]});
     }

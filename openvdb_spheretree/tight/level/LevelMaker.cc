@@ -26,19 +26,19 @@ int LevelMaker::trialsFor(std::size_t count)
 }
 
 SearchedCover LevelMaker::search(const std::vector<CoverBall>& start,
-    const std::vector<CoverBall>& finer, const CoverDebt& debt, int trialsPerBall, int number) const
+    const std::vector<CoverBall>& finer, const CoverGoal& goal, int trialsPerBall, int number) const
 {
     const SearchEffort effort{fit, trialsPerBall, uint64_t(number) << 40, flat};
-    return improveCover(start, finer, object, debt, effort, interrupter);
+    return improveCover(start, finer, object, goal, effort, interrupter);
 }
 
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
-    const std::vector<CoverBall>& finer, const CoverDebt& debt) const
+    const std::vector<CoverBall>& finer, const CoverGoal& goal) const
 {
     SearchedCover best;
     best.balls = start;
     for (int number = 0; number < searchesFor(start.size()); ++number) {
-        SearchedCover found = search(start, finer, debt, trialsFor(start.size()), number);
+        SearchedCover found = search(start, finer, goal, trialsFor(start.size()), number);
         if (found.change < best.change) best = std::move(found);
     }
     return std::move(best.balls);

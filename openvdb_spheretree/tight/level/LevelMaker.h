@@ -7,7 +7,7 @@
 #include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
-#include <openvdb_spheretree/tight/search/CoverDebt.h>
+#include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -30,11 +30,11 @@ struct LevelMaker {
     /// @return the level after one search: CoverSearch.h.
     /// @param number  another one tries other things
     SearchedCover search(const std::vector<CoverBall>& start, const std::vector<CoverBall>& finer,
-        const CoverDebt& debt, int trialsPerBall, int number = 0) const;
+        const CoverGoal& goal, int trialsPerBall, int number = 0) const;
 
     /// @return the level after the best of some searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
-        const std::vector<CoverBall>& finer, const CoverDebt& debt) const;
+        const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
 };
 
 /// @return the cover, with leaves that are not in it in the places of empty balls; where there are

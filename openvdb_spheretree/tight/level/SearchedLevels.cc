@@ -31,7 +31,7 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
     const LevelMaker& maker)
 {
     if (from == 0) return;
-    const LeafCells cells{leaves, cellRegions(leaves, maker.object.level(0), maker.interrupter)};
+    const BallCells cells{leaves, powerCells(leaves, maker.object.level(0), maker.interrupter)};
     std::vector<VoxelRegion> regions;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (k < from) levels[k] = finerLevel(levels[k + 1], regions, cells, counts[k], maker);

@@ -28,16 +28,16 @@ std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
 /// @return the balls of the cut with @a count balls.
 std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
 
-/// Balls of @a level that are the parent of none of @a finer go: no chain needs them.
+/// Drops balls of @a level that are the parent of none of @a finer: no chain needs them.
 void dropChildless(TightLevel& level, TightLevel& finer);
 
-/// @return the ball of @a level that @a ball sticks out of least; empty ones are none.
+/// @return the ball of @a level that @a ball protrudes from least; empty ones do not count.
 int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level);
 
 /// @param counts  finest first, falling, none above the number of leaves
 /// @param leaves  the first nodes of the forest, as medial balls
-/// @return a level for each count. A node's parent is its ancestor in the coarser cut; a ball that
-/// ended owing nothing hangs below the one it sticks out of least.
+/// @return a level for each count. A node's parent is its ancestor in the coarser cut. A ball without
+/// one, which no voxel needs there, goes to the ball that it protrudes from least.
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves);
 

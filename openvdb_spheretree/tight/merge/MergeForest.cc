@@ -15,27 +15,27 @@ namespace {
 
 using Pair = std::pair<int32_t, int32_t>;
 
-/// All pairs are looked at anew when the count has shrunk to this part: more often where costs change
-/// with what is around.
-constexpr double kRebuild = 0.7, kRebuildOfMoving = 0.85;
-constexpr int32_t kShare = 64;
-constexpr double kTouch = 8 * kFine; // balls nearer than this to a change are looked at again
+/// All pairs are evaluated anew when the count has shrunk to this part: sooner where costs depend on
+/// other balls.
+constexpr double kRebuild = 0.7, kRebuildDependent = 0.85;
+constexpr int32_t kShare = 64;       // a round merges one pair for so many balls
+constexpr double kTouch = 8 * kFine; // pairs of balls this near to a merge are stale
 
 class Forest {
 public:
     Forest(MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
         : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
     {
-        const std::vector<FineBall> leaves = model.leaves();
+        const std::vector<FineBall> leafBalls = model.leafBalls();
         int32_t groups = 1;
-        for (std::size_t i = 0; i < leaves.size(); ++i) {
+        for (std::size_t i = 0; i < leafBalls.size(); ++i) {
             groups = std::max(groups, model.groupOf(int32_t(i)) + 1);
         }
         mGrids.resize(std::size_t(groups));
-        for (const FineBall& ball : leaves) {
+        for (const FineBall& ball : leafBalls) {
             addNode(ball, model.groupOf(int32_t(mNodes.size())));
         }
-        mLeafCount = mLive = int32_t(mNodes.size());
+        mLeafBalls = mLive = int32_t(mNodes.size());
         for (ForestNode& node : mNodes) node.last = mLive;
     }
 
@@ -43,12 +43,12 @@ public:
     {
         int32_t rebuildAt = mLive;
         while (mLive > 1) {
-            detail::checkInterrupt(mInterrupter, 100 - int(100.0 * mLive / mLeafCount));
+            detail::checkInterrupt(mInterrupter, 100 - int(100.0 * mLive / mLeafBalls));
             if (mLive <= rebuildAt || mQueue.empty()) {
                 rebuildQueue();
                 if (mQueue.empty()) break; // each group is one ball
-                const bool moving = mModel.dependsOnOthers();
-                rebuildAt = int32_t(mLive * (moving ? kRebuildOfMoving : kRebuild));
+                const bool dependent = mModel.dependsOnOthers();
+                rebuildAt = int32_t(mLive * (dependent ? kRebuildDependent : kRebuild));
             }
             refreshTop();
             doMerges(takeMerges());
@@ -171,17 +171,17 @@ private:
         std::make_heap(mQueue.begin(), mQueue.end(), later);
     }
 
-    /// Until the cheapest pairs, as many as the round takes, are known to be.
+    /// Evaluates stale pairs until none is left among the cheapest, as many as the round takes.
     void refreshTop()
     {
         if (!mModel.dependsOnOthers()) return;
-        const auto wanted = std::size_t(perRound());
-        const std::size_t batch = std::max<std::size_t>(8, 2 * wanted);
+        const auto count = std::size_t(perRound());
+        const std::size_t batch = std::max<std::size_t>(8, 2 * count);
         for (bool fresh = false; !fresh;) {
             std::vector<MergeCandidate> top;
             MergeCandidate candidate;
             bool staleAhead = false;
-            while (top.size() < (staleAhead ? batch : wanted) && pop(candidate)) {
+            while (top.size() < (staleAhead ? batch : count) && pop(candidate)) {
                 staleAhead = staleAhead || isStale(candidate);
                 top.push_back(candidate);
             }
@@ -236,7 +236,7 @@ private:
         forEachNear(ball, kTouch, [&](int32_t node) { mTouched[node] = mRound; });
     }
 
-    void end(int32_t node, int32_t parent)
+    void retire(int32_t node, int32_t parent)
     {
         mNodes[node].parent = parent;
         mNodes[node].first = mLive;
@@ -252,16 +252,16 @@ private:
         const auto firstNode = int32_t(mNodes.size());
         for (const MergeCandidate& c : taken) {
             if (c.ball.empty()) {
-                end(c.a, -1);
+                retire(c.a, -1);
                 --mLive;
-                end(c.b, -1);
+                retire(c.b, -1);
                 --mLive;
                 dropped.push_back(c);
                 continue;
             }
             const auto node = int32_t(mNodes.size());
-            end(c.a, node);
-            end(c.b, node);
+            retire(c.a, node);
+            retire(c.b, node);
             --mLive;
             addNode(c.ball, mGroup[c.a]);
             mNodes[node].last = mLive;
@@ -292,7 +292,7 @@ private:
     std::vector<int32_t> mTouched; ///< the last round that changed something near a node
     std::vector<int32_t> mLocked;  ///< the last round that took a merge near a node
     std::vector<MergeCandidate> mQueue;
-    int32_t mLeafCount = 0, mLive = 0, mRound = 0;
+    int32_t mLeafBalls = 0, mLive = 0, mRound = 0;
 };
 
 } // namespace

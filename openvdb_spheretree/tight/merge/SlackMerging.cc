@@ -2,7 +2,7 @@
 #include "SlackMerging.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
@@ -25,12 +25,12 @@ uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
 
 } // namespace
 
-SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
+SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
     std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
-      mInterrupter(interrupter), mLeafCount(int32_t(leaves.size())), mBalls(ballsOf(leaves)),
-      mGroups(groupsOf(leaves)), mRegions(std::move(regions)),
+      mInterrupter(interrupter), mLeafBalls(int32_t(leafBalls.size())), mBalls(ballsOf(leafBalls)),
+      mGroups(groupsOf(leafBalls)), mRegions(std::move(regions)),
       mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
 {
     for (const VoxelRegion& region : mRegions) {
@@ -38,49 +38,44 @@ SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverB
     }
 }
 
-void SlackMerging::collectDebt(int32_t a, int32_t b, ExtremePoints& points) const
+void SlackMerging::collectUncovered(int32_t a, int32_t b, ExtremePoints& points) const
 {
     points.clear();
     forEachLeafOfBoth(
         mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-            const LeafMask once = mCounts.once(leaf), twice = mCounts.twice(leaf);
-            LeafMask owed;
-            uint64_t any = 0;
-            for (int word = 0; word < 8; ++word) {
-                owed[word] =
-                    (once[word] & (inA[word] ^ inB[word])) | (twice[word] & inA[word] & inB[word]);
-                any |= owed[word];
-            }
-            if (any) points.add(mVoxels.origin(leaf), owed);
+            const LeafMask both = inA & inB;
+            const LeafMask uncovered =
+                (mCounts.once(leaf) & ((inA | inB) - both)) | (mCounts.twice(leaf) & both);
+            if (!uncovered.none()) points.add(mVoxels.origin(leaf), uncovered);
         });
 }
 
 MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
 {
-    thread_local DebtFit fit;
+    thread_local CoveringFit fit;
     thread_local ExtremePoints points;
-    collectDebt(a, b, points);
-    std::vector<openvdb::Coord>& debt = points.finish();
-    if (debt.empty()) return {-1e300, a, b, FineBall(), 0}; // nothing is better than this
+    collectUncovered(a, b, points);
+    const std::vector<openvdb::Coord>& targets = points.finish();
+    if (targets.empty()) return {-1e300, a, b, FineBall(), 0}; // nothing is better than this
 
-    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
+    fit.open(mObject, targets, {mBalls[a], mBalls[b]}, mEffort.samples);
     for (const int32_t other : mMerged.meeting(fit.box())) {
         if (other != a && other != b) fit.cover(mBalls[other]);
     }
-    std::vector<FineBall> olds;
+    std::vector<FineBall> replaced;
     for (const int32_t node : {a, b}) {
-        if (!isLeaf(node)) olds.push_back(mBalls[node]);
+        if (!isLeafBall(node)) replaced.push_back(mBalls[node]);
     }
-    const double freed = fit.costOf(olds);
-    const PaidDebt paid = fit.pay(mEffort, mFlat);
-    return {paid.cost - freed, a, b, paid.ball, 0};
+    const double freed = fit.costOf(replaced);
+    const FittedBall fitted = fit.best(mEffort, mFlat);
+    return {fitted.cost - freed, a, b, fitted.ball, 0};
 }
 
 void SlackMerging::forget(int32_t node)
 {
     for (const RegionLeaf& part : mRegions[node]) mCounts.remove(part.leaf, part.mask);
     VoxelRegion().swap(mRegions[node]);
-    if (!isLeaf(node)) mMerged.remove(node, mBalls[node]);
+    if (!isLeafBall(node)) mMerged.remove(node, mBalls[node]);
 }
 
 void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)

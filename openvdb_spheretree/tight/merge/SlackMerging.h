@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlackMerging.h
-/// @brief Merging with slack (quality=normal and best): a ball owes only what no other ball of the
-/// cover holds, and costs only what no other one costs already.
+/// @brief Merging with slack (quality=normal and best): a ball must hold only what no other ball of
+/// the cover holds, and costs only outside voxels that no other ball has.
 ///
-/// Each node has a region, the object voxels that it answers for: a leaf, its ball's; a merged node,
-/// those of its children's regions that its ball holds. A new node must hold what its children's
-/// regions alone have, and that is often little: where balls overlap, the others have it. Regions
-/// of a cut cover the object, and a voxel of a node's region is in one of its children's, so there
-/// is a chain of balls from every cut down to the leaves (the contract of DESIGN 10). A node never
-/// changes after its merge: every cut is valid.
+/// Each node has a region of object voxels. That of a leaf ball are the voxels in it; that of a merged
+/// node are those voxels of its children's regions that its own ball holds. A new node must hold the
+/// voxels that are in its children's regions alone. These are often few: where balls overlap, other
+/// regions have them.
+///
+/// Every cut is valid: the regions of its nodes cover the object, since a merge leaves no voxel
+/// without a region, and a node never changes later. And each voxel of a node's region is in that of
+/// one of its children, so a chain of balls that hold it leads down to a leaf ball.
 
 #pragma once
 
@@ -27,26 +29,27 @@ namespace tight {
 
 class SlackMerging : public MergeModel {
 public:
-    /// @param leaves  inside the object
-    /// @param regions  of the leaves, in their balls; they cover the object
-    /// @param flat    centres keep their z
-    SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leaves,
+    /// @param leafBalls  inside the object
+    /// @param regions    voxels of each leaf ball; together the object
+    /// @param flat       centres keep their z
+    SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
 
-    std::vector<FineBall> leaves() const override
+    std::vector<FineBall> leafBalls() const override
     {
-        return {mBalls.begin(), mBalls.begin() + mLeafCount};
+        return {mBalls.begin(), mBalls.begin() + mLeafBalls};
     }
-    int32_t groupOf(int32_t leaf) const override { return mGroups[leaf]; }
+    int32_t groupOf(int32_t leafBall) const override { return mGroups[leafBall]; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override;
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override;
     bool dependsOnOthers() const override { return true; }
 
 private:
-    /// Only what is not a leaf holds anything outside the object.
-    bool isLeaf(int32_t node) const { return node < mLeafCount; }
-    void collectDebt(int32_t a, int32_t b, class ExtremePoints& points) const;
+    /// Leaf balls hold nothing outside the object.
+    bool isLeafBall(int32_t node) const { return node < mLeafBalls; }
+    /// Collects the voxels that are in no region but those of the two nodes.
+    void collectUncovered(int32_t a, int32_t b, class ExtremePoints& points) const;
     void forget(int32_t node);
 
     const SampledObject& mObject;
@@ -54,12 +57,12 @@ private:
     FitEffort mEffort;
     bool mFlat;
     openvdb::util::NullInterrupter* mInterrupter;
-    int32_t mLeafCount;
+    int32_t mLeafBalls;
     std::vector<FineBall> mBalls;
-    std::vector<int32_t> mGroups;      ///< of leaves
+    std::vector<int32_t> mGroups;      ///< of leaf balls
     std::vector<VoxelRegion> mRegions; ///< of living nodes
     CoverCounts mCounts;               ///< of the living nodes' regions
-    BallGrid mMerged;                  ///< living nodes that are no leaves
+    BallGrid mMerged;                  ///< living nodes that are no leaf balls
 };
 
 } // namespace tight

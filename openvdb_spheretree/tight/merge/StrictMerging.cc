@@ -2,7 +2,7 @@
 #include "StrictMerging.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
@@ -71,29 +71,29 @@ Held extremeBalls(const Held& held)
 
 } // namespace
 
-StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> leaves,
-    HeldByLeaves held, const FitEffort& effort, bool flat,
+StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> leafBalls,
+    HeldByLeafBalls held, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
-      mInterrupter(interrupter), mBalls(std::move(leaves)), mHeld(held.held),
+      mInterrupter(interrupter), mBalls(std::move(leafBalls)), mHeld(held.held),
       mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
 {
     if (held.areInside) return;
     detail::parallelFor(mBalls.size(), interrupter, [&](std::size_t i) {
-        thread_local DebtFit fit;
-        fit.open(mObject, std::vector<FineBall>{mBalls[i]}, {}, mEffort.samples);
+        thread_local CoveringFit fit;
+        fit.open(mObject, mBalls[i], mEffort.samples);
         mCost[i] = fit.costOf({mBalls[i]});
     });
 }
 
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 {
-    thread_local DebtFit fit;
-    const Held debt = joined(mExtreme[a], mExtreme[b]);
-    if (debt.empty()) return {-mCost[b], a, b, mBalls[a], 0}; // either would do
-    fit.open(mObject, debt, {mBalls[a], mBalls[b]}, mEffort.samples);
-    const PaidDebt paid = fit.pay(mEffort, mFlat);
-    return {paid.cost - mCost[a] - mCost[b], a, b, paid.ball, 0};
+    thread_local CoveringFit fit;
+    const Held targets = joined(mExtreme[a], mExtreme[b]);
+    if (targets.empty()) return {-mCost[b], a, b, mBalls[a], 0}; // either would do
+    fit.open(mObject, targets, {mBalls[a], mBalls[b]}, mEffort.samples);
+    const FittedBall fitted = fit.best(mEffort, mFlat);
+    return {fitted.cost - mCost[a] - mCost[b], a, b, fitted.ball, 0};
 }
 
 void StrictMerging::complete(MergeCandidate& merge) const
@@ -130,19 +130,19 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
     }
 }
 
-HeldByLeaves heldVoxels(const std::vector<std::vector<Coord>>& cellPoints)
+HeldByLeafBalls heldVoxels(const std::vector<std::vector<Coord>>& points)
 {
-    std::vector<Held> held(cellPoints.size());
+    std::vector<Held> held(points.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
-        for (const Coord& p : cellPoints[i]) held[i].push_back(voxelBall(p));
+        for (const Coord& p : points[i]) held[i].push_back(voxelBall(p));
     }
     return {std::move(held), true, true};
 }
 
-HeldByLeaves heldBalls(const std::vector<FineBall>& leaves)
+HeldByLeafBalls heldBalls(const std::vector<FineBall>& leafBalls)
 {
     std::vector<Held> held;
-    for (const FineBall& leaf : leaves) held.push_back({leaf});
+    for (const FineBall& ball : leafBalls) held.push_back({ball});
     return {std::move(held), false, true};
 }
 

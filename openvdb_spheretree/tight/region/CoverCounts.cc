@@ -13,13 +13,6 @@ std::size_t bitsOf(uint32_t value)
     return bits;
 }
 
-bool isWhole(const LeafMask& mask)
-{
-    uint64_t all = ~uint64_t(0);
-    for (const uint64_t word : mask) all &= word;
-    return all == ~uint64_t(0);
-}
-
 } // namespace
 
 CoverCounts::CoverCounts(std::size_t leaves, uint32_t most)
@@ -28,61 +21,48 @@ CoverCounts::CoverCounts(std::size_t leaves, uint32_t most)
 
 void CoverCounts::add(std::size_t leaf, const LeafMask& mask)
 {
-    if (isWhole(mask)) {
-        ++mWhole[leaf];
-        return;
-    }
-    LeafMask carry = mask;
+    if (mask.all()) ++mWhole[leaf];
+    else ripple(leaf, mask, 0);
+}
+
+void CoverCounts::remove(std::size_t leaf, const LeafMask& mask)
+{
+    if (mask.all()) --mWhole[leaf];
+    else ripple(leaf, mask, ~uint64_t(0));
+}
+
+void CoverCounts::ripple(std::size_t leaf, LeafMask carry, uint64_t inverted)
+{
     LeafMask* plane = planes(leaf);
     for (uint64_t any = 1; any; ++plane) {
         any = 0;
         for (int word = 0; word < 8; ++word) {
             const uint64_t before = (*plane)[word];
             (*plane)[word] = before ^ carry[word];
-            carry[word] &= before;
+            carry[word] &= before ^ inverted;
             any |= carry[word];
         }
     }
 }
 
-void CoverCounts::remove(std::size_t leaf, const LeafMask& mask)
-{
-    if (isWhole(mask)) {
-        --mWhole[leaf];
-        return;
-    }
-    LeafMask borrow = mask;
-    LeafMask* plane = planes(leaf);
-    for (uint64_t any = 1; any; ++plane) {
-        any = 0;
-        for (int word = 0; word < 8; ++word) {
-            const uint64_t before = (*plane)[word];
-            (*plane)[word] = before ^ borrow[word];
-            borrow[word] &= ~before;
-            any |= borrow[word];
-        }
-    }
-}
-
-LeafMask CoverCounts::planesSay(std::size_t leaf, uint32_t count) const
+LeafMask CoverCounts::countedAs(std::size_t leaf, uint32_t count) const
 {
     LeafMask differs{};
     for (std::size_t bit = 0; bit < mPerLeaf; ++bit) {
-        const uint64_t wanted = count >> bit & 1 ? ~uint64_t(0) : 0;
-        for (int word = 0; word < 8; ++word) differs[word] |= planes(leaf)[bit][word] ^ wanted;
+        const uint64_t expected = count >> bit & 1 ? ~uint64_t(0) : 0;
+        for (int word = 0; word < 8; ++word) differs[word] |= planes(leaf)[bit][word] ^ expected;
     }
-    for (uint64_t& word : differs) word = count >> mPerLeaf ? 0 : ~word;
-    return differs;
+    return count >> mPerLeaf ? LeafMask{} : LeafMask::full() - differs;
 }
 
 LeafMask CoverCounts::once(std::size_t leaf) const
 {
-    return mWhole[leaf] > 1 ? LeafMask{} : planesSay(leaf, 1 - mWhole[leaf]);
+    return mWhole[leaf] > 1 ? LeafMask{} : countedAs(leaf, 1 - mWhole[leaf]);
 }
 
 LeafMask CoverCounts::twice(std::size_t leaf) const
 {
-    return mWhole[leaf] > 2 ? LeafMask{} : planesSay(leaf, 2 - mWhole[leaf]);
+    return mWhole[leaf] > 2 ? LeafMask{} : countedAs(leaf, 2 - mWhole[leaf]);
 }
 
 } // namespace tight

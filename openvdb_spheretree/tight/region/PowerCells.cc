@@ -16,8 +16,8 @@ namespace tight {
 
 namespace {
 
-/// A part of a cell.
-struct CellLeaf {
+/// The part of a ball's power cell in a leaf.
+struct CellPart {
     int32_t ball;
     LeafMask mask;
 };
@@ -37,24 +37,17 @@ struct PowerTerms {
     }
 };
 
-/// Twice the middle of a box: an integer.
-struct Middle {
-    int64_t twice[3];
-
-    explicit Middle(const openvdb::CoordBBox& box)
-    {
-        for (int a = 0; a < 3; ++a) twice[a] = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+/// @return the power of a ball in the middle of a box.
+double powerInMiddle(const FineBall& ball, const openvdb::CoordBBox& box)
+{
+    double power = double(ball.radiusSq);
+    for (int a = 0; a < 3; ++a) {
+        const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+        const double d = 0.5 * double(twice) - double(ball.center[a]);
+        power -= d * d;
     }
-    double powerOf(const FineBall& ball) const
-    {
-        double power = double(ball.radiusSq);
-        for (int a = 0; a < 3; ++a) {
-            const double d = 0.5 * double(twice[a]) - double(ball.center[a]);
-            power -= d * d;
-        }
-        return power;
-    }
-};
+    return power;
+}
 
 /// @return whether the power of @a ball is larger than that of @a other in all of the box: the
 /// difference is linear, so it is smallest at an end of each axis.
@@ -76,12 +69,13 @@ BallFilter ballsWithPower(const std::vector<FineBall>& balls)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
                std::vector<int32_t>& to) {
-        const Middle middle(box);
         int32_t strongest = -1;
+        double most = 0;
         for (const int32_t ball : from) {
-            if (strongest < 0 || middle.powerOf(balls[ball]) > middle.powerOf(balls[strongest])) {
-                strongest = ball;
-            }
+            const double power = powerInMiddle(balls[ball], box);
+            if (strongest >= 0 && power <= most) continue;
+            strongest = ball;
+            most = power;
         }
         for (const int32_t ball : from) {
             if (!BoxReach(balls[ball], box).meets(balls[ball])) continue;
@@ -97,8 +91,8 @@ struct Claim {
 };
 
 /// @param claims  by ball
-/// @return the parts of cells in the leaf at @a origin, by ball.
-std::vector<CellLeaf> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
+/// @return the parts of power cells in the leaf at @a origin, by ball.
+std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
     const std::vector<FineBall>& balls)
 {
     std::array<int64_t, kLeafVoxels> best;
@@ -115,38 +109,38 @@ std::vector<CellLeaf> partsOf(const openvdb::Coord& origin, const std::vector<Cl
             const bool more = power > best[i]
                 || (power == best[i] && power >= 0
                     && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
-            const bool wins = more && (within[i >> 6] >> (i & 63) & 1);
+            const bool wins = more && within.isOn(uint32_t(i));
             best[i] = wins ? power : best[i];
             label[i] = wins ? int32_t(k) : label[i];
         }
     }
-    std::vector<CellLeaf> parts;
+    std::vector<CellPart> parts;
     for (const Claim& claim : claims) parts.push_back({claim.ball, {}});
     for (int i = 0; i < kLeafVoxels; ++i) {
-        if (best[i] >= 0) parts[label[i]].mask[i >> 6] |= uint64_t(1) << (i & 63);
+        if (best[i] >= 0) parts[label[i]].mask.setOn(uint32_t(i));
     }
     parts.erase(std::remove_if(parts.begin(), parts.end(),
-                    [](const CellLeaf& part) { return isEmpty(part.mask); }),
+                    [](const CellPart& part) { return part.mask.none(); }),
         parts.end());
     return parts;
 }
 
 /// @param parts  of each leaf; they are taken apart
-std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellLeaf>>& parts, std::size_t balls)
+std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellPart>>& parts, std::size_t balls)
 {
     std::vector<VoxelRegion> cells(balls);
     for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
-        for (const CellLeaf& part : parts[leaf]) {
+        for (const CellPart& part : parts[leaf]) {
             cells[part.ball].push_back({uint32_t(leaf), part.mask});
         }
-        std::vector<CellLeaf>().swap(parts[leaf]);
+        std::vector<CellPart>().swap(parts[leaf]);
     }
     return cells;
 }
 
 } // namespace
 
-std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
+std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
@@ -156,18 +150,18 @@ std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
             claims[part.leaf].push_back({int32_t(ball), &part.mask});
         }
     }
-    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    std::vector<std::vector<CellPart>> parts(object.leafCount());
     detail::parallelFor(parts.size(), interrupter,
         [&](std::size_t leaf) { parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls); });
     return cellsOf(parts, balls.size());
 }
 
-std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
+std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<int32_t> all(balls.size());
     std::iota(all.begin(), all.end(), 0);
-    std::vector<std::vector<CellLeaf>> parts(object.leafCount());
+    std::vector<std::vector<CellPart>> parts(object.leafCount());
     const auto body = [&](std::size_t leaf, const std::vector<int32_t>& among) {
         std::vector<Claim> claims;
         for (const int32_t ball : among) claims.push_back({ball, &object.mask(leaf)});
@@ -192,10 +186,10 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
     return points;
 }
 
-std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
+std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<FineBall>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
-    return extremePoints(cellRegions(balls, object, interrupter), object, interrupter);
+    return extremePoints(powerCells(balls, object, interrupter), object, interrupter);
 }
 
 } // namespace tight

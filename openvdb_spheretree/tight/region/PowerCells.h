@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PowerCells.h
-/// @brief The object cut into cells, one for each leaf ball: the voxels it covers best.
+/// @brief The object cut into the power cells of given balls.
 ///
-/// The cell of a voxel is that of the ball with the largest power, radiusSq - distance^2; of equals,
-/// the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
+/// A voxel is in the power cell of the ball with the largest power there, radiusSq - distance^2; of
+/// equals, the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
 ///
-/// The difference of two powers is linear: a ball that is weaker than another one at all corners of a
-/// box is so in all of the box, and left out there and in its parts (LeafDescent.h). With dragon-512
-/// that is 0.6 s in place of 2.7 s.
+/// The difference of two powers is linear: a ball with less power than another one at all corners of a
+/// box has less in all of the box, and is left out there and in its parts (RegionHalving.h). With
+/// dragon-512 that takes 0.6 s in place of 2.7 s.
 
 #pragma once
 
@@ -24,13 +24,13 @@ namespace tight {
 
 /// @param balls    that cover @a object
 /// @param regions  where each of them counts; together the object
-/// @return the cell of each ball.
-std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls,
+/// @return the power cell of each ball.
+std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @return the cell of each ball, if every one counts everywhere.
-std::vector<VoxelRegion> cellRegions(const std::vector<FineBall>& balls, const SampleLevel& object,
+/// @return the power cell of each ball, if every one counts everywhere.
+std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 /// @return for each region its extreme points: ExtremePoints.h; none for an empty one.
@@ -38,8 +38,8 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
 /// @param balls  that cover @a object
-/// @return for each ball the extreme points of its cell: ExtremePoints.h; none for an empty cell.
-std::vector<std::vector<openvdb::Coord>> cellPoints(const std::vector<FineBall>& balls,
+/// @return for each ball the extreme points of its power cell: ExtremePoints.h; none for an empty one.
+std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<FineBall>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace tight

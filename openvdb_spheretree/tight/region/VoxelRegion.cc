@@ -2,6 +2,7 @@
 #include "VoxelRegion.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallMask.h>
 
 #include <algorithm>
 
@@ -10,16 +11,9 @@ namespace tight {
 
 namespace {
 
-LeafMask intersection(const LeafMask& a, const LeafMask& b)
-{
-    LeafMask result;
-    for (int word = 0; word < 8; ++word) result[word] = a[word] & b[word];
-    return result;
-}
-
 void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
 {
-    if (!isEmpty(mask)) region.push_back({uint32_t(leaf), mask});
+    if (!mask.none()) region.push_back({uint32_t(leaf), mask});
 }
 
 } // namespace
@@ -30,7 +24,7 @@ VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object)
     openvdb::CoordBBox box;
     if (!ballBox(ball, box)) return region;
     object.forEachLeaf(box, [&](std::size_t leaf) {
-        append(region, leaf, intersection(ballMask(ball, object.origin(leaf)), object.mask(leaf)));
+        append(region, leaf, ballMask(ball, object.origin(leaf)) & object.mask(leaf));
     });
     return region;
 }
@@ -48,7 +42,7 @@ const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)
 {
     static const LeafMask kNone{};
     const auto found = std::lower_bound(region.begin(), region.end(), leaf,
-        [](const RegionLeaf& part, uint32_t wanted) { return part.leaf < wanted; });
+        [](const RegionLeaf& part, uint32_t index) { return part.leaf < index; });
     return found != region.end() && found->leaf == leaf ? found->mask : kNone;
 }
 
@@ -58,7 +52,7 @@ VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const Sampl
     for (const RegionLeaf& part : region) {
         const openvdb::Coord& origin = object.origin(part.leaf);
         if (!mayReach(ball, origin)) continue;
-        append(inside, part.leaf, intersection(ballMask(ball, origin), part.mask));
+        append(inside, part.leaf, ballMask(ball, origin) & part.mask);
     }
     return inside;
 }
@@ -73,7 +67,7 @@ void joinLeaves(VoxelRegion& parts)
             parts[size++] = part;
             continue;
         }
-        for (int word = 0; word < 8; ++word) parts[size - 1].mask[word] |= part.mask[word];
+        parts[size - 1].mask |= part.mask;
     }
     parts.resize(size);
 }
@@ -82,9 +76,7 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
 {
     VoxelRegion region;
     forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-        LeafMask mask;
-        for (int word = 0; word < 8; ++word) mask[word] = inA[word] | inB[word];
-        region.push_back({leaf, mask});
+        region.push_back({leaf, inA | inB});
     });
     return region;
 }
@@ -94,9 +86,7 @@ VoxelRegion clippedUnion(
 {
     VoxelRegion region;
     forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-        LeafMask mask = ballMask(ball, object.origin(leaf));
-        for (int word = 0; word < 8; ++word) mask[word] &= inA[word] | inB[word];
-        append(region, leaf, mask);
+        append(region, leaf, ballMask(ball, object.origin(leaf)) & (inA | inB));
     });
     return region;
 }

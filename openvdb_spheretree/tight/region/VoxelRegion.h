@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file VoxelRegion.h
-/// @brief A sparse set of object voxels: what a ball of a cover answers for.
+/// @brief A sparse set of object voxels.
 
 #pragma once
 
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/tight/fit/FineBall.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -15,19 +15,13 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// Leaves of the object in order, none without voxels.
+/// The voxels of a region in one leaf of the object.
 struct RegionLeaf {
     uint32_t leaf;
     LeafMask mask;
 };
+/// In the order of leaves, none without voxels.
 using VoxelRegion = std::vector<RegionLeaf>;
-
-inline bool isEmpty(const LeafMask& mask)
-{
-    uint64_t any = 0;
-    for (const uint64_t word : mask) any |= word;
-    return any == 0;
-}
 
 /// @return the object voxels in @a ball.
 VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object);
@@ -57,7 +51,7 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 /// @return the voxels of a region that lie in @a ball.
 VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object);
 
-/// Makes a region of leaves in any order, some of them in several parts.
+/// Makes a region of parts in any order, of which several may lie in the same leaf.
 void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);

@@ -30,7 +30,7 @@ public:
     const CoverBall& operator[](int32_t id) const { return mBalls[id]; }
     const std::vector<CoverBall>& balls() const { return mBalls; }
 
-    /// @return a hash of the debt for which a ball was placed last, 0 if it never was.
+    /// @return a hash of the uncovered voxels for which a ball was placed last, 0 if it never was.
     uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
 
     /// @return as BallGrid::nearest.
@@ -47,7 +47,7 @@ public:
         mBalls[id] = ball;
         if (!ball.empty()) mGrid.add(id, ball.ball);
     }
-    void setPlacedFor(int32_t id, uint64_t debt) { mPlacedFor[id] = debt; }
+    void setPlacedFor(int32_t id, uint64_t hash) { mPlacedFor[id] = hash; }
 
 private:
     std::vector<CoverBall> mBalls;

@@ -2,7 +2,7 @@
 #include "CoverPart.h"
 
 #include <openvdb_spheretree/base/Hash.h>
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 
 #include <algorithm>
 
@@ -14,33 +14,31 @@ namespace {
 using openvdb::Coord;
 
 /// The windows and lists of one thread.
-DebtFit& scratchFit()
+CoveringFit& scratchFit()
 {
-    thread_local DebtFit fit;
+    thread_local CoveringFit fit;
     return fit;
 }
 
-/// What the other balls of the part hold is nobody's cost.
-void coverOthers(const CoverPart& part, std::size_t i, DebtFit& fit)
+/// What the other balls of the part hold costs nothing.
+void coverOthers(const CoverPart& part, std::size_t i, CoveringFit& fit)
 {
     for (std::size_t k = 0; k < part.balls.size(); ++k) {
         const CoverBall& other = part.balls[k];
         if (k == i || other.empty()) continue;
-        FineBox box;
-        box.expand(other.ball);
-        if (meet(box, fit.box())) fit.cover(other.ball);
+        if (FineBox(other.ball).meets(fit.box())) fit.cover(other.ball);
     }
 }
 
-/// @return the balls that share a voxel with one of @a lifted, less these, the largest first: it may
-/// hold all that is owed.
-std::vector<CoverBall> othersOf(const CoverPart& part, const std::vector<std::size_t>& lifted)
+/// @return the balls that share a voxel with one of @a removed, less these, the largest first: it is
+/// the likeliest to hold all that would be uncovered.
+std::vector<CoverBall> othersOf(const CoverPart& part, const std::vector<std::size_t>& removed)
 {
     std::vector<CoverBall> others;
     for (std::size_t k = 0; k < part.balls.size(); ++k) {
         const CoverBall& other = part.balls[k];
-        if (other.empty() || std::count(lifted.begin(), lifted.end(), k)) continue;
-        const bool touches = std::any_of(lifted.begin(), lifted.end(), [&](std::size_t i) {
+        if (other.empty() || std::count(removed.begin(), removed.end(), k)) continue;
+        const bool touches = std::any_of(removed.begin(), removed.end(), [&](std::size_t i) {
             return gapBetween(other.ball, part.balls[i].ball) <= 1; // gaps are rounded
         });
         if (touches) others.push_back(other);
@@ -66,20 +64,6 @@ std::size_t CoverPart::indexOf(int32_t id) const
     return std::size_t(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
-bool meet(const FineBox& a, const FineBox& b)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        if (a.hi[axis] < b.lo[axis] || b.hi[axis] < a.lo[axis]) return false;
-    }
-    return true;
-}
-
-bool meetsAny(const FineBox& box, const std::vector<FineBox>& boxes)
-{
-    return std::any_of(
-        boxes.begin(), boxes.end(), [&](const FineBox& other) { return meet(box, other); });
-}
-
 CoverPart PartFit::around(const std::vector<int32_t>& ids) const
 {
     CoverPart part;
@@ -95,28 +79,18 @@ CoverPart PartFit::around(const std::vector<int32_t>& ids) const
     return part;
 }
 
-bool PartFit::inside(const FineBall& ball, const FineBox& box)
-{
-    FineBox own;
-    own.expand(ball);
-    for (int a = 0; a < 3; ++a) {
-        if (own.lo[a] < box.lo[a] || own.hi[a] > box.hi[a]) return false;
-    }
-    return true;
-}
-
-std::vector<Coord> PartFit::debtOf(const CoverPart& part, std::size_t i) const
+std::vector<Coord> PartFit::uncoveredWithout(const CoverPart& part, std::size_t i) const
 {
     std::vector<Coord> points;
-    mDebt.collect({part.balls[i]}, othersOf(part, {i}), points);
+    mGoal.collectUncovered({part.balls[i]}, othersOf(part, {i}), points);
     return points;
 }
 
 double PartFit::costOf(const CoverPart& part, std::size_t i) const
 {
-    DebtFit& fit = scratchFit();
+    CoveringFit& fit = scratchFit();
     const FineBall& ball = part.balls[i].ball;
-    fit.open(mObject, std::vector<FineBall>{ball}, {}, mEffort.fit.samples);
+    fit.open(mObject, ball, mEffort.fit.samples);
     coverOthers(part, i, fit);
     return fit.costOf({ball});
 }
@@ -132,7 +106,7 @@ std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
 
 void PartFit::replace(CoverPart& part, std::size_t i, const FineBall& instead) const
 {
-    DebtFit& fit = scratchFit();
+    CoveringFit& fit = scratchFit();
     FineBall& ball = part.balls[i].ball;
     fit.open(mObject, std::vector<FineBall>{instead}, {ball}, mEffort.fit.samples);
     coverOthers(part, i, fit);
@@ -145,25 +119,25 @@ void PartFit::refit(CoverPart& part, std::size_t i) const
 {
     FineBall& ball = part.balls[i].ball;
     if (ball.empty()) return;
-    const std::vector<Coord> points = debtOf(part, i);
+    const std::vector<Coord> points = uncoveredWithout(part, i);
     if (points.empty()) {
         part.change -= costOf(part, i);
         ball = FineBall();
         return;
     }
-    const uint64_t debt = hashOf(points);
-    if (part.placedFor[i] == debt) return;
-    part.placedFor[i] = debt;
-    DebtFit& fit = scratchFit();
+    const uint64_t hash = hashOf(points);
+    if (part.placedFor[i] == hash) return;
+    part.placedFor[i] = hash;
+    CoveringFit& fit = scratchFit();
     fit.open(mObject, points, {ball}, mEffort.fit.samples);
     coverOthers(part, i, fit);
     const double before = fit.costOf({ball});
-    const PaidDebt paid = fit.pay(mEffort.fit, mEffort.flat);
+    const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
     const bool better =
-        paid.cost < before || (paid.cost == before && paid.ball.radiusSq < ball.radiusSq);
-    if (!better || !inside(paid.ball, part.box)) return;
-    part.change += paid.cost - before;
-    ball = paid.ball;
+        fitted.cost < before || (fitted.cost == before && fitted.ball.radiusSq < ball.radiusSq);
+    if (!better || !part.box.contains(FineBox(fitted.ball))) return;
+    part.change += fitted.cost - before;
+    ball = fitted.ball;
 }
 
 void PartFit::refitNear(
@@ -174,22 +148,23 @@ void PartFit::refitNear(
     }
 }
 
-bool PartFit::takeOver(CoverPart& part, std::size_t i, std::size_t heir) const
+bool PartFit::takeOver(CoverPart& part, std::size_t i, std::size_t successor) const
 {
     std::vector<Coord> points;
-    mDebt.collect({part.balls[i], part.balls[heir]}, othersOf(part, {i, heir}), points);
-    const std::vector<FineBall> olds{part.balls[i].ball, part.balls[heir].ball};
-    part.balls[i].ball = part.balls[heir].ball = FineBall();
+    mGoal.collectUncovered(
+        {part.balls[i], part.balls[successor]}, othersOf(part, {i, successor}), points);
+    const std::vector<FineBall> replaced{part.balls[i].ball, part.balls[successor].ball};
+    part.balls[i].ball = part.balls[successor].ball = FineBall();
     if (points.empty()) return false;
-    DebtFit& fit = scratchFit();
-    fit.open(mObject, points, olds, mEffort.fit.samples);
+    CoveringFit& fit = scratchFit();
+    fit.open(mObject, points, replaced, mEffort.fit.samples);
     coverOthers(part, i, fit);
-    const double before = fit.costOf(olds);
-    const PaidDebt paid = fit.pay(mEffort.fit, mEffort.flat);
-    part.balls[heir].ball = paid.ball;
-    part.placedFor[heir] = hashOf(points);
-    part.change += paid.cost - before;
-    return inside(paid.ball, part.box);
+    const double before = fit.costOf(replaced);
+    const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
+    part.balls[successor].ball = fitted.ball;
+    part.placedFor[successor] = hashOf(points);
+    part.change += fitted.cost - before;
+    return part.box.contains(FineBox(fitted.ball));
 }
 
 CoverChange PartFit::changeOf(const CoverPart& part) const
@@ -218,7 +193,7 @@ void apply(const CoverChange& change, BallCover& cover, int32_t slot)
     for (std::size_t k = 0; k < change.ids.size(); ++k) {
         cover.put(number(change.ids[k]), change.balls[k]);
     }
-    for (const auto& [id, debt] : change.placedFor) cover.setPlacedFor(number(id), debt);
+    for (const auto& [id, hash] : change.placedFor) cover.setPlacedFor(number(id), hash);
 }
 
 } // namespace tight

@@ -11,10 +11,11 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// A neighbour of its group takes over what ball @a id owes, the one for which that costs least.
+/// A neighbour of its group takes over the voxels that only ball @a id holds: the one for which that
+/// costs least.
 CoverChange CoverRelocation::removal(int32_t id) const
 {
-    constexpr std::size_t kHeirs = 3;
+    constexpr std::size_t kSuccessors = 3;
     const CoverBall& ball = mCover[id];
     if (ball.empty()) return {};
     const std::vector<int32_t> around = mCover.nearest(id, ball.ball, kChangedNeighbours);
@@ -22,12 +23,12 @@ CoverChange CoverRelocation::removal(int32_t id) const
     all.push_back(id);
     const CoverPart before = mFit.around(all);
     CoverPart best;
-    std::size_t heirs = 0;
-    for (const int32_t heir : around) {
-        if (mCover[heir].group != ball.group) continue;
-        if (++heirs > kHeirs) break;
+    std::size_t successors = 0;
+    for (const int32_t successor : around) {
+        if (mCover[successor].group != ball.group) continue;
+        if (++successors > kSuccessors) break;
         CoverPart part = before;
-        const bool held = mFit.takeOver(part, part.indexOf(id), part.indexOf(heir));
+        const bool held = mFit.takeOver(part, part.indexOf(id), part.indexOf(successor));
         if (held && (best.ids.empty() || part.change < best.change)) best = std::move(part);
     }
     if (best.ids.empty()) return {};
@@ -89,9 +90,10 @@ void CoverRelocation::relocate()
     std::vector<FineBox> taken;
     std::size_t next = 0;
     for (const std::size_t i : order) {
-        while (next < put.size() && meetsAny(put[next].box, taken)) ++next;
+        while (next < put.size() && put[next].box.meetsAny(taken)) ++next;
         if (next == put.size() || !(removals[i].change + put[next].change < 0)) break;
-        if (meetsAny(removals[i].box, taken) || meet(removals[i].box, put[next].box)) continue;
+        const FineBox& box = removals[i].box;
+        if (box.meetsAny(taken) || box.meets(put[next].box)) continue;
         apply(removals[i]);
         apply(put[next], int32_t(i));
         taken.push_back(removals[i].box);
@@ -107,7 +109,7 @@ void CoverRelocation::fill()
     for (std::size_t i = 0; i < mCover.size(); ++i) {
         if (!mCover[int32_t(i)].empty()) continue;
         const CoverChange best = bestInsertions(kTries).front();
-        if (!best.pays()) return;
+        if (!best.improves()) return;
         apply(best, int32_t(i));
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverRelocation.h
-/// @brief Balls of a cover go elsewhere: a neighbour takes over what one owes, and where a small one
-/// is put in, its neighbours shrink.
+/// @brief Balls of a cover move elsewhere: one is removed, and a neighbour grows for the voxels that
+/// only it held; a small one is inserted at another place, and its neighbours shrink.
 
 #pragma once
 
@@ -24,9 +24,9 @@ public:
         : mCover(cover), mFit(fit), mFiner(finer), mInterrupter(interrupter)
     {}
 
-    /// Pairs the cheapest removals with the best of many insertions, as long as that pays.
+    /// Pairs the cheapest removals with the best of many insertions, as long as that lowers the cost.
     void relocate();
-    /// Puts balls in where some were dropped, as long as that pays.
+    /// Puts balls in where some were dropped, as long as that lowers the cost.
     void fill();
     /// @return what all that has done to the cover's cost, voxels.
     double change() const { return mChange; }

@@ -25,9 +25,8 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
     for (const int32_t id : ids) {
         const FineBall& ball = cover[id].ball;
         if (ball.empty()) continue;
-        FineBox box;
-        box.expand(ball, 0.5 * ball.radius() + 4 * kFine);
-        const bool free = taken.size() < kMost && !meetsAny(box, boxes);
+        const FineBox box(ball, 0.5 * ball.radius() + 4 * kFine);
+        const bool free = taken.size() < kMost && !box.meetsAny(boxes);
         (free ? taken : left).push_back(id);
         if (taken.size() < kMost) boxes.push_back(box); // who waits keeps its place
     }
@@ -38,9 +37,9 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
 class Search {
 public:
     Search(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
-        const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
+        const SampledObject& object, const CoverGoal& goal, const SearchEffort& effort,
         openvdb::util::NullInterrupter* interrupter)
-        : mCover(std::move(balls)), mFit(mCover, object, debt, effort),
+        : mCover(std::move(balls)), mFit(mCover, object, goal, effort),
           mRelocation(mCover, mFit, finer, interrupter), mInterrupter(interrupter)
     {}
 
@@ -67,7 +66,7 @@ private:
         mChange += change.change;
     }
 
-    /// Makes the changes that pay, as far as they do not meet.
+    /// Makes the changes that lower the cost, as far as they do not meet.
     void tryBatch(std::size_t first, std::size_t count)
     {
         std::vector<CoverChange> changes(count);
@@ -76,7 +75,7 @@ private:
         });
         std::vector<FineBox> taken;
         for (const CoverChange& change : changes) {
-            if (!change.pays() || meetsAny(change.box, taken)) continue;
+            if (!change.improves() || change.box.meetsAny(taken)) continue;
             apply(change);
             taken.push_back(change.box);
         }
@@ -127,10 +126,10 @@ private:
 } // namespace
 
 SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
-    const SampledObject& object, const CoverDebt& debt, const SearchEffort& effort,
+    const SampledObject& object, const CoverGoal& goal, const SearchEffort& effort,
     openvdb::util::NullInterrupter* interrupter)
 {
-    return Search(std::move(balls), finer, object, debt, effort, interrupter).run();
+    return Search(std::move(balls), finer, object, goal, effort, interrupter).run();
 }
 
 } // namespace tight

@@ -2,7 +2,7 @@
 #include "CoverTrial.h"
 
 #include "RandomMoves.h"
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 
 #include <algorithm>
 #include <utility>
@@ -46,12 +46,13 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     CoverPart part = fit.around(all);
     const std::size_t i = part.indexOf(id);
     const bool grow = dice.uniform() < 0.5;
-    const FineBall spoilt =
-        grow ? grown(ball, dice) : moved(ball, fit.debtOf(part, i), fit.effort().flat, dice);
-    if (!PartFit::inside(spoilt, part.box)) return {};
-    fit.replace(part, i, spoilt);
+    const FineBall disturbed = grow
+        ? grown(ball, dice)
+        : moved(ball, fit.uncoveredWithout(part, i), fit.effort().flat, dice);
+    if (!part.box.contains(FineBox(disturbed))) return {};
+    fit.replace(part, i, disturbed);
     if (dice.uniform() < 0.5) shuffle(around, dice);
-    fit.refitNear(part, around, spoilt);
+    fit.refitNear(part, around, disturbed);
     fit.refit(part, i);
     return fit.changeOf(part);
 }

@@ -119,13 +119,13 @@ struct Problem {
     CostRuns costs;
     std::vector<LocalBall> starts;
 
-    Problem(const Voxels& voxels, const Voxels& debt, bool flat, float room, Random& random)
+    Problem(const Voxels& voxels, const Voxels& targets, bool flat, float room, Random& random)
         : object(sampled(voxels))
     {
         FineBox box;
         for (const Coord& v : voxels) box.expand(voxelBall(v), 200);
         window.reset(object, box, 0);
-        for (const Coord& v : debt) {
+        for (const Coord& v : targets) {
             const LocalBall at = window.toLocal(voxelBall(v));
             points.add(at.x, at.y, at.z);
         }
@@ -179,13 +179,13 @@ struct Problem {
 
 Problem randomProblem(bool flat, float room, Random& random)
 {
-    Voxels voxels = shapes::noise(Coord(11, 10, flat ? 1 : 9), 0.6, random), debt;
+    Voxels voxels = shapes::noise(Coord(11, 10, flat ? 1 : 9), 0.6, random), targets;
     voxels.emplace_back(5, 5, 0);
     sortVoxels(voxels);
     for (int n = random.between(1, 12); n > 0; --n) {
-        debt.push_back(voxels[std::size_t(random.between(0, int(voxels.size()) - 1))]);
+        targets.push_back(voxels[std::size_t(random.between(0, int(voxels.size()) - 1))]);
     }
-    return Problem(voxels, debt, flat, room, random);
+    return Problem(voxels, targets, flat, room, random);
 }
 
 TEST(BallFit, HoldsItsPointsAndEndsWhereNoStepCostsLess)

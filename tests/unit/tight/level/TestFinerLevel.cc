@@ -29,7 +29,7 @@ int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& co
     const std::vector<int64_t>& counts)
 {
     const SampleLevel& object = merged.object.level(0);
-    const LeafCells leaves{merged.leaves, cellRegions(merged.leaves, object, nullptr)};
+    const BallCells leaves{merged.leaves, powerCells(merged.leaves, object, nullptr)};
     TightLevel coarser;
     coarser.balls = coarsest;
     auto regions = chainRegions(coarser, {}, merged.maker);

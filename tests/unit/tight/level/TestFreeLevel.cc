@@ -36,7 +36,7 @@ std::vector<FineBall> searchedCut(const Merged& merged, int64_t count)
     const auto spare = ungrouped(merged.leaves);
     const auto cut = ungrouped(ballsOfCut(merged.forest, count));
     const auto found = merged.maker.search(
-        cut, spare, VoxelDebt(merged.object.level(0)), LevelMaker::trialsFor(cut.size()));
+        cut, spare, VoxelGoal(merged.object.level(0)), LevelMaker::trialsFor(cut.size()));
     return ballsOf(filledUp(found.balls, spare));
 }
 

@@ -24,7 +24,7 @@ public:
     /// Leaves of @a count groups, by turns.
     void group(int count) { mGroups = count; }
     int32_t groupOf(int32_t leaf) const override { return leaf % mGroups; }
-    std::vector<FineBall> leaves() const override { return mLeaves; }
+    std::vector<FineBall> leafBalls() const override { return mLeaves; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override
     {
         EXPECT_LT(a, b);
@@ -168,9 +168,9 @@ std::vector<ForestNode> naiveForest(ToyModel& model)
 {
     std::vector<ForestNode> forest;
     std::vector<int32_t> living;
-    for (const FineBall& ball : model.leaves()) {
+    for (const FineBall& ball : model.leafBalls()) {
         living.push_back(int32_t(forest.size()));
-        forest.push_back({ball, -1, 1, int32_t(model.leaves().size())});
+        forest.push_back({ball, -1, 1, int32_t(model.leafBalls().size())});
     }
     while (living.size() > 1) {
         std::vector<MergeCandidate> pairs, taken;

@@ -42,16 +42,16 @@ public:
             mLiving[int32_t(mLiving.size())] = {leaf, heldOf(voxels, leaf)};
         }
     }
-    std::vector<FineBall> leaves() const override { return mModel.leaves(); }
+    std::vector<FineBall> leafBalls() const override { return mModel.leafBalls(); }
     MergeCandidate evaluate(int32_t a, int32_t b) const override { return mModel.evaluate(a, b); }
     bool dependsOnOthers() const override { return mModel.dependsOnOthers(); }
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override
     {
-        for (const MergeCandidate& c : merges) ASSERT_NO_FATAL_FAILURE(expectPaid(c));
+        for (const MergeCandidate& c : merges) ASSERT_NO_FATAL_FAILURE(expectFitted(c));
         for (const MergeCandidate& c : merges) ASSERT_NO_FATAL_FAILURE(expectCost(c.a, c.b));
         const int32_t some = anyLiving(), other = anyLiving(); // dearer ones, too
         if (some != other) {
-            ASSERT_NO_FATAL_FAILURE(expectPaid(mModel.evaluate(some, other)));
+            ASSERT_NO_FATAL_FAILURE(expectFitted(mModel.evaluate(some, other)));
             ASSERT_NO_FATAL_FAILURE(expectCost(some, other));
         }
         mModel.merge(merges, node);
@@ -84,24 +84,25 @@ private:
         return std::next(mLiving.begin(), mRandom.between(0, int(mLiving.size()) - 1))->first;
     }
     /// What only these two have.
-    Voxels debtOf(int32_t a, int32_t b) const
+    Voxels uncoveredWithout(int32_t a, int32_t b) const
     {
         std::map<Coord, int> others;
         for (const auto& [id, living] : mLiving) {
             if (id == a || id == b) continue;
             for (const Coord& v : living.region) ++others[v];
         }
-        Voxels debt;
+        Voxels uncovered;
         for (const Coord& v : unionOf(mLiving.at(a).region, mLiving.at(b).region)) {
-            if (!others.count(v)) debt.push_back(v);
+            if (!others.count(v)) uncovered.push_back(v);
         }
-        return debt;
+        return uncovered;
     }
-    /// The ball holds what is owed, and is no larger than that around its centre.
-    void expectPaid(const MergeCandidate& c) const
+    /// The ball holds what is uncovered, and is no larger than that around its centre.
+    void expectFitted(const MergeCandidate& c) const
     {
-        const Voxels debt = debtOf(c.a, c.b);
-        ASSERT_EQ(c.ball.radiusSq, neededRadiusSq(c.ball, debt)) << debt.size() << " voxels";
+        const Voxels uncovered = uncoveredWithout(c.a, c.b);
+        ASSERT_EQ(c.ball.radiusSq, neededRadiusSq(c.ball, uncovered))
+            << uncovered.size() << " voxels";
         if (mFlat && !c.ball.empty()) {
             ASSERT_EQ(c.ball.center[2], 16 * mVoxels[0][2]);
         }

@@ -16,14 +16,14 @@ constexpr FitEffort kEffort{false, 4, 1, false, 40};
 class WatchedMerging : public MergeModel {
 public:
     WatchedMerging(const Voxels& voxels, const std::vector<FineBall>& leaves,
-        const HeldByLeaves& held, bool flat = false, const FitEffort& effort = kEffort)
+        const HeldByLeafBalls& held, bool flat = false, const FitEffort& effort = kEffort)
         : mVoxels(voxels), mObject(sampled(voxels)),
           mModel(mObject, leaves, held, effort, flat, nullptr), mVoxelsOnly(held.areVoxels),
           mBalls(leaves), mHeld(held.held)
     {}
     /// They are not asked for: of discs they are those of balls, and of large balls estimates.
     void leaveOutCosts() { mCosts = false; }
-    std::vector<FineBall> leaves() const override { return mModel.leaves(); }
+    std::vector<FineBall> leafBalls() const override { return mModel.leafBalls(); }
     MergeCandidate evaluate(int32_t a, int32_t b) const override { return mModel.evaluate(a, b); }
     void complete(MergeCandidate& merge) const override { mModel.complete(merge); }
     bool dependsOnOthers() const override { return mModel.dependsOnOthers(); }
@@ -84,7 +84,7 @@ std::vector<FineBall> medialLeaves(const Voxels& voxels, int dim = 3)
 void expectSound(WatchedMerging& model, const std::string& name)
 {
     SCOPED_TRACE(name);
-    const std::size_t leaves = model.leaves().size();
+    const std::size_t leaves = model.leafBalls().size();
     const auto forest = mergeToRoots(model, 6, nullptr);
     ASSERT_EQ(forest.size(), 2 * leaves - 1);
     ASSERT_EQ(forest.back().parent, -1);
@@ -97,7 +97,7 @@ TEST(StrictMerging, HoldsTheVoxelsOfAllCellsBelow)
         const RandomObject object = randomObject(seed);
         if (boxOf(object.voxels).extents().asVec3i().lengthSqr() > 15 * 15) continue;
         const auto leaves = medialLeaves(object.voxels);
-        const auto cells = cellPoints(leaves, sampled(object.voxels).level(0), nullptr);
+        const auto cells = powerCellPoints(leaves, sampled(object.voxels).level(0), nullptr);
         WatchedMerging model(object.voxels, leaves, heldVoxels(cells));
         ASSERT_NO_FATAL_FAILURE(expectSound(model, object.name));
     }
@@ -140,7 +140,8 @@ TEST(StrictMerging, CountsWhatLeavesHaveOutsideTheObject)
     for (int turn = 0; turn < 10; ++turn) {
         const Voxels voxels = shapes::noise(Coord(8, 9, 7), 0.4, random);
         const auto leaves = randomBalls(random.between(2, 30), random, 0, 8, 3);
-        HeldByLeaves held = heldVoxels(cellPoints(leaves, sampled(voxels).level(0), nullptr));
+        HeldByLeafBalls held =
+            heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr));
         held.areInside = false;
         WatchedMerging model(voxels, leaves, held);
         ASSERT_NO_FATAL_FAILURE(expectSound(model, "with cells"));
@@ -156,7 +157,7 @@ TEST(StrictMerging, OfNodesWithoutCellsIsOneOfThem)
 {
     const Voxels voxels = shapes::box(Coord(3));
     const FineBall a{{0, 0, 0}, 400}, b{{99, 0, 0}, 500};
-    HeldByLeaves held = heldVoxels({{}, {}});
+    HeldByLeafBalls held = heldVoxels({{}, {}});
     held.areInside = false;
     WatchedMerging model(voxels, {a, b}, held);
     const auto forest = mergeToRoots(model, 6, nullptr);
@@ -172,7 +173,7 @@ TEST(StrictMerging, KeepsFlatObjectsInTheirPlane)
         const auto leaves = medialLeaves(voxels, 2);
         const auto held = turn % 2
             ? heldBalls(leaves)
-            : heldVoxels(cellPoints(leaves, sampled(voxels).level(0), nullptr));
+            : heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr));
         WatchedMerging model(voxels, leaves, held, true);
         model.leaveOutCosts();
         for (const ForestNode& node : mergeToRoots(model, 6, nullptr)) {

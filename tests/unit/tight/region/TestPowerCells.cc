@@ -33,7 +33,7 @@ std::vector<Voxels> naiveCells(const std::vector<FineBall>& balls, const Voxels&
 
 void expectCells(const std::vector<FineBall>& balls, const Voxels& voxels, Random& random)
 {
-    const auto points = cellPoints(balls, sampled(voxels).level(0), nullptr);
+    const auto points = powerCellPoints(balls, sampled(voxels).level(0), nullptr);
     const auto cells = naiveCells(balls, voxels);
     ASSERT_EQ(points.size(), cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -12,7 +12,7 @@ Voxels regionVoxels(const VoxelRegion& region, const SampleLevel& object)
 {
     Voxels voxels;
     for (std::size_t i = 0; i < region.size(); ++i) {
-        EXPECT_FALSE(isEmpty(region[i].mask));
+        EXPECT_FALSE(region[i].mask.none());
         EXPECT_TRUE(i == 0 || region[i - 1].leaf < region[i].leaf);
         for (const Coord& v : voxelsOf(region[i].mask, object.origin(region[i].leaf))) {
             voxels.push_back(v);

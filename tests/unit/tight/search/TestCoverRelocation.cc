@@ -16,8 +16,8 @@ TEST(CoverRelocation, KeepsACoverAndSaysWhatItGains)
         const MergedLeaves merged(shapes::noise(Coord(40, 6, 5), 0.5, random));
         const auto start = merged.cut(60);
         BallCover cover(ungrouped(start));
-        const VoxelDebt debt(merged.object.level(0));
-        const PartFit fit(cover, merged.object, debt, {merged.kEffort, 0, 0, false});
+        const VoxelGoal goal(merged.object.level(0));
+        const PartFit fit(cover, merged.object, goal, {merged.kEffort, 0, 0, false});
         const auto finer = ungrouped(merged.leaves);
         CoverRelocation relocation(cover, fit, finer, nullptr);
         const int64_t before = excess(start, merged.voxels);

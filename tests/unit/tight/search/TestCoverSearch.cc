@@ -39,10 +39,10 @@ struct Start {
 };
 
 /// @param units  each to be held by one ball
-void expectBetter(const Start& start, const CoverDebt& debt, const std::vector<Voxels>& units)
+void expectBetter(const Start& start, const CoverGoal& goal, const std::vector<Voxels>& units)
 {
     const SearchedCover found = improveCover(ungrouped(start.balls), ungrouped(start.leaves),
-        start.object, debt, {kEffort, 30, 0, false}, nullptr);
+        start.object, goal, {kEffort, 30, 0, false}, nullptr);
     const auto balls = ballsOf(found.balls);
     ASSERT_EQ(balls.size(), start.balls.size());
     for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
@@ -59,8 +59,8 @@ TEST(CoverSearch, KeepsACoverOfVoxelsAndIsNeverWorse)
         const Start start(shapes::noise(Coord(8, 7, 7), 0.5, random), count);
         std::vector<Voxels> alone;
         for (const Coord& v : start.voxels) alone.push_back({v});
-        const VoxelDebt debt(start.object.level(0));
-        ASSERT_NO_FATAL_FAILURE(expectBetter(start, debt, alone)) << count;
+        const VoxelGoal goal(start.object.level(0));
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, goal, alone)) << count;
     }
 }
 
@@ -69,8 +69,8 @@ TEST(CoverSearch, KeepsACoverOfUnitsAndIsNeverWorse)
     Random random(2);
     for (const int64_t count : {1, 3, 6}) {
         const Start start(shapes::noise(Coord(8, 7, 7), 0.5, random), count);
-        const auto units = cellPoints(start.balls, start.object.level(0), nullptr);
-        ASSERT_NO_FATAL_FAILURE(expectBetter(start, UnitDebt(units), units)) << count;
+        const auto units = powerCellPoints(start.balls, start.object.level(0), nullptr);
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, UnitGoal(units), units)) << count;
     }
 }
 
@@ -101,7 +101,7 @@ void expectApart(const Parted& parted, const std::vector<FineBall>& start, int t
     const SampledObject object = sampled(parted.voxels);
     ASSERT_GT(excess(start, parted.voxels), 0);
     const SearchedCover found = improveCover(ungrouped(start), ungrouped(parted.leaves), object,
-        VoxelDebt(object.level(0)), {kEffort, trials, 0, false}, nullptr);
+        VoxelGoal(object.level(0)), {kEffort, trials, 0, false}, nullptr);
     const auto balls = ballsOf(found.balls);
     ASSERT_EQ(balls.size(), parted.parts.size());
     for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
@@ -110,7 +110,7 @@ void expectApart(const Parted& parted, const std::vector<FineBall>& start, int t
     EXPECT_EQ(found.change, -double(excess(start, parted.voxels)));
 }
 
-TEST(CoverSearch, PutsABallThatOwesNothingWhereOneIsMissing)
+TEST(CoverSearch, PutsABallThatNoVoxelNeedsWhereOneIsMissing)
 {
     const Parted parted;
     std::vector<FineBall> start = parted.start;
@@ -132,8 +132,8 @@ TEST(CoverSearch, KeepsACoverWhereManyBallsChangeAtATime)
         const Start start(shapes::noise(Coord(50, 5, 5), 0.5, random), count);
         std::vector<Voxels> alone;
         for (const Coord& v : start.voxels) alone.push_back({v});
-        const VoxelDebt debt(start.object.level(0));
-        ASSERT_NO_FATAL_FAILURE(expectBetter(start, debt, alone)) << count;
+        const VoxelGoal goal(start.object.level(0));
+        ASSERT_NO_FATAL_FAILURE(expectBetter(start, goal, alone)) << count;
     }
 }
 
@@ -144,9 +144,9 @@ TEST(CoverSearch, TrialsGainHalfAsMuchAgain)
     double without = 0, with = 0;
     for (const int64_t count : {9, 12, 18}) {
         const Start start(shapes::noise(Coord(10, 8, 7), 0.5, random), count);
-        const VoxelDebt debt(start.object.level(0));
+        const VoxelGoal goal(start.object.level(0));
         const auto change = [&](int trials) {
-            return improveCover(ungrouped(start.balls), ungrouped(start.leaves), start.object, debt,
+            return improveCover(ungrouped(start.balls), ungrouped(start.leaves), start.object, goal,
                 {kEffort, trials, 0, false}, nullptr)
                 .change;
         };
@@ -165,9 +165,9 @@ TEST(CoverSearch, LeavesBallsInTheirGroups)
     std::vector<CoverBall> cover;
     for (const FineBall& ball : start.balls) cover.push_back({ball, int32_t(cover.size())});
     const SampleLevel& object = start.object.level(0);
-    const auto cells = cellRegions(start.balls, object, nullptr);
+    const auto cells = powerCells(start.balls, object, nullptr);
     const auto found = improveCover(
-        cover, {}, start.object, VoxelDebt(object, cells), {kEffort, 30, 0, false}, nullptr);
+        cover, {}, start.object, VoxelGoal(object, cells), {kEffort, 30, 0, false}, nullptr);
     ASSERT_EQ(found.balls.size(), cover.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(found.balls[i].group, int32_t(i));

@@ -13,25 +13,25 @@ void expectTrials(const MergedLeaves& merged, int64_t count)
     const bool flat = merged.maker.flat;
     const auto start = merged.cut(count);
     const BallCover cover(ungrouped(start));
-    const VoxelDebt debt(merged.object.level(0));
-    const PartFit fit(cover, merged.object, debt, {merged.kEffort, 0, 0, flat});
+    const VoxelGoal goal(merged.object.level(0));
+    const PartFit fit(cover, merged.object, goal, {merged.kEffort, 0, 0, flat});
     const int64_t before = excess(start, merged.voxels);
-    int paying = 0;
+    int improving = 0;
     for (uint64_t number = 0; number < 150; ++number) {
         const CoverChange change = tryChange(cover, fit, number);
         if (change.ids.empty()) continue;
         BallCover changed(cover);
         apply(change, changed);
         for (const CoverBall& ball : change.balls) {
-            ASSERT_TRUE(ball.empty() || PartFit::inside(ball.ball, change.box));
+            ASSERT_TRUE(ball.empty() || change.box.contains(FineBox(ball.ball)));
             ASSERT_TRUE(ball.empty() || !flat || ball.ball.center[2] == 0);
         }
         const auto balls = thereOf(changed.balls());
         ASSERT_EQ(heldBy(balls, merged.voxels), merged.voxels) << number;
         ASSERT_EQ(change.change, double(excess(balls, merged.voxels) - before)) << number;
-        paying += change.pays();
+        improving += change.improves();
     }
-    EXPECT_GT(paying, 0);
+    EXPECT_GT(improving, 0);
 }
 
 TEST(CoverTrial, KeepsACoverAndSaysWhatItGains)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/search/CoverDebt.h>
+#include <openvdb_spheretree/tight/search/CoverGoal.h>
 
 #include "support/FineBalls.h"
 
@@ -29,8 +29,8 @@ struct Unit {
     std::vector<int32_t> groups; ///< in which it counts
 };
 
-/// Units that the lifted balls hold and no other, all together.
-Voxels owed(const std::vector<Unit>& units, const std::vector<CoverBall>& lifted,
+/// Units that the removed balls hold and no other, all together.
+Voxels uncovered(const std::vector<Unit>& units, const std::vector<CoverBall>& removed,
     const std::vector<CoverBall>& others)
 {
     Voxels all;
@@ -39,7 +39,7 @@ Voxels owed(const std::vector<Unit>& units, const std::vector<CoverBall>& lifted
             return std::any_of(unit.groups.begin(), unit.groups.end(),
                 [&](int32_t group) { return anyHolds(balls, unit.voxels, group); });
         };
-        if (unit.voxels.empty() || !held(lifted) || held(others)) continue;
+        if (unit.voxels.empty() || !held(removed) || held(others)) continue;
         all.insert(all.end(), unit.voxels.begin(), unit.voxels.end());
     }
     sortVoxels(all);
@@ -71,7 +71,7 @@ std::vector<Unit> regionUnits(const Voxels& voxels, const SampledObject& object,
     return units;
 }
 
-TEST(CoverDebt, IsWhatOnlyTheLiftedBallsHold)
+TEST(CoverGoal, IsWhatOnlyTheLiftedBallsHold)
 {
     Random random(1);
     int some = 0, someInGroups = 0;
@@ -80,35 +80,35 @@ TEST(CoverDebt, IsWhatOnlyTheLiftedBallsHold)
         const SampledObject object = sampled(voxels);
         std::vector<VoxelRegion> regions;
         const auto inRegions = regionUnits(voxels, object, random, regions);
-        std::vector<Unit> alone, blocks;
+        std::vector<Unit> alone, units;
         for (const Coord& v : voxels) alone.push_back({{v}, {0, 1, 2}});
-        std::vector<Voxels> blockVoxels;
-        std::vector<int32_t> blockGroups;
+        std::vector<Voxels> unitVoxels;
+        std::vector<int32_t> unitGroups;
         for (int i = 0; i < 30; ++i) {
-            blockVoxels.push_back(translated(shapes::box(random.coord(1, 4)), random.coord(0, 12)));
-            blockGroups.push_back(int32_t(random.between(0, 1)));
-            blocks.push_back({blockVoxels.back(), {blockGroups.back()}});
+            unitVoxels.push_back(translated(shapes::box(random.coord(1, 4)), random.coord(0, 12)));
+            unitGroups.push_back(int32_t(random.between(0, 1)));
+            units.push_back({unitVoxels.back(), {unitGroups.back()}});
         }
-        blockVoxels.emplace_back(); // a unit of nothing
-        blockGroups.push_back(0);
-        const auto lifted = randomCover(1 + turn % 2, 2, random);
+        unitVoxels.emplace_back(); // a unit of nothing
+        unitGroups.push_back(0);
+        const auto removed = randomCover(1 + turn % 2, 2, random);
         auto others = randomCover(turn % 4, kGroups, random);
         others.emplace_back();         // one that was dropped
         Voxels points{Coord(1, 1, 1)}; // to be forgotten
-        VoxelDebt(object.level(0)).collect(lifted, others, points);
-        ASSERT_TRUE(standFor(points, owed(alone, lifted, others), random));
-        VoxelDebt(object.level(0), regions).collect(lifted, others, points);
-        ASSERT_TRUE(standFor(points, owed(inRegions, lifted, others), random));
+        VoxelGoal(object.level(0)).collectUncovered(removed, others, points);
+        ASSERT_TRUE(standFor(points, uncovered(alone, removed, others), random));
+        VoxelGoal(object.level(0), regions).collectUncovered(removed, others, points);
+        ASSERT_TRUE(standFor(points, uncovered(inRegions, removed, others), random));
         someInGroups += !points.empty();
-        UnitDebt(blockVoxels, blockGroups).collect(lifted, others, points);
-        ASSERT_TRUE(standFor(points, owed(blocks, lifted, others), random));
+        UnitGoal(unitVoxels, unitGroups).collectUncovered(removed, others, points);
+        ASSERT_TRUE(standFor(points, uncovered(units, removed, others), random));
         some += !points.empty();
     }
     EXPECT_GT(some, 50);
     EXPECT_GT(someInGroups, 50);
 }
 
-TEST(CoverDebt, IsHeldByBallsThatHoldEveryPoint)
+TEST(CoverGoal, IsHeldByBallsThatHoldEveryPoint)
 {
     EXPECT_FALSE(holdsAll(FineBall(), {}));
     EXPECT_TRUE(holdsAll(voxelBall(Coord(1, 2, 3)), {}));

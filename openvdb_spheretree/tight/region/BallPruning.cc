@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LeafPruning.h"
+#include "BallPruning.h"
 
 #include "LeafDescent.h"
 #include <openvdb_spheretree/base/Parallel.h>
@@ -25,7 +25,7 @@ struct Part {
     uint32_t leaf, i;
 };
 
-/// Balls are numbered in the order in which they are asked whether they can go.
+/// Balls are numbered in the order in which they are tested.
 class Pruning {
 public:
     Pruning(std::vector<FineBall> balls, const SampleLevel& object,
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    /// Balls up to the first that holds all of the box: those after it are no voxel's last.
+    /// Keeps the balls up to the first that holds all of the box: those after it are no voxel's last.
     void filterLast(const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
         std::vector<int32_t>& to) const
     {
@@ -75,16 +75,11 @@ private:
         std::vector<LastHeld> parts;
         LeafMask left = mObject.mask(leaf);
         for (const int32_t ball : lastFirst) {
-            LeafMask mask = ballMask(mBalls[ball], mObject.origin(leaf));
-            uint64_t any = 0, anyLeft = 0;
-            for (int word = 0; word < 8; ++word) {
-                mask[word] &= left[word];
-                left[word] &= ~mask[word];
-                any |= mask[word];
-                anyLeft |= left[word];
-            }
-            if (any) parts.push_back({ball, mask});
-            if (!anyLeft) break;
+            const LeafMask mask = ballMask(mBalls[ball], mObject.origin(leaf)) & left;
+            if (mask.none()) continue;
+            parts.push_back({ball, mask});
+            left -= mask;
+            if (left.none()) break;
         }
         return parts;
     }
@@ -102,12 +97,9 @@ private:
 
     bool isNeeded(const std::vector<Part>& parts) const
     {
-        uint64_t alone = 0; // voxels that no ball holds of those that stay
-        for (const Part& part : parts) {
-            const LeafMask& last = mLastHeld[part.leaf][part.i].mask;
-            for (int word = 0; word < 8; ++word) alone |= last[word] & ~mKeptHold[part.leaf][word];
-        }
-        return alone != 0;
+        return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+            return !(mLastHeld[part.leaf][part.i].mask - mKeptHold[part.leaf]).none();
+        });
     }
 
     void keep(int32_t ball)
@@ -116,9 +108,8 @@ private:
         if (!ballBox(mBalls[ball], box)) return;
         mObject.forEachLeaf(box, [&](std::size_t leaf) {
             const auto& last = mLastHeld[leaf];
-            if (last.empty() || last.front().ball <= ball) return; // nobody will ask
-            const LeafMask mask = ballMask(mBalls[ball], mObject.origin(leaf));
-            for (int word = 0; word < 8; ++word) mKeptHold[leaf][word] |= mask[word];
+            if (last.empty() || last.front().ball <= ball) return; // is not read again
+            mKeptHold[leaf] |= ballMask(mBalls[ball], mObject.origin(leaf));
         });
     }
 
@@ -130,7 +121,7 @@ private:
 
 } // namespace
 
-std::vector<int32_t> prunedLeaves(const std::vector<MedialBall>& medial, const SampleLevel& object,
+std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<int32_t> order(medial.size());

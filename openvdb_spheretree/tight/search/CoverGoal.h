@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file CoverDebt.h
-/// @brief What balls of a cover owe: what would be uncovered without them.
+/// @file CoverGoal.h
+/// @brief What a cover has to hold: which voxels would be uncovered without some of its balls?
 ///
 /// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a whole:
-/// the cell of a ball of the next finer level, which then is a child of that ball.
+/// the power cell of a ball of the next finer level, which then is a child of that ball.
 
 #pragma once
 
@@ -20,31 +20,31 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-class CoverDebt {
+class CoverGoal {
 public:
-    virtual ~CoverDebt() = default;
-    /// @param lifted  balls taken out of the cover
-    /// @param others  at least all other balls that meet one of them; empty balls hold nothing
-    /// @param points  receives voxels that stand for all that only the lifted balls hold: a ball
-    ///                that holds them holds it all
-    virtual void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
-        std::vector<openvdb::Coord>& points) const = 0;
+    virtual ~CoverGoal() = default;
+    /// @param removed  balls taken out of the cover
+    /// @param others   at least all other balls that meet one of them; empty balls hold nothing
+    /// @param points   receives extreme points of all that only the removed balls hold: a ball that
+    ///                 holds these points holds it all
+    virtual void collectUncovered(const std::vector<CoverBall>& removed,
+        const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const = 0;
 };
 
-class VoxelDebt : public CoverDebt {
+class VoxelGoal : public CoverGoal {
 public:
     /// Every object voxel that a ball holds counts.
-    explicit VoxelDebt(const SampleLevel& object) : mObject(object) {}
+    explicit VoxelGoal(const SampleLevel& object) : mObject(object) {}
     /// @param regions  of the groups: what a ball holds counts in its group's only
-    VoxelDebt(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
+    VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
         : mObject(object), mRegions(std::move(regions))
     {}
-    VoxelDebt(const SampleLevel& object, const std::vector<VoxelRegion>& regions) : mObject(object)
+    VoxelGoal(const SampleLevel& object, const std::vector<VoxelRegion>& regions) : mObject(object)
     {
         for (const VoxelRegion& region : regions) mRegions.push_back(&region);
     }
-    void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
-        std::vector<openvdb::Coord>& points) const override;
+    void collectUncovered(const std::vector<CoverBall>& removed,
+        const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
 private:
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
@@ -53,14 +53,14 @@ private:
     std::vector<const VoxelRegion*> mRegions; ///< none: the object
 };
 
-class UnitDebt : public CoverDebt {
+class UnitGoal : public CoverGoal {
 public:
     /// @param units   extreme points of each
     /// @param groups  of the units; empty: all are in group 0
-    explicit UnitDebt(
+    explicit UnitGoal(
         const std::vector<std::vector<openvdb::Coord>>& units, std::vector<int32_t> groups = {});
-    void collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
-        std::vector<openvdb::Coord>& points) const override;
+    void collectUncovered(const std::vector<CoverBall>& removed,
+        const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
 private:
     bool holds(const CoverBall& ball, int32_t unit) const;

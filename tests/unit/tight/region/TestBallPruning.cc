@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/region/LeafPruning.h>
+#include <openvdb_spheretree/tight/region/BallPruning.h>
 
 #include "support/FineBalls.h"
 
@@ -42,7 +42,7 @@ std::vector<int32_t> naivelyPruned(const std::vector<MedialBall>& balls)
 void expectPruned(const RandomObject& object)
 {
     const CoreStages stages(*maskOf(object.voxels));
-    const auto kept = prunedLeaves(stages.balls, SampledObject(stages.layout).level(0), nullptr);
+    const auto kept = prunedBalls(stages.balls, SampledObject(stages.layout).level(0), nullptr);
     ASSERT_EQ(kept, naivelyPruned(stages.balls)) << object.name;
     Voxels all;
     for (const int32_t i : kept) {
@@ -52,7 +52,7 @@ void expectPruned(const RandomObject& object)
     ASSERT_EQ(all, object.voxels) << object.name;
 }
 
-TEST(LeafPruning, KeepsWhatPruningOneByOneKeeps)
+TEST(BallPruning, KeepsWhatPruningOneByOneKeeps)
 {
     for (uint32_t seed = 0; seed < 55; ++seed) {
         ASSERT_NO_FATAL_FAILURE(expectPruned(randomObject(seed)));
@@ -60,7 +60,7 @@ TEST(LeafPruning, KeepsWhatPruningOneByOneKeeps)
 }
 
 /// More balls than are asked at once.
-TEST(LeafPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
+TEST(BallPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
 {
     Random random(1);
     const RandomObject object{"noise", shapes::noise(Coord(40, 30, 20), 0.8, random)};
@@ -69,7 +69,7 @@ TEST(LeafPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
 }
 
 /// The smallest ball holds all of a leaf, and is alone at its own centre only.
-TEST(LeafPruning, KeepsABallForAVoxelInALeafThatItHolds)
+TEST(BallPruning, KeepsABallForAVoxelInALeafThatItHolds)
 {
     const Coord middle(4, 4, 4);
     std::vector<MedialBall> balls{{middle, 50}};
@@ -82,14 +82,14 @@ TEST(LeafPruning, KeepsABallForAVoxelInALeafThatItHolds)
         for (const Coord& v : voxelsOf(ball)) all.push_back(v);
     }
     sortVoxels(all);
-    const auto kept = prunedLeaves(balls, sampled(all).level(0), nullptr);
+    const auto kept = prunedBalls(balls, sampled(all).level(0), nullptr);
     ASSERT_EQ(kept.front(), 0);
     ASSERT_EQ(kept, naivelyPruned(balls));
 }
 
-TEST(LeafPruning, OfNothingIsNothing)
+TEST(BallPruning, OfNothingIsNothing)
 {
-    EXPECT_TRUE(prunedLeaves({}, sampled({}).level(0), nullptr).empty());
+    EXPECT_TRUE(prunedBalls({}, sampled({}).level(0), nullptr).empty());
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "CoverDebt.h"
+#include "CoverGoal.h"
 
 #include <openvdb_spheretree/tight/fit/BallMask.h>
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
@@ -15,14 +15,7 @@ namespace {
 
 using openvdb::Coord;
 
-/// Takes @a held out of @a mask; false if none is left.
-bool takeOut(const LeafMask& held, LeafMask& mask)
-{
-    for (int word = 0; word < 8; ++word) mask[word] &= ~held[word];
-    return !isEmpty(mask);
-}
-
-/// A ball around the box of a unit.
+/// @return a ball around the box of a unit.
 FineBall ballAround(const std::vector<Coord>& points)
 {
     openvdb::CoordBBox box;
@@ -38,45 +31,42 @@ FineBall ballAround(const std::vector<Coord>& points)
 
 } // namespace
 
-LeafMask VoxelDebt::heldIn(std::size_t leaf, const CoverBall& ball) const
+LeafMask VoxelGoal::heldIn(std::size_t leaf, const CoverBall& ball) const
 {
-    LeafMask held = ballMask(ball.ball, mObject.origin(leaf));
     const LeafMask& counts =
         mRegions.empty() ? mObject.mask(leaf) : maskIn(*mRegions[ball.group], uint32_t(leaf));
-    for (int word = 0; word < 8; ++word) held[word] &= counts[word];
-    return held;
+    return ballMask(ball.ball, mObject.origin(leaf)) & counts;
 }
 
-void VoxelDebt::collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
-    std::vector<Coord>& points) const
+void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
+    const std::vector<CoverBall>& others, std::vector<Coord>& points) const
 {
     thread_local ExtremePoints extreme;
     extreme.clear();
     openvdb::CoordBBox box, one;
-    for (const CoverBall& ball : lifted) {
+    for (const CoverBall& ball : removed) {
         if (ballBox(ball.ball, one)) box.expand(one);
     }
     if (!box.empty()) {
         mObject.forEachLeaf(box, [&](std::size_t leaf) {
             const Coord& origin = mObject.origin(leaf);
-            LeafMask owed{};
-            for (const CoverBall& ball : lifted) {
-                if (ball.empty() || !mayReach(ball.ball, origin)) continue;
-                const LeafMask held = heldIn(leaf, ball);
-                for (int word = 0; word < 8; ++word) owed[word] |= held[word];
+            LeafMask uncovered{};
+            for (const CoverBall& ball : removed) {
+                if (!ball.empty() && mayReach(ball.ball, origin)) uncovered |= heldIn(leaf, ball);
             }
-            if (isEmpty(owed)) return;
+            if (uncovered.none()) return;
             for (const CoverBall& ball : others) {
                 if (ball.empty() || !mayReach(ball.ball, origin)) continue;
-                if (!takeOut(heldIn(leaf, ball), owed)) return;
+                uncovered -= heldIn(leaf, ball);
+                if (uncovered.none()) return;
             }
-            extreme.add(origin, owed);
+            extreme.add(origin, uncovered);
         });
     }
     points = extreme.finish();
 }
 
-UnitDebt::UnitDebt(const std::vector<std::vector<Coord>>& units, std::vector<int32_t> groups)
+UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units, std::vector<int32_t> groups)
     : mUnits(units), mGroups(std::move(groups))
 {
     mGroups.resize(units.size(), 0);
@@ -85,16 +75,16 @@ UnitDebt::UnitDebt(const std::vector<std::vector<Coord>>& units, std::vector<int
     }
 }
 
-bool UnitDebt::holds(const CoverBall& ball, int32_t unit) const
+bool UnitGoal::holds(const CoverBall& ball, int32_t unit) const
 {
     return ball.group == mGroups[unit] && holdsAll(ball.ball, mUnits[unit]);
 }
 
-void UnitDebt::collect(const std::vector<CoverBall>& lifted, const std::vector<CoverBall>& others,
-    std::vector<Coord>& points) const
+void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
+    const std::vector<CoverBall>& others, std::vector<Coord>& points) const
 {
     points.clear();
-    for (const CoverBall& ball : lifted) {
+    for (const CoverBall& ball : removed) {
         if (ball.empty()) continue;
         for (const int32_t unit : mGrid.near(ball.ball)) {
             const auto holdsUnit = [&](const CoverBall& other) { return holds(other, unit); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/fit/DebtFit.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 
 #include "support/FineBalls.h"
 
@@ -18,7 +18,7 @@ bool holdsVoxels(const FineBall& ball, const Voxels& voxels)
         voxels.begin(), voxels.end(), [&](const Coord& v) { return holds(ball, v); });
 }
 
-TEST(DebtFit, NeedsTheSmallestRadiusThatHoldsABall)
+TEST(CoveringFit, NeedsTheSmallestRadiusThatHoldsABall)
 {
     Random random(2);
     for (int turn = 0; turn < 4000; ++turn) {
@@ -33,7 +33,7 @@ TEST(DebtFit, NeedsTheSmallestRadiusThatHoldsABall)
 }
 
 /// Where the roots are integers, nothing is rounded.
-TEST(DebtFit, NeedsTheSumOfWholeRadiiAndDistances)
+TEST(CoveringFit, NeedsTheSumOfWholeRadiiAndDistances)
 {
     Random random(3);
     for (int turn = 0; turn < 1000; ++turn) {
@@ -52,83 +52,83 @@ TEST(DebtFit, NeedsTheSumOfWholeRadiiAndDistances)
     }
 }
 
-TEST(DebtFit, CountsWhatBallsCostTogether)
+TEST(CoveringFit, CountsWhatBallsCostTogether)
 {
     Random random(4);
     const Voxels voxels = shapes::noise(Coord(9, 8, 10), 0.5, random);
     const SampledObject object = sampled(voxels);
     for (int turn = 0; turn < 12; ++turn) {
-        const auto olds = randomBalls(turn % 4, random, 0, 9, 6);
+        const auto replaced = randomBalls(turn % 4, random, 0, 9, 6);
         const FineBall other = randomBall(random, 0, 9, 6); // part of it is in the window
-        DebtFit fit;
-        fit.open(object, Voxels{voxels[0]}, olds, 40);
+        CoveringFit fit;
+        fit.open(object, Voxels{voxels[0]}, replaced, 40);
         ASSERT_EQ(fit.costOf({}), 0);
-        ASSERT_EQ(fit.costOf(olds), double(excess(olds, voxels)));
-        ASSERT_EQ(fit.costOf(olds), double(excess(olds, voxels))) << "asked again";
+        ASSERT_EQ(fit.costOf(replaced), double(excess(replaced, voxels)));
+        ASSERT_EQ(fit.costOf(replaced), double(excess(replaced, voxels))) << "asked again";
         fit.cover(other);
-        auto both = olds;
+        auto both = replaced;
         both.push_back(other);
-        ASSERT_EQ(fit.costOf(olds), double(excess(both, voxels) - excess({other}, voxels)));
+        ASSERT_EQ(fit.costOf(replaced), double(excess(both, voxels) - excess({other}, voxels)));
     }
 }
 
 /// Which stand for 8^3 voxels here.
-TEST(DebtFit, CountsWhatLargeBallsCostOnSamples)
+TEST(CoveringFit, CountsWhatLargeBallsCostOnSamples)
 {
     const Voxels voxels = shapes::box(Coord(3));
     const SampledObject object = sampled(voxels);
     const FineBall large{{7, 5, -3}, 1600 * 1600};
     const double volume = 4 / 3.0 * M_PI * 100 * 100 * 100;
-    DebtFit fit;
+    CoveringFit fit;
     fit.open(object, voxels, {large}, 16);
     EXPECT_EQ(std::fmod(fit.costOf({large}), 512), 0);
     EXPECT_NEAR(fit.costOf({large}), volume, volume / 50);
     const Voxels apart{Coord(-100, 0, 0), Coord(100, 0, 0)};
     fit.open(object, apart, {}, 16);
-    const PaidDebt paid = fit.pay(kNone, false);
-    EXPECT_EQ(std::fmod(paid.cost, 512), 0);
-    EXPECT_NEAR(paid.cost, volume, volume / 50);
+    const FittedBall fitted = fit.best(kNone, false);
+    EXPECT_EQ(std::fmod(fitted.cost, 512), 0);
+    EXPECT_NEAR(fitted.cost, volume, volume / 50);
 }
 
-TEST(DebtFit, PaysWhatIsOwedAndCountsWhatThatCosts)
+TEST(CoveringFit, HoldsAllTargetsAndCountsWhatThatCosts)
 {
     Random random(5);
     for (int turn = 0; turn < 10; ++turn) {
         const Voxels voxels = shapes::noise(Coord(9, 8, 10), 0.5, random);
         const SampledObject object = sampled(voxels);
-        const auto olds = randomBalls(2, random, 0, 9, 6);
-        const Voxels debt(voxels.begin(), voxels.begin() + 7 * (turn + 1) - 6);
-        DebtFit fit;
-        fit.open(object, debt, olds, 40);
-        const PaidDebt paid = fit.pay({true, 12, 1, turn % 2 == 0, 40}, false);
-        ASSERT_TRUE(holdsVoxels(paid.ball, debt));
-        ASSERT_EQ(paid.cost, double(excess({paid.ball}, voxels)));
-        ASSERT_LE(paid.cost, fit.pay(kNone, false).cost);
-        fit.open(object, debt, {}, 40);
-        const PaidDebt smallest = fit.pay(kNone, false), alone = fit.pay(kMuch, false);
+        const auto replaced = randomBalls(2, random, 0, 9, 6);
+        const Voxels targets(voxels.begin(), voxels.begin() + 7 * (turn + 1) - 6);
+        CoveringFit fit;
+        fit.open(object, targets, replaced, 40);
+        const FittedBall fitted = fit.best({true, 12, 1, turn % 2 == 0, 40}, false);
+        ASSERT_TRUE(holdsVoxels(fitted.ball, targets));
+        ASSERT_EQ(fitted.cost, double(excess({fitted.ball}, voxels)));
+        ASSERT_LE(fitted.cost, fit.best(kNone, false).cost);
+        fit.open(object, targets, {}, 40);
+        const FittedBall smallest = fit.best(kNone, false), alone = fit.best(kMuch, false);
         ASSERT_EQ(alone.cost, double(excess({alone.ball}, voxels)));
-        ASSERT_LE(paid.cost, smallest.cost);
+        ASSERT_LE(fitted.cost, smallest.cost);
     }
 }
 
-TEST(DebtFit, TriesTheCentersOfOldBallsThatHoldTheDebt)
+TEST(CoveringFit, TriesTheCentersOfReplacedBallsThatHoldTheTargets)
 {
     Random random(8);
     for (int turn = 0; turn < 20; ++turn) {
         const Voxels voxels = shapes::noise(Coord(9, 8, 10), 0.5, random);
         const SampledObject object = sampled(voxels);
-        const Voxels debt(voxels.end() - 3, voxels.end());
-        auto olds = randomBalls(2, random, 0, 9, 1);
-        for (FineBall& old : olds) old.radiusSq = neededRadiusSq(old, debt);
-        DebtFit fit;
-        fit.open(object, debt, olds, 40);
-        const double cost = fit.pay(kNone, false).cost;
-        for (const FineBall& old : olds) ASSERT_LE(cost, double(excess({old}, voxels)));
+        const Voxels targets(voxels.end() - 3, voxels.end());
+        auto replaced = randomBalls(2, random, 0, 9, 1);
+        for (FineBall& other : replaced) other.radiusSq = neededRadiusSq(other, targets);
+        CoveringFit fit;
+        fit.open(object, targets, replaced, 40);
+        const double cost = fit.best(kNone, false).cost;
+        for (const FineBall& other : replaced) ASSERT_LE(cost, double(excess({other}, voxels)));
     }
 }
 
 /// Wherever the samples are, and whatever floats make of them.
-TEST(DebtFit, HoldsTheWholeDebtExactly)
+TEST(CoveringFit, HoldsAllTargetsExactly)
 {
     Random random(6);
     for (int turn = 0; turn < 300; ++turn) {
@@ -137,23 +137,23 @@ TEST(DebtFit, HoldsTheWholeDebtExactly)
         const SampledObject object = sampled(voxels);
         const int samples = random.between(4, 16); // a radius: most balls here are larger
         const FitEffort effort{turn % 2 == 0, 3, 1, turn % 3 == 0, samples};
-        Voxels debt;
+        Voxels targets;
         for (int n = random.between(1, 12); n > 0; --n) {
-            debt.push_back(random.coord(-spread, spread));
+            targets.push_back(random.coord(-spread, spread));
         }
-        const auto olds = randomBalls(turn % 3, random, -spread, spread, spread);
-        DebtFit fit;
-        fit.open(object, debt, olds, samples);
-        ASSERT_TRUE(holdsVoxels(fit.pay(effort, false).ball, debt));
+        const auto replaced = randomBalls(turn % 3, random, -spread, spread, spread);
+        CoveringFit fit;
+        fit.open(object, targets, replaced, samples);
+        ASSERT_TRUE(holdsVoxels(fit.best(effort, false).ball, targets));
         const auto balls = randomBalls(random.between(1, 12), random, -spread, spread, spread);
-        fit.open(object, balls, olds, samples);
-        const FineBall paid = fit.pay(effort, false).ball;
-        for (const FineBall& ball : balls) ASSERT_TRUE(contains(paid, ball));
+        fit.open(object, balls, replaced, samples);
+        const FineBall fitted = fit.best(effort, false).ball;
+        for (const FineBall& ball : balls) ASSERT_TRUE(contains(fitted, ball));
     }
 }
 
 /// The plane need not be one of the sampled ones.
-TEST(DebtFit, KeepsCentersOfFlatDebtsInTheirPlane)
+TEST(CoveringFit, KeepsCentersOfFlatTargetsInTheirPlane)
 {
     Random random(7);
     for (int turn = 0; turn < 60; ++turn) {
@@ -161,34 +161,34 @@ TEST(DebtFit, KeepsCentersOfFlatDebtsInTheirPlane)
                   side = turn % 3 == 0 ? 9
             : turn % 3 == 1            ? 150
                                        : 3000;
-        Voxels debt;
+        Voxels targets;
         for (int n = random.between(1, 20); n > 0; --n) {
-            debt.emplace_back(random.between(0, side), random.between(0, side), z);
+            targets.emplace_back(random.between(0, side), random.between(0, side), z);
         }
-        sortVoxels(debt);
-        const SampledObject object = sampled(debt);
-        DebtFit fit;
-        fit.open(object, debt, {voxelBall(debt.front())}, 16);
-        const FineBall paid = fit.pay({true, 12, 1, true, 16}, true).ball;
-        ASSERT_EQ(paid.center[2], 16 * z);
-        ASSERT_TRUE(holdsVoxels(paid, debt));
+        sortVoxels(targets);
+        const SampledObject object = sampled(targets);
+        CoveringFit fit;
+        fit.open(object, targets, {voxelBall(targets.front())}, 16);
+        const FineBall fitted = fit.best({true, 12, 1, true, 16}, true).ball;
+        ASSERT_EQ(fitted.center[2], 16 * z);
+        ASSERT_TRUE(holdsVoxels(fitted, targets));
     }
 }
 
 /// Here the smallest ball reaches out of a round object, and one around its centre does not.
-TEST(DebtFit, LooksForTheBallInTheObject)
+TEST(CoveringFit, LooksForTheBallInTheObject)
 {
     const Voxels voxels = shapes::ball(100);
     const SampledObject object = sampled(voxels);
-    const Voxels debt{Coord(9, 0, 0), Coord(6, 6, 0), Coord(6, -6, 0)};
-    FineBall old;
-    old.radiusSq = neededRadiusSq(old, debt);
-    DebtFit fit;
-    fit.open(object, debt, {}, 40);
-    EXPECT_GT(fit.pay(kNone, false).cost, 0);
-    EXPECT_EQ(fit.pay(kMuch, false).cost, 0);
-    fit.open(object, debt, {old}, 40);
-    EXPECT_EQ(fit.pay(kNone, false).cost, 0);
+    const Voxels targets{Coord(9, 0, 0), Coord(6, 6, 0), Coord(6, -6, 0)};
+    FineBall other;
+    other.radiusSq = neededRadiusSq(other, targets);
+    CoveringFit fit;
+    fit.open(object, targets, {}, 40);
+    EXPECT_GT(fit.best(kNone, false).cost, 0);
+    EXPECT_EQ(fit.best(kMuch, false).cost, 0);
+    fit.open(object, targets, {other}, 40);
+    EXPECT_EQ(fit.best(kNone, false).cost, 0);
 }
 
 } // namespace

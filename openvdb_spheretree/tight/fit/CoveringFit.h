@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file CoveringFit.h
+/// @brief Finds a ball that holds given targets, voxels or balls, and costs as little as possible.
+
+#pragma once
+
+#include "BallFit.h"
+#include "CostRuns.h"
+#include "CostWindow.h"
+#include "PointCloud.h"
+
+#include <openvdb/Types.h>
+
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace tight {
+
+struct FittedBall {
+    FineBall ball;
+    double cost = 0; ///< voxels, counted on samples
+};
+
+/// @return the smallest squared radius around the centre of @a ball that holds @a held, a ball.
+int64_t radiusSqToHold(const FineBall& ball, const FineBall& held);
+
+/// Owns the window of what costs and all lists: who keeps one for many fits allocates once.
+class CoveringFit {
+public:
+    /// Opens the window around @a targets and the balls @a replaced: there, everything outside the
+    /// object costs.
+    /// @param targets   voxels, or balls, to be held; not empty
+    /// @param replaced  balls in whose place the new one comes
+    /// @param samples   of a radius, at most: FitEffort
+    void open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,
+        const std::vector<FineBall>& replaced, int samples);
+    void open(const SampledObject& object, const std::vector<FineBall>& targets,
+        const std::vector<FineBall>& replaced, int samples);
+    /// Opens the window around @a ball, to ask what it costs.
+    void open(const SampledObject& object, const FineBall& ball, int samples)
+    {
+        open(object, std::vector<FineBall>{ball}, {}, samples);
+    }
+
+    /// What the window reaches over.
+    const FineBox& box() const { return mBox; }
+    /// Voxels in @a ball, another one of the cover, cost nothing.
+    void cover(const FineBall& ball) { mWindow.cover(ball); }
+
+    /// @return what the balls cost together, voxels.
+    double costOf(const std::vector<FineBall>& balls);
+    /// @return the best ball found. It holds all targets, exactly. The centres of the replaced balls
+    /// are among those tried.
+    FittedBall best(const FitEffort& effort, bool flat);
+
+private:
+    void openWindow(const SampledObject& object, int samples);
+
+    std::vector<FineBall> mTargets, mReplaced; ///< a voxel is a ball of radius 0
+    FineBox mBox;
+    CostWindow mWindow, mLeft;
+    PointCloud mPoints;
+    CostRuns mCosts;
+    std::vector<LocalBall> mStarts;
+};
+
+} // namespace tight
+} // namespace openvdb_spheretree
