@@ -26,7 +26,7 @@
 #include "pyramid/PyramidModel.h"
 
 // A level's voxels to distances, to medial balls, to spheres inside, and its parts and tunnels.
-#include "inner/InnerTree.h"
+#include "inner/InnerBalls.h"
 #include "medial/DistanceTransform.h"
 #include "medial/MedialAxis.h"
 #include "topology/LevelTopology.h"

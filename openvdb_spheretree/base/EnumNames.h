@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "Text.h"
+
 #include <openvdb/Exceptions.h>
 
 #include <array>
@@ -40,13 +42,6 @@ std::string listOf(const std::array<Named<Enum>, N>& names)
     return text;
 }
 
-/// The start of @a text, for messages: values come from command lines and from damaged files.
-inline std::string quoted(const std::string& text)
-{
-    constexpr std::size_t kLongest = 60;
-    return '\'' + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + '\'';
-}
-
 /// @param setting  what is being read, for the message
 /// @throw openvdb::ValueError that lists the names, if @a text is none of them
 template <typename Enum, std::size_t N>
@@ -56,7 +51,7 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
         if (text == entry.name) return entry.value;
     }
     OPENVDB_THROW(openvdb::ValueError,
-        setting << "=" << quoted(text) << " is unknown: choose " << listOf(names));
+        setting << "=" << inQuotes(text) << " is unknown: choose " << listOf(names));
 }
 
 } // namespace detail

@@ -80,8 +80,8 @@ void parallelForWithScratch(
         count, interrupter, [] { return Scratch(); }, body);
 }
 
-/// Calls body(i, slot) for i in [0, count), at most @a slots at a time: each has a number below
-/// @a slots of its own while it runs, and with it whatever there is not enough of for every thread.
+/// Calls body(i, slot) for i in [0, count), at most @a slots at a time. While a body runs, no other
+/// has its number `slot`, which is below @a slots: an index of what is too large for every thread.
 template <typename Body>
 void parallelForWithSlots(std::size_t count, std::size_t slots,
     openvdb::util::NullInterrupter* interrupter, const Body& body)

@@ -4,9 +4,9 @@
 
 #pragma once
 
-#include <openvdb/util/NullInterrupter.h>
+#include "Stopwatch.h"
 
-#include <chrono>
+#include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -21,8 +21,7 @@ public:
     }
     ~Stage()
     {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - mStart;
-        if (mSum) *mSum += passed.count();
+        if (mSum) *mSum += mWatch.seconds();
         if (mInterrupter) mInterrupter->end();
     }
     Stage(const Stage&) = delete;
@@ -31,7 +30,7 @@ public:
 private:
     openvdb::util::NullInterrupter* mInterrupter;
     double* mSum;
-    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+    Stopwatch mWatch;
 };
 
 /// @return what @a work returns.

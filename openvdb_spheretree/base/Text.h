@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Text.h
-/// @brief Text of files and file names, as readers and their messages need it.
+/// @brief Text that comes from outside, made fit for messages: names, values of options, files and
+/// errors may be damaged, and gigabytes long.
 
 #pragma once
 
+#include <algorithm>
 #include <cctype>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,16 +23,41 @@ inline std::string lowerExtension(const std::string& path)
     return text;
 }
 
-/// @return text of a file for use in a message: in quotes, short, and nothing a terminal would
-/// obey.
-inline std::string shown(std::string_view text)
+/// @return the text on one line, its control characters replaced; where it is longer than @a
+/// longest, its start and "...".
+inline std::string onOneLine(std::string_view text, std::size_t longest)
 {
-    constexpr std::size_t kLongest = 40;
-    std::string clean(text.substr(0, kLongest));
-    for (char& c : clean) {
-        if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
+    std::string line(text.substr(0, longest));
+    for (char& c : line) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte == '\n' || byte == '\t') c = ' ';
+        else if (byte < 32 || byte == 127) c = '?';
     }
-    return "'" + clean + (text.size() > kLongest ? "...'" : "'");
+    return text.size() > longest ? line + "..." : line;
+}
+
+/// @return the same in quotes.
+inline std::string inQuotes(std::string_view text, std::size_t longest = 60)
+{
+    return "'" + onOneLine(text, longest) + "'";
+}
+
+/// @return a message of OpenVDB's without the type of the exception at its start.
+inline std::string_view withoutType(std::string_view message)
+{
+    constexpr std::string_view kEnd = "Error: ";
+    constexpr std::size_t kLongestType = 20;
+    const std::size_t end = message.substr(0, kLongestType + kEnd.size()).find(kEnd);
+    if (end == message.npos || message.find_first_of(" \t\n") < end) return message;
+    return message.substr(end + kEnd.size());
+}
+
+/// @return the first line of an error's message, without its type and of a sane length.
+inline std::string messageOf(const std::exception& error)
+{
+    constexpr std::size_t kLongest = 400;
+    const std::string_view message = withoutType(error.what());
+    return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
 }
 
 } // namespace detail

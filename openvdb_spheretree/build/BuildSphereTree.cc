@@ -4,7 +4,7 @@
 #include "StoredRadii.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/inner/InnerLevels.h>

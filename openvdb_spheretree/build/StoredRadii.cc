@@ -3,7 +3,7 @@
 
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Exceptions.h>

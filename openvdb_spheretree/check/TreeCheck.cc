@@ -19,7 +19,7 @@
 
 #include "TreeCheckReport.h"
 #include "WorldDistance.h"
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PowerTree.h"
 
+#include <openvdb_spheretree/base/IntegerRoot.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -12,13 +14,11 @@ namespace {
 
 using openvdb::Coord;
 
-int64_t squared(int64_t x) { return x * x; }
-
 int64_t powerOf(const MedialBall& ball, const Coord& voxel)
 {
     int64_t sum = -int64_t(ball.radiusSq);
     for (int axis = 0; axis < 3; ++axis) {
-        sum += squared(int64_t(ball.center[axis]) - voxel[axis]);
+        sum += square(int64_t(ball.center[axis]) - voxel[axis]);
     }
     return sum;
 }
@@ -74,7 +74,7 @@ int64_t PowerSearch::leastPower(const Node& node, const Coord& voxel)
     for (int axis = 0; axis < 3; ++axis) {
         const int64_t below = int64_t(node.box.min()[axis]) - voxel[axis];
         const int64_t above = int64_t(voxel[axis]) - node.box.max()[axis];
-        sum += squared(std::max<int64_t>(0, std::max(below, above)));
+        sum += square(std::max<int64_t>(0, std::max(below, above)));
     }
     return sum;
 }

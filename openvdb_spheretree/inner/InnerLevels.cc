@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InnerLevels.h"
 
-#include "InnerTree.h"
+#include "InnerOrder.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/base/RoundDown.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/index/PowerTree.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
@@ -19,18 +19,6 @@ namespace openvdb_spheretree {
 namespace detail {
 
 namespace {
-
-/// The balls in the order they were taken, in the object's own index space.
-std::vector<MedialBall> ballsInOrder(
-    const std::vector<MedialBall>& balls, const InnerOrder& order, const FlatAxis& flat)
-{
-    std::vector<MedialBall> result;
-    result.reserve(order.ball.size());
-    for (const int32_t i : order.ball) {
-        result.push_back({flat.fromZ(balls[i].center), balls[i].radiusSq});
-    }
-    return result;
-}
 
 /// A level's balls by their places in the order, themselves ordered by centre.
 std::vector<int32_t> byCentre(const std::vector<MedialBall>& balls, int64_t count)

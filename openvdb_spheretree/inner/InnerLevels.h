@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file InnerLevels.h
-/// @brief The levels of an inner tree: the first N balls of one greedy order (InnerTree.h), for
+/// @brief The levels of an inner tree: the first N balls of one greedy order (InnerOrder.h), for
 /// each N that the budget asks for.
 ///
 /// A ball of a coarser level is in all finer ones, where it hangs below itself; any other hangs

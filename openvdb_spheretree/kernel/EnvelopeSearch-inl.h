@@ -36,11 +36,11 @@
 
 #include "EnvelopeScratch.h"
 #include "LeafRows.h"
+#include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -50,12 +50,6 @@ namespace detail {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// @return the largest k with k * k <= square.
-inline int floorRoot(int64_t square)
-{
-    return int(std::sqrt(double(square))); // exact: squares here are below 2^33
-}
 
 template <class Op>
 class EnvelopeSearch {

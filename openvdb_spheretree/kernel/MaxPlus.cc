@@ -134,7 +134,8 @@ private:
         for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(steps[i]);
     }
 
-    static int rootOrZero(int64_t square) { return square <= 0 ? 0 : floorRoot(square); }
+    /// @param square  below 2^33
+    static int rootOrZero(int64_t square) { return square <= 0 ? 0 : int(floorSqrtSmall(square)); }
 
     /// The largest value, and the smallest of an object voxel.
     template <int kVectors>

@@ -68,7 +68,7 @@ struct MinPlusOp {
                 }
             }
             const int64_t m = hn::GetLane(hn::MaxOfLanes(d, largest));
-            scratch.reach[block] = m <= 1 ? 0 : floorRoot(m - 1);
+            scratch.reach[block] = m <= 1 ? 0 : int(floorSqrtSmall(m - 1));
         }
     }
 };

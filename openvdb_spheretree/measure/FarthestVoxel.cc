@@ -18,6 +18,7 @@
 #include "FarthestVoxel.h"
 
 #include "LeafReach.h"
+#include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/BallWords.h>
 
@@ -62,7 +63,7 @@ public:
         const int64_t point2[3] = {
             2 * int64_t(voxel[0]), 2 * int64_t(voxel[1]), 2 * int64_t(voxel[2])};
         const int64_t sq2 = mObject.distSq(point2, bestSq2());
-        raise(sq2);
+        raiseTo(mBestSq2, sq2);
         return sq2;
     }
 
@@ -93,12 +94,6 @@ public:
     }
 
 private:
-    void raise(int64_t sq2)
-    {
-        int64_t best = bestSq2();
-        while (sq2 > best && !mBestSq2.compare_exchange_weak(best, sq2)) {}
-    }
-
     /// @return whether no voxel of the box can be farther than B.
     bool dismissed(const CellBox& box) const
     {
@@ -162,7 +157,7 @@ private:
         while (!isEmpty(cell)) {
             const Coord voxel = cell.first();
             Coord nearest;
-            raise(mObject.nearest(voxel, nearest));
+            raiseTo(mBestSq2, mObject.nearest(voxel, nearest));
             const Coord at = voxel - cell.origin;
             cell.words[at[0]] &= ~(uint64_t(1) << (8 * at[1] + at[2])); // however far it is
             takeWithin(nearest, cell);

@@ -2,6 +2,7 @@
 #include "DistanceMap.h"
 
 #include "NormSweep.h"
+#include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/kernel/LargestValue.h>
@@ -26,11 +27,7 @@ constexpr uint32_t kLimit = sizeof(T) == 2 ? detail::kNarrowMax : detail::kWideM
 /// The largest of what many threads see.
 class Largest {
 public:
-    void see(uint32_t value)
-    {
-        uint32_t seen = mValue.load(std::memory_order_relaxed);
-        while (value > seen && !mValue.compare_exchange_weak(seen, value)) {}
-    }
+    void see(uint32_t value) { detail::raiseTo(mValue, value); }
     uint32_t value() const { return mValue; }
 
 private:

@@ -26,7 +26,7 @@
 #include "TreeLevels.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StreamPlan.h"
 
+#include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/base/Memory.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace openvdb_spheretree {
 namespace slab {
@@ -74,7 +74,7 @@ int64_t windowBytes(
     const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, uint32_t window)
 {
     // A slab waits for those that its last voxels reach, and then for those that reach it.
-    const auto reach = uint64_t(std::ceil(std::sqrt(double(largestDistSq))));
+    const auto reach = uint64_t(detail::ceilSqrt(largestDistSq));
     const uint64_t open = window + 2 * (reach / kLeafDim + 2);
     const uint32_t slabs = layout.slabCount();
     int64_t most = 0;

@@ -21,9 +21,9 @@
 
 #include "SlabPool.h"
 #include "StreamWork.h"
+#include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -66,7 +66,6 @@ private:
     {
         return slab + 1 < mLayout.slabCount() && xOf(slab) + kLeafDim == xOf(slab + 1);
     }
-    static int64_t rootUp(uint32_t square) { return int64_t(std::ceil(std::sqrt(double(square)))); }
 
     template <typename Body>
     void forEach(std::size_t slabs, const Body& body) const
@@ -93,7 +92,8 @@ private:
     uint32_t firstInDoubt() const
     {
         if (!touchesNext(mEntered - 1)) return mEntered;
-        const int64_t end = int64_t(xOf(mEntered - 1)) + 7 - rootUp(mMaxDistSq[mEntered - 1]);
+        const int64_t end =
+            int64_t(xOf(mEntered - 1)) + 7 - detail::ceilSqrt(mMaxDistSq[mEntered - 1]);
         uint32_t slab = mFinal;
         while (slab < mEntered && int64_t(xOf(slab)) + 7 <= end) ++slab;
         return slab;
@@ -147,7 +147,7 @@ private:
     bool reachesNothing(uint32_t slab) const
     {
         if (mFinal == mLayout.slabCount()) return true;
-        return int64_t(xOf(slab)) + 7 + rootUp(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
+        return int64_t(xOf(slab)) + 7 + detail::ceilSqrt(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
     }
 
     Work& mWork;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ClippedSphere.h"
+#include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
 #include <cassert>
@@ -93,9 +94,9 @@ private:
     {
         for (int a = 0; a < 3; ++a) {
             for (int32_t i = under.first[a]; i <= under.last[a]; ++i) {
-                mNearSq[a][i] = squareOf(ball.nearest(a, lowest(a, i), highest(a, i)));
+                mNearSq[a][i] = square(ball.nearest(a, lowest(a, i), highest(a, i)));
                 mFarSq[a][i] = ball.isInBox(a, lowest(a, i), highest(a, i))
-                    ? squareOf(ball.farthest(a, lowest(a, i), highest(a, i)))
+                    ? square(ball.farthest(a, lowest(a, i), highest(a, i)))
                     : ball.radiusSq + 1;
             }
         }
@@ -136,7 +137,6 @@ private:
         ++mOffset[child + 1];
     }
 
-    static int64_t squareOf(int64_t x) { return x * x; }
     int32_t childAt(int32_t x, int32_t y, int32_t z) const
     {
         const int n = mLog2 - mChildLog2;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "ClippedSphere.h"
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 
 #include <algorithm>

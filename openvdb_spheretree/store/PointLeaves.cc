@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PointLeaves.h"
 
+#include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/LargeArray.h>
 
 #include <tbb/parallel_sort.h>
@@ -32,9 +33,7 @@ std::size_t firstWrong(std::size_t count, const Wrong& wrong)
 {
     std::atomic<std::size_t> first{count};
     parallelFor(count, nullptr, [&](std::size_t i) {
-        std::size_t lowest = first.load(std::memory_order_relaxed);
-        if (i >= lowest || !wrong(i)) return;
-        while (i < lowest && !first.compare_exchange_weak(lowest, i)) {}
+        if (i < first.load(std::memory_order_relaxed) && wrong(i)) lowerTo(first, i);
     });
     return first;
 }

@@ -3,11 +3,11 @@
 
 #include "PointLeaves.h"
 #include "TreeMetadata.h"
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/CutsLayout.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -190,20 +190,7 @@ std::vector<std::string> groupNames(const SphereTree& tree)
 
 std::string describe(const GridBase& grid)
 {
-    constexpr std::size_t kLongest = 80;
-    std::string name = grid.getName();
-    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
-    return "point grid '" + name + "'";
-}
-
-/// @return the text of an error of OpenVDB, without its type and on one short line.
-std::string messageOf(const openvdb::Exception& error)
-{
-    const char* text = error.what();
-    if (const char* colon = std::strstr(text, "Error: ")) text = colon + std::strlen("Error: ");
-    constexpr std::size_t kLongest = 400;
-    const std::string line(text, strnlen(text, kLongest));
-    return line.substr(0, line.find('\n'));
+    return "point grid " + detail::inQuotes(grid.getName(), 80);
 }
 
 /// Runs @a read; whatever is wrong with the grid is reported as its damage.
@@ -214,7 +201,7 @@ auto blaming(const GridBase& grid, const char* kind, const Read& read)
         return read();
     } catch (const openvdb::Exception& error) {
         OPENVDB_THROW(openvdb::ValueError,
-            describe(grid) << " is a damaged " << kind << ": " << messageOf(error));
+            describe(grid) << " is a damaged " << kind << ": " << detail::messageOf(error));
     }
 }
 
@@ -446,7 +433,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
     try {
         checkCuts(tree.cuts, tree.subdivision);
     } catch (const openvdb::ValueError& error) {
-        inconsistent(std::string("in its cuts, ") + messageOf(error));
+        inconsistent(std::string("in its cuts, ") + detail::messageOf(error));
     }
     detail::PointWriter writer(tree.cuts.center);
     addSpheres(writer, tree.cuts, Keep());

@@ -19,7 +19,8 @@
 #pragma once
 
 #include "SphereTreeSettings.h"
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/voxel/Distance.h>
 
@@ -52,7 +53,7 @@ struct RootSum {
     int64_t coverSq() const
     {
         const auto product = 4 * (unsigned __int128)(a) * (unsigned __int128)(b);
-        return a + b + (product ? detail::integerRoot(product) : 0); // leaf balls have one root
+        return a + b + (product ? detail::floorSqrtWide(product) : 0); // leaf balls have one root
     }
     /// @return the radius, rounded up.
     double radius() const

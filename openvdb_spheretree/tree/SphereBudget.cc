@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereBudget.h"
 
+#include <openvdb_spheretree/base/Text.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -84,9 +86,9 @@ std::vector<int64_t> countsFromString(const std::string& text)
         const bool last = parsed.ptr == end;
         if (parsed.ec != std::errc() || (!last && *parsed.ptr != ',')) {
             OPENVDB_THROW(openvdb::ValueError,
-                "spheres='" << text.substr(0, 60)
-                            << "' is no list of counts: write numbers of 1 or more with commas "
-                               "between them, such as 8,64,512");
+                "spheres=" << detail::inQuotes(text)
+                           << " is no list of counts: write numbers of 1 or more with commas "
+                              "between them, such as 8,64,512");
         }
         requireCount(count);
         counts.push_back(count);

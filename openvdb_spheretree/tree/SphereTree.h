@@ -9,7 +9,7 @@
 /// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel centre* the
 /// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
 /// stored in files: in world units, with the padding added, rounded up to a float, so that whatever
-/// was covered stays covered. Spheres of an inner tree (InnerTree.h) lie inside the object instead:
+/// was covered stays covered. Spheres of an inner tree (InnerBalls.h) lie inside the object instead:
 /// their radii are rounded down, and nothing is added.
 
 #pragma once

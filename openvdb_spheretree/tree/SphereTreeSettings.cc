@@ -20,9 +20,9 @@ namespace openvdb_spheretree {
 namespace {
 
 using detail::fromName;
+using detail::inQuotes;
 using detail::Named;
 using detail::nameOf;
-using detail::quoted;
 
 constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Reversible, "reversible"},
     {TreeType::Extended, "extended"}, {TreeType::Tight, "tight"}}};
@@ -262,7 +262,7 @@ double paddingFromString(const std::string& text)
     // A negative number is refused even where it happens to be the code for cubes.
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value) || value < 0) {
         OPENVDB_THROW(openvdb::ValueError,
-            "padding=" << quoted(text)
+            "padding=" << inQuotes(text)
                        << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
     }
     return std::abs(value); // -0 is 0
@@ -279,7 +279,7 @@ int64_t memoryFromString(const std::string& text)
     if (bytes >= 1 && bytes < double(INT64_MAX)) return int64_t(bytes);
     const char* what = std::isnan(bytes) ? "unknown" : bytes < 1 ? "too little" : "too much";
     OPENVDB_THROW(openvdb::ValueError,
-        "memory=" << quoted(text) << " is " << what
+        "memory=" << inQuotes(text) << " is " << what
                   << ": choose a number of bytes such as 4GiB, 500MB or 4e9, or a share of the "
                      "machine's memory, above 0% and up to 100%, such as 75%");
 }
@@ -294,7 +294,7 @@ int closingFromString(const std::string& text)
     if (!named || parsed.ec != std::errc() || parsed.ptr != end || radius < 1
         || radius > kMaxClosing) {
         OPENVDB_THROW(openvdb::ValueError,
-            "model=" << quoted(text)
+            "model=" << inQuotes(text)
                      << " is unknown: choose or, or closing:R with a radius R of 1 to "
                      << kMaxClosing << " voxels");
     }

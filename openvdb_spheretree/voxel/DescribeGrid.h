@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/Text.h>
+
 #include <openvdb/Grid.h>
 
 #include <string>
@@ -14,10 +16,8 @@ namespace detail {
 /// @return "grid 'name'", of a sane length whatever the name.
 inline std::string describe(const openvdb::GridBase& grid)
 {
-    constexpr std::size_t kLongest = 80;
     const std::string name = grid.getName();
-    if (name.empty()) return "the grid without a name";
-    return "grid '" + (name.size() > kLongest ? name.substr(0, kLongest) + "..." : name) + "'";
+    return name.empty() ? "the grid without a name" : "grid " + inQuotes(name, 80);
 }
 
 } // namespace detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Distance.h"
 
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
+#include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -36,9 +37,9 @@ std::string chamferText(int face, int edge, int corner)
 [[noreturn]] void throwUnknown(const std::string& text)
 {
     OPENVDB_THROW(openvdb::ValueError,
-        "dist='" << text.substr(0, 60)
-                 << "' is unknown: choose l2, l1, linf, or chamfer:a,b,c with the costs of a step "
-                    "across a face, an edge and a corner, such as chamfer:3,4,5");
+        "dist=" << detail::inQuotes(text)
+                << " is unknown: choose l2, l1, linf, or chamfer:a,b,c with the costs of a step "
+                   "across a face, an edge and a corner, such as chamfer:3,4,5");
 }
 
 } // namespace

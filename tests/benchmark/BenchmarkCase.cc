@@ -2,11 +2,11 @@
 #include "BenchmarkCase.h"
 #include "PeakMemory.h"
 #include "PlainCopy.h"
+#include <openvdb_spheretree/base/Stopwatch.h>
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 
 namespace spheretree_benchmark {
@@ -86,13 +86,13 @@ double BenchmarkCase::runOnce(const Work& work)
 {
     std::optional<PeakMemory> peak;
     if (mResult.runs == 0) peak.emplace();
-    const auto start = std::chrono::steady_clock::now();
+    const openvdb_spheretree::detail::Stopwatch watch;
     mResult.balls = work();
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    const double seconds = watch.seconds();
     if (peak) mResult.peakBytes = peak->bytes();
     ++mResult.runs;
-    mResult.seconds = std::min(mResult.seconds, passed.count());
-    return passed.count();
+    mResult.seconds = std::min(mResult.seconds, seconds);
+    return seconds;
 }
 
 void BenchmarkCase::copy()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlainCopy.h"
 
+#include <openvdb_spheretree/base/Stopwatch.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <benchmark/benchmark.h>
@@ -8,7 +9,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 namespace spheretree_benchmark {
@@ -40,10 +40,9 @@ double copySeconds(int64_t leaves)
     }
     double best = 1e9;
     for (int i = 0; i < 5; ++i) {
-        const auto start = std::chrono::steady_clock::now();
+        const openvdb_spheretree::detail::Stopwatch watch;
         copyLeaves(from, to, copied);
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        best = std::min(best, passed.count());
+        best = std::min(best, watch.seconds());
     }
     return best * double(leaves) / double(copied);
 }

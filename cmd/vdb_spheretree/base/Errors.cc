@@ -5,6 +5,7 @@
 
 #include <openvdb/Exceptions.h>
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/Text.h>
 
 #include <cerrno>
 #include <cstring>
@@ -17,15 +18,6 @@ namespace command {
 using openvdb_spheretree::Interrupted;
 
 namespace {
-
-/// OpenVDB's exceptions start with their own type, which says nothing to a user.
-std::string withoutTypeName(const std::string& what)
-{
-    const size_t colon = what.find("Error: ");
-    if (colon == std::string::npos || colon > 20) return what;
-    if (what.find_first_of(" \t\n") < colon) return what;
-    return what.substr(colon + 7);
-}
 
 std::string joined(const std::string& where, const std::string& message)
 {
@@ -40,16 +32,7 @@ void throwOutput(const std::string& message) { throw CommandError(kOutput, messa
 
 std::string oneLine(const std::string& text, size_t limit)
 {
-    std::string line = text.substr(0, limit);
-    for (char& c : line) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte == '\n' || byte == '\t') {
-            c = ' ';
-        } else if (byte < 32 || byte == 127) {
-            c = '?';
-        }
-    }
-    return text.size() > limit ? line + "..." : line;
+    return openvdb_spheretree::detail::onOneLine(text, limit);
 }
 
 std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
@@ -65,7 +48,8 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
     } catch (const openvdb::Exception& error) {
         // Clipped first: copying the whole of it could need gigabytes.
         const std::string what(error.what(), strnlen(error.what(), 1000));
-        throw CommandError(fallback, joined(where, withoutTypeName(what)));
+        throw CommandError(
+            fallback, joined(where, std::string(openvdb_spheretree::detail::withoutType(what))));
     } catch (const std::bad_alloc&) {
         throw CommandError(fallback, joined(where, "not enough memory"));
     } catch (const std::length_error&) {

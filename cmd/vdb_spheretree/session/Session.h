@@ -10,26 +10,16 @@
 #include "Stack.h"
 
 #include <openvdb_spheretree/base/StageSeconds.h>
+#include <openvdb_spheretree/base/Stopwatch.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <iosfwd>
 #include <memory>
 
 namespace command {
 
-/// Wall-clock time.
-class Stopwatch {
-public:
-    double seconds() const
-    {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - mStart).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
-};
+using openvdb_spheretree::detail::Stopwatch;
 
 /// Seconds spent so far, by the whole line.
 struct StageSeconds {

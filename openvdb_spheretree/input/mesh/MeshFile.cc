@@ -57,14 +57,6 @@ constexpr std::size_t kMaxMessage = 200;
     throw IoError(path + ": " + what);
 }
 
-/// @return the message without the type's name that OpenVDB puts before it.
-std::string messageOf(const openvdb::Exception& error)
-{
-    const std::string text = error.what();
-    const std::size_t colon = text.find("Error: ");
-    return colon == text.npos ? text : text.substr(colon + 7);
-}
-
 void needRegularFile(const std::string& path)
 {
     std::error_code error;
@@ -152,12 +144,9 @@ PolygonSoup readByAssimp(const std::string& path)
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(path, 0);
     if (!scene) {
-        std::string why = importer.GetErrorString();
-        why = why.substr(0, std::min(why.find('\n'), kMaxMessage)); // it is not ours
-        for (char& c : why) {
-            if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
-        }
-        throw IoError("not a mesh file that assimp can read, or damaged (" + why + ")");
+        const std::string_view why = importer.GetErrorString(); // any text
+        throw IoError("not a mesh file that assimp can read, or damaged ("
+            + detail::onOneLine(why.substr(0, why.find('\n')), kMaxMessage) + ")");
     }
     return placedSoup(*scene);
 }
@@ -310,7 +299,7 @@ TriangleMesh readMeshFile(const std::string& path)
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory for the mesh");
     } catch (const openvdb::Exception& error) {
-        fail(path, messageOf(error));
+        fail(path, detail::messageOf(error));
     }
     mesh.name = std::filesystem::path(path).stem().string();
     return mesh;

@@ -138,7 +138,7 @@ void needWord(MeshText& text, const char* expected)
     const std::string_view word = text.wordOnAnyLine();
     if (lower(word) == expected) return;
     text.fail(word.empty() ? std::string("the file ends before '") + expected + "'"
-                           : shown(word) + " instead of '" + expected + "'");
+                           : inQuotes(word) + " instead of '" + expected + "'");
 }
 
 /// One facet, after its first word.
@@ -163,13 +163,13 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
     MeshText text(bytes);
     for (std::string_view solid = text.wordOnAnyLine(); !solid.empty();
          solid = text.wordOnAnyLine()) {
-        if (lower(solid) != "solid") text.fail(shown(solid) + " instead of 'solid'");
+        if (lower(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
         text.nextLine(); // the rest of the line is the solid's name
         for (;;) {
             const std::string word = lower(text.wordOnAnyLine());
             if (word == "endsolid") break;
             if (word.empty()) text.fail("the file ends before 'endsolid'; it is truncated");
-            if (word != "facet") text.fail(shown(word) + " instead of 'facet' or 'endsolid'");
+            if (word != "facet") text.fail(inQuotes(word) + " instead of 'facet' or 'endsolid'");
             asciiFacet(text, soup);
         }
         text.nextLine();
@@ -235,7 +235,7 @@ PolygonSoup parseObj(std::string bytes)
         else if (std::any_of(word.begin(), word.end(), [](unsigned char c) {
                      return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
                  }))
-            text.fail(shown(word) + " begins no line of an OBJ file");
+            text.fail(inQuotes(word) + " begins no line of an OBJ file");
     }
     if (indices.largest >= std::int64_t(soup.points.size())) {
         throw IoError("line " + std::to_string(indices.line) + ": a face names point "

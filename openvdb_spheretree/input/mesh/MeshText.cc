@@ -78,14 +78,14 @@ double MeshText::toNumber(std::string_view word, const char* what) const
         std::int64_t exponent = 0;
         if (parse(mantissa, number) && parse(word.substr(mantissa.size() + 1), exponent)) return 0;
     }
-    fail(shown(word) + " is not " + what);
+    fail(inQuotes(word) + " is not " + what);
 }
 
 std::int64_t MeshText::toInteger(std::string_view word, const char* what) const
 {
     std::int64_t number = 0;
     if (word.empty()) fail(std::string("ends before ") + what);
-    if (!parse(word, number)) fail(shown(word) + " is not " + what);
+    if (!parse(word, number)) fail(inQuotes(word) + " is not " + what);
     return number;
 }
 

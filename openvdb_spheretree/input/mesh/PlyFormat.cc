@@ -75,7 +75,7 @@ PlyType typeOf(const MeshText& text, std::string_view word)
     for (const Name& name : kNames) {
         if (word == name.old || word == name.sized) return name.type;
     }
-    text.fail(shown(word) + " is no type of a PLY property");
+    text.fail(inQuotes(word) + " is no type of a PLY property");
 }
 
 Encoding encodingOf(MeshText& text)
@@ -85,7 +85,7 @@ Encoding encodingOf(MeshText& text)
     if (format == "ascii") return Encoding::kAscii;
     if (format == "binary_little_endian") return Encoding::kLittle;
     if (format == "binary_big_endian") return Encoding::kBig;
-    text.fail(shown(format) + " is no format of PLY");
+    text.fail(inQuotes(format) + " is no format of PLY");
 }
 
 PlyElement elementOf(MeshText& text)
@@ -131,7 +131,7 @@ PlyHeader headerOf(MeshText& text)
         } else if (word == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(propertyOf(text));
         } else {
-            text.fail(shown(word) + " does not belong in a PLY header");
+            text.fail(inQuotes(word) + " does not belong in a PLY header");
         }
     }
     if (header.encoding == Encoding::kNone) text.fail("the header has no line 'format'");

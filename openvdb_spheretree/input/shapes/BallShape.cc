@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BallShape.h"
 
+#include <openvdb_spheretree/base/IntegerRoot.h>
+
 #include <algorithm>
-#include <cmath>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -11,8 +12,6 @@ namespace {
 
 using openvdb::Coord;
 using openvdb::CoordBBox;
-
-int64_t square(int64_t value) { return value * value; }
 
 /// The largest radiusSq with (4 pi / 3)^2 radiusSq^3 <= voxels^2. Products alone, which every
 /// machine rounds alike; a cube root is not.
@@ -35,7 +34,7 @@ SolidBall::SolidBall(int64_t voxels) : mRadiusSq(radiusSqOf(voxels)) {}
 
 CoordBBox SolidBall::box() const
 {
-    const int reach = int(std::sqrt(double(mRadiusSq))); // sqrt is exact to the last bit everywhere
+    const int reach = int(floorSqrt(mRadiusSq));
     return {Coord(-reach), Coord(reach)};
 }
 

@@ -40,10 +40,10 @@ void addField(const std::string& path, const std::string& line, HeaderFields& fi
     const auto colon = line.find(':');
     const std::string key = trimmed(line.substr(0, colon));
     if (colon == std::string::npos || key.empty()) {
-        fail(path, "header line " + shown(line) + " is not 'Key: value'; is this a .vol file?");
+        fail(path, "header line " + inQuotes(line) + " is not 'Key: value'; is this a .vol file?");
     }
     if (!fields.emplace(key, trimmed(line.substr(colon + 1))).second) {
-        fail(path, "header key " + shown(key) + " is given twice");
+        fail(path, "header key " + inQuotes(key) + " is given twice");
     }
 }
 
@@ -80,7 +80,7 @@ std::uint64_t sideOf(const std::string& path, const HeaderFields& fields, const 
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
     if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > kMaxSide) {
         fail(path,
-            "header key '" + key + "' is " + shown(text) + ", not a whole number from 1 to "
+            "header key '" + key + "' is " + inQuotes(text) + ", not a whole number from 1 to "
                 + std::to_string(kMaxSide));
     }
     return side;
@@ -92,7 +92,7 @@ int versionOf(const std::string& path, const HeaderFields& fields)
     if (it == fields.end() || it->second == "2") return 2;
     if (it->second == "3") return 3;
     fail(path,
-        "header key 'Version' is " + shown(it->second)
+        "header key 'Version' is " + inQuotes(it->second)
             + "; versions 2 (raw) and 3 (zlib) can be read");
 }
 
@@ -105,7 +105,7 @@ double voxelSizeOf(const std::string& path, const HeaderFields& fields)
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(size)
         || size <= 0) {
-        fail(path, "header key 'Voxel-Size' is " + shown(text) + ", not a number above 0");
+        fail(path, "header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
     }
     return size;
 }

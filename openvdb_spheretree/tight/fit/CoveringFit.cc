@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CoveringFit.h"
 
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,17 +35,12 @@ FineBall ballAroundBox(const std::vector<FineBall>& targets)
 int64_t radiusSqToHold(const FineBall& ball, const FineBall& held)
 {
     int64_t apart = 0;
-    for (int a = 0; a < 3; ++a) {
-        const int64_t d = ball.center[a] - held.center[a];
-        apart += d * d;
-    }
+    for (int a = 0; a < 3; ++a) apart += detail::square(ball.center[a] - held.center[a]);
     if (held.radiusSq == 0) return apart;
     // (sqrt(apart) + sqrt(radiusSq))^2, rounded up. Squared lengths are below 2^61 (requireRoom() in
     // TightTree.cc), so 4 times the product of two is below 2^124.
-    const auto product = 4 * (unsigned __int128)(apart) * (unsigned __int128)(held.radiusSq);
-    const int64_t root = detail::integerRoot(product);
-    const bool exact = (unsigned __int128)(root) * (unsigned __int128)(root) == product;
-    return apart + held.radiusSq + root + (exact ? 0 : 1);
+    const auto product = 4 * detail::Uint128(apart) * detail::Uint128(held.radiusSq);
+    return apart + held.radiusSq + detail::ceilSqrtWide(product);
 }
 
 void CoveringFit::open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,

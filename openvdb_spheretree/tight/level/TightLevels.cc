@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightLevels.h"
 
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 /// @brief Every result is the smallest number of its type that is not below the true value: checked
 /// in 128-bit integers, which hold the true values of products, squares and conversions.
 
-#include <openvdb_spheretree/base/RoundUp.h>
+#include <openvdb_spheretree/base/IntegerRoot.h>
+#include <openvdb_spheretree/base/Rounding.h>
 
 #include <gtest/gtest.h>
 
@@ -136,12 +137,12 @@ TEST(RoundUp, IntegerRootIsTheLargestWhoseSquareIsNotAbove)
     for (int i = 0; i < kTrials; ++i) {
         const int64_t n = 1 + randomInteger(random, 61);
         const Unsigned square = Unsigned(n) * Unsigned(n);
-        ASSERT_EQ(integerRoot(square), n);
-        ASSERT_EQ(integerRoot(square - 1), n - 1);
-        ASSERT_EQ(integerRoot(square + Unsigned(n) + Unsigned(n)), n);
-        ASSERT_EQ(integerRoot(square + Unsigned(n) + Unsigned(n) + 1), n + 1);
+        ASSERT_EQ(floorSqrtWide(square), n);
+        ASSERT_EQ(floorSqrtWide(square - 1), n - 1);
+        ASSERT_EQ(floorSqrtWide(square + Unsigned(n) + Unsigned(n)), n);
+        ASSERT_EQ(floorSqrtWide(square + Unsigned(n) + Unsigned(n) + 1), n + 1);
     }
-    EXPECT_EQ(integerRoot(0), 0);
+    EXPECT_EQ(floorSqrtWide(0), 0);
 }
 
 } // namespace

@@ -3,10 +3,11 @@
 /// @brief Inner spheres: the greedy order against a search that counts everything anew, and the
 /// trees made of it.
 
-#include <openvdb_spheretree/base/RoundDown.h>
+#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/index/PowerTree.h>
-#include <openvdb_spheretree/inner/InnerTree.h>
+#include <openvdb_spheretree/inner/InnerBalls.h>
+#include <openvdb_spheretree/inner/InnerOrder.h>
 #include <openvdb_spheretree/inner/UncoveredVoxels.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
@@ -23,6 +24,8 @@
 namespace {
 
 using namespace openvdb_spheretree;
+using openvdb_spheretree::detail::InnerOrder;
+using openvdb_spheretree::detail::innerOrder;
 using namespace spheretree_test;
 using openvdb::Vec3d;
 

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file InnerTree.h
-/// @brief Spheres inside an object: for every number N, the N medial balls that cover the most of
-/// it, greedily. What robotics calls a conservative approximation from within.
-///
-/// *Inside* is meant of voxels: a ball's closed sphere, of radius sqrt(radiusSq - 1) around a voxel
-/// centre, holds the centres of object voxels only. At the surface it may stick out of their cubes,
-/// by a part of a voxel.
+/// @file InnerOrder.h
+/// @brief An object's medial balls in a greedy order: the first N of it are the inner balls for N.
 ///
 /// 1. Candidates are the medial balls of the object (MedialAxis.h): every ball inside the object
 ///    that is not held by another one, or nearly so.
-/// 2. Each step takes the ball that holds the most voxels not covered yet; of equals the larger,
-///    then the one whose centre is first in the order of Coord. So the first N balls of one order
-///    serve every N, and cover at least 1 - 1/e of what the best N of the candidates do (G. L.
+/// 2. Each step takes the ball that holds the most uncovered voxels; of equals the larger, then the
+///    one whose center is first in the order of Coord. So the first N balls of one order serve
+///    every N, and cover at least 1 - 1/e of what the best N of the candidates do (G. L.
 ///    Nemhauser, L. A. Wolsey, M. L. Fisher, "An analysis of approximations for maximizing
 ///    submodular set functions", 1978).
 /// 3. It ends when all is covered: with a sixth of the medial balls of dragon-512, and five sixths
 ///    of hairball-256's.
 ///
-/// What a ball adds only falls as others are taken, so it is counted again only when it comes to
+/// What a ball adds only falls as others are taken. So it is counted again only when it comes to
 /// the top of a queue (M. Minoux, "Accelerated greedy algorithms for maximizing submodular set
 /// functions", 1978), and then only if a leaf it reaches into has changed. The next ones in the
 /// queue are counted with it, in parallel: that changes no choice.
@@ -27,9 +22,9 @@
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
@@ -39,13 +34,15 @@ namespace openvdb_spheretree {
 
 class LeafLayout;
 
+namespace detail {
+
 struct InnerOrder {
     std::vector<int32_t> ball;    ///< indices of the balls, in the order they are taken
     std::vector<int64_t> covered; ///< voxels that the balls up to and with this one cover
 };
 
 /// @param layout  the object's voxels
-/// @param balls   their medial balls, or any others inside the object; ordered by centre
+/// @param balls   their medial balls, or any others inside the object; ordered by center
 /// @param dim     2 if the object is one voxel thick along z
 /// @param most    ends after so many balls
 /// @throw Interrupted if @a interrupter (which may be null) said so
@@ -55,10 +52,9 @@ struct InnerOrder {
 InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& balls, int dim = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr, int64_t most = INT64_MAX);
 
-/// @brief The same for people who come for just this: at most @a most balls inside the active
-/// voxels of @a object, in the order of what they add; centres in its index space. All of them
-/// together, if so many are asked for, are the object.
-std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr);
+/// @return the balls of the order, in the index space of an object that was turned to be flat along z.
+std::vector<MedialBall> ballsInOrder(
+    const std::vector<MedialBall>& balls, const InnerOrder& order, const FlatAxis& flat);
 
+} // namespace detail
 } // namespace openvdb_spheretree

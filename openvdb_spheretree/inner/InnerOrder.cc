@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "InnerTree.h"
+#include "InnerOrder.h"
 
 #include "UncoveredVoxels.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <tbb/parallel_sort.h>
 
@@ -12,6 +10,7 @@
 #include <numeric>
 
 namespace openvdb_spheretree {
+namespace detail {
 
 namespace {
 
@@ -72,7 +71,7 @@ private:
         }
         begins.push_back(byRadius.size());
         mQueue.resize(mBalls.size());
-        detail::parallelFor(begins.size() - 1, mInterrupter, [&](std::size_t group) {
+        parallelFor(begins.size() - 1, mInterrupter, [&](std::size_t group) {
             const int64_t gain = mUncovered.countIn(mBalls[byRadius[begins[group]]]);
             for (std::size_t i = begins[group]; i < begins[group + 1]; ++i) {
                 mQueue[i] = {gain, byRadius[i], 0};
@@ -111,8 +110,8 @@ private:
         while (mBatch.size() < kBatch && !mQueue.empty() && !isCurrent(mQueue.front())) {
             mBatch.push_back(pop());
         }
-        detail::checkInterrupt(mInterrupter, percent());
-        detail::parallelFor(mBatch.size(), nullptr, [&](std::size_t i) {
+        checkInterrupt(mInterrupter, percent());
+        parallelFor(mBatch.size(), nullptr, [&](std::size_t i) {
             mBatch[i].gain = mUncovered.countIn(mBalls[mBatch[i].ball]);
             mBatch[i].taken = uint32_t(taken());
         });
@@ -130,7 +129,7 @@ private:
     }
 
     const std::vector<MedialBall>& mBalls;
-    detail::UncoveredVoxels mUncovered;
+    UncoveredVoxels mUncovered;
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<Candidate> mQueue, mBatch; ///< a heap, and what is counted next
     InnerOrder mOrder;
@@ -144,18 +143,16 @@ InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& b
     return GreedyOrder(layout, balls, dim, interrupter).run(most);
 }
 
-std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most, int dim,
-    openvdb::util::NullInterrupter* interrupter)
+std::vector<MedialBall> ballsInOrder(
+    const std::vector<MedialBall>& balls, const InnerOrder& order, const FlatAxis& flat)
 {
-    const FlatAxis flat = flatAxisOf(object, dim);
-    const auto voxels = flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
-    const MedialLevel level(*voxels, dim, Distance(), interrupter);
-    std::vector<MedialBall> inner;
-    for (const int32_t i : innerOrder(level.layout, level.balls, dim, interrupter, most).ball) {
-        inner.push_back({flat.fromZ(level.balls[i].center), level.balls[i].radiusSq});
+    std::vector<MedialBall> result;
+    result.reserve(order.ball.size());
+    for (const int32_t i : order.ball) {
+        result.push_back({flat.fromZ(balls[i].center), balls[i].radiusSq});
     }
-    return inner;
+    return result;
 }
 
+} // namespace detail
 } // namespace openvdb_spheretree
