@@ -24,8 +24,7 @@ PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)*/?")
 FILE = re.compile(r"\b(?:[\w-]+/)*[A-Za-z][\w-]*\.(?:h|cc|md|py|sh|tsv|cmake)\b")
 SECTION = re.compile(r'(docs/[\w-]+\.md),?\s+"([^"]+)"')
 # Names under which something is stored: keys of JSON and of metadata, attributes.
-KEY = re.compile(r'(?:(?:value|null|beginObject|beginArray|addAttribute<[\w:]+>|key|writeDegrees)\((?:json, )?"(\w+)")|'
-                 r'"(spheretree_\w+)"')
+KEY = re.compile(r'(?:value|null|beginObject|beginArray|addAttribute<[\w:]+>|key|writeDegrees)\((?:json, )?"(\w+)"')
 COLUMNS = re.compile(r"Columns\[\] = \{([^}]*)\}")
 NAME = re.compile(r"[A-Z][a-z0-9]+(?:[A-Z]\w*)+|(?:\w+::)*[A-Za-z]\w+\(\)")
 # Files of others that comments name: OpenVDB's headers, those of the standard library, and examples of names.
@@ -128,10 +127,12 @@ class Checker:
             stem = start[0].rsplit("_", 1)[0]
             described.update(stem + end for end in re.findall(r"`(_\w+)`", start[1]))
         for path, text in self.texts.items():
-            if not path.startswith(("openvdb_spheretree/store/", "cmd/vdb_spheretree/report/")):
+            if not path.startswith(("openvdb_spheretree/", "cmd/")):
                 continue
-            keys = [match[1] or match[2] for match in KEY.finditer(text)]
-            for key in keys + re.findall(r'"(\w+)"', " ".join(COLUMNS.findall(text))):
+            keys = re.findall(r'"(spheretree_\w+)"', text)
+            if path.startswith(("openvdb_spheretree/store/", "cmd/vdb_spheretree/report/")):
+                keys += KEY.findall(text) + re.findall(r'"(\w+)"', " ".join(COLUMNS.findall(text)))
+            for key in keys:
                 if key not in described and not key.endswith("_"):
                     self.wrong(path, f"stores {key}, which docs/formats.md does not describe")
 
