@@ -161,8 +161,8 @@ struct Boxes {
     }
 };
 
-/// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9 of
-/// DESIGN 9 keeps voxels at the very distance in, whatever the rounding of R / f^k.
+/// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9
+/// keeps voxels at the very distance in, whatever the rounding of R / f^k.
 MaskTree::Ptr reconstruct(
     const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
 {

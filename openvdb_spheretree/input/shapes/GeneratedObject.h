@@ -11,7 +11,7 @@
 /// | menger  | a sponge with holes of every size            | 160             | MengerShape.h  |
 /// | terrain | a hilly sheet, 3 voxels thick or more        | 120             | TerrainShape.h |
 /// | noise   | single voxels, 1% of a cube                  | 5               | NoiseShape.h   |
-/// | ball    | a solid ball around the origin, mostly tiles |                 | SolidBall.h    |
+/// | ball    | a solid ball around the origin, mostly tiles |                 | BallShape.h    |
 ///
 /// Gyroid, menger and noise fill a box whose sides differ by one at most, terrain a square; the
 /// sides are those that come nearest to the number of voxels.
