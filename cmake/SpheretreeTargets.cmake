@@ -8,7 +8,7 @@ function(spheretree_compile_options target)
 endfunction()
 
 # OpenVDB's headers take seconds to parse, and nearly every file includes them: they are parsed once a
-# target. Further arguments are headers of the target's own. Sources include what they use all the
+# target. With voxel/Masks.h no file compiles the trees of masks again. Further arguments are headers of the target's own. Sources include what they use all the
 # same: SPHERETREE_PRECOMPILE=OFF builds without.
 function(spheretree_precompile target)
     if(NOT SPHERETREE_PRECOMPILE)
@@ -17,6 +17,7 @@ function(spheretree_precompile target)
     target_precompile_headers(${target} PRIVATE
         <openvdb/openvdb.h> <openvdb/tree/LeafManager.h> <tbb/blocked_range.h>
         <tbb/parallel_for.h> <tbb/parallel_reduce.h>
+        "${PROJECT_SOURCE_DIR}/openvdb_spheretree/voxel/Masks.h"
         <algorithm> <array> <cmath> <cstdint> <functional> <memory> <optional> <string> <vector>
         ${ARGN})
     # So that ccache sees through the precompiled header (it names this flag in its manual).

@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/tight/TightTree.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Exceptions.h>

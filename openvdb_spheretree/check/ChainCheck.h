@@ -6,6 +6,7 @@
 #pragma once
 
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>

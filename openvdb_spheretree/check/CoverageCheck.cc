@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/sphere/SphereRaster.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <algorithm>
 #include <cmath>

@@ -26,6 +26,7 @@
 #include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <algorithm>
 #include <cmath>

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/Distance.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/openvdb.h>
 

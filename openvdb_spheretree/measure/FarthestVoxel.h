@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -17,6 +17,7 @@
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <cmath>
 

@@ -4,6 +4,7 @@
 #include "OrPyramid.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>

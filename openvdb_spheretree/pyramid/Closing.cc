@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/tools/Morphology.h>

@@ -9,6 +9,7 @@
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/tools/Prune.h>

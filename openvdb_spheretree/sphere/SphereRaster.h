@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <openvdb_spheretree/voxel/Masks.h>
+
 #include "SphereUnion.h"
 
 namespace openvdb_spheretree {

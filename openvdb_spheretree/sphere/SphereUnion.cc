@@ -2,6 +2,8 @@
 /// @file SphereUnion.cc
 /// @brief The public face of the rasteriser.
 
+#include <openvdb_spheretree/voxel/Masks.h>
+
 #include "SphereUnion.h"
 
 #include "ClippedSphere.h"

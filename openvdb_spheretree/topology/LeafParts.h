@@ -6,6 +6,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelSpheres.h"
 
+#include <openvdb_spheretree/voxel/Masks.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <cmath>

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "LeafMask.h"
+#include "Masks.h"
 
 #include <openvdb/openvdb.h>
 

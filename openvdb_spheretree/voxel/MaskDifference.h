@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "Masks.h"
+
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 

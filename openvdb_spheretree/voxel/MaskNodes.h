@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include "Masks.h"
+
 #include <openvdb/openvdb.h>
 
 namespace openvdb_spheretree {

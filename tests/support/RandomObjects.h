@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <openvdb_spheretree/voxel/Masks.h>
+
 #include "NaiveReference.h"
 
 #include <array>

@@ -11,6 +11,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <functional>
 #include <memory>

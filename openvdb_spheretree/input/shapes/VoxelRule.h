@@ -14,6 +14,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>

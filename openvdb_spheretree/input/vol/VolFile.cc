@@ -18,6 +18,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <tbb/parallel_invoke.h>
 #include <zlib.h>
