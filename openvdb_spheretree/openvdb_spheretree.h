@@ -7,7 +7,8 @@
 
 #pragma once
 
-// What long calls throw when they are interrupted, and the time that stages take.
+// What long calls throw when they are interrupted, the time that stages take, and lists by row.
+#include "base/CompressedRows.h"
 #include "base/Interrupted.h"
 #include "base/StageSeconds.h"
 

@@ -20,9 +20,9 @@
 /// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
 /// alone, so every level covers the object whatever the model. Radii are integers under square
 /// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for the
-/// radii (NodeChildren.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
+/// radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
 
-#include "NodeChildren.h"
+#include "FarthestLeaves.h"
 #include "TreeLevels.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
@@ -101,7 +101,7 @@ private:
 
 /// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
 /// @param levels  those below, and the nodes' own at the end
-void fitRadii(std::vector<LevelNodes>& levels, const std::vector<NodeChildren>& below,
+void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>& below,
     const BuildContext& context)
 {
     const int level = int(levels.size()) - 1;
@@ -235,7 +235,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     Boxes boxes{context.bbox, context.bbox};
     std::vector<LevelNodes> levels;
     levels.push_back(context.allBalls(fine));
-    std::vector<NodeChildren> below;
+    std::vector<CompressedRows> below;
 
     for (int level = 1; levels.back().balls.size() > 1; ++level) {
         voxels = timed("pyramid", context.interrupter, &context.seconds->pyramid,
@@ -244,7 +244,7 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
         timed("parents and radii", context.interrupter, &context.seconds->tree, [&] {
             Links links = linkLevels(levels.back(), level - 1, fine.get(), *coarse, context);
             LevelNodes nodes = keepParents(links, *coarse, context.interrupter);
-            below.emplace_back(links.parent, nodes.balls.size());
+            below.push_back(compressedRows(links.parent, nodes.balls.size()));
             levels.back().parent = std::move(links.parent);
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));

@@ -2,6 +2,7 @@
 #include "MiniballCenters.h"
 
 #include "Miniball.h"
+#include <openvdb_spheretree/base/CompressedRows.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/ExactSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
@@ -40,30 +41,15 @@ public:
     /// To the next level.
     void ascend(const SphereTreeLevel& level)
     {
-        mFirst.assign(level.size() + 1, 0);
-        for (int32_t& node : mAncestor) {
-            node = mTree.parent[node];
-            ++mFirst[node - level.begin + 1];
-        }
-        std::partial_sum(mFirst.begin(), mFirst.end(), mFirst.begin());
-        mLeaves.resize(mAncestor.size());
-        std::vector<int32_t> next(mFirst.begin(), mFirst.end() - 1);
-        for (int32_t leaf = 0; leaf < int32_t(mAncestor.size()); ++leaf) {
-            mLeaves[next[mAncestor[leaf] - level.begin]++] = mFinest.begin + leaf;
-        }
+        for (int32_t& node : mAncestor) node = mTree.parent[node];
+        mBelow = compressedRows(
+            mAncestor.size(), std::size_t(level.size()),
+            [&](std::size_t leaf) { return mAncestor[leaf] - level.begin; },
+            [&](std::size_t leaf) { return mFinest.begin + int32_t(leaf); });
     }
 
-    /// The ids of the leaves below the node at @a place in the level.
-    struct Range {
-        const int32_t *first, *last;
-        const int32_t* begin() const { return first; }
-        const int32_t* end() const { return last; }
-        bool empty() const { return first == last; }
-    };
-    Range below(int32_t place) const
-    {
-        return {mLeaves.data() + mFirst[place], mLeaves.data() + mFirst[place + 1]};
-    }
+    /// The ids of the leaf balls below the node at @a place in the level.
+    NodeSpan below(int32_t place) const { return mBelow[place]; }
 
     /// Squared radius in units, and the radius in voxels.
     int64_t fineRadiusSq(int32_t leaf) const
@@ -76,7 +62,7 @@ private:
     const SphereTree& mTree;
     const SphereTreeLevel& mFinest;
     std::vector<int32_t> mAncestor;
-    std::vector<int32_t> mFirst, mLeaves;
+    CompressedRows mBelow;
 };
 
 int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
@@ -88,8 +74,8 @@ int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
 
 /// The smallest radius around the sphere's centre that contains the leaf balls. Only those that
 /// reach farthest in floating point are measured exactly.
-void measure(FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leaves,
-    const LeafBalls::Range& below)
+void measure(
+    FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leaves, const NodeSpan& below)
 {
     const auto reach = [&](int32_t leaf) {
         return std::sqrt(double(apartSq(tree, leaf, sphere.exact)))
@@ -105,8 +91,8 @@ void measure(FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leav
     }
 }
 
-FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
-    const LeafBalls::Range& below, std::vector<RealBall>& balls)
+FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves, const NodeSpan& below,
+    std::vector<RealBall>& balls)
 {
     const openvdb::Coord& base = tree.ijk[*below.begin()];
     balls.clear();
@@ -126,7 +112,7 @@ FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves,
 
 /// The medial centre of a node; around it the radius that the leaf balls below need.
 FittedSphere aroundMedialCentre(
-    const SphereTree& tree, int32_t id, const LeafBalls& leaves, const LeafBalls::Range& below)
+    const SphereTree& tree, int32_t id, const LeafBalls& leaves, const NodeSpan& below)
 {
     FittedSphere sphere;
     for (int axis = 0; axis < 3; ++axis) {
@@ -185,7 +171,7 @@ void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interru
         parallelForWithScratch<std::vector<RealBall>>(
             level.size(), interrupter, [&](std::size_t place, std::vector<RealBall>& scratch) {
                 const int32_t id = level.begin + int32_t(place);
-                const auto below = inner ? leaves.below(int32_t(place)) : LeafBalls::Range{};
+                const auto below = inner ? leaves.below(int32_t(place)) : NodeSpan{};
                 if (below.empty()) return refineOwn(tree, id, frame);
                 FittedSphere best = smallestSphere(tree, leaves, below, scratch);
                 if (extended) {

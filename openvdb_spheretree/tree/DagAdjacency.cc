@@ -4,7 +4,6 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace openvdb_spheretree {
 
@@ -25,23 +24,6 @@ void checkEdges(const std::vector<DagEdge>& edges, int32_t parentCount, int32_t 
         if (!exists) refuse(e, "is not between nodes that there are");
         if (i > 0 && !(edges[i - 1] < e)) refuse(e, "is out of order or there twice");
     }
-}
-
-/// A counting sort by row: targets of a row keep the order they come in, which is ascending.
-template <typename Row, typename Target>
-CompressedRows makeRows(
-    const std::vector<DagEdge>& edges, std::size_t count, const Row& row, const Target& target)
-{
-    CompressedRows rows;
-    rows.offsets.assign(count + 1, 0);
-    for (const DagEdge& edge : edges) ++rows.offsets[std::size_t(row(edge)) + 1];
-    std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-    std::vector<int64_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-    rows.targets.resize(edges.size());
-    for (const DagEdge& edge : edges) {
-        rows.targets[std::size_t(next[std::size_t(row(edge))]++)] = target(edge);
-    }
-    return rows;
 }
 
 Degrees degreesOf(const CompressedRows& rows, const SphereTreeLevel& level)
@@ -69,10 +51,10 @@ DagAdjacency dagAdjacency(
             "a DAG between " << parentCount << " and " << childCount << " nodes cannot be");
     }
     checkEdges(edges, parentCount, childCount);
-    const auto parent = [](const DagEdge& edge) { return edge.parent; };
-    const auto child = [](const DagEdge& edge) { return edge.child; };
-    return {makeRows(edges, std::size_t(parentCount), parent, child),
-        makeRows(edges, std::size_t(childCount), child, parent)};
+    const auto parent = [&](std::size_t i) { return edges[i].parent; };
+    const auto child = [&](std::size_t i) { return edges[i].child; };
+    return {compressedRows(edges.size(), std::size_t(parentCount), parent, child),
+        compressedRows(edges.size(), std::size_t(childCount), child, parent)};
 }
 
 DagAdjacency dagAdjacency(const SphereTree& tree)

@@ -3,46 +3,19 @@
 /// @brief The edges of a Sphere-DAG for walking it: the children of every node, and its parents, as
 /// compressed sparse rows (CSR), and counts of them by level.
 ///
-/// A direction is two arrays: the neighbours of node i are `targets[offsets[i] ... offsets[i +
-/// 1])`. Edges come sorted by parent, so the children's array is there already; the parents' is one
-/// counting sort of it. 4 bytes an edge and direction, 8 a node. Cost: O(nodes + edges). Tests:
-/// TestDagAdjacency.cc.
+/// 4 bytes an edge and direction, 8 a node. Cost: O(nodes + edges). Tests: TestDagAdjacency.cc.
 
 #pragma once
 
 #include "SphereTree.h"
+#include <openvdb_spheretree/base/CompressedRows.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
 
-/// Neighbours in ascending order, for a range-for.
-struct NodeSpan {
-    const int32_t *first = nullptr, *last = nullptr;
-
-    const int32_t* begin() const { return first; }
-    const int32_t* end() const { return last; }
-    std::size_t size() const { return std::size_t(last - first); }
-    bool empty() const { return first == last; }
-    int32_t operator[](std::size_t i) const { return first[i]; }
-};
-
-/// Rows of neighbours, one row a node.
-struct CompressedRows {
-    std::vector<int64_t> offsets; ///< of each row in `targets`, and its size at the end
-    std::vector<int32_t> targets;
-
-    /// @param node  in [0, number of rows)
-    NodeSpan operator[](int32_t node) const
-    {
-        return {targets.data() + offsets[std::size_t(node)],
-            targets.data() + offsets[std::size_t(node) + 1]};
-    }
-    std::size_t rowCount() const { return offsets.size() - 1; }
-};
-
-/// Both directions of a DAG. Reading is thread-safe.
+/// Both directions of a DAG; neighbours come in ascending order. Reading is thread-safe.
 struct DagAdjacency {
     CompressedRows children; ///< a row for each parent
     CompressedRows parents;  ///< a row for each child

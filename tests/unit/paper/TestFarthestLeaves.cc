@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file TestNodeChildren.cc
-/// @brief Children by parent, and the search for the leaf balls that reach farthest: the same most
-/// as by looking at all, and much less looked at.
+/// @file TestFarthestLeaves.cc
+/// @brief The search for the leaf balls that reach farthest: the same most as by looking at all, and
+/// much less looked at.
 
-#include <openvdb_spheretree/paper/NodeChildren.h>
+#include <openvdb_spheretree/paper/FarthestLeaves.h>
 
 #include <gtest/gtest.h>
 
@@ -14,32 +14,10 @@ namespace {
 
 using namespace openvdb_spheretree;
 
-std::vector<int32_t> childrenOf(const detail::NodeChildren& children, int32_t node)
-{
-    return {children.of(node).begin(), children.of(node).end()};
-}
-
-TEST(NodeChildren, AreListedByParentInTheirOwnOrder)
-{
-    const std::vector<int32_t> parent{2, 0, 2, 3, 0, 2};
-    const detail::NodeChildren children(parent, 4);
-    EXPECT_EQ(childrenOf(children, 0), (std::vector<int32_t>{1, 4}));
-    EXPECT_EQ(childrenOf(children, 1), std::vector<int32_t>{});
-    EXPECT_EQ(childrenOf(children, 2), (std::vector<int32_t>{0, 2, 5}));
-    EXPECT_EQ(childrenOf(children, 3), std::vector<int32_t>{3});
-}
-
-TEST(NodeChildren, OfNoNodesAreNone)
-{
-    const detail::NodeChildren children({}, 2);
-    EXPECT_EQ(childrenOf(children, 0), std::vector<int32_t>{});
-    EXPECT_EQ(childrenOf(children, 1), std::vector<int32_t>{});
-}
-
 /// Places on a line, in levels; a node's reach is that of the leaves below it, around its place.
 struct Line {
     std::vector<std::vector<double>> place, reach; ///< per level
-    std::vector<detail::NodeChildren> below;
+    std::vector<CompressedRows> below;
     std::vector<std::vector<int32_t>> ancestor; ///< of leaves, per level
 
     explicit Line(uint32_t seed)
@@ -67,7 +45,7 @@ struct Line {
                 [p](double a, double b) { return std::abs(a - p) < std::abs(b - p); });
             parent.push_back(int32_t(nearest - coarse.begin()));
         }
-        below.emplace_back(parent, coarse.size());
+        below.push_back(compressedRows(parent, coarse.size()));
         ancestor.push_back(ancestor.back());
         for (int32_t& node : ancestor.back()) node = parent[node];
     }

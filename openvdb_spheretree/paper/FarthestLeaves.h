@@ -1,46 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file NodeChildren.h
-/// @brief The way down a tree: nodes of a level by their parent, and the leaf balls below a node
-/// that reach farthest.
+/// @file FarthestLeaves.h
+/// @brief The way down a tree to the leaf balls that reach farthest from a node's center.
 
 #pragma once
 
-#include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/base/CompressedRows.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace openvdb_spheretree {
 namespace detail {
 
-/// The nodes of a level by their parent on the next level up; both are counted from 0 within their
-/// level. 4 bytes a node and 4 a parent.
-class NodeChildren {
-public:
-    /// @param parent  of each node
-    NodeChildren(const std::vector<int32_t>& parent, std::size_t parents);
-
-    struct Range {
-        const int32_t *first, *last;
-        const int32_t* begin() const { return first; }
-        const int32_t* end() const { return last; }
-    };
-    /// @return the children of a node, in their own order.
-    Range of(int32_t node) const
-    {
-        return {
-            mOrder.get() + mBegin[std::size_t(node)], mOrder.get() + mBegin[std::size_t(node) + 1]};
-    }
-
-private:
-    std::vector<uint32_t> mBegin; ///< of each parent in mOrder, and its end
-    LargeArray<int32_t> mOrder;
-};
-
-/// A search for the leaf balls below a node that reach farthest from its centre: a part of the tree
+/// A search for the leaf balls below a node that reach farthest from its center: a part of the tree
 /// is left out if none of its leaf balls can matter. Of a level's leaf balls few are looked at:
-/// cost is that of the nodes, not of leaves times levels.
+/// cost is that of the nodes, not of leaf balls times levels. Tests: TestFarthestLeaves.cc.
 ///
 /// A Reach answers reach(level, node): nothing below that node, which may be a leaf ball itself,
 /// goes beyond this. A Visit answers visit(leaf): the most that is known now; what does not reach
@@ -48,7 +24,7 @@ private:
 class FarthestLeaves {
 public:
     /// @param below  [k]: nodes of level k by their parents on level k + 1
-    explicit FarthestLeaves(const std::vector<NodeChildren>& below) : mBelow(below) {}
+    explicit FarthestLeaves(const std::vector<CompressedRows>& below) : mBelow(below) {}
 
     /// Visits leaf balls below a node of @a level, 1 or more; at first all matter.
     template <typename Reach, typename Visit>
@@ -71,7 +47,7 @@ private:
         // The child that reaches farthest comes first: its leaf balls rule out most others.
         const std::size_t begin = mChildren.size();
         std::size_t farthest = begin;
-        for (const int32_t child : mBelow[std::size_t(level - 1)].of(node)) {
+        for (const int32_t child : mBelow[std::size_t(level - 1)][node]) {
             const double r = reach(level - 1, child);
             if (r <= mMost) continue;
             mChildren.push_back({r, child});
@@ -90,22 +66,22 @@ private:
     template <typename Reach, typename Visit>
     void lookAtLeaves(int32_t node, const Reach& reach, const Visit& visit)
     {
-        const NodeChildren::Range leaves = mBelow[0].of(node);
-        const std::size_t count = std::size_t(leaves.end() - leaves.begin());
+        const NodeSpan leaves = mBelow[0][node];
+        const std::size_t count = leaves.size();
         if (mReaches.size() < count) mReaches.resize(count);
         std::size_t farthest = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            mReaches[i] = reach(0, leaves.begin()[i]);
+            mReaches[i] = reach(0, leaves[i]);
             if (mReaches[i] > mReaches[farthest]) farthest = i;
         }
         if (count == 0 || mReaches[farthest] <= mMost) return;
-        mMost = visit(leaves.begin()[farthest]);
+        mMost = visit(leaves[farthest]);
         for (std::size_t i = 0; i < count; ++i) {
-            if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves.begin()[i]);
+            if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves[i]);
         }
     }
 
-    const std::vector<NodeChildren>& mBelow;
+    const std::vector<CompressedRows>& mBelow;
     std::vector<Child> mChildren; ///< those that are waiting, of all levels on the way
     std::vector<double> mReaches; ///< of the leaves of one node
     double mMost = 0;
