@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/paper/MiniballCenters.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tight/TightTree.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>

@@ -14,15 +14,15 @@
 
 namespace openvdb_spheretree {
 
-/// Of the power labels of level 0, which all other levels have fewer of.
+/// For the power labels of level 0: the other levels have fewer.
 struct MemoryPlan {
     int64_t allowed = 0;      ///< bytes, by SphereTreeSettings::memory
     int64_t needed = 0;       ///< bytes, at most
-    int64_t slabs = 0;        ///< one leaf node thick, along x
-    int64_t slabsAtATime = 0; ///< that distances and labels are computed of
-    bool packed = false;      ///< labels are compressed; else they are in memory as they are
-    int64_t packedBytes = 0;  ///< if so: all of them, before they are compressed
-    int64_t storedBytes = 0;  ///< what of them, compressed, may stay in memory and out of a file
+    int64_t slabs = 0;        ///< of the object: each is one leaf node thick, along x
+    int64_t slabsAtATime = 0; ///< whose distances and labels are computed together
+    bool packed = false;      ///< whether labels are compressed; else all are kept in memory
+    int64_t packedBytes = 0;  ///< of all labels before they are compressed, if they are
+    int64_t storedBytes = 0;  ///< of compressed labels that may stay in memory; others go to a file
 };
 
 /// @brief Ask before a long build, or find out why one is refused.

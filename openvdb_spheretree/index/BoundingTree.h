@@ -39,9 +39,9 @@ struct Bound {
     openvdb::Vec3d center;
     double radius;
     Box box;
-    /// No ray enters the body that starts with its centre further behind it than this. A ball is
-    /// entered from before its centre alone, so that is 0, and of the crowd that a ray leaves when
-    /// it starts on a surface, nearly all is behind it.
+    /// A ray does not enter the body if it starts with the centre further behind it than this. Of a
+    /// ball it is 0: rays enter it only where its centre is still ahead. So a ray that starts on a
+    /// surface is not tested against the balls that it leaves, of which there are many.
     double behind;
 
     /// Of a body, whatever it is, within this ball.
@@ -64,7 +64,7 @@ public:
         const std::vector<Bound>& bounds, openvdb::util::NullInterrupter* interrupter = nullptr);
 
     /// The bodies by number, in the order of the tree's leaves: what is stored in this order lies
-    /// together in memory when it is asked for together. @a place in a visit is an index of it.
+    /// together in memory where it is visited together. @a place in a visit is an index of it.
     const std::vector<int32_t>& order() const { return mOrder; }
 
     /// Calls visit(place) for every body whose bound meets @a bound.
@@ -99,7 +99,7 @@ private:
     /// children stands for one of two children, and is no deeper.
     static constexpr int kCostDepth = 48;
     static constexpr int kDeepest = kCostDepth + 31;
-    /// Each step down takes one of those that wait, and leaves kWidth of them.
+    /// Each step down takes one of those that wait, and adds kWidth of them.
     static constexpr int kMostWaiting = kDeepest * (BoundingNode::kWidth - 1) + 1;
 
     struct Waiting {

@@ -5,7 +5,7 @@
 ///
 /// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
 /// Each box is the tight one of its voxels, so each of its faces has a voxel: that bounds the
-/// distance from above as well, and most "is anything within ..." questions end near the root.
+/// distance from above as well, and most calls of anyWithin() end near the root.
 /// Within a leaf, rows are searched by bits.
 ///
 /// Query points are in doubled coordinates (centres between voxels), distances squared and doubled

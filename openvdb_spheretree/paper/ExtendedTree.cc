@@ -162,7 +162,7 @@ struct Boxes {
 };
 
 /// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9
-/// keeps voxels at the very distance in, whatever the rounding of R / f^k.
+/// keeps voxels at the very distance in: it is far above the rounding of R / f^k, 1e-15 of it.
 MaskTree::Ptr reconstruct(
     const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
 {

@@ -4,8 +4,8 @@
 /// that meet (Broutta et al. 2009, 3.1, Eq. 3).
 ///
 /// Spheres are closed, in the frame of level 0, without padding, as the tree has them (`coverSq`);
-/// touching is meeting. Each level's spheres are put in a bounding volume hierarchy, and each
-/// sphere of the level below asks it. Exact, in integers. In a reversible tree every edge of
+/// touching is meeting. Each level's spheres are put in a bounding volume hierarchy, where each
+/// sphere of the level below is looked up. Exact, in integers. In a reversible tree every edge of
 /// SphereDag.h is among these; the other way round most are not. Cost: O(n log n + edges), where
 /// spheres of a level are alike in size. Tests: TestIntersectionDag.cc.
 

@@ -74,11 +74,11 @@ private:
     }
 };
 
-/// The centres, at most two, of balls that touch each of @a few from outside and lie in their hull.
+/// The centers, at most two, of balls that touch each of @a few from outside and lie in their hull.
 /// With x = c - c_0, q_i = c_i - c_0, s_i = r_i - r_0 and rho = R - r_0, |x - q_i| = rho - s_i is
 ///     q_i . x = (|q_i|^2 - s_i^2) / 2 + rho s_i
 /// so x, a sum of q_i, is a + rho b; and |x| = rho.
-int touchingCentres(const Few& few, std::array<Vec3d, 2>& centres)
+int touchingCenters(const Few& few, std::array<Vec3d, 2>& centers)
 {
     const RealBall& first = few.balls[0];
     Vec3d q[3];
@@ -103,7 +103,7 @@ int touchingCentres(const Few& few, std::array<Vec3d, 2>& centres)
     int count = 0;
     for (const double sign : {1.0, -1.0}) {
         const double rho = square != 0 ? (half + sign * root) / square : -constant / (2 * half);
-        if (rho >= 0 && std::isfinite(rho)) centres[count++] = first.center + a + b * rho;
+        if (rho >= 0 && std::isfinite(rho)) centers[count++] = first.center + a + b * rho;
     }
     return count;
 }
@@ -120,9 +120,9 @@ Decision decide(const Few& few)
     const int others = few.count - 1;
     Decision best;
     best.ball.radius = std::numeric_limits<double>::infinity();
-    const auto tryCentre = [&](const Vec3d& centre, const Few& deciding) {
-        const double radius = farthestReach(centre, few);
-        if (radius < best.ball.radius) best = {{centre, radius}, deciding};
+    const auto tryCenter = [&](const Vec3d& center, const Few& deciding) {
+        const double radius = farthestReach(center, few);
+        if (radius < best.ball.radius) best = {{center, radius}, deciding};
     };
     for (int subset = 0; subset < 1 << others; ++subset) {
         Few some;
@@ -132,12 +132,12 @@ Decision decide(const Few& few)
         }
         if (some.count > kMostDeciding) continue;
         if (some.count == 1) {
-            tryCentre(some.balls[0].center, some);
+            tryCenter(some.balls[0].center, some);
             continue;
         }
-        std::array<Vec3d, 2> centres;
-        const int found = touchingCentres(some, centres);
-        for (int i = 0; i < found; ++i) tryCentre(centres[i], some);
+        std::array<Vec3d, 2> centers;
+        const int found = touchingCenters(some, centers);
+        for (int i = 0; i < found; ++i) tryCenter(centers[i], some);
     }
     return best;
 }

@@ -47,19 +47,19 @@ void VoxelBalls::fillLeaf(RunLabels& labels, const int32_t* before)
     }
 }
 
-ParentCells::ParentCells(const PyramidStep& step, const Coord& origin, int axis)
+AxisParents::AxisParents(const PyramidStep& step, const Coord& origin, int axis)
 {
     // One division a leaf, not one a voxel.
     const int64_t factor = axis < step.dim ? step.factor : 1;
-    int32_t cell = step.parentVoxel(origin)[axis];
-    int64_t left = factor * (int64_t(cell) + 1) - (int64_t(origin[axis]) - step.origin[axis]);
-    parent[0] = cell;
+    int32_t last = step.parentVoxel(origin)[axis];
+    int64_t left = factor * (int64_t(last) + 1) - (int64_t(origin[axis]) - step.origin[axis]);
+    parent[0] = last;
     for (int i = 0; i < kLeafDim; ++i, --left) {
         if (left == 0) {
-            parent[++count] = ++cell;
+            parent[++count] = ++last;
             left = factor;
         }
-        cellOf[i] = uint8_t(count);
+        placeOf[i] = uint8_t(count);
     }
     ++count;
 }
@@ -68,18 +68,18 @@ RunParents::RunParents(const VoxelBalls& balls, const PyramidStep& step, const C
     : mBalls(balls), mAlongY(step, first, 1), mAlongZ(step, first, 2)
 {
     for (uint32_t lane = 0; lane < 64; ++lane) {
-        const int y = mAlongY.cellOf[lane >> 3], z = mAlongZ.cellOf[lane & 7];
+        const int y = mAlongY.placeOf[lane >> 3], z = mAlongZ.placeOf[lane & 7];
         mLeafOf[lane] = uint8_t(2 * mAlongY.leafOf(y) + mAlongZ.leafOf(z));
-        mOffsetOf[lane] = uint16_t(8 * (mAlongY.parent[y] & 7) + (mAlongZ.parent[z] & 7));
-        const bool innerY = lane >= 8 && mAlongY.cellOf[(lane >> 3) - 1] == y;
-        const bool innerZ = (lane & 7) != 0 && mAlongZ.cellOf[(lane & 7) - 1] == z;
+        mIndexOf[lane] = uint16_t(8 * (mAlongY.parent[y] & 7) + (mAlongZ.parent[z] & 7));
+        const bool innerY = lane >= 8 && mAlongY.placeOf[(lane >> 3) - 1] == y;
+        const bool innerZ = (lane & 7) != 0 && mAlongZ.placeOf[(lane & 7) - 1] == z;
         mInnerY |= uint64_t(innerY) << lane;
         mInnerZ |= uint64_t(innerZ) << lane;
     }
-    for (int y = 0; y < kLeafDim; ++y) mRows[mAlongY.cellOf[y]] |= uint64_t(1) << 8 * y;
+    for (int y = 0; y < kLeafDim; ++y) mRows[mAlongY.placeOf[y]] |= uint64_t(1) << 8 * y;
     for (uint32_t bits = 0; bits < uint32_t(1) << mAlongZ.count; ++bits) {
         for (int z = 0; z < kLeafDim; ++z) {
-            mColumns[bits] |= uint8_t((bits >> mAlongZ.cellOf[z] & 1) << z);
+            mColumns[bits] |= uint8_t((bits >> mAlongZ.placeOf[z] & 1) << z);
         }
     }
 }

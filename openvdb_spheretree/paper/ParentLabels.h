@@ -2,10 +2,9 @@
 /// @file ParentLabels.h
 /// @brief The labels of the parents of a run of voxels, 64 voxels at a time.
 ///
-/// The coarser level has a factor^dim-th of the voxels: all of its labels are found first
-/// (VoxelBalls), and where they change. For each word of a run of the finer level, the bits of up
-/// to
-/// 64 parents are then spread over their children (RunParents).
+/// The coarser level has a factor^dim-th of the voxels. So all of its labels are found first, and
+/// where they change (VoxelBalls). Then, for each word of a run of the finer level, the bits of up
+/// to 64 parents are spread over their children (RunParents).
 
 #pragma once
 
@@ -55,16 +54,16 @@ private:
     std::vector<LeafMask> mChanged, mLikeBeforeY, mLikeBeforeZ;
 };
 
-/// The parents, along one axis, of the eight positions in a leaf.
-struct ParentCells {
-    ParentCells(const PyramidStep& step, const openvdb::Coord& origin, int axis);
+/// The parents, along one axis, of the eight coordinates in a leaf.
+struct AxisParents {
+    AxisParents(const PyramidStep& step, const openvdb::Coord& origin, int axis);
 
     /// 0 or 1: eight neighbours lie in two leaves at most.
-    int leafOf(int cell) const { return (parent[cell] >> 3) - (parent[0] >> 3); }
+    int leafOf(int place) const { return (parent[place] >> 3) - (parent[0] >> 3); }
 
     int count = 0;
-    std::array<int32_t, 8> parent{}; ///< coordinates on the coarser level
-    std::array<uint8_t, 8> cellOf{}; ///< which of the parents each position has
+    std::array<int32_t, 8> parent{};  ///< coordinates on the coarser level, ascending
+    std::array<uint8_t, 8> placeOf{}; ///< where in `parent` that of each coordinate is
 };
 
 class RunParents {
@@ -85,7 +84,7 @@ public:
     /// The rank of the ball that labels the parent of the voxel at bit @a lane, where that is on.
     int32_t rank(uint32_t lane) const
     {
-        return mBalls.ranks(*mLeaves[mLeafOf[lane]])[64 * uint32_t(*mX & 7) + mOffsetOf[lane]];
+        return mBalls.ranks(*mLeaves[mLeafOf[lane]])[64 * uint32_t(*mX & 7) + mIndexOf[lane]];
     }
 
 private:
@@ -94,12 +93,13 @@ private:
     uint64_t spread(const MaskOf& maskOf) const;
 
     const VoxelBalls& mBalls;
-    const ParentCells mAlongY, mAlongZ;
-    std::array<uint64_t, 8> mRows{};      ///< per parent along y: bit 8 y of its children
-    std::array<uint8_t, 256> mColumns{};  ///< bits of parents along z to bits of their children
-    uint64_t mInnerY = 0, mInnerZ = 0;    ///< voxels with a brother before them along y, z
-    std::array<uint8_t, 64> mLeafOf{};    ///< of mLeaves, for each voxel's parent
-    std::array<uint16_t, 64> mOffsetOf{}; ///< there, from the first voxel of equal x
+    const AxisParents mAlongY, mAlongZ;
+    std::array<uint64_t, 8> mRows{};     ///< per parent along y: bit 8 y of its children
+    std::array<uint8_t, 256> mColumns{}; ///< bits of parents along z to bits of their children
+    uint64_t mInnerY = 0,
+             mInnerZ = 0; ///< voxels that share the parent of the one before along y, z
+    std::array<uint8_t, 64> mLeafOf{};   ///< of mLeaves, for each voxel's parent
+    std::array<uint16_t, 64> mIndexOf{}; ///< there, from the first voxel of equal x
     /// The leaves that lie side by side along y and z, where there are any.
     std::array<std::optional<uint32_t>, 4> mLeaves;
     std::optional<int32_t> mX;

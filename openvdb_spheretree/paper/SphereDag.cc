@@ -18,7 +18,7 @@ namespace {
 
 using openvdb::util::NullInterrupter;
 
-/// Pairs of ranks (detail/BallIndex.h) in pieces, so that none of them moves as they become more.
+/// Pairs of ranks (medial/BallIndex.h) in pieces, so that none of them moves as they become more.
 struct FoundPiece {
     static constexpr std::size_t kSize = std::size_t(1) << 16;
     detail::LargeArray<DagEdge> edges = detail::makeLargeArray<DagEdge>(kSize);
@@ -67,9 +67,9 @@ void scanRun(detail::RunLabels& labels, uint32_t leaves, const detail::VoxelBall
     detail::RunParents parents(parentBalls, step, layout.origin(labels.leaf()));
     for (uint32_t i = 0; i < leaves; ++i) {
         labels.enterLeaf(i);
-        const detail::ParentCells cells(step, layout.origin(labels.leaf()), 0);
+        const detail::AxisParents parentsX(step, layout.origin(labels.leaf()), 0);
         for (uint32_t x = 0; x < 8; ++x) {
-            parents.moveTo(cells.parent[cells.cellOf[x]]);
+            parents.moveTo(parentsX.parent[parentsX.placeOf[x]]);
             const uint64_t fresh = labels.enterWord(x);
             uint64_t bits = (fresh | (labels.on() & parents.changed())) & parents.on();
             if (!bits) continue;

@@ -7,9 +7,9 @@
 /// witnessed by a voxel, and every voxel whose parent is on witnesses an edge.
 ///
 /// 1. The ball that labels each voxel of the coarser level, and where that changes
-///    (detail/ParentLabels.h); which ball is centred at which voxel (detail/BallIndex.h).
+///    (ParentLabels.h); which ball is centred at which voxel (medial/BallIndex.h).
 /// 2. `scanRun`: each run of leaves along x of the finer level, in words of 64 voxels. Labels are
-///    looked up where they may differ from those before along x (detail/RunLabels.h); a pair of
+///    looked up where they may differ from those before along x (RunLabels.h); a pair of
 ///    labels is looked at where it differs from those before along x, y and z, on word bits alone.
 /// 3. `AllFound`, `sortedEdges`: ranks become indices; a counting sort by child, then by parent.
 ///
@@ -21,7 +21,7 @@
 #pragma once
 
 #include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/pyramid/PyramidModel.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <vector>

@@ -3,9 +3,9 @@
 
 #include "SphereDag.h"
 #include <openvdb_spheretree/base/Memory.h>
-#include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/pyramid/Closing.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/pyramid/PyramidModel.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 

@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/paper/SphereDag.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
 
 #include "support/BuiltTrees.h"
 
