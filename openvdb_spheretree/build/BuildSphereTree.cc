@@ -87,7 +87,7 @@ void placeBalls(
     detail::requireRoomForNodes(count);
     tbb::parallel_invoke([&] { detail::resizeLarge(tree.ijk, count); },
         [&] { detail::resizeLarge(tree.radiusSq, count); },
-        [&] { detail::resizeLarge(tree.parent, count); });
+        [&] { detail::resizeLarge(tree.spheres.parent, count); });
     tree.levels.resize(levels.size());
     const FlatAxis flat(tree.settings.flatAxis);
     int32_t begin = 0, firstAbove = 0;
@@ -103,7 +103,7 @@ void placeBalls(
             const std::size_t id = std::size_t(begin) + i;
             tree.ijk[id] = flat.fromZ(nodes.balls[i].center);
             tree.radiusSq[id] = nodes.balls[i].radiusSq;
-            tree.parent[id] = nodes.parent.empty() ? -1 : firstAbove + nodes.parent[i];
+            tree.spheres.parent[id] = nodes.parent.empty() ? -1 : firstAbove + nodes.parent[i];
         });
         for (const DagEdge& edge : nodes.dag) {
             tree.dag.push_back({firstAbove + edge.parent, range.begin + edge.child});
@@ -122,23 +122,23 @@ void measureBalls(
     SphereTree& tree, std::vector<LevelNodes> levels, openvdb::util::NullInterrupter* interrupter)
 {
     const std::size_t count = tree.ijk.size();
-    tbb::parallel_invoke([&] { detail::resizeLarge(tree.center, count); },
-        [&] { detail::resizeLarge(tree.radius, count); },
-        [&] { detail::resizeLarge(tree.coverSq, count); });
+    tbb::parallel_invoke([&] { detail::resizeLarge(tree.spheres.center, count); },
+        [&] { detail::resizeLarge(tree.spheres.radius, count); },
+        [&] { detail::resizeLarge(tree.spheres.coverRadiusSq, count); });
     const int unit = tree.settings.dist.unit();
     for (const SphereTreeLevel& range : tree.levels) {
         const LevelNodes nodes = std::move(levels[range.level]);
         const LevelFrame frame(range.level, tree.origin, tree.settings);
         detail::parallelFor(std::size_t(range.size()), interrupter, [&](std::size_t i) {
             const std::size_t id = std::size_t(range.begin) + i;
-            tree.center[id] = frame.center(tree.ijk[id]).halved();
+            tree.spheres.center[id] = frame.center(tree.ijk[id]).halved();
             if (nodes.radius.empty()) {
                 const RootSum radius = frame.radius(tree.radiusSq[id]);
-                tree.radius[id] = detail::divideUp(radius.radius(), unit);
-                tree.coverSq[id] = radius.coverSq();
+                tree.spheres.radius[id] = detail::divideUp(radius.radius(), unit);
+                tree.spheres.coverRadiusSq[id] = radius.coverSq();
             } else {
-                tree.radius[id] = detail::divideUp(nodes.radius[i], unit);
-                tree.coverSq[id] = nodes.coverSq[i];
+                tree.spheres.radius[id] = detail::divideUp(nodes.radius[i], unit);
+                tree.spheres.coverRadiusSq[id] = nodes.coverSq[i];
             }
         });
     }
@@ -195,7 +195,8 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     }
     detail::timed("stored radii", interrupter, &context.seconds->tree, [&] {
         detail::storeRadii(tree, interrupter);
-        if (containsLeaves(settings)) detail::containStoredLeaves(tree, tree.radius, interrupter);
+        if (containsLeaves(settings))
+            detail::containStoredLeaves(tree, tree.spheres.radius, interrupter);
     });
     return tree;
 }

@@ -59,9 +59,10 @@ public:
             tbb::blocked_range<int32_t>(leaves.begin, leaves.end), Most(),
             [&](const tbb::blocked_range<int32_t>& range, Most result) {
                 for (int32_t id = range.begin(); id < range.end(); ++id) {
-                    const openvdb::Vec3d& c = tree.center[id];
+                    const openvdb::Vec3d& c = tree.spheres.center[id];
                     const double away = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]);
-                    const double excess = double(tree.radiusWorld[id]) - world(tree.radius[id]);
+                    const double excess =
+                        double(tree.spheres.radiusWorld[id]) - world(tree.spheres.radius[id]);
                     result = larger(result, {excess, away});
                 }
                 return result;
@@ -108,8 +109,8 @@ private:
 
 void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
-    tree.radiusWorld = storedRadii(tree, tree.radius, interrupter);
-    tree.cuts.radiusWorld = storedRadii(tree, tree.cuts.radius, interrupter);
+    tree.spheres.radiusWorld = storedRadii(tree, tree.spheres.radius, interrupter);
+    tree.cuts.spheres.radiusWorld = storedRadii(tree, tree.cuts.spheres.radius, interrupter);
 }
 
 void containStoredLeaves(
@@ -118,20 +119,21 @@ void containStoredLeaves(
     const StoredSlack slack(tree, interrupter);
     const int32_t leaves = tree.levels.front().begin;
     parallelFor(std::size_t(leaves), interrupter, [&](std::size_t id) {
-        tree.radiusWorld[id] = std::max(tree.radiusWorld[id], slack.radius(radii[id]));
+        tree.spheres.radiusWorld[id] =
+            std::max(tree.spheres.radiusWorld[id], slack.radius(radii[id]));
     });
 }
 
 std::vector<double> radiiAroundCut(const SphereTree& tree)
 {
     const Distance& distance = tree.settings.dist;
-    std::vector<double> radii = tree.radius;
+    std::vector<double> radii = tree.spheres.radius;
     const SphereTreeLevel& cut = tree.levels.front();
     for (int32_t id = cut.begin; id < cut.end; ++id) {
-        for (int32_t t = tree.parent[id]; t >= 0; t = tree.parent[t]) {
-            const openvdb::Vec3d d = tree.center[t] - tree.center[id];
+        for (int32_t t = tree.spheres.parent[id]; t >= 0; t = tree.spheres.parent[t]) {
+            const openvdb::Vec3d d = tree.spheres.center[t] - tree.spheres.center[id];
             const double apart = distance.length(d[0], d[1], d[2]) / distance.unit();
-            radii[t] = std::max(radii[t], apart + tree.radius[id]);
+            radii[t] = std::max(radii[t], apart + tree.spheres.radius[id]);
         }
     }
     return radii;

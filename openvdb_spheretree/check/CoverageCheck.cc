@@ -122,7 +122,7 @@ void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
     Offenders elsewhere;
     for (int32_t id = level.begin; id < level.end; ++id) {
         if (check.tree.radiusSq[id] != -1) continue;
-        const openvdb::Vec3d apart = check.tree.center[id] - check.tree.ijk[id].asVec3d();
+        const openvdb::Vec3d apart = check.tree.spheres.center[id] - check.tree.ijk[id].asVec3d();
         const double most = std::max({std::abs(apart[0]), std::abs(apart[1]), std::abs(apart[2])});
         if (most > 0.5) elsewhere.add(id);
     }
@@ -159,7 +159,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius =
-            double(tree.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
+            double(tree.spheres.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
         const double reach = tree.subdivision * radius * tree.settings.dist.unit() * (1 + 1e-12);
         spheres[id - level.begin].radiusSq =
             radius < 0 ? -1 : int64_t(std::min(reach * reach, 9e18));

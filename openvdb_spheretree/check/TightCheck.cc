@@ -61,7 +61,8 @@ ChainForest forestOfLevels(const SphereTree& tree, const std::vector<ExactSphere
     forest.spheres.assign(spheres.rbegin(), spheres.rend());
     forest.parent.resize(spheres.size());
     for (int32_t id = 0; id <= last; ++id) {
-        forest.parent[last - id] = tree.parent[id] < 0 ? -1 : last - tree.parent[id];
+        forest.parent[last - id] =
+            tree.spheres.parent[id] < 0 ? -1 : last - tree.spheres.parent[id];
     }
     forest.sections.assign(spheres.size(), 0);
     const auto enter = [&](const SphereTreeLevel& level, int section) {
@@ -91,9 +92,7 @@ std::vector<ExactSphere> allSpheres(const SphereTree& tree, const SpheresOfLevel
 SphereTree asOneLevel(const SphereTree& tree)
 {
     SphereTree nodes;
-    nodes.center = tree.cuts.center;
-    nodes.coverSq = tree.cuts.coverSq;
-    nodes.radiusWorld = tree.cuts.radiusWorld;
+    nodes.spheres = tree.cuts.spheres;
     nodes.subdivision = tree.subdivision;
     nodes.settings = tree.settings;
     nodes.transform = tree.transform;
@@ -117,7 +116,7 @@ ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>&
 {
     ChainForest forest;
     forest.spheres = spheres;
-    forest.parent = cuts.parent;
+    forest.parent = cuts.spheres.parent;
     forest.sectionCount = int(counts.size());
     forest.sections.assign(spheres.size(), 0);
     for (std::size_t i = 0; i < spheres.size(); ++i) {

@@ -24,6 +24,7 @@
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/tree/CutsLayout.h>
+#include <openvdb_spheretree/tree/TreeShape.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
@@ -42,45 +43,18 @@ bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.tree == TreeType::Tight; }
 bool isInner(const SphereTree& tree) { return tree.settings.side == Side::Inner; }
 
-void checkArrayLengths(Check& check)
+void reportAll(Check& check, const char* where, const std::vector<detail::Damage>& damage)
 {
-    const SphereTree& tree = check.tree;
-    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.radius.size()},
-        {"coverSq", tree.coverSq.size()}, {"radiusWorld", tree.radiusWorld.size()},
-        {"parent", tree.parent.size()}, {"ijk", tree.ijk.size()},
-        {"radiusSq", tree.radiusSq.size()}};
-    for (const auto& [name, size] : arrays) {
-        if (size == tree.center.size()) continue;
-        check.fail(
-            "the tree has ", tree.center.size(), " centres, but ", size, " entries in ", name);
-    }
+    for (const detail::Damage& rule : damage) check.fail(where, rule.all);
 }
 
-/// Levels are 0, 1, ... without a gap (or any single one), and ranges of ids, the top level first.
+/// Arrays and levels, without which nothing else can be looked at.
 void checkShape(Check& check)
 {
-    const SphereTree& tree = check.tree;
-    checkArrayLengths(check);
-    if (tree.subdivision != 2 && tree.subdivision != 16) {
-        check.fail("centres are in units of 1/", tree.subdivision, " of a voxel, not 1/2 or 1/16");
-    }
-    if (!tree.transform) check.fail("the tree has no transform");
-    if (tree.levels.empty()) check.fail("the tree has no levels");
-    int32_t next = 0;
-    for (std::size_t k = tree.levels.size(); k-- > 0;) {
-        const SphereTreeLevel& level = tree.levels[k];
-        if (level.level < 0 || (hasLinks(tree) && level.level != int(k))) {
-            check.fail("level ", level.level, " stands where level ", k, " belongs");
-        }
-        if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
-            check.fail("level ", level.level, " is nodes ", level.begin, " to ", level.end,
-                " (exclusive), where nodes from ", next, " on are expected");
-        }
-        next = level.end;
-    }
-    if (next != tree.size()) {
-        check.fail("the levels have ", next, " nodes, but the tree has ", tree.size());
-    }
+    reportAll(check, "", detail::arrayDamage(check.tree));
+    reportAll(check, "", detail::unitDamage(check.tree.subdivision));
+    reportAll(check, "", detail::transformDamage(check.tree));
+    reportAll(check, "", detail::levelDamage(check.tree));
 }
 
 /// Cuts are there where the settings say so, and each is of as many spheres as it should be.
@@ -93,44 +67,12 @@ void checkCutsLayout(Check& check)
     if (!damage.empty()) check.fail("in the cuts, ", damage);
 }
 
-/// @return whether the centre is a whole number of the tree's units, not beyond any coordinate.
-bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
-{
-    constexpr double kLargest = 2147483648.0; // 2^31
-    for (int a = 0; a < 3; ++a) {
-        const double units = subdivision * center[a];
-        if (!(std::abs(center[a]) <= kLargest) || units != std::floor(units)) return false;
-    }
-    return true;
-}
-
 const char kInCuts[] = "in the cuts, ";
 
 bool isSquare(int32_t value)
 {
     const int64_t root = detail::floorSqrt(value);
     return root * root == value;
-}
-
-/// @param nodes  of a tree or of its cuts
-/// @param where  what sentences about them begin with
-template <typename Nodes>
-void checkSpheres(Check& check, const Nodes& nodes, const char* where)
-{
-    const int subdivision = check.tree.subdivision;
-    Offenders centers, radii, stored;
-    for (int32_t id = 0; id < nodes.size(); ++id) {
-        if (!isOfUnits(nodes.center[id], subdivision)) centers.add(id);
-        const bool valid = std::isfinite(nodes.radius[id]) && nodes.radius[id] >= 0;
-        if (!valid || nodes.coverSq[id] < 0) radii.add(id);
-        if (!std::isfinite(nodes.radiusWorld[id]) || nodes.radiusWorld[id] < 0) stored.add(id);
-    }
-    if (centers) {
-        check.fail(where, "the centre is not a multiple of 1/", subdivision,
-            " of a voxel in range for ", centers);
-    }
-    if (radii) check.fail(where, "the radius is negative or not a number for ", radii);
-    if (stored) check.fail(where, "the stored radius is negative or not a number for ", stored);
 }
 
 void checkNodes(Check& check)
@@ -144,9 +86,9 @@ void checkNodes(Check& check)
         else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
     }
     if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
-    checkSpheres(check, tree, "");
+    reportAll(check, "", detail::sphereDamage(tree.spheres, tree.subdivision));
     if (balls) check.fail("radius_sq is less than 1 for ", balls);
-    checkSpheres(check, tree.cuts, kInCuts);
+    reportAll(check, kInCuts, detail::sphereDamage(tree.cuts.spheres, tree.subdivision));
 }
 
 /// The object is where the tree is. Files and programs round transforms differently: what counts is
@@ -247,9 +189,9 @@ void checkErrors(Check& check)
 /// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
 /// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more
 /// than the radius where spheres lie inside the object.
-/// @param nodes, where  as for checkSpheres()
-template <typename Nodes>
-void checkRadii(Check& check, const Nodes& nodes, const char* where)
+/// @param nodes  of a tree or of its cuts
+/// @param where  what sentences about them begin with
+void checkRadii(Check& check, const Spheres& nodes, const char* where)
 {
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
@@ -257,7 +199,7 @@ void checkRadii(Check& check, const Nodes& nodes, const char* where)
     const double unit = double(tree.subdivision) * tree.settings.dist.unit();
     Offenders apart, small, large;
     for (int32_t id = 0; id < nodes.size(); ++id) {
-        const double exact = std::sqrt(double(nodes.coverSq[id])) / unit;
+        const double exact = std::sqrt(double(nodes.coverRadiusSq[id])) / unit;
         const double over = nodes.radius[id] - exact, rounding = kRounding * nodes.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
         const double padded = (nodes.radius[id] + padding) * voxel;
@@ -278,24 +220,8 @@ void checkRadii(Check& check, const Nodes& nodes, const char* where)
 void checkParents(Check& check)
 {
     const SphereTree& tree = check.tree;
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        const SphereTreeLevel& level = tree.levels[k];
-        const bool top = k + 1 == tree.levels.size();
-        Offenders wrong;
-        for (int32_t id = level.begin; id < level.end; ++id) {
-            const int32_t parent = tree.parent[id];
-            const bool right = top
-                ? parent == -1
-                : parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
-            if (!right) wrong.add(id);
-        }
-        if (!wrong) continue;
-        check.fail("level ", level.level, ": ",
-            top ? "the parent is not -1, though this is the top level, for "
-                : "the parent is not on the next level up for ",
-            wrong);
-    }
-    const bool endsAnywhere = isTight(tree); // at as many spheres as were asked for
+    reportAll(check, "", detail::parentDamage(tree));
+    const bool endsAnywhere = isTight(tree); // at as many spheres as the settings say
     if (hasLinks(tree) && tree.root().size() != 1 && !endsAnywhere) {
         check.fail("level ", tree.root().level, ", the top one, has ", tree.root().size(),
             " nodes instead of one root");
@@ -305,28 +231,8 @@ void checkParents(Check& check)
 /// Edges are sorted, unique, and lead from a level to the one below it.
 void checkDag(Check& check)
 {
-    const SphereTree& tree = check.tree;
-    const auto level = [&](int32_t id) {
-        return id >= 0 && id < tree.size() ? tree.levelOf(id) : -2;
-    };
-    int64_t wrong = 0, unsorted = 0;
-    DagEdge firstWrong, firstUnsorted;
-    for (std::size_t i = 0; i < tree.dag.size(); ++i) {
-        const DagEdge& edge = tree.dag[i];
-        const int child = level(edge.child);
-        if ((child < 0 || level(edge.parent) != child + 1) && wrong++ == 0) firstWrong = edge;
-        if (i > 0 && !(tree.dag[i - 1] < edge) && unsorted++ == 0) firstUnsorted = edge;
-    }
-    if (wrong > 0) {
-        check.fail(wrong,
-            " edges of the DAG do not lead to the next level down (first: ", firstWrong.parent,
-            " to ", firstWrong.child, ')');
-    }
-    if (unsorted > 0) {
-        check.fail(unsorted,
-            " edges of the DAG are out of order or repeated (first: ", firstUnsorted.parent, " to ",
-            firstUnsorted.child, ')');
-    }
+    reportAll(check, "", detail::edgeLevelDamage(check.tree.dag, check.tree));
+    reportAll(check, "", detail::edgeOrderDamage(check.tree.dag));
 }
 
 /// The edges are those of the object, none more and none less. What a voxel witnesses is found by
@@ -360,7 +266,7 @@ void checkChildren(Check& check)
 {
     const SphereTree& tree = check.tree;
     std::vector<char> hasChild(tree.size(), 0);
-    for (const int32_t parent : tree.parent) {
+    for (const int32_t parent : tree.spheres.parent) {
         if (parent >= 0) hasChild[parent] = 1;
     }
     for (std::size_t k = 1; k < tree.levels.size(); ++k) {
@@ -381,9 +287,9 @@ void checkLeavesContained(Check& check)
     std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
-        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) {
-            const double needed = distance(leaf, t) + double(tree.radiusWorld[leaf]);
-            if (double(tree.radiusWorld[t]) < needed) sticksOut[t] = 1;
+        for (int32_t t = tree.spheres.parent[leaf]; t >= 0; t = tree.spheres.parent[t]) {
+            const double needed = distance(leaf, t) + double(tree.spheres.radiusWorld[leaf]);
+            if (double(tree.spheres.radiusWorld[t]) < needed) sticksOut[t] = 1;
         }
     }
     Offenders open;
@@ -448,8 +354,8 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     checkTransform(check);
     checkObject(check);
     checkTopology(check);
-    checkRadii(check, tree, "");
-    checkRadii(check, tree.cuts, kInCuts);
+    checkRadii(check, tree.spheres, "");
+    checkRadii(check, tree.cuts.spheres, kInCuts);
     const bool parentsRight = checkLinks(check);
     detail::checkDigitalBalls(check);
     checkCovering(check, parentsRight);

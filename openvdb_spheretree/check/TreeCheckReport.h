@@ -7,6 +7,7 @@
 
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/tree/TreeShape.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -34,25 +35,6 @@ struct TreeCheck {
         (sentence << ... << parts);
         failures.push_back(sentence.str());
     }
-};
-
-/// Nodes that break a rule: how many, and the first.
-class Offenders {
-public:
-    void add(int32_t id)
-    {
-        if (mCount++ == 0) mFirst = id;
-    }
-    explicit operator bool() const { return mCount > 0; }
-    friend std::ostream& operator<<(std::ostream& out, const Offenders& o)
-    {
-        return out << o.mCount << (o.mCount == 1 ? " node" : " nodes") << " (first: id " << o.mFirst
-                   << ')';
-    }
-
-private:
-    int64_t mCount = 0;
-    int32_t mFirst = -1;
 };
 
 /// @return the stored spheres of a level without their padding: what is left must hold voxel

@@ -30,7 +30,7 @@ public:
 private:
     openvdb::Vec3d place(int32_t id) const
     {
-        return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.center[id];
+        return mDistance.isEuclidean() ? mTree.centerWorld(id) : mTree.spheres.center[id];
     }
 
     const SphereTree& mTree;

@@ -53,11 +53,11 @@ Sphere sphereOf(const MedialBall& ball, const SphereTree& tree)
 void appendNode(SphereTree& tree, const MedialBall& ball, int32_t parent)
 {
     const Sphere sphere = sphereOf(ball, tree);
-    tree.center.push_back(ball.center.asVec3d());
-    tree.radius.push_back(sphere.radius);
-    tree.coverSq.push_back(sphere.coverSq);
-    tree.radiusWorld.push_back(sphere.radiusWorld);
-    tree.parent.push_back(parent);
+    tree.spheres.center.push_back(ball.center.asVec3d());
+    tree.spheres.radius.push_back(sphere.radius);
+    tree.spheres.coverRadiusSq.push_back(sphere.coverSq);
+    tree.spheres.radiusWorld.push_back(sphere.radiusWorld);
+    tree.spheres.parent.push_back(parent);
     tree.ijk.push_back(ball.center);
     tree.radiusSq.push_back(ball.radiusSq);
 }
@@ -114,11 +114,11 @@ void appendCuts(SphereTree& tree, const std::vector<MedialBall>& balls)
     const int32_t total = int32_t(balls.size());
     for (int32_t i = 0; i < total; ++i) {
         const Sphere sphere = sphereOf(balls[i], tree);
-        tree.cuts.center.push_back(balls[i].center.asVec3d());
-        tree.cuts.radius.push_back(sphere.radius);
-        tree.cuts.coverSq.push_back(sphere.coverSq);
-        tree.cuts.radiusWorld.push_back(sphere.radiusWorld);
-        tree.cuts.parent.push_back(-1);
+        tree.cuts.spheres.center.push_back(balls[i].center.asVec3d());
+        tree.cuts.spheres.radius.push_back(sphere.radius);
+        tree.cuts.spheres.coverRadiusSq.push_back(sphere.coverSq);
+        tree.cuts.spheres.radiusWorld.push_back(sphere.radiusWorld);
+        tree.cuts.spheres.parent.push_back(-1);
         tree.cuts.first.push_back(i + 1);
         tree.cuts.last.push_back(total);
     }

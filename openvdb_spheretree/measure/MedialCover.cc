@@ -26,15 +26,15 @@ double drawnRows(const SphereTree& tree, const SphereTreeLevel& level)
 {
     double rows = 0;
     for (int32_t id = level.begin; id < level.end; ++id) {
-        rows += 1 + M_PI / 4 * double(tree.coverSq[id]);
+        rows += 1 + M_PI / 4 * double(tree.spheres.coverRadiusSq[id]);
     }
     return rows;
 }
 
 bool isBall(const SphereTree& tree, int32_t id, const MedialBall& ball, const LevelFrame& frame)
 {
-    return tree.center[id] == frame.center(ball.center).halved()
-        && tree.coverSq[id] == frame.radius(ball.radiusSq).coverSq();
+    return tree.spheres.center[id] == frame.center(ball.center).halved()
+        && tree.spheres.coverRadiusSq[id] == frame.radius(ball.radiusSq).coverSq();
 }
 
 } // namespace

@@ -19,24 +19,26 @@ namespace {
 bool meet(const SphereTree& tree, int32_t s, int32_t t)
 {
     using Wide = unsigned __int128;
-    const Wide reach = Wide(tree.coverSq[s]) + Wide(tree.coverSq[t]);
+    const Wide reach = Wide(tree.spheres.coverRadiusSq[s]) + Wide(tree.spheres.coverRadiusSq[t]);
     int64_t d[3];
     for (int axis = 0; axis < 3; ++axis) {
-        d[axis] = int64_t(tree.subdivision * tree.center[s][axis])
-            - int64_t(tree.subdivision * tree.center[t][axis]);
+        d[axis] = int64_t(tree.subdivision * tree.spheres.center[s][axis])
+            - int64_t(tree.subdivision * tree.spheres.center[t][axis]);
     }
     const Wide apart = tree.settings.dist.lengthSq(d[0], d[1], d[2]);
     if (apart <= reach) return true;
     const Wide beyond = apart - reach;
     // The right-hand side is at most D + D', so below 2^64: the square fits.
-    return beyond <= reach && beyond * beyond <= 4 * Wide(tree.coverSq[s]) * tree.coverSq[t];
+    return beyond <= reach
+        && beyond * beyond
+        <= 4 * Wide(tree.spheres.coverRadiusSq[s]) * tree.spheres.coverRadiusSq[t];
 }
 
 /// Around a sphere, a voxel wider than needed so that rounding is no matter. The ball of a norm
 /// lies in the box of its radius, but not always in the Euclidean ball.
 detail::Bound boundOf(const SphereTree& tree, int32_t id)
 {
-    const auto ball = detail::Bound::ofBall(tree.center[id], tree.radius[id] + 1);
+    const auto ball = detail::Bound::ofBall(tree.spheres.center[id], tree.spheres.radius[id] + 1);
     return tree.settings.dist.isEuclidean() ? ball : detail::Bound::ofBox(ball.box);
 }
 

@@ -41,7 +41,7 @@ public:
     /// To the next level.
     void ascend(const SphereTreeLevel& level)
     {
-        for (int32_t& node : mAncestor) node = mTree.parent[node];
+        for (int32_t& node : mAncestor) node = mTree.spheres.parent[node];
         mBelow = compressedRows(
             mAncestor.size(), std::size_t(level.size()),
             [&](std::size_t leaf) { return mAncestor[leaf] - level.begin; },
@@ -116,7 +116,7 @@ FittedSphere aroundMedialCentre(
 {
     FittedSphere sphere;
     for (int axis = 0; axis < 3; ++axis) {
-        sphere.exact.center[axis] = std::llround(double(kUnits) * tree.center[id][axis]);
+        sphere.exact.center[axis] = std::llround(double(kUnits) * tree.spheres.center[id][axis]);
     }
     measure(sphere, tree, leaves, below);
     return sphere;
@@ -125,10 +125,10 @@ FittedSphere aroundMedialCentre(
 void store(SphereTree& tree, int32_t id, const FittedSphere& sphere)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        tree.center[id][axis] = double(sphere.exact.center[axis]) / double(kUnits);
+        tree.spheres.center[id][axis] = double(sphere.exact.center[axis]) / double(kUnits);
     }
-    tree.coverSq[id] = sphere.exact.radiusSq;
-    tree.radius[id] = sphere.radius;
+    tree.spheres.coverRadiusSq[id] = sphere.exact.radiusSq;
+    tree.spheres.radius[id] = sphere.radius;
 }
 
 /// The node's own sphere, in finer units: the same voxels.
@@ -137,7 +137,7 @@ void refineOwn(SphereTree& tree, int32_t id, const LevelFrame& frame)
     constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
     const RootSum own = frame.radius(tree.radiusSq[id]);
     const RootSum fine{own.a * kFiner, own.b * kFiner};
-    tree.coverSq[id] = fine.coverSq();
+    tree.spheres.coverRadiusSq[id] = fine.coverSq();
 }
 
 /// In the finer units squares are 64 times as large.
@@ -146,7 +146,8 @@ void requireRoom(const SphereTree& tree)
     const openvdb::Coord size = tree.object.bbox.extents();
     constexpr int64_t kMost = int64_t(1) << 61;
     const auto far = [&](int axis) { return 2 * kUnits * (int64_t(size[axis]) + 1); };
-    const int64_t widest = *std::max_element(tree.coverSq.begin(), tree.coverSq.end());
+    const int64_t widest =
+        *std::max_element(tree.spheres.coverRadiusSq.begin(), tree.spheres.coverRadiusSq.end());
     const bool fits = Distance().lengthSq(far(0), far(1), far(2)) < kMost
         && widest < kMost / (kUnits / 2) / (kUnits / 2);
     if (fits) return;

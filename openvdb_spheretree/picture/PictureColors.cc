@@ -74,7 +74,7 @@ private:
     /// Half as large as the sphere, and a voxel: overlapping spheres would all be neighbours.
     Bound boundOf(int32_t id) const
     {
-        return Bound::ofBall(mTree.center[id], mTree.radius[id] / 2 + 1);
+        return Bound::ofBall(mTree.spheres.center[id], mTree.spheres.radius[id] / 2 + 1);
     }
     std::vector<Bound> boundsOf(int32_t begin, int32_t end) const
     {
@@ -91,7 +91,8 @@ private:
         mBounds.visitMeeting(boundOf(mBegin + i), [&](int32_t place) {
             const int32_t other = mBounds.order()[place];
             if (other >= i) return; // has no colour yet
-            const Vec3d apart = mTree.center[mBegin + other] - mTree.center[mBegin + i];
+            const Vec3d apart =
+                mTree.spheres.center[mBegin + other] - mTree.spheres.center[mBegin + i];
             const Neighbour neighbour{apart.lengthSqr(), other};
             const double reach = boundOf(mBegin + other).radius + boundOf(mBegin + i).radius;
             if (neighbour.distanceSq > reach * reach) return; // bounds are not exact
@@ -159,7 +160,7 @@ std::vector<Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& le
     if (settings.color != PictureColor::Parent || !above) return colors;
     const Coloring ofParents(tree, above->begin, above->end, interrupter);
     for (int32_t id = level.begin; id < level.end; ++id) {
-        const int32_t parent = tree.parent[id];
+        const int32_t parent = tree.spheres.parent[id];
         if (parent >= 0) colors[id - level.begin] = paletteColor(ofParents.colorOf(parent));
     }
     return colors;

@@ -319,8 +319,8 @@ auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBal
     std::vector<decltype(makeBall(middle, kSmallest))> balls;
     balls.reserve(level.size());
     for (int32_t id = level.begin; id < level.end; ++id) {
-        const double radius = tree.radiusWorld[id] / tree.voxelSize();
-        balls.push_back(makeBall(tree.center[id] - middle, std::max(radius, kSmallest)));
+        const double radius = tree.spheres.radiusWorld[id] / tree.voxelSize();
+        balls.push_back(makeBall(tree.spheres.center[id] - middle, std::max(radius, kSmallest)));
     }
     return balls;
 }

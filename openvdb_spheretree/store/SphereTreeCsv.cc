@@ -28,11 +28,11 @@ void appendNode(std::string& text, const SphereTree& tree, int32_t id, int level
 {
     append(text, level, ',');
     append(text, id, ',');
-    append(text, tree.parent[id], ',');
+    append(text, tree.spheres.parent[id], ',');
     const openvdb::Vec3d center = tree.centerWorld(id);
     for (int axis = 0; axis < 3; ++axis) append(text, center[axis], ',');
     // Widened first: the shortest text of the float could read back to a double just below it.
-    append(text, double(tree.radiusWorld[id]), ',');
+    append(text, double(tree.spheres.radiusWorld[id]), ',');
     const openvdb::Coord ijk = shownVoxel(tree, id, level);
     for (int axis = 0; axis < 3; ++axis) append(text, ijk[axis], ',');
     append(text, tree.radiusSq[id], '\n');
@@ -57,7 +57,7 @@ void finish(std::string& text, std::ostream& out)
 openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
 {
     const bool inIndexSpace = level == 0 || tree.radiusSq[id] == -1;
-    return inIndexSpace ? openvdb::Coord::round(tree.center[id]) : tree.ijk[id];
+    return inIndexSpace ? openvdb::Coord::round(tree.spheres.center[id]) : tree.ijk[id];
 }
 
 void writeCsv(const SphereTree& tree, std::ostream& out)

@@ -71,15 +71,15 @@ void writeNode(JsonWriter& json, const SphereTree& tree, int32_t id, int level)
     json.beginArray("", /*onOneLine=*/true);
     json.value("", level);
     json.value("", id);
-    json.value("", tree.parent[id]);
+    json.value("", tree.spheres.parent[id]);
     writeVec(json, tree.centerWorld(id));
-    json.value("", double(tree.radiusWorld[id]));
+    json.value("", double(tree.spheres.radiusWorld[id]));
     const openvdb::Coord ijk = shownVoxel(tree, id, level);
     for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
     json.value("", tree.radiusSq[id]);
-    writeVec(json, tree.center[id]);
-    json.value("", tree.radius[id]);
-    json.value("", tree.coverSq[id]);
+    writeVec(json, tree.spheres.center[id]);
+    json.value("", tree.spheres.radius[id]);
+    json.value("", tree.spheres.coverRadiusSq[id]);
     json.endArray();
 }
 
@@ -128,13 +128,13 @@ void writeCutsNode(JsonWriter& json, const SphereTree& tree, int32_t id)
 {
     const SphereCuts& cuts = tree.cuts;
     json.beginArray("", /*onOneLine=*/true);
-    for (int32_t value : {id, cuts.parent[id], cuts.first[id], cuts.last[id]})
+    for (int32_t value : {id, cuts.spheres.parent[id], cuts.first[id], cuts.last[id]})
         json.value("", value);
-    writeVec(json, tree.transform->indexToWorld(cuts.center[id]));
-    json.value("", double(cuts.radiusWorld[id]));
-    writeVec(json, cuts.center[id]);
-    json.value("", cuts.radius[id]);
-    json.value("", cuts.coverSq[id]);
+    writeVec(json, tree.transform->indexToWorld(cuts.spheres.center[id]));
+    json.value("", double(cuts.spheres.radiusWorld[id]));
+    writeVec(json, cuts.spheres.center[id]);
+    json.value("", cuts.spheres.radius[id]);
+    json.value("", cuts.spheres.coverRadiusSq[id]);
     json.endArray();
 }
 

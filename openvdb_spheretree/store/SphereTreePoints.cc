@@ -4,10 +4,9 @@
 #include "PointLeaves.h"
 #include "TreeMetadata.h"
 #include <openvdb_spheretree/base/Text.h>
-#include <openvdb_spheretree/tree/CutsLayout.h>
+#include <openvdb_spheretree/tree/TreeShape.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,157 +21,24 @@ using openvdb::points::PointDataGrid;
 
 constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG", kCutsKind[] = "list of cuts";
 
-// ---- What a tree must be, on its way out and on its way in
-
-/// Coordinates of voxels are of 32 bits; squares beyond would not fit 63.
-constexpr double kMaxCoordinate = 2147483648.0;
-constexpr int64_t kMaxCoverSq = int64_t(1) << 62;
-
-template <typename Value>
-void requireOfSphere(bool right, int32_t id, const char* attribute, const Value& value)
-{
-    if (right) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "node " << id << " has the " << attribute << " " << value << ", which no sphere has");
-}
-
-void checkUnits(int subdivision)
-{
-    if (subdivision == 2 || subdivision == 16) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "its centres are in units of 1/" << subdivision << " voxel, but there are 1/2 and 1/16");
-}
-
-void checkPosition(const Vec3d& center, int subdivision, int32_t id)
-{
-    const double farthest =
-        std::max({std::abs(center[0]), std::abs(center[1]), std::abs(center[2])});
-    requireOfSphere(center.isFinite() && farthest <= kMaxCoordinate, id, "position", center);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double units = subdivision * center[axis];
-        if (units == std::floor(units)) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "node " << id << " has the position " << center << ", which is no multiple of 1/"
-                    << subdivision << " voxel");
-    }
-}
-
-/// The attributes that nodes of trees and of cuts have in common.
-/// @throw openvdb::ValueError, naming the first node that is no sphere
-template <typename Nodes>
-void checkSpheres(const Nodes& nodes, int subdivision)
-{
-    for (int32_t id = 0; id < nodes.size(); ++id) {
-        checkPosition(nodes.center[id], subdivision, id);
-        const double radius = nodes.radius[id], stored = nodes.radiusWorld[id];
-        const int64_t coverSq = nodes.coverSq[id];
-        requireOfSphere(std::isfinite(stored) && stored >= 0, id, "pscale", stored);
-        requireOfSphere(radius >= 0 && radius <= kMaxCoordinate, id, "radius", radius);
-        requireOfSphere(coverSq >= 0 && coverSq <= kMaxCoverSq, id, "cover_sq", coverSq);
-    }
-}
-
-void checkDigitalBalls(const SphereTree& tree)
-{
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const int32_t radiusSq = tree.radiusSq[id]; // -1 marks a sphere that is none
-        requireOfSphere(radiusSq > 0 || radiusSq == -1, id, "radius_sq", radiusSq);
-    }
-}
-
-void checkCuts(const SphereCuts& cuts, int subdivision)
-{
-    const std::string damage = detail::cutsDamage(cuts);
-    if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage);
-    checkSpheres(cuts, subdivision);
-}
-
-/// A parent on the next level up leaves no room for a cycle.
-void checkParents(const SphereTree& tree, const std::vector<int32_t>& levels)
-{
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const int32_t parent = tree.parent[id];
-        const bool isTop = levels[id] == tree.levels.back().level;
-        if (isTop && parent == -1) continue;
-        if (isTop || parent < 0 || parent >= tree.size()) {
-            OPENVDB_THROW(openvdb::ValueError,
-                "node " << id << " on level " << levels[id] << " has the parent " << parent
-                        << ", but "
-                        << (isTop ? "the top level has no parents (-1)"
-                                  : "its parent must be a node of the next level up"));
-        }
-        if (levels[parent] == levels[id] + 1) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "node " << id << " on level " << levels[id] << " has the parent " << parent
-                    << " on level " << levels[parent]
-                    << ", but a parent must be on the next level up");
-    }
-}
-
-/// Edges are sorted, there once, and lead to the next level down.
-void checkEdges(const std::vector<DagEdge>& edges, const std::vector<int32_t>& levels)
-{
-    const auto exists = [&](int32_t id) { return id >= 0 && id < int32_t(levels.size()); };
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const DagEdge& e = edges[i];
-        const bool right = exists(e.parent) && exists(e.child)
-            && levels[e.parent] == levels[e.child] + 1 && (i == 0 || edges[i - 1] < e);
-        if (right) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "the edge of the DAG from node "
-                << e.parent << " to node " << e.child
-                << " is out of order or there twice, or does not lead to a node "
-                   "of the next level down");
-    }
-}
-
 // ---- Writing
 
-[[noreturn]] void inconsistent(const std::string& why)
+/// Runs @a check; what it finds wrong is why the tree cannot be stored.
+template <typename Check>
+void requireStorable(const char* where, const Check& check)
 {
-    OPENVDB_THROW(openvdb::ValueError, "this sphere-tree cannot be stored: " << why);
-}
-
-/// The number of every node's level.
-std::vector<int32_t> levelNumbers(const SphereTree& tree)
-{
-    std::vector<int32_t> numbers(tree.levels.front().end);
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        std::fill(numbers.begin() + tree.levels[k].begin, numbers.begin() + tree.levels[k].end,
-            tree.levels[k].level);
+    try {
+        check();
+    } catch (const openvdb::ValueError& error) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "this sphere-tree cannot be stored: " << where << detail::messageOf(error));
     }
-    return numbers;
 }
 
 /// @throw openvdb::ValueError if fromPoints() would not take the tree back
-void checkLayout(const SphereTree& tree)
+void requireStorable(const SphereTree& tree)
 {
-    const std::size_t n = tree.center.size();
-    if (n == 0 || tree.levels.empty()) inconsistent("it has no nodes");
-    if (!tree.transform || !tree.transform->isLinear()) inconsistent("its transform is not linear");
-    if (tree.radius.size() != n || tree.coverSq.size() != n || tree.radiusWorld.size() != n
-        || tree.parent.size() != n || tree.ijk.size() != n || tree.radiusSq.size() != n) {
-        inconsistent("its arrays differ in length");
-    }
-    const int lowest = tree.levels.front().level;
-    if (lowest < 0 || (lowest > 0 && tree.levels.size() > 1)) {
-        inconsistent("its levels do not start at 0");
-    }
-    int32_t end = tree.size(); // level 0 comes last
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        const SphereTreeLevel& level = tree.levels[k];
-        if (level.level != lowest + int(k) || level.end != end || level.size() < 1) {
-            inconsistent("its levels do not divide its nodes");
-        }
-        end = level.begin;
-    }
-    if (end != 0) inconsistent("its levels do not divide its nodes");
-    checkUnits(tree.subdivision);
-    checkSpheres(tree, tree.subdivision);
-    checkDigitalBalls(tree);
-    const std::vector<int32_t> levels = levelNumbers(tree);
-    checkParents(tree, levels);
-    checkEdges(tree.dag, levels);
+    requireStorable("", [&] { detail::throwFirst(detail::treeDamage(tree)); });
     tree.settings.validate();
 }
 
@@ -249,11 +115,11 @@ void gather(
 std::vector<int32_t> readNodes(const detail::PointReader& reader, int scale, SphereTree& tree)
 {
     const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
-    gather(reader.positions(scale), order, tree.center);
-    gather(reader.attribute<double>("radius"), order, tree.radius);
-    gather(reader.attribute<int64_t>("cover_sq"), order, tree.coverSq);
-    gather(reader.attribute<float>("pscale"), order, tree.radiusWorld);
-    gather(reader.attribute<int32_t>("parent"), order, tree.parent);
+    gather(reader.positions(scale), order, tree.spheres.center);
+    gather(reader.attribute<double>("radius"), order, tree.spheres.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, tree.spheres.coverRadiusSq);
+    gather(reader.attribute<float>("pscale"), order, tree.spheres.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, tree.spheres.parent);
     gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
     gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
     std::vector<int32_t> levels;
@@ -297,12 +163,10 @@ SphereTree readTree(const PointDataGrid& points)
             "it has " << reader.size() << " points, by its metadata " << expected
                       << ": was it cut short, or are points deleted?");
     }
-    checkUnits(tree.subdivision);
+    detail::throwFirst(detail::unitDamage(tree.subdivision));
     const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
-    checkSpheres(tree, tree.subdivision);
-    checkDigitalBalls(tree);
     checkLevels(tree, levels);
-    checkParents(tree, levels);
+    detail::throwFirst(detail::treeDamage(tree));
     return tree;
 }
 
@@ -321,7 +185,7 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     std::vector<DagEdge> edges(parents.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
     std::sort(edges.begin(), edges.end());
-    checkEdges(edges, levelNumbers(tree));
+    detail::requireEdges(edges, tree);
     return edges;
 }
 
@@ -337,14 +201,14 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
     }
     SphereCuts cuts;
     const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
-    gather(reader.positions(detail::readPointScale(grid)), order, cuts.center);
-    gather(reader.attribute<double>("radius"), order, cuts.radius);
-    gather(reader.attribute<int64_t>("cover_sq"), order, cuts.coverSq);
-    gather(reader.attribute<float>("pscale"), order, cuts.radiusWorld);
-    gather(reader.attribute<int32_t>("parent"), order, cuts.parent);
+    gather(reader.positions(detail::readPointScale(grid)), order, cuts.spheres.center);
+    gather(reader.attribute<double>("radius"), order, cuts.spheres.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, cuts.spheres.coverRadiusSq);
+    gather(reader.attribute<float>("pscale"), order, cuts.spheres.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, cuts.spheres.parent);
     gather(reader.attribute<int32_t>("first"), order, cuts.first);
     gather(reader.attribute<int32_t>("last"), order, cuts.last);
-    checkCuts(cuts, tree.subdivision);
+    detail::requireCuts(cuts, tree.subdivision);
     return cuts;
 }
 
@@ -373,8 +237,8 @@ void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& writte
     written(nodes.parent);
     writer.addAttribute<double>("radius", [&](uint32_t id) { return nodes.radius[id]; });
     written(nodes.radius);
-    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return nodes.coverSq[id]; });
-    written(nodes.coverSq);
+    writer.addAttribute<int64_t>("cover_sq", [&](uint32_t id) { return nodes.coverRadiusSq[id]; });
+    written(nodes.coverRadiusSq);
 }
 
 /// Attribute by attribute, so that there is one array at most both in the tree and in the grid, if
@@ -382,10 +246,10 @@ void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& writte
 template <typename Tree, typename Written>
 PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 {
-    checkLayout(tree);
-    detail::PointWriter writer(tree.center);
-    written(tree.center);
-    addSpheres(writer, tree, written);
+    requireStorable(tree);
+    detail::PointWriter writer(tree.spheres.center);
+    written(tree.spheres.center);
+    addSpheres(writer, tree.spheres, written);
     const auto levelOf = [&](uint32_t id) { return tree.levelOf(int32_t(id)); };
     writer.addAttribute<int32_t>("level", levelOf);
     writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
@@ -409,10 +273,10 @@ PointDataGrid::Ptr toPoints(SphereTree&& tree) { return writeTree(tree, Release(
 PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {
     if (tree.dag.empty()) return nullptr;
-    checkLayout(tree);
+    requireStorable(tree);
     std::vector<Vec3d> positions;
     positions.reserve(tree.dag.size());
-    for (const DagEdge& edge : tree.dag) positions.push_back(tree.center[edge.parent]);
+    for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
 
     detail::PointWriter writer(positions);
     writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
@@ -429,14 +293,10 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
 {
     if (tree.cuts.empty()) return nullptr;
-    checkLayout(tree);
-    try {
-        checkCuts(tree.cuts, tree.subdivision);
-    } catch (const openvdb::ValueError& error) {
-        inconsistent(std::string("in its cuts, ") + detail::messageOf(error));
-    }
-    detail::PointWriter writer(tree.cuts.center);
-    addSpheres(writer, tree.cuts, Keep());
+    requireStorable(tree);
+    requireStorable("in its cuts, ", [&] { detail::requireCuts(tree.cuts, tree.subdivision); });
+    detail::PointWriter writer(tree.cuts.spheres.center);
+    addSpheres(writer, tree.cuts.spheres, Keep());
     writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
     writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
 

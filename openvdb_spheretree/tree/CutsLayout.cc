@@ -21,17 +21,17 @@ std::string sentence(const Parts&... parts)
 
 std::string lengthDamage(const SphereCuts& cuts)
 {
-    const std::size_t n = cuts.center.size();
-    const bool alike = cuts.radius.size() == n && cuts.coverSq.size() == n
-        && cuts.radiusWorld.size() == n && cuts.parent.size() == n && cuts.first.size() == n
-        && cuts.last.size() == n;
+    const std::size_t n = cuts.spheres.center.size();
+    const bool alike = cuts.spheres.radius.size() == n && cuts.spheres.coverRadiusSq.size() == n
+        && cuts.spheres.radiusWorld.size() == n && cuts.spheres.parent.size() == n
+        && cuts.first.size() == n && cuts.last.size() == n;
     return alike ? "" : "the arrays differ in length";
 }
 
 std::string nodeDamage(const SphereCuts& cuts, int32_t leaves)
 {
     for (int32_t i = 0; i < cuts.size(); ++i) {
-        const int32_t first = cuts.first[i], last = cuts.last[i], parent = cuts.parent[i];
+        const int32_t first = cuts.first[i], last = cuts.last[i], parent = cuts.spheres.parent[i];
         if (first < 1 || last < first || last > leaves) {
             return sentence("node ", i, " is part of the cuts of ", first, " to ", last,
                 " spheres, but there are cuts of 1 to ", leaves);
@@ -51,8 +51,8 @@ std::string nodeDamage(const SphereCuts& cuts, int32_t leaves)
 
 std::string childDamage(const SphereCuts& cuts, int32_t leaves)
 {
-    std::vector<char> hasChild(cuts.parent.size(), 0);
-    for (const int32_t parent : cuts.parent) {
+    std::vector<char> hasChild(cuts.spheres.parent.size(), 0);
+    for (const int32_t parent : cuts.spheres.parent) {
         if (parent >= 0) hasChild[parent] = 1;
     }
     for (int32_t i = 0; i < cuts.size(); ++i) {

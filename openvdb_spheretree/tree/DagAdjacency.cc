@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DagAdjacency.h"
 
+#include "TreeShape.h"
+
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -9,20 +11,14 @@ namespace openvdb_spheretree {
 
 namespace {
 
-[[noreturn]] void refuse(const DagEdge& edge, const char* why)
+void requireNodes(const std::vector<DagEdge>& edges, int32_t parentCount, int32_t childCount)
 {
-    OPENVDB_THROW(openvdb::ValueError,
-        "the edge of the DAG from node " << edge.parent << " to node " << edge.child << ' ' << why);
-}
-
-void checkEdges(const std::vector<DagEdge>& edges, int32_t parentCount, int32_t childCount)
-{
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const DagEdge& e = edges[i];
-        const bool exists =
-            e.parent >= 0 && e.parent < parentCount && e.child >= 0 && e.child < childCount;
-        if (!exists) refuse(e, "is not between nodes that there are");
-        if (i > 0 && !(edges[i - 1] < e)) refuse(e, "is out of order or there twice");
+    for (const DagEdge& e : edges) {
+        if (e.parent >= 0 && e.parent < parentCount && e.child >= 0 && e.child < childCount)
+            continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the edge of the DAG from node " << e.parent << " to node " << e.child
+                                             << " is not between nodes that there are");
     }
 }
 
@@ -50,7 +46,8 @@ DagAdjacency dagAdjacency(
         OPENVDB_THROW(openvdb::ValueError,
             "a DAG between " << parentCount << " and " << childCount << " nodes cannot be");
     }
-    checkEdges(edges, parentCount, childCount);
+    requireNodes(edges, parentCount, childCount);
+    detail::throwFirst(detail::edgeOrderDamage(edges));
     const auto parent = [&](std::size_t i) { return edges[i].parent; };
     const auto child = [&](std::size_t i) { return edges[i].child; };
     return {compressedRows(edges.size(), std::size_t(parentCount), parent, child),
@@ -59,19 +56,8 @@ DagAdjacency dagAdjacency(
 
 DagAdjacency dagAdjacency(const SphereTree& tree)
 {
-    DagAdjacency rows = dagAdjacency(tree.dag, tree.size(), tree.size());
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        const SphereTreeLevel& level = tree.levels[k];
-        for (int32_t id = level.begin; id < level.end; ++id) {
-            for (const int32_t parent : rows.parents[id]) {
-                const bool isAbove = k + 1 < tree.levels.size()
-                    && parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end;
-                if (!isAbove)
-                    refuse({parent, id}, "does not lead to a node of the next level down");
-            }
-        }
-    }
-    return rows;
+    detail::requireEdges(tree.dag, tree);
+    return dagAdjacency(tree.dag, tree.size(), tree.size());
 }
 
 std::vector<DagLevelStats> dagStats(const SphereTree& tree)
@@ -91,7 +77,7 @@ std::vector<DagLevelStats> dagStats(const SphereTree& tree)
         for (int32_t id = level.begin; id < level.end; ++id) {
             const NodeSpan parents = rows.parents[id];
             stats.sharedChildren += parents.size() > 1;
-            both += std::binary_search(parents.begin(), parents.end(), tree.parent[id]);
+            both += std::binary_search(parents.begin(), parents.end(), tree.spheres.parent[id]);
         }
         stats.treeEdgesInDagPercent = 100.0 * double(both) / level.size();
         result.push_back(stats);

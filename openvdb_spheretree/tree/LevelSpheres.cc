@@ -17,9 +17,9 @@ std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLe
     spheres.reserve(level.size());
     for (int32_t id = level.begin; id < level.end; ++id) {
         const openvdb::Vec3d c =
-            tree.center[id] * double(tree.subdivision); // exact: a power of two
-        spheres.push_back(
-            {{std::llround(c[0]), std::llround(c[1]), std::llround(c[2])}, tree.coverSq[id]});
+            tree.spheres.center[id] * double(tree.subdivision); // exact: a power of two
+        spheres.push_back({{std::llround(c[0]), std::llround(c[1]), std::llround(c[2])},
+            tree.spheres.coverRadiusSq[id]});
     }
     return spheres;
 }

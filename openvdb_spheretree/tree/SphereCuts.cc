@@ -44,17 +44,14 @@ SphereTree cutTree(const SphereTree& tree, int64_t spheres)
         OPENVDB_THROW(openvdb::ValueError,
             "spheres=" << spheres << " is out of range: a level has one sphere or more");
     }
-    const SphereCuts& cuts = tree.cuts;
     SphereTree result = describedLike(tree);
-    for (int32_t i : cutNodes(cuts, std::min<int64_t>(spheres, detail::leavesOf(cuts)))) {
-        result.center.push_back(cuts.center[i]);
-        result.radius.push_back(cuts.radius[i]);
-        result.coverSq.push_back(cuts.coverSq[i]);
-        result.radiusWorld.push_back(cuts.radiusWorld[i]);
-        result.ijk.push_back(openvdb::Coord::round(cuts.center[i]));
+    const int64_t count = std::min<int64_t>(spheres, detail::leavesOf(tree.cuts));
+    result.spheres = tree.cuts.spheres.take(cutNodes(tree.cuts, count));
+    std::fill(result.spheres.parent.begin(), result.spheres.parent.end(), -1);
+    for (const openvdb::Vec3d& center : result.spheres.center) {
+        result.ijk.push_back(openvdb::Coord::round(center));
     }
-    result.parent.assign(result.center.size(), -1);
-    result.radiusSq.assign(result.center.size(), -1);
+    result.radiusSq.assign(result.ijk.size(), -1);
     result.levels.resize(1);
     result.levels[0].end = result.size();
     return result;

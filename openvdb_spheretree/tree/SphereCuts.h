@@ -4,13 +4,13 @@
 /// every number of spheres, from the leaves to the root.
 ///
 /// A node is part of the cuts of `first` to `last` spheres. Going from N to N - 1 spheres, two nodes
-/// end and their parent begins, or one node ends that owes nothing any more. Where node and parent
+/// end and their parent begins, or one node ends that has no voxel left to cover. Where node and parent
 /// are both set, every cut keeps the contract of tight trees: each object voxel has a chain of
 /// nodes, each the child of the one before it, that all hold it.
 
 #pragma once
 
-#include <openvdb/Types.h>
+#include "Spheres.h"
 
 #include <cstdint>
 #include <vector>
@@ -19,19 +19,15 @@ namespace openvdb_spheretree {
 
 struct SphereTree;
 
-/// One entry a node; children stand before their parents, leaves first. Fields are those of
-/// SphereTree.
+/// One entry a node; children stand before their parents, leaves first.
 struct SphereCuts {
-    std::vector<openvdb::Vec3d> center;
-    std::vector<double> radius;
-    std::vector<int64_t> coverSq;
-    std::vector<float> radiusWorld;
-    std::vector<int32_t> parent; ///< node; -1 for the root, and for nodes that ended owing nothing
-    std::vector<int32_t> first;  ///< fewest spheres of a cut with this node
-    std::vector<int32_t> last;   ///< most
+    /// The parent of a node is -1 for the root, and for nodes that ended with no voxel left to cover.
+    Spheres spheres;
+    std::vector<int32_t> first; ///< fewest spheres of a cut with this node
+    std::vector<int32_t> last;  ///< most
 
-    bool empty() const { return center.empty(); }
-    int32_t size() const { return int32_t(center.size()); }
+    bool empty() const { return spheres.empty(); }
+    int32_t size() const { return spheres.size(); }
 };
 
 /// @return the nodes of the cut with @a spheres spheres, ascending; O(nodes).

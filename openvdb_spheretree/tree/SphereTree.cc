@@ -4,7 +4,6 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace openvdb_spheretree {
 
@@ -16,28 +15,32 @@ int SphereTree::levelOf(int32_t id) const
     OPENVDB_THROW(openvdb::LookupError, "the tree has no node " << id);
 }
 
+bool SphereTree::hasLevel(int number) const
+{
+    return std::any_of(levels.begin(), levels.end(),
+        [&](const SphereTreeLevel& range) { return range.level == number; });
+}
+
+const SphereTreeLevel& SphereTree::level(int number) const
+{
+    for (const SphereTreeLevel& range : levels) {
+        if (range.level == number) return range;
+    }
+    if (levels.empty()) OPENVDB_THROW(openvdb::ValueError, "the tree has no levels");
+    OPENVDB_THROW(openvdb::ValueError,
+        "the tree has no level " << number << ": it has levels " << levels.front().level << " to "
+                                 << levels.back().level);
+}
+
 SphereTree keepLevel(const SphereTree& tree, int level)
 {
-    const auto range = std::find_if(tree.levels.begin(), tree.levels.end(),
-        [&](const SphereTreeLevel& r) { return r.level == level; });
-    if (range == tree.levels.end()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the tree has no level " << level << ": it has levels " << tree.levels.front().level
-                                     << " to " << tree.levels.back().level);
-    }
-    const auto slice = [&](const auto& all) {
-        using Array = std::decay_t<decltype(all)>;
-        return Array(all.begin() + range->begin, all.begin() + range->end);
-    };
+    const SphereTreeLevel& range = tree.level(level);
     SphereTree result;
-    result.center = slice(tree.center);
-    result.radius = slice(tree.radius);
-    result.coverSq = slice(tree.coverSq);
-    result.radiusWorld = slice(tree.radiusWorld);
-    result.ijk = slice(tree.ijk);
-    result.radiusSq = slice(tree.radiusSq);
-    result.parent.assign(result.center.size(), -1);
-    result.levels = {*range};
+    result.spheres = tree.spheres.slice(range.begin, range.end);
+    std::fill(result.spheres.parent.begin(), result.spheres.parent.end(), -1);
+    result.ijk.assign(tree.ijk.begin() + range.begin, tree.ijk.begin() + range.end);
+    result.radiusSq.assign(tree.radiusSq.begin() + range.begin, tree.radiusSq.begin() + range.end);
+    result.levels = {range};
     result.levels[0].begin = 0;
     result.levels[0].end = result.size();
     result.subdivision = tree.subdivision;

@@ -16,6 +16,7 @@
 
 #include "SphereCuts.h"
 #include "SphereTreeSettings.h"
+#include "Spheres.h"
 #include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <openvdb/openvdb.h>
@@ -68,23 +69,15 @@ struct DagEdge {
 struct SphereTree {
     /// @name One entry a node
     /// @{
-    /// Index space of the source grid; multiples of 1 / subdivision.
-    std::vector<openvdb::Vec3d> center;
-    std::vector<double> radius; ///< voxels of level 0, covers voxel centres, no padding
-    /// The exact form of `radius`: voxel centre q is inside when
-    /// |subdivision (q - center)|^2 <= coverSq, the length being that of settings.dist, in its units.
-    std::vector<int64_t> coverSq;
-    /// World units, padded, rounded up. Of a norm: how far the ball reaches along an axis of index
-    /// space; a sphere of this radius holds more than it (l1), or less (linf).
-    std::vector<float> radiusWorld;
-    std::vector<int32_t> parent; ///< id on the next level up; -1 where there is none
-    /// The digital ball's centre in its level's own grid; for a sphere that is none, the voxel
-    /// nearest to its centre.
+    Spheres spheres; ///< a parent is on the next level up
+    /// The centre of the node's digital ball, in the grid of its level. Of a sphere that is no
+    /// digital ball: the voxel nearest to its centre.
     std::vector<openvdb::Coord> ijk;
-    /// The digital ball {q : |q - ijk|^2 < radiusSq}: MedialBall; -1 for a sphere that is none.
+    /// Of the node's digital ball {q : |q - ijk|^2 < radiusSq} (MedialBall.h). -1 for a sphere that
+    /// is no digital ball.
     std::vector<int32_t> radiusSq;
     /// @}
-    /// Units of centres and coverSq in a voxel: 2 or 16.
+    /// Units of centres and coverRadiusSq in a voxel: 2 or 16.
     int subdivision = 2;
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
@@ -95,13 +88,28 @@ struct SphereTree {
     openvdb::Coord origin;                   ///< level-grid (0,0,0) in index space; multiples of 8
     openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world
 
-    int32_t size() const { return int32_t(center.size()); }
+    int32_t size() const { return spheres.size(); }
     /// @return the top level; the tree must have one, as every tree built or read has.
     const SphereTreeLevel& root() const { return levels.back(); }
-    /// @return the level of node @a id; O(levels).
+    /// @return whether there is a level of this number; a tree need not have level 0.
+    bool hasLevel(int number) const;
+    /// @return the level of this number.
+    /// @throw openvdb::ValueError if there is none
+    const SphereTreeLevel& level(int number) const;
+    /// @return the number of the level of node @a id; O(levels).
+    /// @throw openvdb::LookupError if there is no such node
     int levelOf(int32_t id) const;
-    openvdb::Vec3d centerWorld(int32_t id) const { return transform->indexToWorld(center[id]); }
+    openvdb::Vec3d centerWorld(int32_t id) const
+    {
+        return transform->indexToWorld(spheres.center[id]);
+    }
     double voxelSize() const { return transform->voxelSize()[0]; }
+
+    /// @brief What functions that take a tree rely on: arrays of one length, levels that divide
+    /// them, numbers that spheres have, parents and edges to the next level, cuts of every number of
+    /// spheres, settings that fit together.
+    /// @throw openvdb::ValueError naming the first thing that is wrong. Cost: linear.
+    void validate() const;
 };
 
 /// @return a tree of one level, ids renumbered from 0, every node a root.

@@ -36,10 +36,11 @@ ChainForest forestOf(const SphereTree& tree)
     ChainForest forest;
     forest.sectionCount = int(tree.levels.size());
     for (int32_t id = tree.size() - 1; id >= 0; --id) {
-        ExactSphere sphere{{0, 0, 0}, tree.coverSq[id]};
-        for (int a = 0; a < 3; ++a) sphere.center[a] = int64_t(16 * tree.center[id][a]);
+        ExactSphere sphere{{0, 0, 0}, tree.spheres.coverRadiusSq[id]};
+        for (int a = 0; a < 3; ++a) sphere.center[a] = int64_t(16 * tree.spheres.center[id][a]);
         forest.spheres.push_back(sphere);
-        forest.parent.push_back(tree.parent[id] < 0 ? -1 : tree.size() - 1 - tree.parent[id]);
+        forest.parent.push_back(
+            tree.spheres.parent[id] < 0 ? -1 : tree.size() - 1 - tree.spheres.parent[id]);
         forest.sections.push_back(uint64_t(1) << tree.levelOf(id));
     }
     return forest;
@@ -65,13 +66,18 @@ void damage(SphereTree& tree, Random& random)
     for (int i = random.between(1, 3); i > 0; --i) {
         const int32_t id = random.between(0, tree.size() - 1);
         switch (random.between(0, 2)) {
-        case 0: tree.coverSq[id] -= tree.coverSq[id] / random.between(1, 20); break;
-        case 1: tree.center[id] += openvdb::Vec3d(random.coord(-24, 24).asVec3d()) / 16.0; break;
+        case 0:
+            tree.spheres.coverRadiusSq[id] -=
+                tree.spheres.coverRadiusSq[id] / random.between(1, 20);
+            break;
+        case 1:
+            tree.spheres.center[id] += openvdb::Vec3d(random.coord(-24, 24).asVec3d()) / 16.0;
+            break;
         default: {
             const int level = tree.levelOf(id);
             if (level + 1 == int(tree.levels.size())) break;
             const SphereTreeLevel& above = tree.levels[level + 1];
-            tree.parent[id] = random.between(above.begin, above.end - 1);
+            tree.spheres.parent[id] = random.between(above.begin, above.end - 1);
         }
         }
     }
@@ -92,7 +98,7 @@ int64_t expectLikeDefinition(const RandomObject& object, const openvdb::BoolGrid
     for (int i = 0; i < 6; ++i) {
         damage(tree, random);
         const auto expected =
-            naiveBrokenLevels(tree, object.voxels, holdsExactly(tree, tree.subdivision));
+            naiveBrokenLevels(tree, object.voxels, holdsExactly(tree.spheres, tree.subdivision));
         EXPECT_EQ(losses(), expected);
         lost += sum(expected);
     }
@@ -215,11 +221,11 @@ TEST(ChainsOracle, TheCheckSaysWhichCutsBreakChains)
         const int32_t leaves = *std::max_element(cuts.last.begin(), cuts.last.end());
         const int32_t node = random.between(0, cuts.size() - 1);
         const bool exact = seed % 2 == 0;
-        if (exact) cuts.coverSq[node] /= 2;
-        else cuts.radiusWorld[node] *= 0.6f;
+        if (exact) cuts.spheres.coverRadiusSq[node] /= 2;
+        else cuts.spheres.radiusWorld[node] *= 0.6f;
         const std::string said = joinedText(checkSphereTree(tree, *grid));
         const HoldsVoxel holds =
-            exact ? holdsExactly(cuts, tree.subdivision) : holdsStored(cuts, tree);
+            exact ? holdsExactly(cuts.spheres, tree.subdivision) : holdsStored(cuts.spheres, tree);
         int64_t before = 0;
         std::set<int32_t, std::greater<>> checked{leaves};
         for (int32_t spheres = 1; spheres < leaves; spheres *= 2) checked.insert(spheres);
@@ -247,10 +253,10 @@ TEST(ChainsOracle, TheCheckSaysWhichLevelsBreakChainsInTheStoredRadii)
         const auto grid = gridOf(object.voxels);
         const Hierarchy hierarchy(object.voxels, random.between(2, 20), random);
         SphereTree tree = randomTightTree(*grid, hierarchy, random);
-        tree.radiusWorld[random.between(0, tree.size() - 1)] *= 0.6f;
+        tree.spheres.radiusWorld[random.between(0, tree.size() - 1)] *= 0.6f;
         const std::string said = joinedText(checkSphereTree(tree, *grid));
         EXPECT_EQ(said.find("in the exact radii"), std::string::npos) << said;
-        const auto lost = naiveBrokenLevels(tree, object.voxels, holdsStored(tree, tree));
+        const auto lost = naiveBrokenLevels(tree, object.voxels, holdsStored(tree.spheres, tree));
         for (std::size_t k = 0; k < lost.size(); ++k) {
             const std::string sentence = "level " + std::to_string(k)
                 + " breaks the chain of spheres of " + std::to_string(lost[k]) + " voxel";

@@ -113,7 +113,8 @@ openvdb_spheretree::LevelError naiveError(
 {
     CoordBBox box = boxOf(voxels);
     double reach = 0;
-    for (int32_t id = level.begin; id < level.end; ++id) reach = std::max(reach, tree.radius[id]);
+    for (int32_t id = level.begin; id < level.end; ++id)
+        reach = std::max(reach, tree.spheres.radius[id]);
     box.expand(int(reach) * 2 + 2);
     if (tree.settings.dim == 2) box.min()[2] = box.max()[2] = voxels[0][2];
     const auto& dist = tree.settings.dist;
@@ -249,8 +250,8 @@ TEST(NormsOracle, ACheckFindsARadiusThatIsTooSmallAndOneThatIsNoSquare)
     const SphereTree tree = buildSphereTree(*grid, settings);
     ASSERT_TRUE(openvdb_spheretree::checkSphereTree(tree, *grid).empty());
     SphereTree smaller = tree;
-    smaller.coverSq[0] /= 2;
-    smaller.radius[0] /= std::sqrt(2);
+    smaller.spheres.coverRadiusSq[0] /= 2;
+    smaller.spheres.radius[0] /= std::sqrt(2);
     EXPECT_FALSE(openvdb_spheretree::checkSphereTree(smaller, *grid).empty());
     SphereTree noSquare = tree;
     noSquare.radiusSq[0] = 3;

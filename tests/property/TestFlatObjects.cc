@@ -68,7 +68,7 @@ TEST(FlatObjects, HaveTheTreeOfTheObjectTurnedSoThatItIsFlatAlongZ)
                 ASSERT_EQ(tree.settings.flatAxis, axis);
                 ASSERT_EQ(turn.toZ(tree.origin), expected.origin);
                 ASSERT_TRUE(covers(tree, turned));
-                for (auto& center : tree.center) center = turn.toZ(center);
+                for (auto& center : tree.spheres.center) center = turn.toZ(center);
                 for (auto& ijk : tree.ijk) ijk = turn.toZ(ijk);
                 ASSERT_TRUE(sameNodes(tree, expected));
             }

@@ -128,8 +128,9 @@ Voxels rebuilt(const SphereTree& tree)
 
 void expectChains(const SphereTree& tree, const Voxels& voxels)
 {
-    ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsExactly(tree, tree.subdivision))), 0);
-    ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsStored(tree, tree))), 0);
+    ASSERT_EQ(
+        sumOf(naiveBrokenLevels(tree, voxels, holdsExactly(tree.spheres, tree.subdivision))), 0);
+    ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsStored(tree.spheres, tree))), 0);
 }
 
 void expectSound(const SphereTree& tree, const openvdb::BoolGrid& grid, const Voxels& voxels)
@@ -151,9 +152,11 @@ void expectCutsHold(const SphereTree& tree, const Voxels& voxels)
     for (int32_t n = 1; n <= leaves; ++n) {
         ASSERT_EQ(cutNodes(cuts, n).size(), std::size_t(n));
         if (n > 12 && n % 7 != 0 && n < leaves - 3) continue;
-        ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsExactly(cuts, tree.subdivision)), 0)
+        ASSERT_EQ(
+            naiveBrokenCut(cuts, leaves, n, voxels, holdsExactly(cuts.spheres, tree.subdivision)),
+            0)
             << n;
-        ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsStored(cuts, tree)), 0) << n;
+        ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsStored(cuts.spheres, tree)), 0) << n;
     }
 }
 
@@ -279,7 +282,7 @@ void expectFlat(const Voxels& flat, SphereTreeSettings settings)
             ASSERT_NO_FATAL_FAILURE(expectCutsHold(tree, voxels));
         }
         const int along = tree.settings.flatAxis;
-        for (const openvdb::Vec3d& center : tree.center) {
+        for (const openvdb::Vec3d& center : tree.spheres.center) {
             ASSERT_EQ(center[along], double(boxOf(voxels).min()[along]));
         }
     }
@@ -313,9 +316,7 @@ TEST(TightTrees, InTwoDimensionsStayInThePlaneHoweverWideTheObject)
 
 bool sameCuts(const SphereCuts& a, const SphereCuts& b)
 {
-    return a.center == b.center && a.radius == b.radius && a.coverSq == b.coverSq
-        && a.radiusWorld == b.radiusWorld && a.parent == b.parent && a.first == b.first
-        && a.last == b.last;
+    return a.spheres == b.spheres && a.first == b.first && a.last == b.last;
 }
 
 TEST(TightTrees, AreTheSameForAnyNumberOfThreads)
@@ -358,12 +359,13 @@ TEST(TightTrees, MoveWithObjectsMovedByMultiplesOf8)
                 const SphereTree moved =
                     buildSphereTree(*gridOf(translated(object.voxels, by)), settings);
                 SphereTree expected = tree;
-                for (openvdb::Vec3d& center : expected.center) center += by.asVec3d();
+                for (openvdb::Vec3d& center : expected.spheres.center) center += by.asVec3d();
                 for (Coord& ijk : expected.ijk) ijk += by;
-                expected.radiusWorld = moved.radiusWorld; // make up for rounding of positions
+                expected.spheres.radiusWorld =
+                    moved.spheres.radiusWorld; // make up for rounding of positions
                 ASSERT_TRUE(sameNodes(moved, expected));
-                for (openvdb::Vec3d& center : expected.cuts.center) center += by.asVec3d();
-                expected.cuts.radiusWorld = moved.cuts.radiusWorld;
+                for (openvdb::Vec3d& center : expected.cuts.spheres.center) center += by.asVec3d();
+                expected.cuts.spheres.radiusWorld = moved.cuts.spheres.radiusWorld;
                 ASSERT_TRUE(sameCuts(moved.cuts, expected.cuts));
             }
         }
@@ -529,7 +531,7 @@ TEST(TightTrees, OfObjectsTooWideForTheirUnitsAreRefused)
         const Voxels fits{Coord(0, 0, 0), Coord(1 << 24, 0, 0)};
         const SphereTree tree = buildSphereTree(*gridOf(fits), settings);
         ASSERT_NO_FATAL_FAILURE(expectChains(tree, fits));
-        EXPECT_LT(tree.radius[0], double(1 << 23) * 1.01);
+        EXPECT_LT(tree.spheres.radius[0], double(1 << 23) * 1.01);
         const Voxels wide{Coord(0, 0, 0), Coord(1 << 27, 0, 0)};
         EXPECT_TRUE(mentions(
             messageOf<openvdb::ValueError>([&] { buildSphereTree(*gridOf(wide), settings); }),

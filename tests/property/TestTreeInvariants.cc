@@ -146,7 +146,7 @@ void expectNoVoxelMissed(const Object& object, const SphereTree& tree,
     for (const SphereTreeLevel& level : tree.levels) {
         Remaining remaining(object.voxels);
         for (int32_t id = level.begin; id < level.end && remaining.count() > 0; ++id) {
-            remaining.strike(tree.center[id], tree.radius[id] + 1,
+            remaining.strike(tree.spheres.center[id], tree.spheres.radius[id] + 1,
                 [&](const Coord& voxel) { return held(id, voxel); });
         }
         ASSERT_EQ(remaining.count(), 0u) << "voxels missed by level " << level.level;
@@ -170,7 +170,7 @@ void checkLevel0(const Object& object, const SphereTreeSettings&, const SphereTr
             ASSERT_EQ(holds(tree, id, *voxel), inBall) << "coverSq and radius_sq disagree";
             ASSERT_TRUE(!inBall || accessor.isValueOn(*voxel)) << *voxel << " is no object voxel";
         }
-        remaining.strike(tree.center[id], tree.radius[id] + 1,
+        remaining.strike(tree.spheres.center[id], tree.spheres.radius[id] + 1,
             [&](const Coord& q) { return squaredDistance(q, tree.ijk[id]) < tree.radiusSq[id]; });
     }
     ASSERT_EQ(remaining.count(), 0u);
@@ -186,7 +186,7 @@ void checkExactCover(const Object& object, const SphereTreeSettings&, const Sphe
 bool holdsInWorld(const SphereTree& tree, int32_t id, const openvdb::Vec3d& index)
 {
     const openvdb::Vec3d at = tree.transform->indexToWorld(index);
-    return (at - tree.centerWorld(id)).length() <= double(tree.radiusWorld[id]);
+    return (at - tree.centerWorld(id)).length() <= double(tree.spheres.radiusWorld[id]);
 }
 
 void checkStoredCoverOfCentres(
@@ -215,7 +215,7 @@ void checkParents(const Object&, const SphereTreeSettings&, const SphereTree& tr
     for (std::size_t k = 0; k < tree.levels.size(); ++k) {
         const bool top = k + 1 == tree.levels.size();
         for (int32_t id = tree.levels[k].begin; id < tree.levels[k].end; ++id) {
-            const int32_t parent = tree.parent[id];
+            const int32_t parent = tree.spheres.parent[id];
             if (top) {
                 ASSERT_EQ(parent, -1);
             } else {
@@ -228,8 +228,8 @@ void checkParents(const Object&, const SphereTreeSettings&, const SphereTree& tr
 
 void checkChildren(const Object&, const SphereTreeSettings&, const SphereTree& tree)
 {
-    std::vector<bool> hasChild(tree.parent.size(), false);
-    for (int32_t parent : tree.parent) {
+    std::vector<bool> hasChild(tree.spheres.parent.size(), false);
+    for (int32_t parent : tree.spheres.parent) {
         if (parent >= 0) hasChild[parent] = true;
     }
     for (int32_t id = 0; id < tree.levels[0].begin; ++id) ASSERT_TRUE(hasChild[id]) << id;
@@ -239,9 +239,11 @@ void checkStoredContainment(const Object&, const SphereTreeSettings&, const Sphe
 {
     for (int32_t leaf = tree.levels[0].begin; leaf < tree.levels[0].end; ++leaf) {
         const openvdb::Vec3d center = tree.centerWorld(leaf);
-        for (int32_t id = tree.parent[leaf]; id >= 0; id = tree.parent[id]) {
-            const double reach = (center - tree.centerWorld(id)).length() + tree.radiusWorld[leaf];
-            ASSERT_LE(reach, double(tree.radiusWorld[id])) << "leaf " << leaf << ", node " << id;
+        for (int32_t id = tree.spheres.parent[leaf]; id >= 0; id = tree.spheres.parent[id]) {
+            const double reach =
+                (center - tree.centerWorld(id)).length() + tree.spheres.radiusWorld[leaf];
+            ASSERT_LE(reach, double(tree.spheres.radiusWorld[id]))
+                << "leaf " << leaf << ", node " << id;
         }
     }
 }
@@ -367,15 +369,15 @@ TEST(TreeInvariants, TranslationByMultiplesOfEightCarriesTheTreeAlong)
             SphereTree tree = buildSphereTree(*object.grid, settings);
             const SphereTree moved =
                 buildSphereTree(*gridOf(translated(object.voxels, by)), settings);
-            for (openvdb::Vec3d& center : tree.center) center += by.asVec3d();
+            for (openvdb::Vec3d& center : tree.spheres.center) center += by.asVec3d();
             for (int32_t id = tree.levels[0].begin; id < tree.size(); ++id) tree.ijk[id] += by;
             ASSERT_EQ(moved.origin, tree.origin + by);
             // World radii make up for the rounding of positions, which may differ.
             for (int32_t id = 0; id < tree.size(); ++id) {
-                ASSERT_NEAR(
-                    moved.radiusWorld[id], tree.radiusWorld[id], 1e-6 * tree.radiusWorld[id]);
+                ASSERT_NEAR(moved.spheres.radiusWorld[id], tree.spheres.radiusWorld[id],
+                    1e-6 * tree.spheres.radiusWorld[id]);
             }
-            tree.radiusWorld = moved.radiusWorld;
+            tree.spheres.radiusWorld = moved.spheres.radiusWorld;
             ASSERT_TRUE(sameNodes(moved, tree));
         }
     }

@@ -119,7 +119,7 @@ inline int64_t distanceSqInUnits(const SphereTree& tree, int32_t id, const Coord
     Coord d;
     for (int axis = 0; axis < 3; ++axis) {
         d[axis] = int32_t(tree.subdivision * int64_t(q[axis])
-            - std::llround(tree.subdivision * tree.center[id][axis]));
+            - std::llround(tree.subdivision * tree.spheres.center[id][axis]));
     }
     const auto& dist = tree.settings.dist;
     if (dist.isEuclidean()) return squaredDistance(d, Coord(0, 0, 0));
@@ -129,7 +129,7 @@ inline int64_t distanceSqInUnits(const SphereTree& tree, int32_t id, const Coord
 
 inline bool holds(const SphereTree& tree, int32_t id, const Coord& q)
 {
-    return distanceSqInUnits(tree, id, q) <= tree.coverSq[id];
+    return distanceSqInUnits(tree, id, q) <= tree.spheres.coverRadiusSq[id];
 }
 
 /// One entry a node: levels, links, spheres. Not what the tree knows of its object.
@@ -145,13 +145,13 @@ inline testing::AssertionResult sameNodes(const SphereTree& a, const SphereTree&
         if (x.pyramidVoxels != y.pyramidVoxels) return differ("pyramidVoxels");
         if (!(x.topology == y.topology)) return differ("topology");
     }
-    if (a.parent != b.parent) return differ("parent");
+    if (a.spheres.parent != b.spheres.parent) return differ("parent");
     if (a.ijk != b.ijk) return differ("ijk");
     if (a.radiusSq != b.radiusSq) return differ("radiusSq");
-    if (a.center != b.center) return differ("center");
-    if (a.radius != b.radius) return differ("radius");
-    if (a.coverSq != b.coverSq) return differ("coverSq");
-    if (a.radiusWorld != b.radiusWorld) return differ("radiusWorld");
+    if (a.spheres.center != b.spheres.center) return differ("center");
+    if (a.spheres.radius != b.spheres.radius) return differ("radius");
+    if (a.spheres.coverRadiusSq != b.spheres.coverRadiusSq) return differ("coverRadiusSq");
+    if (a.spheres.radiusWorld != b.spheres.radiusWorld) return differ("radiusWorld");
     if (!(a.dag == b.dag)) return differ("dag");
     return testing::AssertionSuccess();
 }
@@ -164,7 +164,8 @@ inline testing::AssertionResult endsAtOneRoot(const SphereTree& tree)
     }
     for (int32_t id = 1; id < tree.size(); ++id) {
         int32_t above = id;
-        while (tree.parent[above] >= 0 && tree.parent[above] < above) above = tree.parent[above];
+        while (tree.spheres.parent[above] >= 0 && tree.spheres.parent[above] < above)
+            above = tree.spheres.parent[above];
         if (above != 0) return testing::AssertionFailure() << "node " << id << " hangs loose";
     }
     return testing::AssertionSuccess();

@@ -41,23 +41,25 @@ inline testing::AssertionResult agreeOnNode(
     if (tree.radiusSq[id] != expected.radiusSq) {
         return fail("radiusSq") << tree.radiusSq[id] << ", not " << expected.radiusSq;
     }
-    const int parent = tree.parent[id] < 0 ? -1 : tree.parent[id] - parentBegin;
+    const int parent = tree.spheres.parent[id] < 0 ? -1 : tree.spheres.parent[id] - parentBegin;
     if (parent != expected.parent) return fail("parent") << parent << ", not " << expected.parent;
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(tree.center[id][axis] - expected.center[axis]) > kDenseTolerance) {
-            return fail("center") << tree.center[id];
+        if (std::abs(tree.spheres.center[id][axis] - expected.center[axis]) > kDenseTolerance) {
+            return fail("center") << tree.spheres.center[id];
         }
     }
-    if (std::abs(tree.radius[id] - expected.radius) > kDenseTolerance * (1 + expected.radius)) {
-        return fail("radius") << tree.radius[id] << ", not " << expected.radius;
+    if (std::abs(tree.spheres.radius[id] - expected.radius)
+        > kDenseTolerance * (1 + expected.radius)) {
+        return fail("radius") << tree.spheres.radius[id] << ", not " << expected.radius;
     }
     // coverSq is (2 radius)^2, in units of the distance, rounded down, but for what doubles cannot
     // tell.
     const double unit = tree.settings.dist.unit();
     const double fourRSq = 4 * unit * unit * expected.radius * expected.radius;
-    if (std::abs(double(tree.coverSq[id]) + 0.5 - fourRSq)
+    if (std::abs(double(tree.spheres.coverRadiusSq[id]) + 0.5 - fourRSq)
         > 0.5 + kDenseTolerance * (1 + fourRSq)) {
-        return fail("coverSq") << tree.coverSq[id] << ", not the floor of " << fourRSq;
+        return fail("coverSq") << tree.spheres.coverRadiusSq[id] << ", not the floor of "
+                               << fourRSq;
     }
     return testing::AssertionSuccess();
 }

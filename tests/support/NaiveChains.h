@@ -19,8 +19,7 @@ namespace spheretree_test {
 using HoldsVoxel = std::function<bool(int32_t id, const Coord& voxel)>;
 
 /// @param nodes  of a tree, or the cuts of one
-template <typename Nodes>
-HoldsVoxel holdsExactly(const Nodes& nodes, int subdivision)
+inline HoldsVoxel holdsExactly(const openvdb_spheretree::Spheres& nodes, int subdivision)
 {
     return [&nodes, subdivision](int32_t id, const Coord& voxel) {
         __int128 sum = 0;
@@ -29,13 +28,13 @@ HoldsVoxel holdsExactly(const Nodes& nodes, int subdivision)
             const __int128 d = int64_t(subdivision) * voxel[a] - center;
             sum += d * d;
         }
-        return sum <= nodes.coverSq[id];
+        return sum <= nodes.coverRadiusSq[id];
     };
 }
 
 /// In world space, as a reader of the file sees it.
-template <typename Nodes>
-HoldsVoxel holdsStored(const Nodes& nodes, const openvdb_spheretree::SphereTree& tree)
+inline HoldsVoxel holdsStored(
+    const openvdb_spheretree::Spheres& nodes, const openvdb_spheretree::SphereTree& tree)
 {
     const double padding = tree.settings.paddingVoxels() * tree.voxelSize();
     return [&nodes, &tree, padding](int32_t id, const Coord& voxel) {
@@ -51,14 +50,14 @@ inline std::vector<int64_t> naiveBrokenLevels(
 {
     std::vector<int64_t> lost(tree.levels.size(), 0);
     for (const Coord& voxel : voxels) {
-        std::vector<char> chained(tree.center.size(), 0);
+        std::vector<char> chained(tree.spheres.center.size(), 0);
         for (std::size_t k = 0; k < tree.levels.size(); ++k) {
             bool any = false;
             for (int32_t id = tree.levels[k].begin; id < tree.levels[k].end; ++id) {
                 if (!holds(id, voxel)) continue;
                 bool below = k == 0;
                 for (int32_t child = 0; child < tree.size() && !below; ++child) {
-                    below = tree.parent[child] == id && chained[child];
+                    below = tree.spheres.parent[child] == id && chained[child];
                 }
                 chained[id] = char(below);
                 any = any || below;
@@ -82,7 +81,7 @@ inline int64_t naiveBrokenCut(const openvdb_spheretree::SphereCuts& cuts, int32_
             if (cuts.last[leaf] != leaves) continue;
             int32_t node = leaf; // up to the cut, while all hold the voxel
             while (node >= 0 && holds(node, voxel) && cuts.first[node] > spheres) {
-                node = cuts.parent[node];
+                node = cuts.spheres.parent[node];
             }
             any = node >= 0 && holds(node, voxel);
         }

@@ -23,13 +23,14 @@ using openvdb_spheretree::SphereTreeLevel;
 inline void addNode(SphereTree& tree, const openvdb::Vec3d& center, const openvdb::Coord& ijk,
     int32_t radiusSq, int32_t parent)
 {
-    const double radius = std::sqrt(double(radiusSq) - 1) + 0.1 * double(tree.center.size());
-    tree.center.push_back(center);
-    tree.radius.push_back(radius);
-    tree.coverSq.push_back(int64_t(4 * radius * radius));
-    tree.radiusWorld.push_back(
+    const double radius =
+        std::sqrt(double(radiusSq) - 1) + 0.1 * double(tree.spheres.center.size());
+    tree.spheres.center.push_back(center);
+    tree.spheres.radius.push_back(radius);
+    tree.spheres.coverRadiusSq.push_back(int64_t(4 * radius * radius));
+    tree.spheres.radiusWorld.push_back(
         std::nextafter(float(radius * tree.voxelSize()), std::numeric_limits<float>::infinity()));
-    tree.parent.push_back(parent);
+    tree.spheres.parent.push_back(parent);
     tree.ijk.push_back(ijk);
     tree.radiusSq.push_back(radiusSq);
 }
@@ -58,7 +59,7 @@ inline SphereTree oneVoxelTree()
     tree.object.bbox.reset(openvdb::Coord(-3, 4, 5), openvdb::Coord(-3, 4, 5));
     addLevel(tree, 1, 1);
     addNode(tree, {-3, 4, 5}, {5, 4, 5}, 1, -1);
-    tree.radiusWorld[0] = 0;
+    tree.spheres.radiusWorld[0] = 0;
     return tree;
 }
 
@@ -107,9 +108,9 @@ inline SphereTree sampleTree()
     addNode(tree, {0, 10, -999}, {16, 2, 25}, 4, 1);
     addNode(tree, {0.0625, 10.9375, -999.5}, {16, 3, 24}, -1, 2);
     addNode(tree, {20, 30, 40}, {36, 22, 1064}, 1, 2);
-    tree.radius[6] = tree.radius[7] = 0;
-    tree.coverSq[6] = int64_t(1) << 50;
-    tree.radiusWorld[6] = 0;
+    tree.spheres.radius[6] = tree.spheres.radius[7] = 0;
+    tree.spheres.coverRadiusSq[6] = int64_t(1) << 50;
+    tree.spheres.radiusWorld[6] = 0;
     tree.levels[0].error = openvdb_spheretree::LevelError{int64_t(1) << 41, 5, 1, 0.1, 1.0 / 3};
     tree.levels[1].errorUnknown = "too many rows";
     tree.levels[0].topology = openvdb_spheretree::LevelTopology{3, int64_t(1) << 33, 2};
@@ -136,11 +137,12 @@ inline void addCutsNode(SphereTree& tree, const openvdb::Vec3d& center, int64_t 
     int32_t parent, int32_t first, int32_t last)
 {
     openvdb_spheretree::SphereCuts& cuts = tree.cuts;
-    cuts.center.push_back(center);
-    cuts.coverSq.push_back(coverSq);
-    cuts.radius.push_back(std::sqrt(double(coverSq)) / tree.subdivision);
-    cuts.radiusWorld.push_back(float(cuts.radius.back()) + float(cuts.center.size()));
-    cuts.parent.push_back(parent);
+    cuts.spheres.center.push_back(center);
+    cuts.spheres.coverRadiusSq.push_back(coverSq);
+    cuts.spheres.radius.push_back(std::sqrt(double(coverSq)) / tree.subdivision);
+    cuts.spheres.radiusWorld.push_back(
+        float(cuts.spheres.radius.back()) + float(cuts.spheres.center.size()));
+    cuts.spheres.parent.push_back(parent);
     cuts.first.push_back(first);
     cuts.last.push_back(last);
 }
@@ -211,9 +213,9 @@ inline SphereTree oneLevelOf(const SphereTree& tree, int number)
         values = {values.begin() + level.begin, values.begin() + level.end};
     };
     SphereTree kept = tree;
-    cut(kept.center), cut(kept.radius), cut(kept.coverSq), cut(kept.radiusWorld);
-    cut(kept.parent), cut(kept.ijk), cut(kept.radiusSq);
-    kept.parent.assign(kept.center.size(), -1);
+    kept.spheres = tree.spheres.slice(level.begin, level.end);
+    kept.spheres.parent.assign(std::size_t(level.size()), -1);
+    cut(kept.ijk), cut(kept.radiusSq);
     kept.levels = {level};
     kept.levels[0].begin = 0;
     kept.levels[0].end = level.size();
@@ -287,14 +289,20 @@ inline void expectSameLevel(const SphereTreeLevel& a, const SphereTreeLevel& b)
     EXPECT_EQ(a.error->hausdorff, b.error->hausdorff);
 }
 
-inline void expectSameCuts(
-    const openvdb_spheretree::SphereCuts& a, const openvdb_spheretree::SphereCuts& b)
+inline void expectSameSpheres(
+    const openvdb_spheretree::Spheres& a, const openvdb_spheretree::Spheres& b)
 {
     EXPECT_EQ(a.center, b.center);
     EXPECT_EQ(a.radius, b.radius);
-    EXPECT_EQ(a.coverSq, b.coverSq);
+    EXPECT_EQ(a.coverRadiusSq, b.coverRadiusSq);
     EXPECT_EQ(a.radiusWorld, b.radiusWorld);
     EXPECT_EQ(a.parent, b.parent);
+}
+
+inline void expectSameCuts(
+    const openvdb_spheretree::SphereCuts& a, const openvdb_spheretree::SphereCuts& b)
+{
+    expectSameSpheres(a.spheres, b.spheres);
     EXPECT_EQ(a.first, b.first);
     EXPECT_EQ(a.last, b.last);
 }
@@ -302,11 +310,7 @@ inline void expectSameCuts(
 /// Identical in every field.
 inline void expectSameTree(const SphereTree& a, const SphereTree& b)
 {
-    EXPECT_EQ(a.center, b.center);
-    EXPECT_EQ(a.radius, b.radius);
-    EXPECT_EQ(a.coverSq, b.coverSq);
-    EXPECT_EQ(a.radiusWorld, b.radiusWorld);
-    EXPECT_EQ(a.parent, b.parent);
+    expectSameSpheres(a.spheres, b.spheres);
     EXPECT_EQ(a.ijk, b.ijk);
     EXPECT_EQ(a.radiusSq, b.radiusSq);
     EXPECT_EQ(a.subdivision, b.subdivision);

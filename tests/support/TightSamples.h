@@ -33,9 +33,8 @@ inline float floatAbove(double x)
 
 /// A sphere around voxels, its centre about the middle of them; with none, a point at @a elsewhere.
 /// @param nodes  of a tree, or its cuts
-template <typename Nodes>
-void addSphere(Nodes& nodes, const SphereTree& tree, const Voxels& owned, const Coord& elsewhere,
-    Random& random)
+inline void addSphere(openvdb_spheretree::Spheres& nodes, const SphereTree& tree,
+    const Voxels& owned, const Coord& elsewhere, Random& random)
 {
     const CoordBBox box = owned.empty() ? CoordBBox(elsewhere, elsewhere) : boxOf(owned);
     const Coord corner = box.min();
@@ -54,7 +53,7 @@ void addSphere(Nodes& nodes, const SphereTree& tree, const Voxels& owned, const 
         square = std::max(square, sum);
     }
     nodes.center.push_back(position);
-    nodes.coverSq.push_back(square);
+    nodes.coverRadiusSq.push_back(square);
     nodes.radius.push_back(std::sqrt(double(square)) / tree.subdivision);
     nodes.radiusWorld.push_back(
         floatAbove((nodes.radius.back() + tree.settings.paddingVoxels()) * tree.voxelSize()));
@@ -135,10 +134,10 @@ inline SphereTree randomTightTree(
         level.begin = tree.size();
         const int32_t above = k + 1 < count ? tree.levels[k + 1].begin : 0;
         for (std::size_t i = 0; i < hierarchy.levels[k].size(); ++i) {
-            addSphere(tree, tree, hierarchy.levels[k][i], Coord(), random);
-            tree.ijk.push_back(Coord::round(tree.center.back()));
+            addSphere(tree.spheres, tree, hierarchy.levels[k][i], Coord(), random);
+            tree.ijk.push_back(Coord::round(tree.spheres.center.back()));
             tree.radiusSq.push_back(-1);
-            tree.parent.push_back(k + 1 < count ? above + hierarchy.parents[k][i] : -1);
+            tree.spheres.parent.push_back(k + 1 < count ? above + hierarchy.parents[k][i] : -1);
         }
         level.end = tree.size();
     }
@@ -152,8 +151,8 @@ inline void addRandomCuts(SphereTree& tree, const Groups& groups, int idle, Rand
     Groups owned = groups;
     owned.resize(groups.size() + std::size_t(idle));
     const auto begin = [&](const Voxels& voxels, int last) {
-        addSphere(cuts, tree, voxels, groups[0][0], random);
-        cuts.parent.push_back(-1);
+        addSphere(cuts.spheres, tree, voxels, groups[0][0], random);
+        cuts.spheres.parent.push_back(-1);
         cuts.first.push_back(1);
         cuts.last.push_back(last);
     };
@@ -165,7 +164,7 @@ inline void addRandomCuts(SphereTree& tree, const Groups& groups, int idle, Rand
     }
     const auto end = [&](std::size_t place, int spheres, int parent) {
         cuts.first[alive[place]] = spheres;
-        cuts.parent[alive[place]] = parent;
+        cuts.spheres.parent[alive[place]] = parent;
         alive.erase(alive.begin() + long(place));
     };
     for (int spheres = leaves; spheres > 1; --spheres) {

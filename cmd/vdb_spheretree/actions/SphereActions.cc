@@ -34,7 +34,7 @@ struct StoredSpheres {
     void getPosRad(size_t n, openvdb::Vec3R& xyz, openvdb::Real& radius) const
     {
         getPos(n, xyz);
-        radius = tree.radiusWorld[size_t(level.begin) + n];
+        radius = tree.spheres.radiusWorld[size_t(level.begin) + n];
     }
 };
 

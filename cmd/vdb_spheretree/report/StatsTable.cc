@@ -145,8 +145,8 @@ void printSeconds(std::ostream& out, const Session& session)
 
 LevelRadii radiiOf(const SphereTree& tree, const SphereTreeLevel& level)
 {
-    const auto [smallest, largest] =
-        std::minmax_element(tree.radius.begin() + level.begin, tree.radius.begin() + level.end);
+    const auto [smallest, largest] = std::minmax_element(
+        tree.spheres.radius.begin() + level.begin, tree.spheres.radius.begin() + level.end);
     return level.size() ? LevelRadii{*smallest, *largest} : LevelRadii{};
 }
 

@@ -88,10 +88,10 @@ std::vector<int32_t> appendLevel(
     std::vector<int32_t> ids(from.balls.size());
     for (const int32_t i : idOrder(ijk)) {
         ids[i] = tree.size();
-        tree.center.push_back(centers[i]);
-        tree.radius.push_back(radiusOf(from.balls[i]));
-        tree.coverSq.push_back(from.balls[i].radiusSq);
-        tree.parent.push_back(from.parent.empty() ? -1 : idsAbove[from.parent[i]]);
+        tree.spheres.center.push_back(centers[i]);
+        tree.spheres.radius.push_back(radiusOf(from.balls[i]));
+        tree.spheres.coverRadiusSq.push_back(from.balls[i].radiusSq);
+        tree.spheres.parent.push_back(from.parent.empty() ? -1 : idsAbove[from.parent[i]]);
         tree.ijk.push_back(ijk[i]);
         tree.radiusSq.push_back(from.digital.empty() ? -1 : from.digital[i].radiusSq);
     }
@@ -175,10 +175,10 @@ SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSetting
     const FlatAxis flat(settings.flatAxis);
     SphereCuts cuts;
     for (const ForestNode& node : forest) {
-        cuts.center.push_back(flat.fromZ(centerOf(node.ball)));
-        cuts.radius.push_back(radiusOf(node.ball));
-        cuts.coverSq.push_back(node.ball.radiusSq);
-        cuts.parent.push_back(node.parent);
+        cuts.spheres.center.push_back(flat.fromZ(centerOf(node.ball)));
+        cuts.spheres.radius.push_back(radiusOf(node.ball));
+        cuts.spheres.coverRadiusSq.push_back(node.ball.radiusSq);
+        cuts.spheres.parent.push_back(node.parent);
         cuts.first.push_back(node.first);
         cuts.last.push_back(node.last);
     }

@@ -103,7 +103,7 @@ TEST(SphereTree, ParentsStandBeforeTheirChildrenAndLevelsAreRangesOfIds)
             begin = range.end;
             for (int32_t id = range.begin; id < range.end; ++id) {
                 EXPECT_EQ(tree.levelOf(id), level);
-                EXPECT_LT(tree.parent[id], range.begin);
+                EXPECT_LT(tree.spheres.parent[id], range.begin);
                 if (id > range.begin) {
                     EXPECT_LT(tree.ijk[id - 1], tree.ijk[id]);
                 }
@@ -119,11 +119,11 @@ TEST(SphereTree, ParentsStandBeforeTheirChildrenAndLevelsAreRangesOfIds)
 TEST(SphereTree, HasAnEntryANodeInEveryArray)
 {
     const SphereTree tree = buildSphereTree(*someGrid());
-    const std::size_t size = tree.center.size();
-    EXPECT_EQ(tree.radius.size(), size);
-    EXPECT_EQ(tree.coverSq.size(), size);
-    EXPECT_EQ(tree.radiusWorld.size(), size);
-    EXPECT_EQ(tree.parent.size(), size);
+    const std::size_t size = tree.spheres.center.size();
+    EXPECT_EQ(tree.spheres.radius.size(), size);
+    EXPECT_EQ(tree.spheres.coverRadiusSq.size(), size);
+    EXPECT_EQ(tree.spheres.radiusWorld.size(), size);
+    EXPECT_EQ(tree.spheres.parent.size(), size);
     EXPECT_EQ(tree.ijk.size(), size);
     EXPECT_EQ(tree.radiusSq.size(), size);
 }
@@ -216,10 +216,10 @@ TEST(SphereTree, StoresRadiiPaddedInWorldUnitsRoundedUp)
                 const SphereTree tree = buildSphereTree(*grid, settings);
                 const long double pad = padding < 0 ? std::sqrt(3.0L) / 2 : padding;
                 for (int32_t id = 0; id < tree.size(); ++id) {
-                    const long double exact = (tree.radius[id] + pad) * voxelSize;
-                    ASSERT_GE((long double)(tree.radiusWorld[id]), exact * (1 - 0x1p-50L));
+                    const long double exact = (tree.spheres.radius[id] + pad) * voxelSize;
+                    ASSERT_GE((long double)(tree.spheres.radiusWorld[id]), exact * (1 - 0x1p-50L));
                     // A parent may hold its leaves' rounding as well as its own.
-                    ASSERT_LE((long double)(tree.radiusWorld[id]), exact * (1 + 0x1p-21L));
+                    ASSERT_LE((long double)(tree.spheres.radiusWorld[id]), exact * (1 + 0x1p-21L));
                 }
             }
         }
@@ -232,12 +232,12 @@ TEST(SphereTree, StoresARadiusThatIsAFloatAsItIs)
     settings.tree = TreeType::Reversible;
     settings.padding = 0;
     const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(5, 6, 7)}), settings);
-    EXPECT_EQ(tree.radiusWorld[0], 0.0f);
+    EXPECT_EQ(tree.spheres.radiusWorld[0], 0.0f);
     settings.padding = 0.5;
     const auto grid = gridOf(shapes::ball(10)); // radius 3: radiusSq - 1 = 9
     const SphereTree ball = buildSphereTree(*grid, settings);
     ASSERT_EQ(ball.radiusSq.back(), 10);
-    EXPECT_EQ(ball.radiusWorld.back(), 3.5f);
+    EXPECT_EQ(ball.spheres.radiusWorld.back(), 3.5f);
 }
 
 TEST(SphereTree, PadsCubesInTwoDimensionsByHalfASquaresDiagonal)
@@ -245,7 +245,7 @@ TEST(SphereTree, PadsCubesInTwoDimensionsByHalfASquaresDiagonal)
     SphereTreeSettings settings;
     settings.dim = 2;
     const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(5, 6, 7)}), settings);
-    EXPECT_NEAR(tree.radiusWorld[0], std::sqrt(2.0) / 2, 1e-6);
+    EXPECT_NEAR(tree.spheres.radiusWorld[0], std::sqrt(2.0) / 2, 1e-6);
 }
 
 TEST(SphereTree, ATransformChangesOnlyTheWorldRadii)
@@ -259,8 +259,8 @@ TEST(SphereTree, ATransformChangesOnlyTheWorldRadii)
         transform->postTranslate(openvdb::Vec3d(10, 20, 30));
         moved->setTransform(transform);
         const SphereTree tree = buildSphereTree(*moved, settings);
-        EXPECT_EQ(tree.centerWorld(0), transform->indexToWorld(plain.center[0]));
-        plain.radiusWorld = tree.radiusWorld;
+        EXPECT_EQ(tree.centerWorld(0), transform->indexToWorld(plain.spheres.center[0]));
+        plain.spheres.radiusWorld = tree.spheres.radiusWorld;
         EXPECT_TRUE(sameNodes(plain, tree));
     }
 }
@@ -271,10 +271,10 @@ TEST(SphereTree, ASingleVoxelIsASingleNode)
         const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(-5, 6, 70000)}), settings);
         ASSERT_EQ(tree.size(), 1);
         EXPECT_EQ(tree.levels.size(), 1u);
-        EXPECT_EQ(tree.center[0], openvdb::Vec3d(-5, 6, 70000));
-        EXPECT_EQ(tree.radius[0], 0);
-        EXPECT_EQ(tree.coverSq[0], 0);
-        EXPECT_EQ(tree.parent[0], -1);
+        EXPECT_EQ(tree.spheres.center[0], openvdb::Vec3d(-5, 6, 70000));
+        EXPECT_EQ(tree.spheres.radius[0], 0);
+        EXPECT_EQ(tree.spheres.coverRadiusSq[0], 0);
+        EXPECT_EQ(tree.spheres.parent[0], -1);
         EXPECT_EQ(tree.ijk[0], Coord(-5, 6, 70000));
         EXPECT_EQ(tree.radiusSq[0], 1);
         EXPECT_TRUE(tree.dag.empty());
@@ -307,8 +307,8 @@ void checkWideObject(const SphereTreeSettings& settings)
     const SphereTree tree = buildSphereTree(*grid, settings);
     EXPECT_TRUE(endsAtOneRoot(tree));
     EXPECT_TRUE(covers(tree, voxels));
-    const double fourRSq = 4 * tree.radius[0] * tree.radius[0];
-    EXPECT_NEAR(double(tree.coverSq[0]), fourRSq, 1e-9 * fourRSq);
+    const double fourRSq = 4 * tree.spheres.radius[0] * tree.spheres.radius[0];
+    EXPECT_NEAR(double(tree.spheres.coverRadiusSq[0]), fourRSq, 1e-9 * fourRSq);
 }
 
 TEST(SphereTree, TheWidestObjectThereMayBeOverflowsNowhere)
@@ -419,13 +419,13 @@ TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
         const SphereTree kept = keepLevel(tree, level.level);
         ASSERT_EQ(kept.size(), level.size());
         for (int32_t i = 0; i < kept.size(); ++i) {
-            EXPECT_EQ(kept.center[i], tree.center[level.begin + i]);
-            EXPECT_EQ(kept.radius[i], tree.radius[level.begin + i]);
-            EXPECT_EQ(kept.coverSq[i], tree.coverSq[level.begin + i]);
-            EXPECT_EQ(kept.radiusWorld[i], tree.radiusWorld[level.begin + i]);
+            EXPECT_EQ(kept.spheres.center[i], tree.spheres.center[level.begin + i]);
+            EXPECT_EQ(kept.spheres.radius[i], tree.spheres.radius[level.begin + i]);
+            EXPECT_EQ(kept.spheres.coverRadiusSq[i], tree.spheres.coverRadiusSq[level.begin + i]);
+            EXPECT_EQ(kept.spheres.radiusWorld[i], tree.spheres.radiusWorld[level.begin + i]);
             EXPECT_EQ(kept.ijk[i], tree.ijk[level.begin + i]);
             EXPECT_EQ(kept.radiusSq[i], tree.radiusSq[level.begin + i]);
-            EXPECT_EQ(kept.parent[i], -1);
+            EXPECT_EQ(kept.spheres.parent[i], -1);
             EXPECT_EQ(kept.levelOf(i), level.level);
         }
         ASSERT_EQ(kept.levels.size(), 1u);

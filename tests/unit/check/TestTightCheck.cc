@@ -38,13 +38,12 @@ BoolGrid::Ptr plusAndDot()
 
 /// @param nodes    of a tree, or its cuts
 /// @param radius2  the radius, squared, in voxels
-template <typename Nodes>
-void add(
-    Nodes& nodes, const SphereTree& tree, const openvdb::Vec3d& center, double radius2, int parent)
+void add(openvdb_spheretree::Spheres& nodes, const SphereTree& tree, const openvdb::Vec3d& center,
+    double radius2, int parent)
 {
     nodes.center.push_back(center);
-    nodes.coverSq.push_back(int64_t(256 * radius2));
-    nodes.radius.push_back(std::sqrt(double(nodes.coverSq.back())) / 16);
+    nodes.coverRadiusSq.push_back(int64_t(256 * radius2));
+    nodes.radius.push_back(std::sqrt(double(nodes.coverRadiusSq.back())) / 16);
     nodes.radiusWorld.push_back(
         floatAbove((nodes.radius.back() + tree.settings.paddingVoxels()) * tree.voxelSize()));
     nodes.parent.push_back(parent);
@@ -53,9 +52,9 @@ void add(
 /// Cuts of one and two spheres.
 void addCuts(SphereTree& tree)
 {
-    add(tree.cuts, tree, {2, 2, 2}, 1, 2);
-    add(tree.cuts, tree, {9, 2, 2}, 0, 2);
-    add(tree.cuts, tree, {5, 2, 2}, 16, -1);
+    add(tree.cuts.spheres, tree, {2, 2, 2}, 1, 2);
+    add(tree.cuts.spheres, tree, {9, 2, 2}, 0, 2);
+    add(tree.cuts.spheres, tree, {5, 2, 2}, 16, -1);
     tree.cuts.first = {2, 2, 1};
     tree.cuts.last = {2, 2, 1};
     tree.settings.cuts = true;
@@ -65,11 +64,11 @@ void addCuts(SphereTree& tree)
 SphereTree validTree(const BoolGrid& object)
 {
     SphereTree tree = describedTree(object);
-    add(tree, tree, {5, 2, 2}, 16, -1);             // 0
-    add(tree, tree, {2, 2, 1.9375}, 1.12890625, 0); // 1: (1.0625)^2
-    add(tree, tree, {9, 2, 2}, 0, 0);               // 2
-    add(tree, tree, {2, 2, 2}, 1, 1);               // 3
-    add(tree, tree, {9, 2, 2}, 0, 2);               // 4
+    add(tree.spheres, tree, {5, 2, 2}, 16, -1);             // 0
+    add(tree.spheres, tree, {2, 2, 1.9375}, 1.12890625, 0); // 1: (1.0625)^2
+    add(tree.spheres, tree, {9, 2, 2}, 0, 0);               // 2
+    add(tree.spheres, tree, {2, 2, 2}, 1, 1);               // 3
+    add(tree.spheres, tree, {9, 2, 2}, 0, 2);               // 4
     tree.ijk = {Coord(5, 2, 2), Coord(2, 2, 2), Coord(9, 2, 2), Coord(2, 2, 2), Coord(9, 2, 2)};
     tree.radiusSq = {-1, -1, -1, 2, 1};
     tree.levels.resize(3);
@@ -127,13 +126,13 @@ TEST(TightCheck, FindsNothingWrongWithValidTrees)
 TEST(TightCheck, TheTopLevelMayHaveManyNodes)
 {
     EXPECT_EQ(after([](SphereTree& tree) {
-        for (auto* values : {&tree.parent, &tree.radiusSq}) values->erase(values->begin());
-        tree.center.erase(tree.center.begin());
-        tree.radius.erase(tree.radius.begin());
-        tree.coverSq.erase(tree.coverSq.begin());
-        tree.radiusWorld.erase(tree.radiusWorld.begin());
+        for (auto* values : {&tree.spheres.parent, &tree.radiusSq}) values->erase(values->begin());
+        tree.spheres.center.erase(tree.spheres.center.begin());
+        tree.spheres.radius.erase(tree.spheres.radius.begin());
+        tree.spheres.coverRadiusSq.erase(tree.spheres.coverRadiusSq.begin());
+        tree.spheres.radiusWorld.erase(tree.spheres.radiusWorld.begin());
         tree.ijk.erase(tree.ijk.begin());
-        tree.parent = {-1, -1, 0, 1};
+        tree.spheres.parent = {-1, -1, 0, 1};
         tree.levels.pop_back();
         for (SphereTreeLevel& level : tree.levels) --level.begin, --level.end;
     }),
@@ -145,10 +144,10 @@ TEST(TightCheck, Level0NeedNotBeMadeOfDigitalBalls)
     EXPECT_EQ(after(makeLeavesNoBalls), "");
     EXPECT_EQ(after([](SphereTree& tree) {
         makeLeavesNoBalls(tree);
-        tree.center[3] = {2.0625, 2, 2};
-        tree.coverSq[3] = 17 * 17;
-        tree.radius[3] = 17 / 16.0;
-        tree.radiusWorld[3] = 2;
+        tree.spheres.center[3] = {2.0625, 2, 2};
+        tree.spheres.coverRadiusSq[3] = 17 * 17;
+        tree.spheres.radius[3] = 17 / 16.0;
+        tree.spheres.radiusWorld[3] = 2;
     }),
         "");
 }
@@ -179,7 +178,9 @@ TEST(TightCheck, SaysWhenDigitalBallsAreNotTheObject)
 /// Every level covers the object, but below another node.
 TEST(TightCheck, SaysWhenChainsAreBrokenThoughLevelsCover)
 {
-    const auto swapped = [](SphereTree& tree) { std::swap(tree.parent[3], tree.parent[4]); };
+    const auto swapped = [](SphereTree& tree) {
+        std::swap(tree.spheres.parent[3], tree.spheres.parent[4]);
+    };
     EXPECT_EQ(after(swapped),
         "level 1 breaks the chain of spheres of 8 voxels (first: [1, 2, 2]) of the object, in the "
         "exact radii\n"
@@ -190,8 +191,8 @@ TEST(TightCheck, SaysWhenChainsAreBrokenThoughLevelsCover)
 TEST(TightCheck, SaysWhenALevelMissesVoxels)
 {
     const Change smaller = [](SphereTree& tree) {
-        tree.coverSq[0] = 4095;
-        tree.radius[0] = std::sqrt(4095.0) / 16;
+        tree.spheres.coverRadiusSq[0] = 4095;
+        tree.spheres.radius[0] = std::sqrt(4095.0) / 16;
     };
     expectSaid("level 2 breaks the chain of spheres of 2 voxels (first: [1, 2, 2]) of the object, "
                "in the exact radii",
@@ -200,7 +201,7 @@ TEST(TightCheck, SaysWhenALevelMissesVoxels)
         "level 2 misses 2 voxels (first: [1, 2, 2]) of the object, in the exact radii", smaller);
     EXPECT_EQ(after(smaller).find("stored"), std::string::npos) << "that radius is as it was";
     const Change storedSmaller = [](SphereTree& tree) {
-        tree.radiusWorld[1] = std::nextafter(tree.radiusWorld[1], 0.f) - 0.01f;
+        tree.spheres.radiusWorld[1] = std::nextafter(tree.spheres.radiusWorld[1], 0.f) - 0.01f;
     };
     expectSaid("the stored radius is less than radius and padding for 1 node (first: id 1)",
         storedSmaller);
@@ -211,31 +212,32 @@ TEST(TightCheck, SaysWhenALevelMissesVoxels)
 
 TEST(TightCheck, SaysWhenAnInnerNodeHasNoChild)
 {
-    expectSaid(
-        "level 1: no child for 1 node (first: id 2)", [](SphereTree& tree) { tree.parent[4] = 1; });
+    expectSaid("level 1: no child for 1 node (first: id 2)",
+        [](SphereTree& tree) { tree.spheres.parent[4] = 1; });
 }
 
 TEST(TightCheck, SaysWhenASphereDoesNotContainItsLeavesWhereThatIsAsked)
 {
     const Change wider = [](SphereTree& tree) {
         tree.settings.cover = Cover::Balls;
-        tree.radiusWorld[1] += 0.01f;
-        tree.radiusWorld[0] += 0.01f;
+        tree.spheres.radiusWorld[1] += 0.01f;
+        tree.spheres.radiusWorld[0] += 0.01f;
     };
     EXPECT_EQ(after(wider), "");
     expectSaid(
         "the stored sphere does not contain every leaf ball below it for 2 nodes (first: id 0)",
         [&](SphereTree& tree) {
             wider(tree);
-            tree.radiusWorld[3] += 0.02f;
+            tree.spheres.radiusWorld[3] += 0.02f;
         });
 }
 
 TEST(TightCheck, ParentsOutOfOrderAreReportedAndNotFollowed)
 {
     expectSaid("level 0: the parent is not on the next level up for 1 node (first: id 3)",
-        [](SphereTree& tree) { tree.parent[3] = 0; });
-    EXPECT_EQ(after([](SphereTree& tree) { tree.parent[3] = 7; }).find("chain"), std::string::npos);
+        [](SphereTree& tree) { tree.spheres.parent[3] = 0; });
+    EXPECT_EQ(after([](SphereTree& tree) { tree.spheres.parent[3] = 7; }).find("chain"),
+        std::string::npos);
 }
 
 TEST(TightCheck, SaysWhenCutsAreOutOfOrder)
@@ -246,36 +248,36 @@ TEST(TightCheck, SaysWhenCutsAreOutOfOrder)
         [](SphereTree& tree) { tree.cuts.first.pop_back(); });
     expectSaid("in the cuts, node 0 has the parent 0, but a parent must be a node that comes after "
                "its children, or -1",
-        [](SphereTree& tree) { tree.cuts.parent[0] = 0; });
+        [](SphereTree& tree) { tree.cuts.spheres.parent[0] = 0; });
     expectSaid("in the cuts, the cut of 1 spheres has 2", [](SphereTree& tree) {
-        tree.cuts.parent[1] = -1;
+        tree.cuts.spheres.parent[1] = -1;
         tree.cuts.first[1] = 1;
     });
     expectSaid("in the cuts, node 2 has no child",
-        [](SphereTree& tree) { tree.cuts.parent[0] = tree.cuts.parent[1] = -1; });
+        [](SphereTree& tree) { tree.cuts.spheres.parent[0] = tree.cuts.spheres.parent[1] = -1; });
     expectSaid("in the cuts, the centre is not a multiple of 1/16 of a voxel in range for 1 node "
                "(first: id 1)",
-        [](SphereTree& tree) { tree.cuts.center[1][0] += 1 / 32.0; });
+        [](SphereTree& tree) { tree.cuts.spheres.center[1][0] += 1 / 32.0; });
     expectSaid("in the cuts, the radius is negative or not a number for 1 node (first: id 1)",
-        [](SphereTree& tree) { tree.cuts.radius[1] = -1; });
+        [](SphereTree& tree) { tree.cuts.spheres.radius[1] = -1; });
     expectSaid("in the cuts, radius and cover_sq are not the same sphere for 1 node (first: id 2)",
-        [](SphereTree& tree) { tree.cuts.radius[2] = 3.9; });
+        [](SphereTree& tree) { tree.cuts.spheres.radius[2] = 3.9; });
     expectSaid("in the cuts, the stored radius is less than radius and padding for 1 node "
                "(first: id 2)",
-        [](SphereTree& tree) { tree.cuts.radiusWorld[2] = 2; });
+        [](SphereTree& tree) { tree.cuts.spheres.radiusWorld[2] = 2; });
 }
 
 TEST(TightCheck, SaysWhenACutBreaksChains)
 {
     expectSaid("the cut of 2 spheres breaks the chain of spheres of 6 voxels (first: [1, 2, 2]) of "
                "the object, in the exact radii",
-        [](SphereTree& tree) { tree.cuts.coverSq[0] = 255; });
+        [](SphereTree& tree) { tree.cuts.spheres.coverRadiusSq[0] = 255; });
     expectSaid("the cut of 1 spheres breaks the chain of spheres of 2 voxels (first: [1, 2, 2]) of "
                "the object, in the exact radii",
-        [](SphereTree& tree) { tree.cuts.coverSq[2] = 4095; });
+        [](SphereTree& tree) { tree.cuts.spheres.coverRadiusSq[2] = 4095; });
     expectSaid("the cut of 1 spheres breaks the chain of spheres of 8 voxels (first: [1, 2, 2]) of "
                "the object, in the stored radii less their padding",
-        [](SphereTree& tree) { tree.cuts.radiusWorld[2] = 0.5f; });
+        [](SphereTree& tree) { tree.cuts.spheres.radiusWorld[2] = 0.5f; });
 }
 
 /// A node that ends owing nothing: its voxels have chains elsewhere.
@@ -284,10 +286,10 @@ TEST(TightCheck, ANodeThatEndsOwingNothingBreaksNoChain)
     const Change idle = [](SphereTree& tree) {
         SphereCuts& cuts = tree.cuts;
         cuts = SphereCuts();
-        add(cuts, tree, {2, 2, 2}, 1, 3);
-        add(cuts, tree, {9, 2, 2}, 0, 3);
-        add(cuts, tree, {2, 3, 2}, 0, -1);
-        add(cuts, tree, {5, 2, 2}, 16, -1);
+        add(cuts.spheres, tree, {2, 2, 2}, 1, 3);
+        add(cuts.spheres, tree, {9, 2, 2}, 0, 3);
+        add(cuts.spheres, tree, {2, 3, 2}, 0, -1);
+        add(cuts.spheres, tree, {5, 2, 2}, 16, -1);
         cuts.first = {2, 2, 3, 1};
         cuts.last = {3, 3, 3, 1};
     };
@@ -297,10 +299,10 @@ TEST(TightCheck, ANodeThatEndsOwingNothingBreaksNoChain)
         "object, in the exact radii",
         [&](SphereTree& tree) {
             idle(tree);
-            tree.cuts.center[0] = {2, 1.9375, 2};
-            tree.cuts.coverSq[0] = 258; // the voxel (2, 3, 2) is 17 units away
-            tree.cuts.radius[0] = std::sqrt(258.0) / 16;
-            tree.cuts.radiusWorld[0] = 2;
+            tree.cuts.spheres.center[0] = {2, 1.9375, 2};
+            tree.cuts.spheres.coverRadiusSq[0] = 258; // the voxel (2, 3, 2) is 17 units away
+            tree.cuts.spheres.radius[0] = std::sqrt(258.0) / 16;
+            tree.cuts.spheres.radiusWorld[0] = 2;
         });
 }
 
@@ -310,10 +312,11 @@ SphereTree innerTree(const BoolGrid& object)
     SphereTree tree = describedTree(object);
     tree.settings.side = Side::Inner;
     tree.settings.padding = 0;
-    add(tree, tree, {2, 2, 2}, 0.5, -1);
-    add(tree, tree, {2, 2.0625, 2}, 1, 0);
+    add(tree.spheres, tree, {2, 2, 2}, 0.5, -1);
+    add(tree.spheres, tree, {2, 2.0625, 2}, 1, 0);
     for (int32_t id : {0, 1}) { // rounded down
-        tree.radiusWorld[id] = std::nextafter(float(tree.radius[id] * tree.voxelSize()), 0.f);
+        tree.spheres.radiusWorld[id] =
+            std::nextafter(float(tree.spheres.radius[id] * tree.voxelSize()), 0.f);
     }
     tree.ijk = {Coord(2, 2, 2), Coord(2, 2, 2)};
     tree.radiusSq = {-1, -1};
@@ -333,11 +336,11 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
     EXPECT_EQ(check(sound, *object), "");
     const auto said = [&](int64_t coverSq, const Coord& at, int32_t id) {
         SphereTree tree = sound;
-        tree.center[id] = at.asVec3d();
+        tree.spheres.center[id] = at.asVec3d();
         tree.ijk[id] = at;
-        tree.coverSq[id] = coverSq;
-        tree.radius[id] = std::sqrt(double(coverSq)) / 16;
-        tree.radiusWorld[id] = 0;
+        tree.spheres.coverRadiusSq[id] = coverSq;
+        tree.spheres.radius[id] = std::sqrt(double(coverSq)) / 16;
+        tree.spheres.radiusWorld[id] = 0;
         computeLevelErrors(tree, *object);
         return check(tree, *object);
     };
@@ -360,7 +363,7 @@ TEST(TightCheck, InnerRadiiAreStoredRoundedDown)
     object->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
     SphereTree tree = innerTree(*object);
     EXPECT_EQ(check(tree, *object), "");
-    tree.radiusWorld[1] = std::nextafter(0.1f, 1.f);
+    tree.spheres.radiusWorld[1] = std::nextafter(0.1f, 1.f);
     EXPECT_EQ(check(tree, *object),
         "the stored radius is more than that inside the object for 1 node (first: id 1)\n");
 }
@@ -370,9 +373,9 @@ TEST(TightCheck, InnerLevelsOfDigitalBallsRecordWhatTheyCover)
 {
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = innerTree(*object);
-    tree.center[1] = tree.center[0];
-    tree.coverSq[0] = tree.coverSq[1] = 256;
-    tree.radius[0] = tree.radius[1] = 1;
+    tree.spheres.center[1] = tree.spheres.center[0];
+    tree.spheres.coverRadiusSq[0] = tree.spheres.coverRadiusSq[1] = 256;
+    tree.spheres.radius[0] = tree.spheres.radius[1] = 1;
     tree.radiusSq = {2, 2};
     for (SphereTreeLevel& level : tree.levels) level.pyramidVoxels = 7;
     computeLevelErrors(tree, *object);
@@ -387,16 +390,16 @@ TEST(TightCheck, InnerCutsMustLieInside)
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = innerTree(*object);
     tree.settings.cuts = true;
-    add(tree.cuts, tree, {2, 2, 2}, 1, -1);
-    tree.cuts.radiusWorld[0] = 0.5f;
+    add(tree.cuts.spheres, tree, {2, 2, 2}, 1, -1);
+    tree.cuts.spheres.radiusWorld[0] = 0.5f;
     tree.cuts.first = tree.cuts.last = {1};
     EXPECT_EQ(check(tree, *object), "");
 
-    tree.cuts.center[0] = {3, 2, 2};
+    tree.cuts.spheres.center[0] = {3, 2, 2};
     EXPECT_EQ(check(tree, *object),
         "the list of cuts holds 5 voxels (first: [3, 1, 2]) that the object has not, but its "
         "spheres lie inside\n");
-    tree.cuts.center[0] = {3, 1, 2};
+    tree.cuts.spheres.center[0] = {3, 1, 2};
     EXPECT_EQ(check(tree, *object),
         "the list of cuts: the sphere reaches out of the object's box for 1 node (first: id 0)\n");
 }
@@ -407,15 +410,15 @@ TEST(TightCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     const BoolGrid::Ptr object = gridOf(voxelsOfBox(CoordBBox(Coord(0, 0, 7), Coord(9, 9, 7))));
     SphereTree tree = describedTree(*object);
     tree.settings.dim = 2;
-    add(tree, tree, {4.5, 4.5, 7}, 40.5, -1);
+    add(tree.spheres, tree, {4.5, 4.5, 7}, 40.5, -1);
     tree.ijk = {Coord(4, 5, 7)};
     tree.radiusSq = {-1};
     tree.levels.resize(1);
     tree.levels[0].end = 1;
     EXPECT_EQ(check(tree, *object), "");
     tree.settings.side = Side::Inner;
-    tree.coverSq[0] = 16 * 16 * 16;
-    tree.radius[0] = tree.radiusWorld[0] = 4;
+    tree.spheres.coverRadiusSq[0] = 16 * 16 * 16;
+    tree.spheres.radius[0] = tree.spheres.radiusWorld[0] = 4;
     EXPECT_EQ(check(tree, *object), "");
 }
 

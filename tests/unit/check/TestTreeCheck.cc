@@ -49,12 +49,12 @@ BoolGrid::Ptr plusAndDot()
 /// Nodes are added from the top level down.
 void addNode(SphereTree& tree, const openvdb::Vec3d& center, int64_t coverSq, int32_t parent)
 {
-    tree.center.push_back(center);
-    tree.coverSq.push_back(coverSq);
-    tree.radius.push_back(std::sqrt(double(coverSq)) / 2);
-    tree.parent.push_back(parent);
-    const double padded = tree.radius.back() + tree.settings.paddingVoxels();
-    tree.radiusWorld.push_back(up(padded * tree.voxelSize() * (1 + 1e-6)));
+    tree.spheres.center.push_back(center);
+    tree.spheres.coverRadiusSq.push_back(coverSq);
+    tree.spheres.radius.push_back(std::sqrt(double(coverSq)) / 2);
+    tree.spheres.parent.push_back(parent);
+    const double padded = tree.spheres.radius.back() + tree.settings.paddingVoxels();
+    tree.spheres.radiusWorld.push_back(up(padded * tree.voxelSize() * (1 + 1e-6)));
 }
 
 /// A valid extended tree of plusAndDot(), written down by hand: three levels of 2, 2 and 1 nodes.
@@ -93,13 +93,10 @@ SphereTree oneLevel(const SphereTree& tree, int k)
     SphereTree result = tree;
     const SphereTreeLevel level = tree.levels[k];
     const auto cut = [&](auto& all) { all = {all.begin() + level.begin, all.begin() + level.end}; };
-    cut(result.center);
-    cut(result.radius);
-    cut(result.coverSq);
-    cut(result.radiusWorld);
+    result.spheres = tree.spheres.slice(level.begin, level.end);
     cut(result.ijk);
     cut(result.radiusSq);
-    result.parent.assign(result.center.size(), -1);
+    result.spheres.parent.assign(result.ijk.size(), -1);
     result.dag.clear();
     result.levels = {level};
     result.levels[0].begin = 0;
@@ -145,9 +142,9 @@ TEST_F(TreeCheck, FindsNothingWrongWithAValidTreeInSixteenths)
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = validTree(*object);
     tree.subdivision = 16;
-    for (int64_t& square : tree.coverSq) square *= 64;
+    for (int64_t& square : tree.spheres.coverRadiusSq) square *= 64;
     EXPECT_EQ(joined(checkSphereTree(tree, *object)), "");
-    tree.center[3][0] += 1.0 / 32;
+    tree.spheres.center[3][0] += 1.0 / 32;
     const std::string failures = joined(checkSphereTree(tree, *object));
     EXPECT_EQ(failures,
         "the centre is not a multiple of 1/16 of a voxel in range for 1 node (first: id 3)\n");
@@ -162,8 +159,8 @@ TEST_F(TreeCheck, FindsNothingWrongWithPaddedRadiiWhateverTheVoxelSize)
             SphereTree tree = oneLevel(validTree(*object), 0);
             tree.settings.padding = padding;
             for (int id = 0; id < tree.size(); ++id) {
-                tree.radiusWorld[id] =
-                    up((tree.radius[id] + tree.settings.paddingVoxels()) * voxel);
+                tree.spheres.radiusWorld[id] =
+                    up((tree.spheres.radius[id] + tree.settings.paddingVoxels()) * voxel);
             }
             EXPECT_EQ(joined(checkSphereTree(tree, *object)), "") << voxel << ' ' << padding;
         }
@@ -211,7 +208,7 @@ TEST_F(TreeCheck, FindsNothingWrongWithADiscInTwoDimensions)
 
 TEST_F(TreeCheck, SaysWhenArraysDifferInLength)
 {
-    expectFailure([](SphereTree& tree) { tree.parent.pop_back(); },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent.pop_back(); },
         "the tree has 5 centres, but 4 entries in parent");
     expectFailure([](SphereTree& tree) { tree.radiusSq.push_back(1); },
         "the tree has 5 centres, but 6 entries in radiusSq");
@@ -247,21 +244,22 @@ TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
 {
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
     for (double far : {infinity, -infinity, 1e10}) {
-        expectFailure([&](SphereTree& tree) { tree.center[2].z() = far; },
+        expectFailure([&](SphereTree& tree) { tree.spheres.center[2].z() = far; },
             "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 2)");
     }
-    expectFailure([&](SphereTree& tree) { tree.center[3].y() = nan; },
+    expectFailure([&](SphereTree& tree) { tree.spheres.center[3].y() = nan; },
         "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.center[1].x() = tree.center[2].x() = 0.25; },
+    expectFailure(
+        [](SphereTree& tree) { tree.spheres.center[1].x() = tree.spheres.center[2].x() = 0.25; },
         "the centre is not a multiple of 1/2 of a voxel in range for 2 nodes (first: id 1)");
-    expectFailure([&](SphereTree& tree) { tree.radius[4] = nan; },
+    expectFailure([&](SphereTree& tree) { tree.spheres.radius[4] = nan; },
         "the radius is negative or not a number for 1 node (first: id 4)");
-    expectFailure([](SphereTree& tree) { tree.coverSq[0] = -1; },
+    expectFailure([](SphereTree& tree) { tree.spheres.coverRadiusSq[0] = -1; },
         "the radius is negative or not a number for 1 node (first: id 0)");
-    expectFailure([](SphereTree& tree) { tree.radius[4] = -1; },
+    expectFailure([](SphereTree& tree) { tree.spheres.radius[4] = -1; },
         "the radius is negative or not a number for 1 node (first: id 4)");
     for (double bad : {nan, infinity, -0.5}) {
-        expectFailure([&](SphereTree& tree) { tree.radiusWorld[0] = float(bad); },
+        expectFailure([&](SphereTree& tree) { tree.spheres.radiusWorld[0] = float(bad); },
             "the stored radius is negative or not a number for 1 node (first: id 0)");
     }
     expectFailure([](SphereTree& tree) { tree.radiusSq[2] = 0; },
@@ -319,9 +317,9 @@ TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)
 
 TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)
 {
-    expectFailure([](SphereTree& tree) { tree.radius[3] = 0.9; },
+    expectFailure([](SphereTree& tree) { tree.spheres.radius[3] = 0.9; },
         "radius and cover_sq are not the same sphere for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.coverSq[1] = 2; },
+    expectFailure([](SphereTree& tree) { tree.spheres.coverRadiusSq[1] = 2; },
         "radius and cover_sq are not the same sphere for 1 node (first: id 1)");
     expectFailure([](SphereTree& tree) { tree.settings.padding = 0.125; },
         "the stored radius is less than radius and padding for 5 nodes (first: id 0)");
@@ -329,17 +327,18 @@ TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)
 
 TEST_F(TreeCheck, SaysWhenAParentIsNotOnTheNextLevelUp)
 {
-    expectFailure([](SphereTree& tree) { tree.parent[3] = 0; },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent[3] = 0; },
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.parent[1] = tree.parent[2] = 3; },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent[1] = tree.spheres.parent[2] = 3; },
         "level 1: the parent is not on the next level up for 2 nodes (first: id 1)");
-    expectFailure([](SphereTree& tree) { tree.parent[4] = -1; },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent[4] = -1; },
         "level 0: the parent is not on the next level up for 1 node (first: id 4)");
-    expectFailure([](SphereTree& tree) { tree.parent[0] = 0; },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent[0] = 0; },
         "level 2: the parent is not -1, though this is the top level, for 1 node (first: id 0)");
-    expectFailure([](SphereTree& tree) { tree.parent[3] = 3; }, // the first of its own level
+    expectFailure(
+        [](SphereTree& tree) { tree.spheres.parent[3] = 3; }, // the first of its own level
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.parent[3] = 1000000; },
+    expectFailure([](SphereTree& tree) { tree.spheres.parent[3] = 1000000; },
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
 }
 
@@ -349,13 +348,13 @@ TEST_F(TreeCheck, SaysWhenThereIsMoreThanOneRoot)
     const SphereTree whole = validTree(*object);
     SphereTree tree = whole;
     const auto behead = [](auto& all) { all.erase(all.begin()); };
-    behead(tree.center);
-    behead(tree.radius);
-    behead(tree.coverSq);
-    behead(tree.radiusWorld);
+    behead(tree.spheres.center);
+    behead(tree.spheres.radius);
+    behead(tree.spheres.coverRadiusSq);
+    behead(tree.spheres.radiusWorld);
     behead(tree.ijk);
     behead(tree.radiusSq);
-    tree.parent = {-1, -1, 0, 1};
+    tree.spheres.parent = {-1, -1, 0, 1};
     tree.dag = {{0, 2}, {1, 3}};
     tree.levels.pop_back();
     for (SphereTreeLevel& level : tree.levels) {
@@ -389,7 +388,7 @@ TEST_F(TreeCheck, SaysWhenDagEdgesAreWrong)
 
 TEST_F(TreeCheck, SaysWhenAnInnerNodeOfAnExtendedTreeHasNoChild)
 {
-    const auto damage = [](SphereTree& tree) { tree.parent[4] = 1; };
+    const auto damage = [](SphereTree& tree) { tree.spheres.parent[4] = 1; };
     expectFailure(damage, "level 1: no child for 1 node (first: id 2)");
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree reversible = validTree(*object, TreeType::Reversible);
@@ -399,7 +398,7 @@ TEST_F(TreeCheck, SaysWhenAnInnerNodeOfAnExtendedTreeHasNoChild)
 
 TEST_F(TreeCheck, SaysWhenAStoredSphereDoesNotContainItsLeaves)
 {
-    const auto damage = [](SphereTree& tree) { tree.radiusWorld[0] *= 0.999f; };
+    const auto damage = [](SphereTree& tree) { tree.spheres.radiusWorld[0] *= 0.999f; };
     expectFailure(damage,
         "the stored sphere does not contain every leaf ball below it for 1 node (first: id 0)");
 }
@@ -444,10 +443,10 @@ TEST_F(TreeCheck, SaysWhenARecordedVolumeIsNotThatOfTheBalls)
 
 TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheExactRadii)
 {
-    const auto damage = [](SphereTree& tree) { tree.coverSq[1] = 10; };
+    const auto damage = [](SphereTree& tree) { tree.spheres.coverRadiusSq[1] = 10; };
     expectFailure(
         damage, "level 1 misses 3 voxels (first: [1, 2, 2]) of the object, in the exact radii");
-    const auto moved = [](SphereTree& tree) { tree.center[0].x() = 6; };
+    const auto moved = [](SphereTree& tree) { tree.spheres.center[0].x() = 6; };
     const std::string sentence = "level 2 misses 1 voxel (first: [1, 2, 2]) of the object, in the ";
     expectFailure(moved, sentence + "exact radii");
     expectFailure(moved, sentence + "stored radii less their padding");
@@ -456,7 +455,9 @@ TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheExactRadii)
 TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheStoredRadii)
 {
     // World radius 1/2 covers the plus with voxels of 1/2; the next float below does not.
-    const auto damage = [](SphereTree& tree) { tree.radiusWorld[3] = std::nextafter(0.5f, 0.0f); };
+    const auto damage = [](SphereTree& tree) {
+        tree.spheres.radiusWorld[3] = std::nextafter(0.5f, 0.0f);
+    };
     expectFailure(damage,
         "level 0 misses 6 voxels (first: [1, 2, 2]) of the object, in the stored "
         "radii less their padding");
@@ -484,7 +485,7 @@ TEST_F(TreeCheck, CoverageOfVoxelsFarApartIsCheckedWithoutDrawingWhatIsBetween)
     tree.levels[0].end = 1;
     tree.levels[0].pyramidVoxels = 1;
     EXPECT_EQ(joined(checkSphereTree(tree, *object)), "");
-    --tree.coverSq[0];
+    --tree.spheres.coverRadiusSq[0];
     EXPECT_EQ(joined(checkSphereTree(tree, *object)),
         "level 20 misses 2 voxels (first: [0, 0, 0]) of the object, in the exact radii\n");
 }

@@ -192,8 +192,8 @@ TEST(InnerTree, HasTheFirstBallsOfTheOrderOnEachLevel)
             for (int32_t id = level.begin; id < level.end; ++id, ++next) {
                 ASSERT_EQ(tree.ijk[id], next->first);
                 ASSERT_EQ(tree.radiusSq[id], next->second);
-                ASSERT_EQ(tree.center[id], next->first.asVec3d());
-                ASSERT_EQ(tree.coverSq[id], 4 * (int64_t(next->second) - 1));
+                ASSERT_EQ(tree.spheres.center[id], next->first.asVec3d());
+                ASSERT_EQ(tree.spheres.coverRadiusSq[id], 4 * (int64_t(next->second) - 1));
             }
         }
     }
@@ -221,7 +221,7 @@ TEST(InnerTree, HangsABallBelowItselfOrTheNearestByPower)
                     if (power < least) expected = t;
                     least = std::min(least, power);
                 }
-                ASSERT_EQ(tree.parent[id], expected);
+                ASSERT_EQ(tree.spheres.parent[id], expected);
                 (tree.ijk[expected] == tree.ijk[id] ? own : others) += 1;
             }
         }
@@ -257,8 +257,8 @@ TEST(InnerTree, StopsAtTheLargestNumberAskedFor)
     ASSERT_EQ(tree.levels.size(), 2u);
     EXPECT_EQ(tree.levels[0].size(), 6);
     EXPECT_EQ(tree.root().size(), 2);
-    EXPECT_EQ(tree.parent[0], -1);
-    EXPECT_EQ(tree.parent[1], -1);
+    EXPECT_EQ(tree.spheres.parent[0], -1);
+    EXPECT_EQ(tree.spheres.parent[1], -1);
     EXPECT_FALSE(tree.levels[0].topology.has_value()) << "level 0 is not the object";
     const SphereTree more = buildSphereTree(*grid, innerSettings({1 << 20}));
     ASSERT_EQ(more.levels.size(), 1u);
@@ -280,15 +280,17 @@ TEST(InnerTree, StoresRadiiRoundedDownAndAddsNothing)
         ASSERT_EQ(tree.settings.padding, 0);
         for (int32_t id = 0; id < tree.size(); ++id) {
             const long double exact = std::sqrt((long double)(tree.radiusSq[id] - 1));
-            ASSERT_LE((long double)(tree.radius[id]), exact);
-            ASSERT_NEAR(tree.radius[id], double(exact), 1e-12);
-            ASSERT_LE(double(tree.radiusWorld[id]), tree.radius[id] * tree.voxelSize());
-            ASSERT_NEAR(tree.radiusWorld[id], 0.1 * tree.radius[id], 1e-6);
-            const Coord reach(int(tree.radius[id]) + 2);
+            ASSERT_LE((long double)(tree.spheres.radius[id]), exact);
+            ASSERT_NEAR(tree.spheres.radius[id], double(exact), 1e-12);
+            ASSERT_LE(
+                double(tree.spheres.radiusWorld[id]), tree.spheres.radius[id] * tree.voxelSize());
+            ASSERT_NEAR(tree.spheres.radiusWorld[id], 0.1 * tree.spheres.radius[id], 1e-6);
+            const Coord reach(int(tree.spheres.radius[id]) + 2);
             for (const Coord& q :
                 voxelsOfBox(CoordBBox(tree.ijk[id] - reach, tree.ijk[id] + reach))) {
                 const Vec3d at = tree.transform->indexToWorld(q.asVec3d());
-                if ((at - tree.centerWorld(id)).length() > double(tree.radiusWorld[id])) continue;
+                if ((at - tree.centerWorld(id)).length() > double(tree.spheres.radiusWorld[id]))
+                    continue;
                 ASSERT_TRUE(contains(object.voxels, q)) << q;
             }
         }
@@ -308,7 +310,7 @@ TEST(InnerTree, InTwoDimensionsIsTurnedWithItsObject)
         if (boxOf(flat).min()[1] == boxOf(flat).max()[1]) continue;
         SphereTree tree = buildSphereTree(*gridOf(turned), settings);
         for (Coord& ijk : tree.ijk) ijk = Coord(ijk[1], ijk[2], ijk[0]);
-        for (Vec3d& center : tree.center) center = Vec3d(center[1], center[2], center[0]);
+        for (Vec3d& center : tree.spheres.center) center = Vec3d(center[1], center[2], center[0]);
         EXPECT_TRUE(sameNodes(tree, upright)) << object.name;
     }
 }
@@ -324,11 +326,11 @@ TEST(InnerTree, WithCutsHasABallInEveryCutFromItsOwnOn)
     EXPECT_EQ(tree.size(), 3);
     ASSERT_EQ(tree.cuts.size(), int32_t(order.size()));
     for (int32_t i = 0; i < tree.cuts.size(); ++i) {
-        EXPECT_EQ(tree.cuts.center[i], order[i].center.asVec3d());
-        EXPECT_EQ(tree.cuts.coverSq[i], 4 * (int64_t(order[i].radiusSq) - 1));
-        EXPECT_EQ(tree.cuts.radius[i], detail::sqrtDown(order[i].radiusSq - 1.0));
-        EXPECT_LE(double(tree.cuts.radiusWorld[i]), tree.cuts.radius[i]);
-        EXPECT_EQ(tree.cuts.parent[i], -1);
+        EXPECT_EQ(tree.cuts.spheres.center[i], order[i].center.asVec3d());
+        EXPECT_EQ(tree.cuts.spheres.coverRadiusSq[i], 4 * (int64_t(order[i].radiusSq) - 1));
+        EXPECT_EQ(tree.cuts.spheres.radius[i], detail::sqrtDown(order[i].radiusSq - 1.0));
+        EXPECT_LE(double(tree.cuts.spheres.radiusWorld[i]), tree.cuts.spheres.radius[i]);
+        EXPECT_EQ(tree.cuts.spheres.parent[i], -1);
         EXPECT_EQ(tree.cuts.first[i], i + 1);
         EXPECT_EQ(tree.cuts.last[i], tree.cuts.size());
     }

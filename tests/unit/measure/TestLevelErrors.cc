@@ -40,8 +40,8 @@ SphereTree treeOf(const std::vector<Sphere>& spheres, const BoolGrid& object, in
 {
     SphereTree tree;
     for (const Sphere& s : spheres) {
-        tree.center.push_back(s.center);
-        tree.coverSq.push_back(s.coverSq);
+        tree.spheres.center.push_back(s.center);
+        tree.spheres.coverRadiusSq.push_back(s.coverSq);
         tree.subdivision = s.subdivision;
     }
     tree.levels.resize(1);

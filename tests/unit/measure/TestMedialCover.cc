@@ -67,10 +67,10 @@ TEST_F(MedialCover, EverySphereCounts)
     ASSERT_GT(level.size(), 20);
     for (int32_t id = level.begin; id < level.end; id += 7) {
         SphereTree other = tree;
-        other.coverSq[id] += 1;
+        other.spheres.coverRadiusSq[id] += 1;
         EXPECT_FALSE(areMedial(other, *object)) << id;
         other = tree;
-        other.center[id][id % 3] += 0.5;
+        other.spheres.center[id][id % 3] += 0.5;
         EXPECT_FALSE(areMedial(other, *object)) << id;
     }
     SphereTree fewer = tree;

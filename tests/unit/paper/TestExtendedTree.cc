@@ -32,11 +32,11 @@ const std::vector<Reconstruction> kReconstructions{
 /// Per node: the radius that contains the leaf balls below it, around the node's own centre.
 std::vector<double> neededRadii(const SphereTree& tree)
 {
-    std::vector<double> needed(tree.radius.size(), -1);
+    std::vector<double> needed(tree.spheres.radius.size(), -1);
     for (int32_t leaf = tree.levels[0].begin; leaf < tree.levels[0].end; ++leaf) {
-        for (int32_t id = leaf; id >= 0; id = tree.parent[id]) {
-            const double apart = (tree.center[leaf] - tree.center[id]).length();
-            needed[id] = std::max(needed[id], apart + tree.radius[leaf]);
+        for (int32_t id = leaf; id >= 0; id = tree.spheres.parent[id]) {
+            const double apart = (tree.spheres.center[leaf] - tree.spheres.center[id]).length();
+            needed[id] = std::max(needed[id], apart + tree.spheres.radius[leaf]);
         }
     }
     return needed;
@@ -50,7 +50,7 @@ TEST(ExtendedTree, RadiiAreTheSmallestThatContainTheLeafBallsBelow)
             const SphereTree tree = buildSphereTree(*gridOf(object.voxels), extended(reconstruct));
             const std::vector<double> needed = neededRadii(tree);
             for (int32_t id = 0; id < tree.size(); ++id) {
-                ASSERT_NEAR(tree.radius[id], needed[id], 1e-9 * (1 + needed[id])) << id;
+                ASSERT_NEAR(tree.spheres.radius[id], needed[id], 1e-9 * (1 + needed[id])) << id;
             }
         }
     }
@@ -65,14 +65,15 @@ TEST(ExtendedTree, WithoutTheFinalFitRadiiGrowAsAnyBallsDoAndNothingElseChanges)
         settings.finalFit = false;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         ASSERT_EQ(tree.ijk, fitted.ijk);
-        ASSERT_EQ(tree.parent, fitted.parent);
+        ASSERT_EQ(tree.spheres.parent, fitted.spheres.parent);
         for (int32_t id = 0; id < tree.size(); ++id) {
             const double side = std::pow(2.0, tree.levelOf(id)) - 1;
-            const double radius = fitted.radius[id] + std::sqrt(3.0) / 2 * side;
-            ASSERT_NEAR(tree.radius[id], radius, 1e-9 * (1 + radius));
-            ASSERT_GE(tree.coverSq[id], fitted.coverSq[id]);
-            ASSERT_LE(double(tree.coverSq[id]), 4 * radius * radius * (1 + 1e-12));
-            ASSERT_GT(double(tree.coverSq[id]) + 1, 4 * radius * radius * (1 - 1e-12));
+            const double radius = fitted.spheres.radius[id] + std::sqrt(3.0) / 2 * side;
+            ASSERT_NEAR(tree.spheres.radius[id], radius, 1e-9 * (1 + radius));
+            ASSERT_GE(tree.spheres.coverRadiusSq[id], fitted.spheres.coverRadiusSq[id]);
+            ASSERT_LE(double(tree.spheres.coverRadiusSq[id]), 4 * radius * radius * (1 + 1e-12));
+            ASSERT_GT(
+                double(tree.spheres.coverRadiusSq[id]) + 1, 4 * radius * radius * (1 - 1e-12));
         }
     }
 }
@@ -82,8 +83,8 @@ TEST(ExtendedTree, EveryInnerNodeHasAChild)
     for (const RandomObject& object : someObjects(600, 33)) {
         for (const SphereTreeSettings& settings : allSettings(TreeType::Extended, 3)) {
             const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
-            std::vector<int> children(tree.parent.size(), 0);
-            for (int32_t parent : tree.parent) {
+            std::vector<int> children(tree.spheres.parent.size(), 0);
+            for (int32_t parent : tree.spheres.parent) {
                 if (parent >= 0) ++children[parent];
             }
             for (int32_t id = 0; id < tree.levels[0].begin; ++id) {
@@ -198,15 +199,15 @@ TEST(ExtendedTree, ARowOfVoxelsIsWhatItIsByHand)
     EXPECT_EQ(tree.levels[2].size(), 2);
     for (int32_t i = 0; i < 4; ++i) { // two voxels each, at (2i, 0, 0) and (2i + 1, 0, 0)
         const int32_t id = tree.levels[1].begin + i;
-        EXPECT_EQ(tree.center[id], openvdb::Vec3d(2 * i + 0.5, 0.5, 0.5));
-        EXPECT_DOUBLE_EQ(tree.radius[id], std::sqrt(3.0) / 2);
-        EXPECT_EQ(tree.coverSq[id], 3);
+        EXPECT_EQ(tree.spheres.center[id], openvdb::Vec3d(2 * i + 0.5, 0.5, 0.5));
+        EXPECT_DOUBLE_EQ(tree.spheres.radius[id], std::sqrt(3.0) / 2);
+        EXPECT_EQ(tree.spheres.coverRadiusSq[id], 3);
     }
     const int32_t first = tree.levels[2].begin; // four voxels, the farthest at (0, 0, 0)
-    EXPECT_EQ(tree.center[first], openvdb::Vec3d(1.5, 1.5, 1.5));
-    EXPECT_DOUBLE_EQ(tree.radius[first], std::sqrt(27.0) / 2);
-    EXPECT_EQ(tree.center[0], openvdb::Vec3d(3.5, 3.5, 3.5));
-    EXPECT_DOUBLE_EQ(tree.radius[0], std::sqrt(3 * 49.0) / 2);
+    EXPECT_EQ(tree.spheres.center[first], openvdb::Vec3d(1.5, 1.5, 1.5));
+    EXPECT_DOUBLE_EQ(tree.spheres.radius[first], std::sqrt(27.0) / 2);
+    EXPECT_EQ(tree.spheres.center[0], openvdb::Vec3d(3.5, 3.5, 3.5));
+    EXPECT_DOUBLE_EQ(tree.spheres.radius[0], std::sqrt(3 * 49.0) / 2);
 }
 
 TEST(ExtendedTree, IsRefusedBeforeItHasMoreNodesThanIdsOrMemory)

@@ -25,9 +25,9 @@ SphereTree starOf(const std::vector<std::pair<openvdb::Vec3d, int64_t>>& spheres
 {
     SphereTree tree;
     for (const auto& [center, coverSq] : spheres) {
-        tree.center.push_back(center);
-        tree.coverSq.push_back(coverSq);
-        tree.radius.push_back(std::sqrt(double(coverSq)) / 2);
+        tree.spheres.center.push_back(center);
+        tree.spheres.coverRadiusSq.push_back(coverSq);
+        tree.spheres.radius.push_back(std::sqrt(double(coverSq)) / 2);
     }
     tree.levels.resize(2);
     tree.levels[0].begin = 1;
@@ -43,9 +43,10 @@ std::vector<DagEdge> allPairsThatMeet(const SphereTree& tree)
     for (std::size_t k = 1; k < tree.levels.size(); ++k) {
         for (int32_t t = tree.levels[k].begin; t < tree.levels[k].end; ++t) {
             for (int32_t s = tree.levels[k - 1].begin; s < tree.levels[k - 1].end; ++s) {
-                const auto apartSq = double((2 * (tree.center[s] - tree.center[t])).lengthSqr());
-                const long double reach = std::sqrt((long double)tree.coverSq[s])
-                    + std::sqrt((long double)tree.coverSq[t]);
+                const auto apartSq =
+                    double((2 * (tree.spheres.center[s] - tree.spheres.center[t])).lengthSqr());
+                const long double reach = std::sqrt((long double)tree.spheres.coverRadiusSq[s])
+                    + std::sqrt((long double)tree.spheres.coverRadiusSq[t]);
                 if (std::sqrt((long double)apartSq) <= reach + 1e-12L) edges.push_back({t, s});
             }
         }
@@ -131,7 +132,7 @@ TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
         EXPECT_TRUE(std::includes(
             meeting.dag.begin(), meeting.dag.end(), shared.dag.begin(), shared.dag.end()))
             << object.name;
-        EXPECT_EQ(meeting.parent, shared.parent) << object.name;
+        EXPECT_EQ(meeting.spheres.parent, shared.spheres.parent) << object.name;
     }
 }
 

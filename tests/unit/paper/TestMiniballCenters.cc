@@ -73,7 +73,8 @@ Wide apartSq(const SphereTree& tree, int32_t s, int32_t t)
 {
     Wide sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const Wide d = sixteenths(tree.center[s][axis]) - sixteenths(tree.center[t][axis]);
+        const Wide d =
+            sixteenths(tree.spheres.center[s][axis]) - sixteenths(tree.spheres.center[t][axis]);
         sum += d * d;
     }
     return sum;
@@ -84,7 +85,7 @@ template <typename F>
 void forEachAncestor(const SphereTree& tree, const F& f)
 {
     for (int32_t leaf = tree.levels[0].begin; leaf < tree.levels[0].end; ++leaf) {
-        for (int32_t t = tree.parent[leaf]; t >= 0; t = tree.parent[t]) f(leaf, t);
+        for (int32_t t = tree.spheres.parent[leaf]; t >= 0; t = tree.spheres.parent[t]) f(leaf, t);
     }
 }
 
@@ -92,10 +93,10 @@ bool holdsFine(const SphereTree& tree, int32_t id, const Coord& q)
 {
     int64_t sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const int64_t d = 16 * int64_t(q[axis]) - sixteenths(tree.center[id][axis]);
+        const int64_t d = 16 * int64_t(q[axis]) - sixteenths(tree.spheres.center[id][axis]);
         sum += d * d;
     }
-    return sum <= tree.coverSq[id];
+    return sum <= tree.spheres.coverRadiusSq[id];
 }
 
 void expectCovered(const Voxels& voxels, const SphereTree& tree)
@@ -114,15 +115,16 @@ TEST(MiniballCenters, ContainEveryLeafBallBelowAndNoMore)
     forEachPair(
         someObjects(0, 22), 3, [](const Voxels&, const SphereTree&, const SphereTree& tree) {
             ASSERT_EQ(tree.subdivision, 16);
-            std::vector<bool> tight(tree.center.size(), false); // some leaf needs that much
+            std::vector<bool> tight(tree.spheres.center.size(), false); // some leaf needs that much
             forEachAncestor(tree, [&](int32_t leaf, int32_t t) {
                 const Wide a = apartSq(tree, leaf, t), b = 256 * (Wide(tree.radiusSq[leaf]) - 1);
                 // coverSq is the largest integer that the exact square holds
-                ASSERT_TRUE(atLeastSum(Wide(tree.coverSq[t]) + 1, a, b)) << leaf << " in " << t;
+                ASSERT_TRUE(atLeastSum(Wide(tree.spheres.coverRadiusSq[t]) + 1, a, b))
+                    << leaf << " in " << t;
                 const double reach = std::sqrt(double(a)) + std::sqrt(double(b));
-                ASSERT_GE(16 * tree.radius[t], reach * (1 - 1e-15));
-                if (atLeastSum(Wide(tree.coverSq[t]) - 1, a, b)) return;
-                tight[t] = tight[t] || 16 * tree.radius[t] <= reach * (1 + 1e-12);
+                ASSERT_GE(16 * tree.spheres.radius[t], reach * (1 - 1e-15));
+                if (atLeastSum(Wide(tree.spheres.coverRadiusSq[t]) - 1, a, b)) return;
+                tight[t] = tight[t] || 16 * tree.spheres.radius[t] <= reach * (1 + 1e-12);
             });
             forEachAncestor(tree, [&](int32_t, int32_t t) {
                 ASSERT_TRUE(tight[t]) << "node " << t << " is larger than what is below needs";
@@ -134,23 +136,23 @@ TEST(MiniballCenters, LeaveEverythingButSpheresAsItWas)
 {
     forEachPair(
         someObjects(100, 11), 3, [](const Voxels&, const SphereTree& medial, SphereTree tree) {
-            std::vector<bool> hasLeaves(tree.center.size(), false);
+            std::vector<bool> hasLeaves(tree.spheres.center.size(), false);
             forEachAncestor(tree, [&](int32_t, int32_t t) { hasLeaves[t] = true; });
             for (int32_t id = 0; id < tree.size(); ++id) {
                 if (hasLeaves[id]) continue; // leaves and the childless: the same in finer units
-                ASSERT_EQ(tree.center[id], medial.center[id]);
-                ASSERT_EQ(tree.radius[id], medial.radius[id]);
-                for (const Coord& q : {medial.ijk[id], Coord::round(medial.center[id])}) {
+                ASSERT_EQ(tree.spheres.center[id], medial.spheres.center[id]);
+                ASSERT_EQ(tree.spheres.radius[id], medial.spheres.radius[id]);
+                for (const Coord& q : {medial.ijk[id], Coord::round(medial.spheres.center[id])}) {
                     for (int x = 0; x < 40; ++x) {
                         const Coord at = q.offsetBy(x, x / 3, -x / 2);
                         ASSERT_EQ(holdsFine(tree, id, at), holds(medial, id, at));
                     }
                 }
             }
-            tree.center = medial.center;
-            tree.radius = medial.radius;
-            tree.coverSq = medial.coverSq;
-            tree.radiusWorld = medial.radiusWorld;
+            tree.spheres.center = medial.spheres.center;
+            tree.spheres.radius = medial.spheres.radius;
+            tree.spheres.coverRadiusSq = medial.spheres.coverRadiusSq;
+            tree.spheres.radiusWorld = medial.spheres.radiusWorld;
             ASSERT_TRUE(sameNodes(tree, medial));
         });
 }
@@ -170,8 +172,8 @@ TEST(MiniballCenters, OfExtendedTreesAreNeverLargerThanAroundTheMedialCentre)
         [&](const Voxels&, const SphereTree& medial, const SphereTree& tree) {
             if (tree.settings.tree != TreeType::Extended) return;
             for (int32_t id = 0; id < tree.levels[0].begin; ++id) {
-                ASSERT_LE(tree.radius[id], medial.radius[id]);
-                smaller += tree.radius[id] < medial.radius[id] - 0.1;
+                ASSERT_LE(tree.spheres.radius[id], medial.spheres.radius[id]);
+                smaller += tree.spheres.radius[id] < medial.spheres.radius[id] - 0.1;
                 ++all;
             }
         });
@@ -184,18 +186,19 @@ TEST(MiniballCenters, AreAsSmallAsRoundingAllows)
 {
     forEachPair(
         someObjects(400, 11), 3, [](const Voxels&, const SphereTree&, const SphereTree& tree) {
-            std::vector<std::vector<int32_t>> below(tree.center.size());
+            std::vector<std::vector<int32_t>> below(tree.spheres.center.size());
             forEachAncestor(tree, [&](int32_t leaf, int32_t t) { below[t].push_back(leaf); });
             for (int32_t t = 0; t < tree.levels[0].begin; ++t) {
                 for (int i = 0; i < 27 && !below[t].empty(); ++i) {
                     const Vec3d step(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
                     double most = 0;
                     for (const int32_t leaf : below[t]) {
-                        const Vec3d from = tree.center[t] + 0.25 * step;
-                        most =
-                            std::max(most, (tree.center[leaf] - from).length() + tree.radius[leaf]);
+                        const Vec3d from = tree.spheres.center[t] + 0.25 * step;
+                        most = std::max(most,
+                            (tree.spheres.center[leaf] - from).length()
+                                + tree.spheres.radius[leaf]);
                     }
-                    ASSERT_GE(most, tree.radius[t] - std::sqrt(3.0) / 32 - 1e-9);
+                    ASSERT_GE(most, tree.spheres.radius[t] - std::sqrt(3.0) / 32 - 1e-9);
                 }
             }
         });
@@ -216,7 +219,7 @@ TEST(MiniballCenters, InTwoDimensionsStayInThePlaneWhateverItsAxis)
                 SCOPED_TRACE(object.name + ": " + describe(settings));
                 const SphereTree tree = buildSphereTree(*gridOf(turned), miniballs(settings));
                 const int along = tree.settings.flatAxis;
-                for (const Vec3d& center : tree.center) {
+                for (const Vec3d& center : tree.spheres.center) {
                     ASSERT_EQ(center[along], double(boxOf(turned).min()[along]));
                 }
                 ASSERT_NO_FATAL_FAILURE(expectCovered(turned, tree));
@@ -239,7 +242,8 @@ TEST(MiniballCenters, ContainStoredLeavesInARoughWorld)
                 const SphereTree tree = buildSphereTree(*grid, miniballs(settings));
                 forEachAncestor(tree, [&](int32_t leaf, int32_t t) {
                     const double apart = (tree.centerWorld(leaf) - tree.centerWorld(t)).length();
-                    ASSERT_LE(apart + double(tree.radiusWorld[leaf]), double(tree.radiusWorld[t]))
+                    ASSERT_LE(apart + double(tree.spheres.radiusWorld[leaf]),
+                        double(tree.spheres.radiusWorld[t]))
                         << object.name << ": " << describe(settings);
                 });
             }
@@ -272,8 +276,8 @@ TEST(MiniballCenters, IntersectionEdgesAreThoseOfTheNewSpheres)
             for (std::size_t k = 1; k < tree.levels.size(); ++k) {
                 for (int32_t t = tree.levels[k].begin; t < tree.levels[k].end; ++t) {
                     for (int32_t s = tree.levels[k - 1].begin; s < tree.levels[k - 1].end; ++s) {
-                        const double reach =
-                            std::sqrt(double(tree.coverSq[s])) + std::sqrt(double(tree.coverSq[t]));
+                        const double reach = std::sqrt(double(tree.spheres.coverRadiusSq[s]))
+                            + std::sqrt(double(tree.spheres.coverRadiusSq[t]));
                         const double apart = std::sqrt(double(apartSq(tree, s, t)));
                         if (apart <= reach * (1 + 1e-14)) expected.push_back({t, s});
                     }
@@ -302,8 +306,8 @@ TEST(MiniballCenters, OfObjectsTooWideForTheirUnitsAreRefused)
         "too wide for center=miniball"));
     const Voxels fits{Coord(0, 0, 0), Coord(1 << 24, 0, 0)};
     const SphereTree tree = buildSphereTree(*gridOf(fits), miniballs(settings));
-    EXPECT_EQ(tree.center[0], Vec3d(1 << 23, 0, 0));
-    EXPECT_EQ(tree.radius[0], double(1 << 23));
+    EXPECT_EQ(tree.spheres.center[0], Vec3d(1 << 23, 0, 0));
+    EXPECT_EQ(tree.spheres.radius[0], double(1 << 23));
 }
 
 } // namespace

@@ -105,15 +105,15 @@ TEST(ReversibleTree, StoresTheSpheresOfTheFormula)
     const auto grid = gridOf(Voxels{Coord(0, 0, 0), Coord(1, 1, 0)});
     const SphereTree tight = buildSphereTree(*grid, settings);
     ASSERT_EQ(tight.size(), 3);
-    EXPECT_EQ(tight.center[0], openvdb::Vec3d(0.5, 0.5, 0.5));
-    EXPECT_DOUBLE_EQ(tight.radius[0], std::sqrt(3.0) / 2);
-    EXPECT_EQ(tight.coverSq[0], 3);
-    EXPECT_EQ(tight.radius[1], 0);
+    EXPECT_EQ(tight.spheres.center[0], openvdb::Vec3d(0.5, 0.5, 0.5));
+    EXPECT_DOUBLE_EQ(tight.spheres.radius[0], std::sqrt(3.0) / 2);
+    EXPECT_EQ(tight.spheres.coverRadiusSq[0], 3);
+    EXPECT_EQ(tight.spheres.radius[1], 0);
     settings.scale = RadiusScale::Paper;
     const SphereTree paper = buildSphereTree(*grid, settings);
-    EXPECT_DOUBLE_EQ(paper.radius[0], 2 + std::sqrt(3.0) / 2);
-    EXPECT_EQ(paper.coverSq[0], 32); // (4 + sqrt 3)^2 = 32.86
-    EXPECT_EQ(paper.radius[1], 0) << "level 0 is not scaled";
+    EXPECT_DOUBLE_EQ(paper.spheres.radius[0], 2 + std::sqrt(3.0) / 2);
+    EXPECT_EQ(paper.spheres.coverRadiusSq[0], 32); // (4 + sqrt 3)^2 = 32.86
+    EXPECT_EQ(paper.spheres.radius[1], 0) << "level 0 is not scaled";
 }
 
 TEST(ReversibleTree, IgnoresWhatOnlyExtendedTreesHave)
@@ -138,9 +138,9 @@ TEST(ReversibleTree, ParentsByDagAreDagParents)
         settings.parent = ParentRule::Dag;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         for (int32_t id = 1; id < tree.size(); ++id) {
-            const DagEdge edge{tree.parent[id], id};
+            const DagEdge edge{tree.spheres.parent[id], id};
             ASSERT_TRUE(std::binary_search(tree.dag.begin(), tree.dag.end(), edge)) << object.name;
-            others += tree.parent[id] != byCentre.parent[id];
+            others += tree.spheres.parent[id] != byCentre.parent[id];
         }
     }
     EXPECT_GT(others, 100) << "the rules hardly differ on these objects";
@@ -157,10 +157,11 @@ TEST(ReversibleTree, OfItsDagParentsANodeHasTheOneOfLeastCoveringPowerAndOfEqual
             settings.parent = ParentRule::Dag;
             const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
             const auto power = [&](int32_t parent, int32_t child) {
-                const double apart = (tree.center[parent] - tree.center[child]).length();
-                return apart + tree.radius[child] - tree.radius[parent];
+                const double apart =
+                    (tree.spheres.center[parent] - tree.spheres.center[child]).length();
+                return apart + tree.spheres.radius[child] - tree.spheres.radius[parent];
             };
-            std::vector<int32_t> expected(tree.parent.size(), -1);
+            std::vector<int32_t> expected(tree.spheres.parent.size(), -1);
             for (const DagEdge& edge : tree.dag) { // by parent
                 int32_t& best = expected[edge.child];
                 choices += best >= 0;
@@ -169,7 +170,7 @@ TEST(ReversibleTree, OfItsDagParentsANodeHasTheOneOfLeastCoveringPowerAndOfEqual
                     best = edge.parent;
                 }
             }
-            ASSERT_EQ(tree.parent, expected);
+            ASSERT_EQ(tree.spheres.parent, expected);
         }
     }
     EXPECT_GT(choices, 1000);

@@ -44,7 +44,7 @@ SphereTree treeOf(const std::vector<std::pair<Vec3d, double>>& balls, double vox
     addLevel(tree, int32_t(balls.size()), 1);
     for (const auto& [center, radiusWorld] : balls) {
         addNode(tree, center, Coord::round(center), 1, -1);
-        tree.radiusWorld.back() = float(radiusWorld);
+        tree.spheres.radiusWorld.back() = float(radiusWorld);
     }
     return tree;
 }
@@ -275,7 +275,7 @@ TEST(SpherePicture, SiblingsShareAColorAndNeighboursDiffer)
     addLevel(tree, 8, 1);
     for (int i = 0; i < 4; ++i) addNode(tree, Vec3d(10 * i, 0, 0), Coord(i, 0, 0), 26, -1);
     for (int i = 0; i < 8; ++i) addNode(tree, Vec3d(5 * i, 0, 0), Coord(i, 0, 0), 2, i / 2);
-    for (int32_t id = 4; id < 12; ++id) tree.radiusWorld[id] = 1;
+    for (int32_t id = 4; id < 12; ++id) tree.spheres.radiusWorld[id] = 1;
     EXPECT_EQ(colorsOf(tree, 0, PictureColor::Parent).size(), 4u);
     EXPECT_EQ(colorsOf(tree, 1, PictureColor::Parent).size(), 1u) << "no parents: one colour";
     EXPECT_EQ(colorsOf(tree, 0, PictureColor::Level).size(), 1u);

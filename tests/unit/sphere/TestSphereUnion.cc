@@ -23,7 +23,7 @@ using namespace openvdb_spheretree;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::MaskTree;
-using Spheres = std::vector<ExactSphere>;
+using ExactSpheres = std::vector<ExactSphere>;
 
 const CoordBBox kWide(Coord(-100000), Coord(100000));
 const int kSubdivisions[] = {2, 4, 8, 16};
@@ -38,7 +38,7 @@ ExactSphere ball(int64_t x2, int64_t y2, int64_t z2, int64_t radiusSq)
     return {{x2, y2, z2}, radiusSq};
 }
 
-bool inAny(const Spheres& spheres, const Coord& q, int subdivision = 2)
+bool inAny(const ExactSpheres& spheres, const Coord& q, int subdivision = 2)
 {
     for (const ExactSphere& s : spheres) {
         int64_t sum = 0;
@@ -52,7 +52,7 @@ bool inAny(const Spheres& spheres, const Coord& q, int subdivision = 2)
 }
 
 void expectLikeBruteForce(
-    const Spheres& spheres, const CoordBBox& clip, const CoordBBox& all, int subdivision = 2)
+    const ExactSpheres& spheres, const CoordBBox& clip, const CoordBBox& all, int subdivision = 2)
 {
     const MaskTree::Ptr tree = sphereUnion(spheres, clip, nullptr, {{}, subdivision});
     openvdb::tree::ValueAccessor<const MaskTree> voxels(*tree);
@@ -68,14 +68,14 @@ void expectLikeBruteForce(
 
 /// Spheres of all sizes up to @a largest voxels around @a middle, up to half of @a spread away,
 /// centres between voxels included.
-Spheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int spread, int largest,
-    int subdivision = 2)
+ExactSpheres randomSpheres(std::mt19937& random, int count, const Coord& middle, int spread,
+    int largest, int subdivision = 2)
 {
     const int apart = spread * subdivision / 2;
     const auto pick = [&](int lo, int hi) {
         return std::uniform_int_distribution<int>(lo, hi)(random);
     };
-    Spheres spheres;
+    ExactSpheres spheres;
     for (int i = 0; i < count; ++i) {
         const int r = pick(0, subdivision * largest);
         ExactSphere sphere = ball(0, 0, 0, pick(-3, r * r));
@@ -95,7 +95,8 @@ TEST_F(SphereUnion, MatchesBruteForceOnRandomSpheresAcrossNodeBorders)
             Coord(0), Coord(8, -128, 128), Coord(-4096, 4096, 0), Coord(3), Coord(128, 128, 4096)};
         const Coord middle = corners[seed % 5];
         const int largest = seed % 3 == 0 ? 3 : 14, units = kSubdivisions[seed % 4];
-        const Spheres spheres = randomSpheres(random, 1 + seed % 7, middle, 20, largest, units);
+        const ExactSpheres spheres =
+            randomSpheres(random, 1 + seed % 7, middle, 20, largest, units);
         CoordBBox all(middle, middle);
         all.expand(26);
         expectLikeBruteForce(spheres, kWide, all, units);
@@ -132,7 +133,7 @@ TEST_F(SphereUnion, MatchesBruteForceOnManyBallsThatOverlap)
         std::mt19937 random(seed);
         const Coord middle = seed % 2 ? Coord(3) : Coord(-128, 4096, 16);
         const int units = kSubdivisions[seed / 2 % 4];
-        Spheres spheres = randomSpheres(random, 120, middle, 24, 5 + int(seed % 4) * 4, units);
+        ExactSpheres spheres = randomSpheres(random, 120, middle, 24, 5 + int(seed % 4) * 4, units);
         spheres.insert(spheres.end(), spheres.begin(), spheres.begin() + 40);
         CoordBBox all(middle, middle);
         all.expand(32);
@@ -142,22 +143,23 @@ TEST_F(SphereUnion, MatchesBruteForceOnManyBallsThatOverlap)
 
 TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
 {
-    const Spheres spheres{ball(1, -3, 5, 4 * 41 * 41), ball(90, 10, -7, 4 * 25 * 25 + 3)};
+    const ExactSpheres spheres{ball(1, -3, 5, 4 * 41 * 41), ball(90, 10, -7, 4 * 25 * 25 + 3)};
     expectLikeBruteForce(spheres, kWide, CoordBBox(Coord(-48), Coord(80)));
     EXPECT_GT(sphereUnion(spheres, kWide)->activeTileCount(), 0u);
-    const Spheres fine{ball(7, -23, 41, 256 * 41 * 41 + 5), ball(723, 77, -55, 256 * 25 * 25 - 7)};
+    const ExactSpheres fine{
+        ball(7, -23, 41, 256 * 41 * 41 + 5), ball(723, 77, -55, 256 * 25 * 25 - 7)};
     expectLikeBruteForce(fine, kWide, CoordBBox(Coord(-48), Coord(80)), 16);
     EXPECT_GT(sphereUnion(fine, kWide, nullptr, {{}, 16})->activeTileCount(), 0u);
 }
 
 /// @return the union, made of a few spheres at a time.
-MaskTree unionByAFew(const Spheres& spheres, const CoordBBox& clip)
+MaskTree unionByAFew(const ExactSpheres& spheres, const CoordBBox& clip)
 {
     MaskTree all;
     for (std::size_t begin = 0; begin < spheres.size(); begin += 1000) {
         const auto from = spheres.begin() + std::ptrdiff_t(begin);
         const auto few = std::min<std::ptrdiff_t>(1000, spheres.end() - from);
-        all.topologyUnion(*sphereUnion(Spheres(from, from + few), clip));
+        all.topologyUnion(*sphereUnion(ExactSpheres(from, from + few), clip));
     }
     return all;
 }
@@ -167,7 +169,7 @@ MaskTree unionByAFew(const Spheres& spheres, const CoordBBox& clip)
 TEST_F(SphereUnion, ManySpheresAreAsAFewAtATime)
 {
     std::mt19937 random(11);
-    Spheres spheres = randomSpheres(random, 40000, Coord(4096, 300, 300), 500, 4);
+    ExactSpheres spheres = randomSpheres(random, 40000, Coord(4096, 300, 300), 500, 4);
     const auto expectTheSame = [&](const CoordBBox& clip) {
         MaskTree expected = unionByAFew(spheres, clip);
         const auto voxels = expected.activeVoxelCount();
@@ -193,7 +195,7 @@ TEST_F(SphereUnion, LargeSpheresMatchBruteForceInAWindow)
         for (int radius : {140, 280, 300, 700, 2400}) {
             SCOPED_TRACE(std::to_string(units) + " units, radius " + std::to_string(radius));
             const int64_t r = int64_t(units) * radius, c = r * 5 / 7;
-            const Spheres spheres{ball(-c + 3, -c - 5, 9, r * r + 11)};
+            const ExactSpheres spheres{ball(-c + 3, -c - 5, 9, r * r + 11)};
             const CoordBBox clip(Coord(-20, -20, -30), Coord(40, 40, 30));
             expectLikeBruteForce(spheres, clip, clip, units);
         }
@@ -203,10 +205,10 @@ TEST_F(SphereUnion, LargeSpheresMatchBruteForceInAWindow)
 TEST_F(SphereUnion, TheSameSpheresInOtherUnitsAreTheSameVoxels)
 {
     std::mt19937 random(23);
-    Spheres spheres = randomSpheres(random, 400, Coord(64, -3, 9), 300, 30);
+    ExactSpheres spheres = randomSpheres(random, 400, Coord(64, -3, 9), 300, 30);
     const MaskTree::Ptr expected = sphereUnion(spheres, kWide);
     for (int units : {4, 8, 16}) {
-        Spheres finer = spheres;
+        ExactSpheres finer = spheres;
         for (ExactSphere& s : finer) {
             for (int64_t& c : s.center) c *= units / 2;
             s.radiusSq *= units / 2 * units / 2;
@@ -239,7 +241,8 @@ TEST_F(SphereUnion, ASphereOfOneVoxelIsThatVoxel)
 
 TEST_F(SphereUnion, NegativeSquaresAndSpheresBetweenVoxelsAreEmpty)
 {
-    const Spheres spheres{ball(0, 0, 0, -1), ball(1, 0, 0, 0), ball(1, 1, 0, 1), ball(1, 1, 1, 2)};
+    const ExactSpheres spheres{
+        ball(0, 0, 0, -1), ball(1, 0, 0, 0), ball(1, 1, 0, 1), ball(1, 1, 1, 2)};
     const MaskTree::Ptr tree = sphereUnion(spheres, kWide);
     EXPECT_TRUE(tree->empty());
     EXPECT_TRUE(boundingBox(spheres).empty());
@@ -249,7 +252,7 @@ TEST_F(SphereUnion, NegativeSquaresAndSpheresBetweenVoxelsAreEmpty)
 
 TEST_F(SphereUnion, TheSurfaceIsClosed)
 {
-    const Spheres at{ball(0, 0, 0, 4 * 25)}, below{ball(0, 0, 0, 4 * 25 - 1)};
+    const ExactSpheres at{ball(0, 0, 0, 4 * 25)}, below{ball(0, 0, 0, 4 * 25 - 1)};
     for (const Coord& q : {Coord(5, 0, 0), Coord(-3, 4, 0), Coord(0, -3, -4)}) {
         EXPECT_TRUE(sphereUnion(at, kWide)->isValueOn(q)) << q;
         EXPECT_FALSE(sphereUnion(below, kWide)->isValueOn(q)) << q;
@@ -259,7 +262,7 @@ TEST_F(SphereUnion, TheSurfaceIsClosed)
 TEST_F(SphereUnion, LargeSpheresBecomeTilesOfEveryNodeLevel)
 {
     // Holds [0, 4095]^3: the farthest corner is 2048 sqrt(3) = 3547.3 away.
-    const Spheres spheres{ball(4095, 4095, 4095, int64_t(4) * 3560 * 3560)};
+    const ExactSpheres spheres{ball(4095, 4095, 4095, int64_t(4) * 3560 * 3560)};
     const CoordBBox clip(Coord(-300, -10, -10), Coord(4095));
     const MaskTree::Ptr tree = sphereUnion(spheres, clip);
     EXPECT_TRUE(tree->isValueOn(Coord(2000)));
@@ -296,7 +299,7 @@ TEST_F(SphereUnion, NodesGrowWithTheSurfaceOnly)
 /// Bits that lie in a ball, whose centre may be anywhere near or far.
 void expectKernelsLikeBruteForce(const int64_t center[3], int64_t radiusSq, int shift)
 {
-    const Spheres ball{{{center[0], center[1], center[2]}, radiusSq}};
+    const ExactSpheres ball{{{center[0], center[1], center[2]}, radiusSq}};
     uint64_t expected[8] = {}, vector[8] = {}, portable[8] = {};
     for (int i = 0; i < 512; ++i) {
         if (inAny(ball, Coord(i >> 6, i >> 3 & 7, i & 7), 1 << shift))
@@ -362,7 +365,7 @@ TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
 
     // In 16ths of a voxel, so at an eighth of the distance.
     const CoordBBox near(Coord(-20, -1, -1), Coord(20, 1, 1));
-    const Spheres fine{ball(-r2, 0, 0, r2 * r2)};
+    const ExactSpheres fine{ball(-r2, 0, 0, r2 * r2)};
     EXPECT_EQ(sphereUnion(fine, near, nullptr, {{}, 16})->activeVoxelCount(), 20u * 9 + 1);
     EXPECT_EQ(boundingBox(fine, {{}, 16}).max().x(), 0);
     EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2 - 1)}, {{}, 16}).max().x(), -1);
@@ -399,7 +402,7 @@ TEST_F(SphereUnion, WorksAtTheLastCoordinates)
 TEST_F(SphereUnion, DoesNotDependOnThreadsNorOnTheOrderOfSpheres)
 {
     std::mt19937 random(7);
-    Spheres spheres = randomSpheres(random, 30000, Coord(2048), 1500, 12); // sorted in parts
+    ExactSpheres spheres = randomSpheres(random, 30000, Coord(2048), 1500, 12); // sorted in parts
     const auto draw = [&](int threads) {
         tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return sphereUnion(spheres, kWide);
@@ -425,7 +428,7 @@ TEST_F(SphereUnion, DrawnWithinAMaskTheVoxelsOfTheMaskAreTheSame)
         mask.setValueOn(Coord(128 + int(random() % 200), int(random() % 90), -int(random() % 90)));
     }
     for (int trial = 0; trial < 6; ++trial) {
-        Spheres spheres = randomSpheres(random, 40, Coord(100, 40, 0), 500, 60);
+        ExactSpheres spheres = randomSpheres(random, 40, Coord(100, 40, 0), 500, 60);
         if (trial > 2) spheres.push_back(ball(-300, 100, 7, int64_t(4) * 5000 * 5000 / trial));
         const MaskTree::Ptr drawn =
             detail::rasterSpheres(spheres, Distance(), kWide, &mask, nullptr);
@@ -444,12 +447,12 @@ TEST_F(SphereUnion, DrawnWithinAMaskNodesWithoutVoxelsOfTheMaskAreLeftOut)
     mask.setValueOn(Coord(0));
     mask.setValueOn(Coord(1000));
     mask.setValueOn(Coord(70000));
-    const Spheres surface{ball(70000, 70000, 70000, int64_t(3) * 70000 * 70000)};
+    const ExactSpheres surface{ball(70000, 70000, 70000, int64_t(3) * 70000 * 70000)};
     const MaskTree::Ptr cut = detail::rasterSpheres(surface, Distance(), kWide, &mask, nullptr);
     EXPECT_EQ(cut->leafCount(), 1u);       // of (70000, 70000, 70000), the last voxel that it holds
     EXPECT_EQ(cut->activeTileCount(), 1u); // the 4096^3 voxels at the origin are all inside
     for (int c : {0, 1000, 70000}) EXPECT_TRUE(cut->isValueOn(Coord(c))) << c;
-    const Spheres inside{ball(2000, 2000, 2000, int64_t(12) * 1100 * 1100)};
+    const ExactSpheres inside{ball(2000, 2000, 2000, int64_t(12) * 1100 * 1100)};
     const MaskTree::Ptr whole = detail::rasterSpheres(inside, Distance(), kWide, &mask, nullptr);
     EXPECT_EQ(whole->leafCount(), 0u);
     EXPECT_LE(whole->activeTileCount(), 2u); // of the leaves of (0, 0, 0) and (1000, 1000, 1000)
@@ -469,7 +472,7 @@ TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
     std::mt19937 random(3);
     for (int i = 0; i < 300; ++i) {
         const SphereMetric metric({}, kSubdivisions[i % 4]);
-        const Spheres spheres =
+        const ExactSpheres spheres =
             randomSpheres(random, 1 + i % 3, Coord(-5, 3, 9), 12, 1 + i % 5, metric.subdivision);
         CoordBBox expected;
         sphereUnion(spheres, kWide, nullptr, metric)->evalActiveVoxelBoundingBox(expected);
@@ -480,12 +483,12 @@ TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
 TEST_F(SphereUnion, SpheresOfALevelAreItsRangeInTheTreesUnits)
 {
     SphereTree tree;
-    tree.center = {{0, 0, 0}, {-1.5, 2, 1048576.5}, {3, -4, 5}};
-    tree.coverSq = {100, 7, 9};
+    tree.spheres.center = {{0, 0, 0}, {-1.5, 2, 1048576.5}, {3, -4, 5}};
+    tree.spheres.coverRadiusSq = {100, 7, 9};
     SphereTreeLevel level;
     level.begin = 1;
     level.end = 3;
-    const Spheres spheres = levelSpheres(tree, level);
+    const ExactSpheres spheres = levelSpheres(tree, level);
     ASSERT_EQ(spheres.size(), 2u);
     EXPECT_EQ(spheres[0].center[0], -3);
     EXPECT_EQ(spheres[0].center[1], 4);

@@ -74,7 +74,7 @@ TEST(CutsPoints, DamagedCutsAreErrorsThatNameTheNode)
     EXPECT_TRUE(mentions(whyCutsDamaged<float>("pscale", 1, -1.f), "node 1 has the pscale -1"));
     EXPECT_TRUE(mentions(whyCutsDamaged<int64_t>("cover_sq", 1, -1), "node 1 has the cover_sq -1"));
     SphereTree coarse = tightSampleTree();
-    for (openvdb::Vec3d& center : coarse.center) center *= 16;
+    for (openvdb::Vec3d& center : coarse.spheres.center) center *= 16;
     coarse.subdivision = 2;
     EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { cutsToPoints(coarse); }),
         "cannot be stored: in its cuts, node 0 has the position"));

@@ -113,7 +113,7 @@ TEST(DagPoints, ADagThatWasCutShortIsAnError)
 TEST(DagPoints, DagEdgesComeBackSortedWhereverTheirPointsAre)
 {
     SphereTree tree = sampleTree();
-    std::reverse(tree.center.begin(), tree.center.end());
+    std::reverse(tree.spheres.center.begin(), tree.spheres.center.end());
     const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
     EXPECT_EQ(fromPoints(*points, dag.get()).dag, tree.dag);
 }

@@ -97,7 +97,7 @@ TEST(DamagedPoints, AnAttributeOfAnotherTypeIsNamed)
 TEST(DamagedPoints, CompressedPositionsAreAnError)
 {
     SphereTree tree = oneVoxelTree();
-    tree.center[0] = {0, 0, 0};
+    tree.spheres.center[0] = {0, 0, 0};
     const PointDataGrid::Ptr grid = toPoints(tree);
     const auto lossy = points::createPointDataGrid<points::FixedPointCodec<false>, PointDataGrid>(
         std::vector<openvdb::Vec3d>{{0, 0, 0}}, grid->transform());
@@ -193,7 +193,7 @@ int expectMissingMetadataIsNamed(const SphereTree& tree)
 TEST(DamagedPoints, MissingMetadataIsNamed)
 {
     SphereTree coarse = sampleTree(); // without its subdivision it is one in halves
-    for (openvdb::Vec3d& center : coarse.center) center *= 8;
+    for (openvdb::Vec3d& center : coarse.spheres.center) center *= 8;
     EXPECT_GE(expectMissingMetadataIsNamed(coarse), 25);
     EXPECT_GE(expectMissingMetadataIsNamed(tightSampleTree()), 30);
 }

@@ -76,7 +76,7 @@ TEST(SphereTreeCsv, WritesAHeaderAndARowANodeFromTheTopDown)
     addNode(tree, {-3.5, 4.5, 0.5}, {2, 2, 0}, 3, -1);
     addNode(tree, {-4, 4, 0}, {4, 4, 0}, 1, 0);
     addNode(tree, {-3, 1000, 1}, {5, 1000, 1}, -1, 0);
-    tree.radiusWorld = {2.5f, 0.0f, 1024.0f};
+    tree.spheres.radiusWorld = {2.5f, 0.0f, 1024.0f};
     EXPECT_EQ(csvOf(tree),
         "level,id,parent,x,y,z,radius,i,j,k,radius_sq\n"
         "1,0,-1,-1.75,2.25,0.25,2.5,2,2,0,3\n"
@@ -94,11 +94,11 @@ TEST(SphereTreeCsv, NumbersReadBackToTheSameDouble)
             ASSERT_EQ(row.size(), 11u);
             const openvdb::Vec3d center = tree.centerWorld(id);
             EXPECT_EQ(row[1], std::to_string(id));
-            EXPECT_EQ(row[2], std::to_string(tree.parent[id]));
+            EXPECT_EQ(row[2], std::to_string(tree.spheres.parent[id]));
             for (int axis = 0; axis < 3; ++axis) {
                 EXPECT_EQ(std::strtod(row[3 + axis].c_str(), nullptr), center[axis]);
             }
-            EXPECT_EQ(std::strtod(row[6].c_str(), nullptr), double(tree.radiusWorld[id]));
+            EXPECT_EQ(std::strtod(row[6].c_str(), nullptr), double(tree.spheres.radiusWorld[id]));
             EXPECT_EQ(row[10], std::to_string(tree.radiusSq[id]));
         }
     }
@@ -108,7 +108,7 @@ TEST(SphereTreeCsv, TheRadiusIsNeverBelowTheStoredFloat)
 {
     // The shortest text that tells 0.1f from other floats is 0.1, as a double less than it.
     SphereTree tree = oneVoxelTree();
-    tree.radiusWorld[0] = 0.1f;
+    tree.spheres.radiusWorld[0] = 0.1f;
     const std::vector<std::string> row = split(split(csvOf(tree), '\n').at(1), ',');
     EXPECT_EQ(std::strtod(row.at(6).c_str(), nullptr), double(0.1f));
 }

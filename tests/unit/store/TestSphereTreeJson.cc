@@ -91,15 +91,16 @@ json levelOf(const SphereTreeLevel& level)
 void expectNode(const json& columns, const json& row, const SphereTree& tree, int32_t id)
 {
     const int level = tree.levelOf(id);
-    const openvdb::Vec3d world = tree.transform->indexToWorld(tree.center[id]);
+    const openvdb::Vec3d world = tree.transform->indexToWorld(tree.spheres.center[id]);
     const bool levelGrid = level > 0 && tree.radiusSq[id] > 0;
-    const openvdb::Coord ijk = levelGrid ? tree.ijk[id] : openvdb::Coord::round(tree.center[id]);
-    const json expected = {{"level", level}, {"id", id}, {"parent", tree.parent[id]},
-        {"x", world[0]}, {"y", world[1]}, {"z", world[2]}, {"radius", double(tree.radiusWorld[id])},
-        {"i", ijk[0]}, {"j", ijk[1]}, {"k", ijk[2]}, {"radius_sq", tree.radiusSq[id]},
-        {"index_x", tree.center[id][0]}, {"index_y", tree.center[id][1]},
-        {"index_z", tree.center[id][2]}, {"radius_voxels", tree.radius[id]},
-        {"cover_sq", tree.coverSq[id]}};
+    const openvdb::Coord ijk =
+        levelGrid ? tree.ijk[id] : openvdb::Coord::round(tree.spheres.center[id]);
+    const json expected = {{"level", level}, {"id", id}, {"parent", tree.spheres.parent[id]},
+        {"x", world[0]}, {"y", world[1]}, {"z", world[2]},
+        {"radius", double(tree.spheres.radiusWorld[id])}, {"i", ijk[0]}, {"j", ijk[1]},
+        {"k", ijk[2]}, {"radius_sq", tree.radiusSq[id]}, {"index_x", tree.spheres.center[id][0]},
+        {"index_y", tree.spheres.center[id][1]}, {"index_z", tree.spheres.center[id][2]},
+        {"radius_voxels", tree.spheres.radius[id]}, {"cover_sq", tree.spheres.coverRadiusSq[id]}};
     json found = json::object();
     ASSERT_EQ(row.size(), columns.size());
     for (std::size_t i = 0; i < row.size(); ++i) found[columns[i].get<std::string>()] = row[i];
@@ -130,13 +131,14 @@ void expectCuts(const json& written, const SphereTree& tree)
     ASSERT_EQ(written.at("nodes").size(), std::size_t(cuts.size()));
     for (int32_t id = 0; id < cuts.size(); ++id) {
         const json& row = written.at("nodes")[std::size_t(id)];
-        const openvdb::Vec3d& center = cuts.center[id];
+        const openvdb::Vec3d& center = cuts.spheres.center[id];
         const openvdb::Vec3d world = tree.transform->indexToWorld(center);
-        const json expected = {{"id", id}, {"parent", cuts.parent[id]}, {"first", cuts.first[id]},
-            {"last", cuts.last[id]}, {"x", world[0]}, {"y", world[1]}, {"z", world[2]},
-            {"radius", double(cuts.radiusWorld[id])}, {"index_x", center[0]},
-            {"index_y", center[1]}, {"index_z", center[2]}, {"radius_voxels", cuts.radius[id]},
-            {"cover_sq", cuts.coverSq[id]}};
+        const json expected = {{"id", id}, {"parent", cuts.spheres.parent[id]},
+            {"first", cuts.first[id]}, {"last", cuts.last[id]}, {"x", world[0]}, {"y", world[1]},
+            {"z", world[2]}, {"radius", double(cuts.spheres.radiusWorld[id])},
+            {"index_x", center[0]}, {"index_y", center[1]}, {"index_z", center[2]},
+            {"radius_voxels", cuts.spheres.radius[id]},
+            {"cover_sq", cuts.spheres.coverRadiusSq[id]}};
         json found = json::object();
         ASSERT_EQ(row.size(), columns.size());
         for (std::size_t i = 0; i < row.size(); ++i) found[columns[i].get<std::string>()] = row[i];

@@ -171,31 +171,32 @@ TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
     tree.subdivision = 16;
     for (double far : {0.0, 1e6, -1e9, 2e9}) {
         for (double part : {0.5, -0.5, 0.25, 1.0 / 16, -15.0 / 16}) {
-            tree.center[0] = openvdb::Vec3d(far + part, -far - part, part);
-            EXPECT_EQ(fromPoints(*toPoints(tree)).center[0], tree.center[0]);
+            tree.spheres.center[0] = openvdb::Vec3d(far + part, -far - part, part);
+            EXPECT_EQ(fromPoints(*toPoints(tree)).spheres.center[0], tree.spheres.center[0]);
         }
     }
     tree = randomTree(2000, 6);
     tree.subdivision = 16;
-    for (openvdb::Vec3d& center : tree.center) center += openvdb::Vec3d(1e9, 0.0625, -0.4375);
-    EXPECT_EQ(fromPoints(*toPoints(tree)).center, tree.center);
+    for (openvdb::Vec3d& center : tree.spheres.center)
+        center += openvdb::Vec3d(1e9, 0.0625, -0.4375);
+    EXPECT_EQ(fromPoints(*toPoints(tree)).spheres.center, tree.spheres.center);
 }
 
 TEST(SphereTreePoints, ACentreThatAFloatCannotHoldIsAnErrorAndNotRounded)
 {
     SphereTree tree = oneVoxelTree();
     const double inf = std::numeric_limits<double>::infinity();
-    tree.center[0] = {1, 2.25, 3};
+    tree.spheres.center[0] = {1, 2.25, 3};
     EXPECT_TRUE(
         mentions(messageOf<openvdb::ValueError>([&] { toPoints(tree); }), "multiple of 1/2 voxel"));
     tree.subdivision = 16;
     EXPECT_NO_THROW(toPoints(tree));
-    tree.center[0] = {1, 2.03125, 3};
+    tree.spheres.center[0] = {1, 2.03125, 3};
     EXPECT_TRUE(mentions(
         messageOf<openvdb::ValueError>([&] { toPoints(tree); }), "multiple of 1/16 voxel"));
     tree.subdivision = 2;
     for (double x : {0.1, 1e10, std::nan(""), inf, -inf}) {
-        tree.center[0] = {0, x, 0};
+        tree.spheres.center[0] = {0, x, 0};
         const std::string why = messageOf<openvdb::ValueError>([&] { toPoints(tree); });
         EXPECT_TRUE(mentions(why, x == 0.1 ? "no multiple of 1/2 voxel" : "which no"));
         EXPECT_TRUE(mentions(why, "node 0 has the position"));
@@ -218,8 +219,9 @@ TEST(SphereTreePoints, ATreeThatIsGivenUpMakesTheSameGridAndIsReleased)
         SphereTree given = tree;
         const std::string expected = bytesOf(toPoints(tree));
         EXPECT_TRUE(bytesOf(toPoints(std::move(given))) == expected);
-        EXPECT_EQ(given.center.capacity() + given.radius.capacity() + given.coverSq.capacity()
-                + given.radiusWorld.capacity() + given.parent.capacity() + given.ijk.capacity()
+        EXPECT_EQ(given.spheres.center.capacity() + given.spheres.radius.capacity()
+                + given.spheres.coverRadiusSq.capacity() + given.spheres.radiusWorld.capacity()
+                + given.spheres.parent.capacity() + given.ijk.capacity()
                 + given.radiusSq.capacity(),
             0u);
         EXPECT_EQ(given.levels.size(), tree.levels.size());
@@ -230,7 +232,7 @@ TEST(SphereTreePoints, ATreeThatIsGivenUpMakesTheSameGridAndIsReleased)
 TEST(SphereTreePoints, ATreeThatCannotBeWrittenIsNotReleased)
 {
     SphereTree given = sampleTree();
-    given.center[0][0] += 0.01;
+    given.spheres.center[0][0] += 0.01;
     EXPECT_THROW(toPoints(std::move(given)), openvdb::ValueError);
     EXPECT_EQ(given.size(), sampleTree().size());
 }

@@ -48,7 +48,7 @@ void expectStats(const SphereTree& tree, std::size_t k, const DagLevelStats& sta
         ++edges;
         ++parents[std::size_t(edge.child)];
         ++children[std::size_t(edge.parent)];
-        links += tree.parent[std::size_t(edge.child)] == edge.parent;
+        links += tree.spheres.parent[std::size_t(edge.child)] == edge.parent;
     }
     const auto expectDegrees = [](const std::vector<int64_t>& counts, const SphereTreeLevel& level,
                                    int64_t sum, const Degrees& degrees) {

@@ -35,13 +35,13 @@ TEST(SphereCuts, ACutAsATreeIsOneLevelOfItsNodes)
         const Nodes nodes = cutNodes(tree.cuts, std::min<int64_t>(spheres, 4));
         ASSERT_EQ(cut.size(), int32_t(nodes.size()));
         for (int32_t id = 0; id < cut.size(); ++id) {
-            EXPECT_EQ(cut.center[id], tree.cuts.center[nodes[id]]);
-            EXPECT_EQ(cut.radius[id], tree.cuts.radius[nodes[id]]);
-            EXPECT_EQ(cut.coverSq[id], tree.cuts.coverSq[nodes[id]]);
-            EXPECT_EQ(cut.radiusWorld[id], tree.cuts.radiusWorld[nodes[id]]);
-            EXPECT_EQ(cut.parent[id], -1);
+            EXPECT_EQ(cut.spheres.center[id], tree.cuts.spheres.center[nodes[id]]);
+            EXPECT_EQ(cut.spheres.radius[id], tree.cuts.spheres.radius[nodes[id]]);
+            EXPECT_EQ(cut.spheres.coverRadiusSq[id], tree.cuts.spheres.coverRadiusSq[nodes[id]]);
+            EXPECT_EQ(cut.spheres.radiusWorld[id], tree.cuts.spheres.radiusWorld[nodes[id]]);
+            EXPECT_EQ(cut.spheres.parent[id], -1);
             EXPECT_EQ(cut.radiusSq[id], -1);
-            EXPECT_EQ(cut.ijk[id], openvdb::Coord::round(cut.center[id]));
+            EXPECT_EQ(cut.ijk[id], openvdb::Coord::round(cut.spheres.center[id]));
         }
         ASSERT_EQ(cut.levels.size(), 1u);
         EXPECT_EQ(cut.levels[0].level, 0);
@@ -75,5 +75,5 @@ TEST(SphereCuts, ALevelThatIsKeptLosesTheCutsButNotTheUnits)
     EXPECT_TRUE(kept.cuts.empty());
     EXPECT_FALSE(kept.settings.cuts);
     EXPECT_EQ(kept.subdivision, 16);
-    EXPECT_EQ(kept.center[1], tightSampleTree().center[2]);
+    EXPECT_EQ(kept.spheres.center[1], tightSampleTree().spheres.center[2]);
 }

@@ -147,12 +147,13 @@ void expectNode(const SphereTree& tree, int32_t id, const FineBall& ball, int fl
     const int axes[3][3] = {{2, 0, 1}, {0, 2, 1}, {0, 1, 2}}; // where x, y and z come from
     for (int a = 0; a < 3; ++a) {
         const int64_t c = ball.center[axes[flatAxis][a]];
-        ASSERT_EQ(16 * tree.center[id][a], double(c));
+        ASSERT_EQ(16 * tree.spheres.center[id][a], double(c));
         ASSERT_EQ(tree.ijk[id][a], (c + 8) >> 4) << "nearest voxel";
     }
-    ASSERT_EQ(tree.coverSq[id], ball.radiusSq);
-    ASSERT_TRUE(isRootOrMore(16 * tree.radius[id], ball.radiusSq));
-    const bool tight = !isRootOrMore(16 * std::nextafter(tree.radius[id], 0.0), ball.radiusSq);
+    ASSERT_EQ(tree.spheres.coverRadiusSq[id], ball.radiusSq);
+    ASSERT_TRUE(isRootOrMore(16 * tree.spheres.radius[id], ball.radiusSq));
+    const bool tight =
+        !isRootOrMore(16 * std::nextafter(tree.spheres.radius[id], 0.0), ball.radiusSq);
     ASSERT_TRUE(tight || ball.radiusSq == 0 || ball.radiusSq > int64_t(1) << 53);
 }
 
@@ -213,7 +214,7 @@ void expectLevels(const std::vector<TightLevel>& levels, const SphereTree& tree,
         for (const int32_t place : orderOf(level, flatAxis)) {
             ASSERT_NO_FATAL_FAILURE(expectNode(tree, id, level.balls[place], flatAxis));
             const int32_t parent = idsAbove.empty() ? -1 : idsAbove[level.parent[place]];
-            ASSERT_EQ(tree.parent[id], parent);
+            ASSERT_EQ(tree.spheres.parent[id], parent);
             ASSERT_EQ(tree.radiusSq[id], digital ? level.digital[place].radiusSq : -1);
             ids[place] = id++;
         }
@@ -246,14 +247,15 @@ TEST(TightLevels, HaveCutsThatAreTheForest)
         SphereTree tree; // of the balls, to compare with
         tree.settings.flatAxis = turn % 3;
         const SphereCuts cuts = cutsOf(forest, tree.settings);
-        ASSERT_EQ(cuts.center.size(), forest.size());
-        tree.center = cuts.center;
-        tree.radius = cuts.radius;
-        tree.coverSq = cuts.coverSq;
-        for (const auto& center : cuts.center) tree.ijk.push_back(Coord::floor(center + 0.5));
+        ASSERT_EQ(cuts.spheres.center.size(), forest.size());
+        tree.spheres.center = cuts.spheres.center;
+        tree.spheres.radius = cuts.spheres.radius;
+        tree.spheres.coverRadiusSq = cuts.spheres.coverRadiusSq;
+        for (const auto& center : cuts.spheres.center)
+            tree.ijk.push_back(Coord::floor(center + 0.5));
         for (std::size_t i = 0; i < forest.size(); ++i) {
             ASSERT_NO_FATAL_FAILURE(expectNode(tree, int32_t(i), forest[i].ball, turn % 3));
-            ASSERT_EQ(cuts.parent[i], forest[i].parent);
+            ASSERT_EQ(cuts.spheres.parent[i], forest[i].parent);
             ASSERT_EQ(cuts.first[i], forest[i].first);
             ASSERT_EQ(cuts.last[i], forest[i].last);
         }

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TreeShape.h"
+
+#include "CutsLayout.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+namespace {
+
+/// Coordinates of voxels are of 32 bits.
+constexpr double kMaxCoordinate = 2147483648.0;
+/// A sum of two such squares, as distances have them, is of 63 bits.
+constexpr int64_t kMaxRadiusSq = int64_t(1) << 62;
+
+template <typename... Parts>
+std::string sentence(const Parts&... parts)
+{
+    std::ostringstream text;
+    (text << ... << parts);
+    return text.str();
+}
+
+/// A rule that one thing breaks.
+template <typename... Parts>
+Damage single(const Parts&... parts)
+{
+    const std::string text = sentence(parts...);
+    return {text, text};
+}
+
+/// What breaks one rule about nodes: the count of them, and a sentence about the first.
+class Breach {
+public:
+    template <typename... Parts>
+    void add(int32_t id, const Parts&... parts)
+    {
+        if (!mNodes) mFirst = sentence("node ", id, parts...);
+        mNodes.add(id);
+    }
+
+    template <typename... Parts>
+    void report(std::vector<Damage>& damage, const Parts&... rule) const
+    {
+        if (mNodes) damage.push_back({sentence(rule..., " for ", mNodes), mFirst});
+    }
+
+private:
+    Offenders mNodes;
+    std::string mFirst;
+};
+
+/// What breaks one rule about edges.
+class EdgeBreach {
+public:
+    void add(const DagEdge& edge)
+    {
+        if (mCount++ == 0) mFirst = edge;
+    }
+
+    void report(std::vector<Damage>& damage, const char* all, const char* first) const
+    {
+        if (mCount == 0) return;
+        damage.push_back({sentence(mCount, " edges of the DAG ", all, " (first: ", mFirst.parent,
+                              " to ", mFirst.child, ')'),
+            sentence("the edge of the DAG from node ", mFirst.parent, " to node ", mFirst.child,
+                ' ', first)});
+    }
+
+private:
+    int64_t mCount = 0;
+    DagEdge mFirst;
+};
+
+bool inRange(const openvdb::Vec3d& center)
+{
+    const auto is = [](double x) { return std::abs(x) <= kMaxCoordinate; }; // false of a NaN
+    return is(center[0]) && is(center[1]) && is(center[2]);
+}
+
+bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
+{
+    const auto is = [&](double x) { return subdivision * x == std::floor(subdivision * x); };
+    return is(center[0]) && is(center[1]) && is(center[2]);
+}
+
+/// The place of every node's level among the levels.
+std::vector<int32_t> levelPlaces(const SphereTree& tree)
+{
+    std::vector<int32_t> places(std::size_t(tree.size()));
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        std::fill(
+            places.begin() + tree.levels[k].begin, places.begin() + tree.levels[k].end, int32_t(k));
+    }
+    return places;
+}
+
+void append(std::vector<Damage>& all, std::vector<Damage>&& more)
+{
+    all.insert(
+        all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+} // namespace
+
+std::vector<Damage> arrayDamage(const SphereTree& tree)
+{
+    std::vector<Damage> damage;
+    const std::size_t count = tree.spheres.center.size();
+    if (count == 0) damage.push_back(single("the tree has no nodes"));
+    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.spheres.radius.size()},
+        {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
+        {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
+        {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
+    for (const auto& [name, size] : arrays) {
+        if (size == count) continue;
+        damage.push_back(
+            single("the tree has ", count, " centres, but ", size, " entries in ", name));
+    }
+    return damage;
+}
+
+std::vector<Damage> unitDamage(int subdivision)
+{
+    if (subdivision == 2 || subdivision == 16) return {};
+    return {single("centres are in units of 1/", subdivision, " of a voxel, not 1/2 or 1/16")};
+}
+
+std::vector<Damage> transformDamage(const SphereTree& tree)
+{
+    if (!tree.transform) return {single("the tree has no transform")};
+    if (!tree.transform->isLinear()) return {single("the tree's transform is not linear")};
+    return {};
+}
+
+std::vector<Damage> levelDamage(const SphereTree& tree)
+{
+    std::vector<Damage> damage;
+    if (tree.levels.empty()) damage.push_back(single("the tree has no levels"));
+    int32_t next = 0;
+    for (std::size_t k = tree.levels.size(); k-- > 0;) {
+        const SphereTreeLevel& level = tree.levels[k];
+        if (level.level < 0 || (tree.levels.size() > 1 && level.level != int(k))) {
+            damage.push_back(single("level ", level.level, " stands where level ", k, " belongs"));
+        }
+        if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
+            damage.push_back(single("level ", level.level, " is nodes ", level.begin, " to ",
+                level.end, " (exclusive), where nodes from ", next, " on are expected"));
+        }
+        next = level.end;
+    }
+    if (next != tree.size()) {
+        damage.push_back(
+            single("the levels have ", next, " nodes, but the tree has ", tree.size()));
+    }
+    return damage;
+}
+
+std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision)
+{
+    Breach centers, radii, stored;
+    for (int32_t id = 0; id < spheres.size(); ++id) {
+        const openvdb::Vec3d& center = spheres.center[id];
+        const double radius = spheres.radius[id], world = spheres.radiusWorld[id];
+        const int64_t radiusSq = spheres.coverRadiusSq[id];
+        if (!inRange(center)) {
+            centers.add(id, " has the position ", center, ", which no sphere has");
+        } else if (!isOfUnits(center, subdivision)) {
+            centers.add(id, " has the position ", center, ", which is no multiple of 1/",
+                subdivision, " voxel");
+        }
+        if (!(radius >= 0 && radius <= kMaxCoordinate)) {
+            radii.add(id, " has the radius ", radius, ", which no sphere has");
+        } else if (radiusSq < 0 || radiusSq > kMaxRadiusSq) {
+            radii.add(id, " has the cover_sq ", radiusSq, ", which no sphere has");
+        }
+        if (!(std::isfinite(world) && world >= 0)) {
+            stored.add(id, " has the pscale ", world, ", which no sphere has");
+        }
+    }
+    std::vector<Damage> damage;
+    centers.report(
+        damage, "the centre is not a multiple of 1/", subdivision, " of a voxel in range");
+    radii.report(damage, "the radius is negative or not a number");
+    stored.report(damage, "the stored radius is negative or not a number");
+    return damage;
+}
+
+std::vector<Damage> digitalBallDamage(const SphereTree& tree)
+{
+    Breach balls;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t radiusSq = tree.radiusSq[id];
+        if (radiusSq > 0 || radiusSq == -1) continue;
+        balls.add(id, " has the radius_sq ", radiusSq, ", which no sphere has");
+    }
+    std::vector<Damage> damage;
+    balls.report(damage, "radius_sq is less than 1");
+    return damage;
+}
+
+std::vector<Damage> parentDamage(const SphereTree& tree)
+{
+    std::vector<Damage> damage;
+    for (std::size_t k = tree.levels.size(); k-- > 0;) {
+        const SphereTreeLevel& level = tree.levels[k];
+        const bool top = k + 1 == tree.levels.size();
+        Breach wrong;
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const int32_t parent = tree.spheres.parent[id];
+            if (top ? parent == -1
+                    : parent >= tree.levels[k + 1].begin && parent < tree.levels[k + 1].end) {
+                continue;
+            }
+            const std::string node =
+                sentence(" on level ", level.level, " has the parent ", parent);
+            if (top) {
+                wrong.add(id, node, ", but the top level has no parents (-1)");
+            } else if (parent < 0 || parent >= tree.size()) {
+                wrong.add(id, node, ", but its parent must be a node of the next level up");
+            } else {
+                wrong.add(id, node, " on level ", tree.levelOf(parent),
+                    ", but a parent must be on the next level up");
+            }
+        }
+        wrong.report(damage, "level ", level.level, ": ",
+            top ? "the parent is not -1, though this is the top level,"
+                : "the parent is not on the next level up");
+    }
+    return damage;
+}
+
+std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges)
+{
+    EdgeBreach unsorted;
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        if (!(edges[i - 1] < edges[i])) unsorted.add(edges[i]);
+    }
+    std::vector<Damage> damage;
+    unsorted.report(damage, "are out of order or repeated", "is out of order or there twice");
+    return damage;
+}
+
+std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
+{
+    if (edges.empty()) return {};
+    const std::vector<int32_t> places = levelPlaces(tree);
+    const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
+    EdgeBreach wrong;
+    for (const DagEdge& edge : edges) {
+        const bool right = exists(edge.parent) && exists(edge.child)
+            && places[edge.parent] == places[edge.child] + 1;
+        if (!right) wrong.add(edge);
+    }
+    std::vector<Damage> damage;
+    wrong.report(damage, "do not lead to the next level down",
+        "does not lead to a node of the next level down");
+    return damage;
+}
+
+std::vector<Damage> treeDamage(const SphereTree& tree)
+{
+    std::vector<Damage> damage = arrayDamage(tree);
+    append(damage, unitDamage(tree.subdivision));
+    append(damage, transformDamage(tree));
+    append(damage, levelDamage(tree));
+    if (!damage.empty()) return damage;
+    append(damage, sphereDamage(tree.spheres, tree.subdivision));
+    append(damage, digitalBallDamage(tree));
+    append(damage, parentDamage(tree));
+    append(damage, edgeLevelDamage(tree.dag, tree));
+    append(damage, edgeOrderDamage(tree.dag));
+    return damage;
+}
+
+void throwFirst(const std::vector<Damage>& damage)
+{
+    if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage.front().first);
+}
+
+void requireCuts(const SphereCuts& cuts, int subdivision)
+{
+    const std::string damage = cutsDamage(cuts);
+    if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage);
+    throwFirst(sphereDamage(cuts.spheres, subdivision));
+}
+
+void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree)
+{
+    throwFirst(edgeLevelDamage(edges, tree));
+    throwFirst(edgeOrderDamage(edges));
+}
+
+} // namespace detail
+
+void SphereTree::validate() const
+{
+    detail::throwFirst(detail::treeDamage(*this));
+    detail::requireCuts(cuts, subdivision);
+    settings.validate();
+}
+
+} // namespace openvdb_spheretree

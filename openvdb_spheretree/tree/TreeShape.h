@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeShape.h
+/// @brief What arrays, levels, numbers, parents and edges of a tree must be: one rule a function.
+///
+/// A rule finds all that break it. Errors name the first of them with its values; reports count
+/// them. SphereTree::validate(), the readers and writers of files, the check of a tree and the rows
+/// of its DAG use these and no others. The rules of the cuts are those of CutsLayout.h.
+
+#pragma once
+
+#include "SphereTree.h"
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+namespace detail {
+
+/// Nodes that break a rule: how many, and the first.
+class Offenders {
+public:
+    void add(int32_t id)
+    {
+        if (mCount++ == 0) mFirst = id;
+    }
+    explicit operator bool() const { return mCount > 0; }
+    friend std::ostream& operator<<(std::ostream& out, const Offenders& o)
+    {
+        return out << o.mCount << (o.mCount == 1 ? " node" : " nodes") << " (first: id " << o.mFirst
+                   << ')';
+    }
+
+private:
+    int64_t mCount = 0;
+    int32_t mFirst = -1;
+};
+
+/// A rule that is broken.
+struct Damage {
+    std::string all;   ///< by how many, as a sentence of a report
+    std::string first; ///< by whom first and with what value, as the message of an error
+};
+
+/// @name The rules of all trees
+/// Those after levelDamage() may be asked only where it and the ones before find nothing.
+/// @{
+
+/// There are nodes, and all arrays have an entry for each.
+std::vector<Damage> arrayDamage(const SphereTree& tree);
+/// Centres are in units of 1/2 or 1/16 voxel.
+std::vector<Damage> unitDamage(int subdivision);
+/// There is a transform, and it is linear.
+std::vector<Damage> transformDamage(const SphereTree& tree);
+/// Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the top level first.
+std::vector<Damage> levelDamage(const SphereTree& tree);
+/// Centres are whole numbers of units and of 32 bits in voxels, and radii are finite and at least 0.
+std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision);
+/// Digital balls have a radius; -1 marks spheres that are none.
+std::vector<Damage> digitalBallDamage(const SphereTree& tree);
+/// A parent is on the next level up, which leaves no room for a cycle; the top level has none.
+std::vector<Damage> parentDamage(const SphereTree& tree);
+/// Edges are sorted, and there once.
+std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges);
+/// Edges are between nodes of the tree and lead to the next level down.
+std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
+/// @}
+
+/// @return what is wrong by all rules above, those of cuts not asked; where the ranges of levels are
+///         wrong, nothing else is looked at.
+std::vector<Damage> treeDamage(const SphereTree& tree);
+
+/// @throw openvdb::ValueError with the first, if there is any
+void throwFirst(const std::vector<Damage>& damage);
+
+/// @throw openvdb::ValueError naming the first thing that is wrong with cuts in these units
+void requireCuts(const SphereCuts& cuts, int subdivision);
+
+/// @throw openvdb::ValueError naming the first edge that breaks a rule
+void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree);
+
+} // namespace detail
+} // namespace openvdb_spheretree
