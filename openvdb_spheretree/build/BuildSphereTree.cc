@@ -55,9 +55,9 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
     }
     // Twice the centres, and radii beyond the object's own size: four times its extent is enough.
     const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
-    if (settings.dist.lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
+    if (settings.dist().lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
         OPENVDB_THROW(openvdb::ValueError,
-            "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist)
+            "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist())
                            << ": use smaller weights, or larger voxels");
     }
 }
@@ -68,10 +68,11 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     requireUniformVoxels(object);
     SphereTree tree;
     tree.settings = settings;
-    tree.settings.hadCustomModel = bool(settings.customModel);
     tree.object = describe(object);
     requireValidObject(tree.object, settings);
-    tree.settings.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
+    tree.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
+    if (const auto* options = settings.find<PyramidOptions>()) tree.hasDag = options->dag;
+    if (const auto* options = settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;
     tree.origin = pyramidOrigin(tree.object.bbox);
     tree.transform = object.transform().copy();
     return tree;
@@ -89,7 +90,7 @@ void placeBalls(
         [&] { detail::resizeLarge(tree.radiusSq, count); },
         [&] { detail::resizeLarge(tree.spheres.parent, count); });
     tree.levels.resize(levels.size());
-    const FlatAxis flat(tree.settings.flatAxis);
+    const FlatAxis flat(tree.flatAxis);
     int32_t begin = 0, firstAbove = 0;
     for (int level = int(levels.size()) - 1; level >= 0; --level) {
         LevelNodes& nodes = levels[level];
@@ -125,10 +126,10 @@ void measureBalls(
     tbb::parallel_invoke([&] { detail::resizeLarge(tree.spheres.center, count); },
         [&] { detail::resizeLarge(tree.spheres.radius, count); },
         [&] { detail::resizeLarge(tree.spheres.coverRadiusSq, count); });
-    const int unit = tree.settings.dist.unit();
+    const int unit = tree.settings.dist().unit();
     for (const SphereTreeLevel& range : tree.levels) {
         const LevelNodes nodes = std::move(levels[range.level]);
-        const LevelFrame frame(range.level, tree.origin, tree.settings);
+        const LevelFrame frame(range.level, tree.origin, tree.settings, tree.flatAxis);
         detail::parallelFor(std::size_t(range.size()), interrupter, [&](std::size_t i) {
             const std::size_t id = std::size_t(range.begin) + i;
             tree.spheres.center[id] = frame.center(tree.ijk[id]).halved();
@@ -144,60 +145,65 @@ void measureBalls(
     }
 }
 
-/// Whether every node contains the leaf balls below it.
-bool containsLeaves(const SphereTreeSettings& settings)
+/// The trees of the paper, along a pyramid from the object's voxels on.
+void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSeconds& seconds,
+    openvdb::util::NullInterrupter* interrupter)
 {
-    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+    const PyramidOptions& options = tree.settings.pyramid();
+    const FlatAxis flat(tree.flatAxis);
+    const detail::BuildContext context{tree.settings, options, flat.toZ(tree.origin),
+        flat.toZ(tree.object.bbox), interrupter, &seconds, detail::modelOf(options, interrupter)};
+    const bool extended = tree.settings.type() == TreeType::Extended;
+    std::vector<LevelNodes> levels = extended
+        ? detail::extendedLevels(std::move(voxels), context)
+        : detail::reversibleLevels(std::move(voxels), context);
+    detail::timed("nodes of the tree", interrupter, &seconds.tree, [&] {
+        placeBalls(tree, levels, interrupter);
+        measureBalls(tree, std::move(levels), interrupter);
+    });
+    const bool miniballs = options.center == Center::Miniball;
+    if (miniballs) {
+        detail::timed("miniballs", interrupter, &seconds.tree,
+            [&] { detail::centerOnMiniballs(tree, interrupter); });
+    }
+    if (options.dag && options.edges == DagEdges::Intersecting) {
+        tree.dag = intersectionDag(tree, interrupter);
+    }
+    detail::timed("stored radii", interrupter, &seconds.tree, [&] {
+        detail::storeRadii(tree, interrupter);
+        if (extended || miniballs) detail::containStoredLeaves(tree, tree.radius, interrupter);
+    });
+}
+
+/// Spheres merged from medial balls.
+void appendMergedTree(SphereTree& tree, const openvdb::BoolGrid& object, StageSeconds& seconds,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    tight::appendTightTree(tree, object, interrupter, &seconds);
+    detail::storeRadii(tree, interrupter);
+    if (tree.settings.tight().cover == Cover::Balls) {
+        detail::containStoredLeaves(tree, detail::radiiAroundCut(tree), interrupter);
+    }
 }
 
 } // namespace
 
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
-    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
+    StageSeconds* seconds, openvdb::util::NullInterrupter* interrupter)
 {
     settings.validate();
     SphereTree tree = withoutNodes(object, settings);
     StageSeconds ownSeconds;
     if (!seconds) seconds = &ownSeconds;
-    const bool inner = settings.side == Side::Inner;
-    if (settings.tree == TreeType::Tight && !inner) {
-        tight::appendTightTree(tree, object, interrupter, seconds);
-        detail::storeRadii(tree, interrupter);
-        if (settings.cover == Cover::Balls) {
-            detail::containStoredLeaves(tree, detail::radiiAroundCut(tree), interrupter);
-        }
+    if (settings.find<TightOptions>()) {
+        appendMergedTree(tree, object, *seconds, interrupter);
         return tree;
     }
-    const FlatAxis flat(tree.settings.flatAxis);
-    SphereTreeSettings turned = settings;
-    turned.flatAxis = 2;
-    const detail::BuildContext context{turned, flat.toZ(tree.origin), flat.toZ(tree.object.bbox),
-        interrupter, seconds, detail::modelOf(settings, interrupter)};
-    auto voxels = flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
-    if (inner) {
-        detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
-        return tree;
-    }
-    std::vector<LevelNodes> levels = settings.tree == TreeType::Reversible
-        ? detail::reversibleLevels(std::move(voxels), context)
-        : detail::extendedLevels(std::move(voxels), context);
-    detail::timed("nodes of the tree", interrupter, &context.seconds->tree, [&] {
-        placeBalls(tree, levels, interrupter);
-        measureBalls(tree, std::move(levels), interrupter);
-    });
-    if (settings.center == Center::Miniball) {
-        detail::timed("miniballs", interrupter, &context.seconds->tree,
-            [&] { detail::centerOnMiniballs(tree, interrupter); });
-    }
-    if (settings.dag && settings.edges == DagEdges::Intersecting) {
-        tree.dag = intersectionDag(tree, interrupter);
-    }
-    detail::timed("stored radii", interrupter, &context.seconds->tree, [&] {
-        detail::storeRadii(tree, interrupter);
-        if (containsLeaves(settings))
-            detail::containStoredLeaves(tree, tree.spheres.radius, interrupter);
-    });
+    auto voxels = FlatAxis(tree.flatAxis)
+                      .toZ(std::make_shared<openvdb::MaskTree>(
+                          object.tree(), false, openvdb::TopologyCopy()));
+    if (settings.isInner()) detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
+    else appendPyramidTree(tree, std::move(voxels), *seconds, interrupter);
     return tree;
 }
 

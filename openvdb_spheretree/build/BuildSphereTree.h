@@ -15,8 +15,8 @@ namespace openvdb_spheretree {
 /// @brief Build the sphere-tree of the active voxels of @a object.
 /// @param object       its topology is the object; its transform must have uniform voxels
 /// @param settings     what to build
-/// @param interrupter  may be null; asked from many threads
 /// @param seconds      may be null; receives the time each stage took
+/// @param interrupter  may be null; asked from many threads
 /// @throw openvdb::ValueError if the object is empty or too wide, its voxels are not uniform, a
 ///        setting is out of range, a radius does not fit (32767 voxels), or there is too little
 ///        memory (MemoryPlan.h)
@@ -26,6 +26,6 @@ namespace openvdb_spheretree {
 ///       before), whatever the bounding box. The result is the same to the last bit for any number
 ///       of threads. Thread-safe for concurrent calls, also on the same object.
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
-    openvdb::util::NullInterrupter* interrupter = nullptr, StageSeconds* seconds = nullptr);
+    StageSeconds* seconds = nullptr, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

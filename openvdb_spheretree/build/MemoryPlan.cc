@@ -35,13 +35,14 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
     plan.slabs = layout.slabCount();
-    if (!settings.dist.isEuclidean()) {
+    if (!settings.dist().isEuclidean()) {
         planNorm(layout, plan);
         return plan;
     }
     slab::LabelStream stream(layout, settings.dim);
     detail::LabelSteps steps;
-    if (settings.tree != TreeType::Tight && detail::needsDag(settings)) stream.keepSteps(steps);
+    const auto* options = settings.find<PyramidOptions>();
+    if (options && detail::needsDag(*options)) stream.keepSteps(steps);
     stream.setMemory(settings.memory);
     const slab::StreamPlan found = stream.plan(interrupter);
     plan.needed = found.bytes;

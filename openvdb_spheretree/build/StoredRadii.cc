@@ -126,7 +126,7 @@ void containStoredLeaves(
 
 std::vector<double> radiiAroundCut(const SphereTree& tree)
 {
-    const Distance& distance = tree.settings.dist;
+    const Distance& distance = tree.settings.dist();
     std::vector<double> radii = tree.spheres.radius;
     const SphereTreeLevel& cut = tree.levels.front();
     for (int32_t id = cut.begin; id < cut.end; ++id) {

@@ -33,7 +33,7 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
     for (int32_t id = level.begin; id < level.end; ++id) {
         const openvdb::Coord& c = tree.ijk[id];
         balls.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * tree.settings.dist.closedSq(tree.radiusSq[id])});
+            4 * tree.settings.dist().closedSq(tree.radiusSq[id])});
     }
     return balls;
 }
@@ -43,7 +43,7 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
 bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxels)
 {
     const int dim = check.tree.settings.dim;
-    const Distance& distance = check.tree.settings.dist;
+    const Distance& distance = check.tree.settings.dist();
     // A ball of any norm holds the l1 ball of its radius.
     const double unitBall =
         distance.isEuclidean() ? (dim == 3 ? 4 * M_PI / 3 : M_PI) : (dim == 3 ? 4.0 / 3 : 2);
@@ -67,8 +67,8 @@ bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxel
 /// What a file records is not trusted with memory.
 double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 {
-    const bool ownGrid = check.tree.settings.tree != TreeType::Tight;
-    const double scale = ownGrid ? std::pow(double(check.tree.settings.factor), level.level) : 1;
+    const auto* pyramid = check.tree.settings.find<PyramidOptions>();
+    const double scale = pyramid ? std::pow(double(pyramid->factor), level.level) : 1;
     const openvdb::Coord size = check.box.extents();
     double voxels = 1;
     for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
@@ -79,13 +79,13 @@ double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
 {
     const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
-    const Distance& distance = check.tree.settings.dist;
+    const Distance& distance = check.tree.settings.dist();
     CoordBBox box = boundingBox(balls, distance);
     if (check.tree.settings.dim == 2 && !box.empty()) {
-        const int flat = check.tree.settings.flatAxis;
+        const int flat = check.tree.flatAxis;
         box.min()[flat] = box.max()[flat] = check.tree.ijk[level.begin][flat];
     }
-    return sphereUnion(balls, box, check.interrupter, distance);
+    return sphereUnion(balls, box, distance, check.interrupter);
 }
 
 void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
@@ -96,7 +96,7 @@ void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
         check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
             " that the object has not");
     }
-    if (lost.voxels > 0 && check.tree.settings.side != Side::Inner) {
+    if (lost.voxels > 0 && !check.tree.settings.isInner()) {
         check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
     }
 }
@@ -136,7 +136,7 @@ void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
 /// balls without children.
 void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
 {
-    const bool all = level.level == 0 || check.tree.settings.tree != TreeType::Extended;
+    const bool all = level.level == 0 || check.tree.settings.type() != TreeType::Extended;
     if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
     check.fail("level ", level.level, " records ", level.pyramidVoxels,
         " pyramid voxels, but its digital balls rebuild ", rebuilt);
@@ -160,7 +160,7 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
     for (int32_t id = level.begin; id < level.end; ++id) {
         const double radius =
             double(tree.spheres.radiusWorld[id]) / tree.voxelSize() - tree.settings.paddingVoxels();
-        const double reach = tree.subdivision * radius * tree.settings.dist.unit() * (1 + 1e-12);
+        const double reach = tree.subdivision * radius * tree.settings.dist().unit() * (1 + 1e-12);
         spheres[id - level.begin].radiusSq =
             radius < 0 ? -1 : int64_t(std::min(reach * reach, 9e18));
     }

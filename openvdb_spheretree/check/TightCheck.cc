@@ -143,7 +143,7 @@ void checkWithin(TreeCheck& check, const std::vector<ExactSphere>& spheres, int3
         check.fail(name, ": the sphere reaches out of the object's box for ", outside);
         return;
     }
-    const auto drawn = sphereUnion(spheres, check.box, check.interrupter, metric);
+    const auto drawn = sphereUnion(spheres, check.box, metric, check.interrupter);
     const MaskDifference extra = maskDifference(*drawn, check.mask, check.interrupter);
     if (extra.voxels == 0) return;
     check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cells.front().first()}),

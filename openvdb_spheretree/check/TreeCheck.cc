@@ -40,8 +40,8 @@ using detail::Offenders;
 using Check = detail::TreeCheck;
 
 bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
-bool isTight(const SphereTree& tree) { return tree.settings.tree == TreeType::Tight; }
-bool isInner(const SphereTree& tree) { return tree.settings.side == Side::Inner; }
+bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }
+bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
 
 void reportAll(Check& check, const char* where, const std::vector<detail::Damage>& damage)
 {
@@ -61,8 +61,7 @@ void checkShape(Check& check)
 void checkCutsLayout(Check& check)
 {
     const SphereTree& tree = check.tree;
-    if (tree.settings.cuts && tree.cuts.empty())
-        check.fail("the tree lacks the cuts it was made with");
+    if (tree.hasCuts && tree.cuts.empty()) check.fail("the tree lacks the cuts it was made with");
     const std::string damage = detail::cutsDamage(tree.cuts);
     if (!damage.empty()) check.fail("in the cuts, ", damage);
 }
@@ -78,7 +77,7 @@ bool isSquare(int32_t value)
 void checkNodes(Check& check)
 {
     const SphereTree& tree = check.tree;
-    const bool norm = !tree.settings.dist.isEuclidean();
+    const bool norm = !tree.settings.dist().isEuclidean();
     Offenders balls, roots;
     for (int32_t id = 0; id < tree.size(); ++id) {
         if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
@@ -196,7 +195,7 @@ void checkRadii(Check& check, const Spheres& nodes, const char* where)
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
-    const double unit = double(tree.subdivision) * tree.settings.dist.unit();
+    const double unit = double(tree.subdivision) * tree.settings.dist().unit();
     Offenders apart, small, large;
     for (int32_t id = 0; id < nodes.size(); ++id) {
         const double exact = std::sqrt(double(nodes.coverRadiusSq[id])) / unit;
@@ -241,12 +240,13 @@ void checkDag(Check& check)
 void checkDagEdges(Check& check)
 {
     const SphereTree& tree = check.tree;
-    const bool shared = tree.settings.edges == DagEdges::Shared;
-    if (shared && tree.settings.hadCustomModel && !tree.settings.customModel) return;
+    const PyramidOptions& options = tree.settings.pyramid();
+    const bool shared = options.edges == DagEdges::Shared;
+    if (shared && isUnknown(options.customModel)) return;
     SphereTreeSettings settings = tree.settings;
     settings.topology = false;
     const std::vector<DagEdge> expected = shared
-        ? buildSphereTree(check.object, settings, check.interrupter).dag
+        ? buildSphereTree(check.object, settings, nullptr, check.interrupter).dag
         : intersectionDag(tree, check.interrupter);
     std::vector<DagEdge> lost, wrong;
     std::set_difference(expected.begin(), expected.end(), tree.dag.begin(), tree.dag.end(),
@@ -302,8 +302,9 @@ void checkLeavesContained(Check& check)
 bool containsLeaves(const SphereTree& tree)
 {
     const SphereTreeSettings& settings = tree.settings;
-    if (isTight(tree)) return settings.cover == Cover::Balls && !isInner(tree);
-    return settings.tree == TreeType::Extended || settings.center == Center::Miniball;
+    if (const auto* tight = settings.find<TightOptions>()) return tight->cover == Cover::Balls;
+    const auto* pyramid = settings.find<PyramidOptions>();
+    return pyramid && (settings.find<ExtendedOptions>() || pyramid->center == Center::Miniball);
 }
 
 /// The checks of links, those that follow parents only if parents are in order.
@@ -315,9 +316,9 @@ bool checkLinks(Check& check)
     const bool parentsRight = check.failures.size() == before;
     checkDag(check);
     const SphereTree& tree = check.tree;
-    if (check.failures.empty() && tree.settings.dag && hasLinks(tree)) checkDagEdges(check);
+    if (check.failures.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
-    if (tree.settings.tree != TreeType::Reversible) checkChildren(check);
+    if (tree.settings.type() != TreeType::Reversible) checkChildren(check);
     if (containsLeaves(tree)) checkLeavesContained(check);
     return true;
 }

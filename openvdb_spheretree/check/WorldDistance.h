@@ -17,7 +17,7 @@ namespace detail {
 class WorldDistance {
 public:
     /// @param tree  kept by reference
-    explicit WorldDistance(const SphereTree& tree) : mTree(tree), mDistance(tree.settings.dist)
+    explicit WorldDistance(const SphereTree& tree) : mTree(tree), mDistance(tree.settings.dist())
     {
         if (!mDistance.isEuclidean()) mScale = largestStretch(*tree.transform) / mDistance.unit();
     }

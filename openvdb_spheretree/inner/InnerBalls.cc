@@ -15,7 +15,7 @@ std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
     const MedialLevel level(*voxels, dim, Distance(), interrupter);
     return detail::ballsInOrder(
-        level.balls, detail::innerOrder(level.layout, level.balls, dim, interrupter, most), flat);
+        level.balls, detail::innerOrder(level.layout, level.balls, dim, most, interrupter), flat);
 }
 
 } // namespace openvdb_spheretree

@@ -125,10 +125,10 @@ void appendCuts(SphereTree& tree, const std::vector<MedialBall>& balls)
 }
 
 /// The largest number of balls that anybody asks for.
-int64_t mostWanted(const SphereTreeSettings& settings)
+int64_t mostWanted(const BudgetOptions& options)
 {
-    const std::vector<int64_t>& spheres = settings.budget.spheres;
-    if (settings.cuts || spheres.empty()) return INT64_MAX;
+    const std::vector<int64_t>& spheres = options.budget.spheres;
+    if (options.cuts || spheres.empty()) return INT64_MAX;
     return *std::max_element(spheres.begin(), spheres.end());
 }
 
@@ -137,18 +137,18 @@ int64_t mostWanted(const SphereTreeSettings& settings)
 void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
     openvdb::util::NullInterrupter* interrupter)
 {
+    const BudgetOptions& options = tree.settings.budgeted();
     LevelWants wants;
     wants.memory = tree.settings.memory;
     const MedialLevel medial(
-        voxels, tree.settings.dim, tree.settings.dist, interrupter, &seconds, wants);
+        voxels, tree.settings.dim, tree.settings.dist(), interrupter, &seconds, wants);
     const InnerOrder order = timed("inner balls", interrupter, &seconds.tree, [&] {
         return innerOrder(
-            medial.layout, medial.balls, tree.settings.dim, interrupter, mostWanted(tree.settings));
+            medial.layout, medial.balls, tree.settings.dim, mostWanted(options), interrupter);
     });
     const std::vector<MedialBall> balls =
-        ballsInOrder(medial.balls, order, FlatAxis(tree.settings.flatAxis));
-    const std::vector<int64_t> counts = tree.settings.budget.counts(int64_t(balls.size()));
-    tree.settings.padding = 0;
+        ballsInOrder(medial.balls, order, FlatAxis(tree.flatAxis));
+    const std::vector<int64_t> counts = options.budget.counts(int64_t(balls.size()));
     tree.levels.resize(counts.size());
     timed("inner levels", interrupter, &seconds.tree, [&] {
         LevelAppender levels(tree, balls, interrupter);
@@ -162,7 +162,7 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
         tree.levels[0].topology = timed("topology", interrupter, &seconds.topology,
             [&] { return levelTopology(medial.layout, interrupter); });
     }
-    if (tree.settings.cuts) appendCuts(tree, balls);
+    if (options.cuts) appendCuts(tree, balls);
 }
 
 } // namespace detail

@@ -5,8 +5,7 @@
 ///
 /// A ball of a coarser level is in all finer ones, where it hangs below itself; any other hangs
 /// below the ball of the next coarser level nearest by power distance, of equals the first by
-/// centre. Radii are stored rounded down, and nothing is added to them. In the tree's settings the
-/// padding is 0, whatever was asked for.
+/// centre. Radii are stored rounded down, and nothing is added to them.
 
 #pragma once
 
@@ -20,7 +19,7 @@ namespace openvdb_spheretree {
 namespace detail {
 
 /// @param tree    with settings, object, origin and transform, and no nodes; with
-///                settings.flatAxis, if dim is 2
+///                flatAxis, if dim is 2
 /// @param voxels  of the object, flat along z if dim is 2
 /// @param seconds  receives the time that the stages take
 /// @throw openvdb::ValueError as MedialLevel, or if a radius does not fit a float

@@ -138,7 +138,7 @@ private:
 } // namespace
 
 InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& balls, int dim,
-    openvdb::util::NullInterrupter* interrupter, int64_t most)
+    int64_t most, openvdb::util::NullInterrupter* interrupter)
 {
     return GreedyOrder(layout, balls, dim, interrupter).run(most);
 }

@@ -50,7 +50,7 @@ struct InnerOrder {
 ///       reaches into. Of dragon-512 (7.4 million voxels, 138,157 balls) 878,000 counts take 4.5 s
 ///       of processor time, of hairball-256 (898,764 balls) 4.4 s.
 InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& balls, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, int64_t most = INT64_MAX);
+    int64_t most = INT64_MAX, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return the balls of the order, in the index space of an object that was turned to be flat along z.
 std::vector<MedialBall> ballsInOrder(

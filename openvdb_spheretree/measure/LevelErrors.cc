@@ -69,7 +69,7 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
         level.errorUnknown = tooManyRows();
         return;
     }
-    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, interrupter, metric);
+    const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, metric, interrupter);
     const detail::MaskMinus excess(*covered, object.mask);
     const detail::VoxelCount count = detail::countVoxels(excess, interrupter);
     const int64_t distSq =
@@ -92,7 +92,7 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
 void computeLevelErrors(
     SphereTree& tree, const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
-    const ObjectIndex index(object.tree(), tree.settings.dist);
+    const ObjectIndex index(object.tree(), tree.settings.dist());
     std::vector<SphereTreeLevel> levels = tree.levels; // the tree changes at the end, or not at all
     for (SphereTreeLevel& level : levels) {
         detail::checkInterrupt(interrupter);

@@ -16,9 +16,8 @@ namespace {
 bool mayBeMedial(const SphereTree& tree, const SphereTreeLevel& level)
 {
     const SphereTreeSettings& settings = tree.settings;
-    return level.level == 0 && settings.dim == 3 && settings.dist.isEuclidean()
-        && settings.tree != TreeType::Tight && settings.side == Side::Outer
-        && tree.subdivision == 2;
+    return level.level == 0 && settings.dim == 3 && settings.dist().isEuclidean()
+        && settings.type() != TreeType::Tight && !settings.isInner() && tree.subdivision == 2;
 }
 
 /// @return the rows of voxels that are drawn, each ball by itself.
@@ -47,7 +46,7 @@ bool areMedialBalls(const SphereTree& tree, const SphereTreeLevel& level,
     if (kRowVoxels * drawnRows(tree, level) < double(voxels)) return false;
     LevelWants wants;
     wants.memory = tree.settings.memory;
-    const MedialLevel medial(object, 3, tree.settings.dist, interrupter, nullptr, wants);
+    const MedialLevel medial(object, 3, tree.settings.dist(), interrupter, nullptr, wants);
     if (medial.balls.size() != std::size_t(level.size())) return false;
     const LevelFrame frame(0, tree.origin, tree.settings);
     std::atomic<bool> same{true};

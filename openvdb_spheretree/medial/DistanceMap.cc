@@ -97,7 +97,7 @@ void requireSquareFits(uint32_t largest, const Distance& distance)
 } // namespace
 
 DistanceMap distanceTransform(
-    const LeafLayout& layout, int dim, NullInterrupter* interrupter, const Distance& distance)
+    const LeafLayout& layout, int dim, const Distance& distance, NullInterrupter* interrupter)
 {
     const std::size_t size = std::size_t(layout.leafCount()) * kLeafVoxels;
     requireDim(dim);

@@ -49,7 +49,7 @@ public:
 
 private:
     friend DistanceMap distanceTransform(
-        const LeafLayout&, int, openvdb::util::NullInterrupter*, const Distance&);
+        const LeafLayout&, int, const Distance&, openvdb::util::NullInterrupter*);
 
     detail::LargeArray<uint16_t> mNarrow;
     detail::LargeArray<uint32_t> mWide;
@@ -61,8 +61,8 @@ private:
 /// @throw openvdb::ValueError if a radius is 46340 voxels (units of a norm) or more: 32 bits do not
 ///        hold its square
 /// @throw Interrupted if the interrupter (may be null) said so
-DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
+DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3, const Distance& distance = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief The same, Euclidean, into memory of the caller's, which may be used again from object to
 /// object: as 32 bits, and as fast as the map.

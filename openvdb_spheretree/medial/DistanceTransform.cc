@@ -12,12 +12,12 @@
 namespace openvdb_spheretree {
 
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim,
-    openvdb::util::NullInterrupter* interrupter, const Distance& distance)
+    const Distance& distance, openvdb::util::NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
     const LeafLayout layout(*flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
-    const DistanceMap map = distanceTransform(layout, dim, interrupter, distance);
+    const DistanceMap map = distanceTransform(layout, dim, distance, interrupter);
 
     std::array<uint32_t, kLeafVoxels> place; // of a voxel of the turned leaf
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {

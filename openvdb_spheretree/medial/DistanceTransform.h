@@ -21,6 +21,7 @@ namespace openvdb_spheretree {
 
 /// @param object       its active voxels are the object
 /// @param dim          3, or 2 to leave the flat axis out
+/// @param distance     Euclidean, or a norm
 /// @param interrupter  may be null
 /// @return for every active voxel its distance to the nearest inactive one, squared if Euclidean, in
 ///         units of the distance (Distance::unit()) if of a norm; background 0, transform of @a object.
@@ -28,6 +29,6 @@ namespace openvdb_spheretree {
 ///        hold its square
 /// @throw Interrupted if the interrupter said so
 openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
+    const Distance& distance = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

@@ -96,7 +96,7 @@ std::vector<MedialBall> medialBalls(
 }
 
 std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim,
-    NullInterrupter* interrupter, const Distance& distance)
+    const Distance& distance, NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
     const auto voxels = flat.toZ(

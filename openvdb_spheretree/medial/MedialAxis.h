@@ -29,6 +29,6 @@ namespace openvdb_spheretree {
 /// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or there is too little memory
 /// @throw Interrupted if the interrupter said so
 std::vector<MedialBall> medialBalls(const openvdb::BoolGrid& object, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, const Distance& distance = {});
+    const Distance& distance = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

@@ -105,7 +105,7 @@ void MedialLevel::findNormBalls(int dim, const Distance& distance, const LevelWa
         layout.leafCount(), normBytes(layout), detail::allowedMemory(wants.memory));
     const DistanceMap distances =
         detail::timed("distance transform", interrupter, seconds ? &seconds->distance : nullptr,
-            [&] { return distanceTransform(layout, dim, interrupter, distance); });
+            [&] { return distanceTransform(layout, dim, distance, interrupter); });
     labels = detail::timed("power labels", interrupter, seconds ? &seconds->power : nullptr,
         [&] { return powerMap(layout, distances, dim, interrupter); });
     balls = detail::timed("medial balls", interrupter, seconds ? &seconds->medial : nullptr,

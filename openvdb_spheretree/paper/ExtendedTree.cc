@@ -111,7 +111,7 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>
     const auto centerOf = [&](int k, int32_t node) {
         return frames[k].center(levels[k].balls[node].center);
     };
-    const Distance& distance = context.settings.dist;
+    const Distance& distance = context.settings.dist();
     const auto widthOf = [&](const MedialBall& leaf) { // twice the radius, nearly
         return distance.isEuclidean() ? 2 * std::sqrt(double(leaf.radiusSq - 1))
                                       : std::sqrt(double(frames[0].radius(leaf.radiusSq).a));
@@ -167,7 +167,7 @@ MaskTree::Ptr reconstruct(
     const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
 {
     const double scale = double(context.frame(level).scale());
-    const Distance& distance = context.settings.dist;
+    const Distance& distance = context.settings.dist();
     std::vector<ExactSphere> spheres;
     resizeLarge(spheres, nodes.balls.size());
     parallelFor(spheres.size(), context.interrupter, [&](std::size_t i) {
@@ -177,14 +177,14 @@ MaskTree::Ptr reconstruct(
         spheres[i] = {{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
             4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)};
     });
-    if (context.settings.reconstruct == Reconstruction::Free) {
+    if (context.settings.extended().reconstruct == Reconstruction::Free) {
         const CoordBBox free = boundingBox(spheres, distance);
         for (int axis = 0; axis < context.settings.dim; ++axis) {
             box.min()[axis] = free.min()[axis];
             box.max()[axis] = free.max()[axis];
         }
     }
-    return sphereUnion(spheres, box, context.interrupter, distance);
+    return sphereUnion(spheres, box, distance, context.interrupter);
 }
 
 /// Section 4.2 switched off: the stored sphere is the reconstruction's, grown like any ball's.
@@ -199,7 +199,7 @@ void useReconstructionRadii(std::vector<LevelNodes>& levels, const BuildContext&
         int32_t t = int32_t(s);
         for (std::size_t k = 0; k + 1 < levels.size(); ++k) t = levels[k].parent[t];
         const int64_t apart = distanceSq(leafFrame.center(leaves[s].center),
-            frame.center(nodes.balls[t].center), context.settings.dist);
+            frame.center(nodes.balls[t].center), context.settings.dist());
         nodes.coverSq[t] = std::max(nodes.coverSq[t],
             coverSqOfRoots(apart, leafFrame.radius(leaves[s].radiusSq).a, growth.b));
     }
@@ -212,7 +212,7 @@ MaskTree::Ptr nextVoxels(
 {
     boxes.coarsen(context.stepFrom(level));
     const bool last = boxes.pyramid.volume() == 1;
-    if (context.settings.reconstruct == Reconstruction::Free && last) {
+    if (context.settings.extended().reconstruct == Reconstruction::Free && last) {
         auto single = std::make_shared<MaskTree>(false);
         single->setValueOn(boxes.pyramid.min());
         return single;
@@ -230,7 +230,7 @@ MaskTree::Ptr nextVoxels(
 
 std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext& context)
 {
-    const SphereTreeSettings& settings = context.settings;
+    const ExtendedOptions& options = context.settings.extended();
     auto fine = context.medialLevel(*voxels, 0);
     Boxes boxes{context.bbox, context.bbox};
     std::vector<LevelNodes> levels;
@@ -249,13 +249,13 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
             levels.back().dag = std::move(links.dag);
             levels.push_back(std::move(nodes));
             fitRadii(levels, below, context);
-            if (settings.reconstruct != Reconstruction::None && levels.back().balls.size() > 1) {
+            if (options.reconstruct != Reconstruction::None && levels.back().balls.size() > 1) {
                 voxels = reconstruct(levels.back(), level, boxes.clip, context);
             }
-            if (!settings.finalFit) useReconstructionRadii(levels, context);
+            if (!options.finalFit) useReconstructionRadii(levels, context);
         });
         levels.back().topology = topologyOf(*coarse, context);
-        if (needsDag(settings)) fine = std::move(coarse);
+        if (needsDag(options)) fine = std::move(coarse);
     }
     return levels;
 }

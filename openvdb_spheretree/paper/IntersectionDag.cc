@@ -25,7 +25,7 @@ bool meet(const SphereTree& tree, int32_t s, int32_t t)
         d[axis] = int64_t(tree.subdivision * tree.spheres.center[s][axis])
             - int64_t(tree.subdivision * tree.spheres.center[t][axis]);
     }
-    const Wide apart = tree.settings.dist.lengthSq(d[0], d[1], d[2]);
+    const Wide apart = tree.settings.dist().lengthSq(d[0], d[1], d[2]);
     if (apart <= reach) return true;
     const Wide beyond = apart - reach;
     // The right-hand side is at most D + D', so below 2^64: the square fits.
@@ -39,7 +39,7 @@ bool meet(const SphereTree& tree, int32_t s, int32_t t)
 detail::Bound boundOf(const SphereTree& tree, int32_t id)
 {
     const auto ball = detail::Bound::ofBall(tree.spheres.center[id], tree.spheres.radius[id] + 1);
-    return tree.settings.dist.isEuclidean() ? ball : detail::Bound::ofBox(ball.box);
+    return tree.settings.dist().isEuclidean() ? ball : detail::Bound::ofBox(ball.box);
 }
 
 detail::BoundingTree boundsOf(

@@ -163,10 +163,10 @@ void requireRoom(const SphereTree& tree)
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
     requireRoom(tree);
-    const bool extended = tree.settings.tree == TreeType::Extended;
+    const bool extended = tree.settings.type() == TreeType::Extended;
     LeafBalls leaves(tree);
     for (const SphereTreeLevel& level : tree.levels) {
-        const LevelFrame frame(level.level, tree.origin, tree.settings);
+        const LevelFrame frame(level.level, tree.origin, tree.settings, tree.flatAxis);
         const bool inner = level.level > 0;
         if (inner) leaves.ascend(level);
         parallelForWithScratch<std::vector<RealBall>>(

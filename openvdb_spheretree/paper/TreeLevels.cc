@@ -29,10 +29,9 @@ void requireRoomForNodes(std::size_t nodes)
     requireMemory(double(nodes) * kNode, what, "use a larger voxel, or split the object");
 }
 
-bool needsDag(const SphereTreeSettings& settings)
+bool needsDag(const PyramidOptions& options)
 {
-    return settings.parent == ParentRule::Dag
-        || (settings.dag && settings.edges == DagEdges::Shared);
+    return options.parent == ParentRule::Dag || (options.dag && options.edges == DagEdges::Shared);
 }
 
 namespace {
@@ -75,8 +74,8 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
         const MedialBall& s = nodes.balls[edge.child];
         const MedialBall& t = coarse.balls[edge.parent];
         const double apart = 0.5
-            * std::sqrt(double(distanceSq(
-                fineFrame.center(s.center), coarseFrame.center(t.center), context.settings.dist)));
+            * std::sqrt(double(distanceSq(fineFrame.center(s.center), coarseFrame.center(t.center),
+                context.settings.dist())));
         const double power =
             apart + fineFrame.radius(s.radiusSq).radius() - coarseFrame.radius(t.radiusSq).radius();
         if (power >= least[edge.child]) continue;
@@ -111,22 +110,18 @@ std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildCon
         [&] { return levelTopology(level.layout, context.interrupter); });
 }
 
-PyramidModel modelOf(
-    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+PyramidModel modelOf(const PyramidOptions& options, openvdb::util::NullInterrupter* interrupter)
 {
-    if (settings.customModel) return settings.customModel;
-    if (settings.hadCustomModel) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the tree was built with a custom pyramid model, which no file holds: set customModel");
-    }
-    return settings.closing > 0 ? closingModel(settings.closing, interrupter) : PyramidModel();
+    if (isUnknown(options.customModel)) options.customModel({}, {}); // which says so
+    if (options.customModel) return options.customModel;
+    return options.closing > 0 ? closingModel(options.closing, interrupter) : PyramidModel();
 }
 
 std::unique_ptr<MedialLevel> BuildContext::medialLevel(
     const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
 {
     LevelWants wants;
-    wants.allLabels = needsDag(settings);
+    wants.allLabels = needsDag(options);
     wants.memory = settings.memory;
     if (children) {
         wants.count = children->balls.size();
@@ -134,7 +129,7 @@ std::unique_ptr<MedialLevel> BuildContext::medialLevel(
                           std::size_t i) { return step.parentVoxel(balls[i].center); };
     }
     return std::make_unique<MedialLevel>(
-        voxels, settings.dim, settings.dist, interrupter, seconds, wants);
+        voxels, settings.dim, settings.dist(), interrupter, seconds, wants);
 }
 
 LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
@@ -143,7 +138,7 @@ LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
     LevelNodes nodes;
     nodes.pyramidVoxels = level->layout.voxelCount();
     nodes.topology = topologyOf(*level, *this);
-    if (needsDag(settings)) {
+    if (needsDag(options)) {
         nodes.balls = level->balls;
     } else {
         nodes.balls = std::move(level->balls);
@@ -155,8 +150,8 @@ LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
 openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
 {
     if (!model) return coarsen(voxels, stepFrom(level), interrupter);
-    const int64_t scale = frame(level).scale() * settings.factor;
-    if (settings.customModel && scale > LevelFrame::kMaxScale) {
+    const int64_t scale = frame(level).scale() * options.factor;
+    if (options.customModel && scale > LevelFrame::kMaxScale) {
         OPENVDB_THROW(openvdb::ValueError,
             "the tree does not end: level "
                 << level
@@ -176,12 +171,12 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
     const PyramidStep step = context.stepFrom(level);
     Links links;
     links.parent = parentsByCentre(coarse);
-    if (!needsDag(context.settings)) return links;
+    if (!needsDag(context.options)) return links;
     links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
-    if (context.settings.parent == ParentRule::Dag) {
+    if (context.options.parent == ParentRule::Dag) {
         preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
     }
-    if (!context.settings.dag || context.settings.edges != DagEdges::Shared) links.dag.clear();
+    if (!context.options.dag || context.options.edges != DagEdges::Shared) links.dag.clear();
     return links;
 }
 

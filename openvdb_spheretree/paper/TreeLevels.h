@@ -38,11 +38,12 @@ struct LevelNodes {
 void requireRoomForNodes(std::size_t nodes);
 
 /// @return whether a build looks at the labels of all voxels.
-bool needsDag(const SphereTreeSettings& settings);
+bool needsDag(const PyramidOptions& options);
 
 /// What a build is given, and where it reports to.
 struct BuildContext {
     const SphereTreeSettings& settings;
+    const PyramidOptions& options; ///< of the settings
     openvdb::Coord origin;
     openvdb::CoordBBox bbox; ///< of the object
     openvdb::util::NullInterrupter* interrupter;
@@ -52,7 +53,7 @@ struct BuildContext {
     /// The step from @a level to the one above it.
     PyramidStep stepFrom(int level) const
     {
-        return {level == 0 ? origin : openvdb::Coord(), settings.factor, settings.dim};
+        return {level == 0 ? origin : openvdb::Coord(), options.factor, settings.dim};
     }
     /// @return the level of these voxels.
     /// @param children  nodes of the level below, if there is one: linkLevels() finds their parents
@@ -66,12 +67,11 @@ struct BuildContext {
     LevelNodes allBalls(std::unique_ptr<MedialLevel>& level) const;
 };
 
-/// @brief The one place that decides which model settings ask for: customModel, else a closing,
-/// else OR (empty).
-/// @throw openvdb::ValueError if the settings are those of a tree read back, whose custom model no
+/// @brief The one place that decides which model options ask for: customModel, else a closing, else
+/// OR (empty).
+/// @throw openvdb::ValueError if the options are those of a tree read back, whose custom model no
 ///        file holds
-PyramidModel modelOf(
-    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
+PyramidModel modelOf(const PyramidOptions& options, openvdb::util::NullInterrupter* interrupter);
 
 /// How the nodes of a level hang on the medial balls of the next one.
 struct Links {

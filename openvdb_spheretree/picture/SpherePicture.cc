@@ -380,11 +380,11 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     const SphereTreeLevel& drawn = levelOf(tree, level);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
-    if (tree.settings.dist.isEuclidean()) {
+    if (tree.settings.dist().isEuclidean()) {
         const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
         return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
     }
-    const detail::NormFaces faces(tree.settings.dist);
+    const detail::NormFaces faces(tree.settings.dist());
     const auto ball = [&](const Vec3d& c, double r) { return detail::NormBallShape{c, r, &faces}; };
     return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
 }

@@ -5,7 +5,7 @@
 ///
 /// A model of one's own in a line, here "OR, and across gaps of one parent voxel":
 ///
-///     settings.customModel = blockModel([](const ChildBlock& block) {
+///     options.customModel = blockModel([](const ChildBlock& block) {
 ///         return block.any() || (block.any(-1, 0, 0) && block.any(1, 0, 0));
 ///     });
 ///

@@ -73,7 +73,7 @@ MaskTree::Ptr voxelsOfCells(const MaskTree& cells, const CoordBBox& box, int dim
 MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrupter* interrupter)
 {
     const LeafLayout layout(set);
-    const DistanceMap distances = distanceTransform(layout, dim, interrupter);
+    const DistanceMap distances = distanceTransform(layout, dim, {}, interrupter);
     std::vector<std::unique_ptr<LeafNode>> leaves(layout.leafCount());
     detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
         LeafNode::NodeMaskType mask;

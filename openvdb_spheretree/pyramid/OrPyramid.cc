@@ -249,7 +249,7 @@ Coord pyramidOrigin(const CoordBBox& bbox)
 }
 
 OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
-    NullInterrupter* interrupter, const PyramidModel& model)
+    const PyramidModel& model, NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
     OrPyramid pyramid;

@@ -57,6 +57,6 @@ struct OrPyramid {
 ///        the model is not including, or the pyramid does not end at one voxel
 /// @throw Interrupted if the interrupter (may be null) said so
 OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor = 2, int dim = 3,
-    openvdb::util::NullInterrupter* interrupter = nullptr, const PyramidModel& model = {});
+    const PyramidModel& model = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

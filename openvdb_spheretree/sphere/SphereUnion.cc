@@ -15,8 +15,8 @@
 namespace openvdb_spheretree {
 
 openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
-    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter,
-    const SphereMetric& metric)
+    const openvdb::CoordBBox& clip, const SphereMetric& metric,
+    openvdb::util::NullInterrupter* interrupter)
 {
     return detail::rasterSpheres(spheres, metric, clip, nullptr, interrupter);
 }

@@ -21,8 +21,8 @@ namespace openvdb_spheretree {
 /// @note Cost grows with the surface of the spheres (in leaf nodes), not with their volume. Exact:
 ///       integer arithmetic. Parallel; the result does not depend on threads.
 openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
-    const openvdb::CoordBBox& clip, openvdb::util::NullInterrupter* interrupter = nullptr,
-    const SphereMetric& metric = {});
+    const openvdb::CoordBBox& clip, const SphereMetric& metric = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return the smallest box that holds every voxel centre in the spheres.
 openvdb::CoordBBox boundingBox(

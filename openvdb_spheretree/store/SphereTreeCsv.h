@@ -24,7 +24,7 @@ void writeCsv(const SphereTree& tree, std::ostream& out);
 void writeDagCsv(const SphereTree& tree, std::ostream& out);
 
 /// @return whether the tree has a DAG to write, be it one without edges.
-inline bool hasDag(const SphereTree& tree) { return tree.settings.dag || !tree.dag.empty(); }
+inline bool hasDag(const SphereTree& tree) { return tree.hasDag || !tree.dag.empty(); }
 
 /// @return the digital ball's centre as text files show it: at level 0 in the index space of the
 ///         source grid, which is where the sphere's own centre is, above in the level's own grid.

@@ -3,12 +3,12 @@
 
 #include "JsonWriter.h"
 #include "SphereTreeCsv.h"
+#include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include <openvdb/Exceptions.h>
 
 #include <cstddef>
 #include <ostream>
-#include <utility>
 
 namespace openvdb_spheretree {
 
@@ -155,16 +155,24 @@ void writeCuts(JsonWriter& json, const SphereTree& tree, std::ostream& out)
     json.endObject();
 }
 
-void writeBudget(JsonWriter& json, const SphereBudget& budget)
+void writeSetting(JsonWriter& json, const detail::Setting& setting, const std::string& text)
 {
-    json.beginArray("spheres", /*onOneLine=*/true);
-    for (const int64_t count : budget.spheres) json.value("", count);
-    json.endArray();
-    json.value("branching", budget.branching);
-    for (const auto& [key, bound] :
-        {std::pair("error", budget.error), std::pair("distance", budget.distance)}) {
-        if (bound) json.value(key, *bound);
-        else json.null(key);
+    using detail::SettingType;
+    switch (setting.type) {
+    case SettingType::Flag: json.value(setting.name, text == "1"); break;
+    case SettingType::Integer: json.value(setting.name, std::stoi(text)); break;
+    case SettingType::Real:
+        if (text.empty()) json.null(setting.name);
+        else json.value(setting.name, detail::realOf(text));
+        break;
+    case SettingType::Counts:
+        json.beginArray(setting.name, /*onOneLine=*/true);
+        if (!text.empty()) {
+            for (const int64_t count : countsFromString(text)) json.value("", count);
+        }
+        json.endArray();
+        break;
+    default: json.value(setting.name, text);
     }
 }
 
@@ -184,29 +192,12 @@ void writeObject(JsonWriter& json, const SphereTree& tree)
     json.endObject();
 }
 
-void writeSettings(JsonWriter& json, const SphereTreeSettings& settings)
+void writeSettings(JsonWriter& json, const SphereTree& tree)
 {
-    json.value("tree", toString(settings.tree));
-    json.value("factor", settings.factor);
-    json.value("dim", settings.dim);
-    json.value("model", modelToString(settings));
-    json.value("dist", toString(settings.dist));
-    json.value("parent", toString(settings.parent));
-    json.value("final_fit", settings.finalFit);
-    json.value("reconstruct", toString(settings.reconstruct));
-    json.value("scale", toString(settings.scale));
-    json.value("padding", paddingToString(settings.padding));
-    json.value("dag", settings.dag);
-    json.value("edges", toString(settings.edges));
-    json.value("topology", settings.topology);
-    json.value("center", toString(settings.center));
-    json.value("quality", toString(settings.quality));
-    writeBudget(json, settings.budget);
-    json.value("cover", toString(settings.cover));
-    json.value("leaves", toString(settings.leaves));
-    json.value("side", toString(settings.side));
-    json.value("cuts", settings.cuts);
-    json.value("name", settings.name);
+    const SphereTreeSettings settings = detail::recordedSettings(tree);
+    for (const detail::Setting* setting : detail::settingsInJson()) {
+        writeSetting(json, *setting, setting->get(settings));
+    }
 }
 
 void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
@@ -247,7 +238,7 @@ void writeJson(const SphereTree& tree, std::ostream& out)
     json.value("format", "vdb_spheretree.tree.1");
     writeObject(json, tree);
     json.beginObject("settings");
-    writeSettings(json, tree.settings);
+    writeSettings(json, tree);
     json.endObject();
     writeTransform(json, tree);
     json.value("subdivision", tree.subdivision);

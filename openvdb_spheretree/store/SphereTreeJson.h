@@ -45,7 +45,7 @@ void writeJson(const SphereTree& tree, std::ostream& out);
 /// @{
 void writeObject(JsonWriter& json, const SphereTree& tree);
 /// The members of "settings", which the caller has begun.
-void writeSettings(JsonWriter& json, const SphereTreeSettings& settings);
+void writeSettings(JsonWriter& json, const SphereTree& tree);
 void writeTopology(JsonWriter& json, const SphereTreeLevel& level);
 void writeError(JsonWriter& json, const SphereTreeLevel& level);
 /// @}

@@ -337,8 +337,8 @@ SphereTree fromPoints(
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
-    tree.settings.dag = tree.settings.dag && dag;
-    tree.settings.cuts = tree.settings.cuts && cuts;
+    tree.hasDag = tree.hasDag && dag;
+    tree.hasCuts = tree.hasCuts && cuts;
     if (dag) {
         checkFormat(*dag, kDagKind, detail::kDagFormatKey);
         tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });

@@ -3,6 +3,7 @@
 
 #include "PointLeaves.h"
 #include "SphereTreePoints.h"
+#include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include <cmath>
 #include <limits>
@@ -20,9 +21,9 @@ using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
 constexpr char kTransformTypeKey[] = "spheretree_transform_type";
-constexpr char kTopologyKey[] = "spheretree_topology";       // files were first written without
-constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // and without this, which was 2
+constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // files without: it was 2
 constexpr char kQualityKey[] = "spheretree_quality";         // and all settings of tight trees
+constexpr char kFlatAxisKey[] = "spheretree_flat_axis";
 constexpr int kMaxLevels = 1024; // far more than 32 bits of coordinates can be halved
 
 std::string levelKey(int level, const char* what)
@@ -104,98 +105,74 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
 
 // ---- Settings, object, levels
 
-void writeBudget(GridBase& grid, const SphereBudget& budget)
+void writeSetting(GridBase& grid, const Setting& setting, const std::string& text)
 {
-    setMeta<std::string>(grid, "spheretree_spheres", countsToString(budget.spheres));
-    setMeta<int32_t>(grid, "spheretree_branching", budget.branching);
-    if (budget.error) setMeta<double>(grid, "spheretree_error", *budget.error);
-    if (budget.distance) setMeta<double>(grid, "spheretree_distance", *budget.distance);
+    switch (setting.type) {
+    case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
+    case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
+    case SettingType::Real:
+        if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
+        break;
+    default: setMeta<std::string>(grid, setting.key, text);
+    }
 }
 
-SphereBudget readBudget(const GridBase& grid)
+std::string readSetting(const GridBase& grid, const Setting& setting)
 {
-    SphereBudget budget;
-    const std::string spheres = getMeta<std::string>(grid, "spheretree_spheres");
-    if (!spheres.empty()) budget.spheres = countsFromString(spheres);
-    budget.branching = getMeta<int32_t>(grid, "spheretree_branching");
-    if (grid["spheretree_error"]) budget.error = getMeta<double>(grid, "spheretree_error");
-    if (grid["spheretree_distance"]) budget.distance = getMeta<double>(grid, "spheretree_distance");
-    return budget;
+    switch (setting.type) {
+    case SettingType::Flag: return getMeta<bool>(grid, setting.key) ? "1" : "0";
+    case SettingType::Integer: return std::to_string(getMeta<int32_t>(grid, setting.key));
+    case SettingType::Real: return textOf(getMeta<double>(grid, setting.key));
+    default: return getMeta<std::string>(grid, setting.key);
+    }
 }
 
-/// With center=, which came with them.
-void writeTightSettings(GridBase& grid, const SphereTreeSettings& settings)
+void writeSettings(GridBase& grid, const SphereTree& tree)
 {
-    setMeta<std::string>(grid, kQualityKey, toString(settings.quality));
-    writeBudget(grid, settings.budget);
-    setMeta<std::string>(grid, "spheretree_cover", toString(settings.cover));
-    setMeta<std::string>(grid, "spheretree_leaves", toString(settings.leaves));
-    setMeta<std::string>(grid, "spheretree_side", toString(settings.side));
-    setMeta<bool>(grid, "spheretree_cuts", settings.cuts);
-    setMeta<std::string>(grid, "spheretree_center", toString(settings.center));
+    const SphereTreeSettings settings = recordedSettings(tree);
+    for (const Setting& setting : settingsTable()) {
+        if (!setting.key.empty()) writeSetting(grid, setting, setting.get(settings));
+    }
+    if (settings.dim == 2) setMeta<int32_t>(grid, kFlatAxisKey, tree.flatAxis);
 }
 
-void readTightSettings(const GridBase& grid, SphereTreeSettings& settings)
+/// Files were first written without the settings of tight trees, and without some others.
+bool mayLack(const Setting& setting, bool beforeTight)
 {
-    settings.quality = qualityFromString(getMeta<std::string>(grid, kQualityKey));
-    settings.budget = readBudget(grid);
-    settings.cover = coverFromString(getMeta<std::string>(grid, "spheretree_cover"));
-    settings.leaves = leavesFromString(getMeta<std::string>(grid, "spheretree_leaves"));
-    settings.side = sideFromString(getMeta<std::string>(grid, "spheretree_side"));
-    settings.cuts = getMeta<bool>(grid, "spheretree_cuts");
-    settings.center = centerFromString(getMeta<std::string>(grid, "spheretree_center"));
-}
-
-void writeSettings(GridBase& grid, const SphereTreeSettings& settings)
-{
-    setMeta<std::string>(grid, "spheretree_tree", toString(settings.tree));
-    setMeta<int32_t>(grid, "spheretree_factor", settings.factor);
-    setMeta<int32_t>(grid, "spheretree_dim", settings.dim);
-    if (settings.dim == 2) setMeta<int32_t>(grid, "spheretree_flat_axis", settings.flatAxis);
-    setMeta<std::string>(grid, "spheretree_model", modelToString(settings));
-    setMeta<std::string>(grid, "spheretree_parent", toString(settings.parent));
-    setMeta<bool>(grid, "spheretree_final_fit", settings.finalFit);
-    setMeta<std::string>(grid, "spheretree_reconstruct", toString(settings.reconstruct));
-    setMeta<std::string>(grid, "spheretree_scale", toString(settings.scale));
-    setMeta<std::string>(grid, "spheretree_dist", toString(settings.dist));
-    setMeta<std::string>(grid, "spheretree_padding", paddingToString(settings.padding));
-    setMeta<bool>(grid, "spheretree_dag", settings.dag);
-    setMeta<std::string>(grid, "spheretree_dag_edges", toString(settings.edges));
-    setMeta<bool>(grid, kTopologyKey, settings.topology);
-    writeTightSettings(grid, settings);
+    const std::string& name = setting.name;
+    if (setting.type == SettingType::Real) return true;
+    if (name == "dist" || name == "model" || name == "topology") return true;
+    return beforeTight && (!setting.isForPyramids() || name == "center");
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
 {
-    SphereTreeSettings settings;
-    settings.tree = treeTypeFromString(getMeta<std::string>(grid, "spheretree_tree"));
-    settings.factor = getMeta<int32_t>(grid, "spheretree_factor");
-    settings.dim = getMeta<int32_t>(grid, "spheretree_dim");
-    if (grid["spheretree_flat_axis"]) {
-        settings.flatAxis = getMeta<int32_t>(grid, "spheretree_flat_axis");
+    const Setting &tree = settingNamed("tree"), &side = settingNamed("side");
+    const std::string type = readSetting(grid, tree);
+    const bool beforeTight = type != "tight" && !grid[kQualityKey];
+    SphereTreeSettings settings =
+        settingsOfKind(type, beforeTight ? "outer" : readSetting(grid, side));
+    settings.topology = false; // as of files without
+    for (const Setting& setting : settingsTable()) {
+        if (setting.key.empty() || &setting == &tree || &setting == &side) continue;
+        if (!grid[setting.key] && mayLack(setting, beforeTight)) continue;
+        const std::string text = readSetting(grid, setting);
+        auto* pyramid = settings.find<PyramidOptions>();
+        const bool custom = setting.name == "model" && text == "custom" && pyramid;
+        if (custom) pyramid->customModel = unknownModel();
+        else setting.set(settings, text);
     }
-    settings.parent = parentRuleFromString(getMeta<std::string>(grid, "spheretree_parent"));
-    settings.finalFit = getMeta<bool>(grid, "spheretree_final_fit");
-    settings.reconstruct =
-        reconstructionFromString(getMeta<std::string>(grid, "spheretree_reconstruct"));
-    settings.scale = radiusScaleFromString(getMeta<std::string>(grid, "spheretree_scale"));
-    if (grid["spheretree_dist"]) { // files of the first version have none
-        settings.dist = distanceFromString(getMeta<std::string>(grid, "spheretree_dist"));
-    }
-    if (grid["spheretree_model"]) { // nor that
-        const std::string model = getMeta<std::string>(grid, "spheretree_model");
-        settings.hadCustomModel = model == "custom";
-        if (!settings.hadCustomModel) settings.closing = closingFromString(model);
-    }
-    settings.padding = paddingFromString(getMeta<std::string>(grid, "spheretree_padding"));
-    settings.dag = getMeta<bool>(grid, "spheretree_dag");
-    settings.edges = dagEdgesFromString(getMeta<std::string>(grid, "spheretree_dag_edges"));
-    settings.topology = grid[kTopologyKey] && getMeta<bool>(grid, kTopologyKey);
-    const bool tight = settings.tree == TreeType::Tight;
-    if (tight || grid[kQualityKey]) readTightSettings(grid, settings);
     settings.name = grid.getName();
     settings.validate();
     return settings;
+}
+
+int readFlatAxis(const GridBase& grid)
+{
+    const int axis = grid[kFlatAxisKey] ? getMeta<int32_t>(grid, kFlatAxisKey) : 2;
+    if (axis >= 0 && axis <= 2) return axis;
+    OPENVDB_THROW(
+        openvdb::ValueError, "the flat axis " << axis << " is out of range: it must be 0, 1 or 2");
 }
 
 void writeObject(GridBase& grid, const ObjectInfo& object)
@@ -305,7 +282,7 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     setMeta<int32_t>(grid, kScaleKey, scale);
     writeTransform(grid, *tree.transform, scale);
     setMeta<int32_t>(grid, kSubdivisionKey, tree.subdivision);
-    writeSettings(grid, tree.settings);
+    writeSettings(grid, tree);
     writeObject(grid, tree.object);
     setMeta(grid, "spheretree_origin", toVec(tree.origin));
     setMeta<int32_t>(grid, "spheretree_levels", int32_t(tree.levels.size()));
@@ -318,7 +295,10 @@ SphereTree readTreeMetadata(const GridBase& grid)
     SphereTree tree;
     tree.transform = readTransform(grid, readPointScale(grid));
     tree.settings = readSettings(grid);
-    const bool tight = tree.settings.tree == TreeType::Tight;
+    tree.flatAxis = readFlatAxis(grid);
+    if (const auto* options = tree.settings.find<PyramidOptions>()) tree.hasDag = options->dag;
+    if (const auto* options = tree.settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;
+    const bool tight = tree.settings.type() == TreeType::Tight;
     if (tight || grid[kSubdivisionKey]) tree.subdivision = getMeta<int32_t>(grid, kSubdivisionKey);
     tree.object = readObject(grid);
     tree.origin = toCoord(getMeta<Vec3i>(grid, "spheretree_origin"));

@@ -71,16 +71,15 @@ LeafBalls leafBallsOf(const MedialLevel& level, const SampledObject& object, Lea
     return leafBalls;
 }
 
-std::unique_ptr<MergeModel> modelFor(const SphereTreeSettings& settings,
+std::unique_ptr<MergeModel> modelFor(const TightOptions& options, bool flat,
     const SampledObject& object, const std::vector<FineBall>& leafBalls, const FitEffort& fit,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const bool flat = settings.dim == 2;
-    if (settings.cover == Cover::Balls) {
+    if (options.cover == Cover::Balls) {
         return std::make_unique<StrictMerging>(
             object, leafBalls, heldBalls(leafBalls), fit, flat, interrupter);
     }
-    if (settings.quality == Quality::Fast) {
+    if (options.quality == Quality::Fast) {
         return std::make_unique<StrictMerging>(object, leafBalls,
             heldVoxels(powerCellPoints(leafBalls, object.level(0), interrupter)), fit, flat,
             interrupter);
@@ -107,7 +106,7 @@ LevelError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
 bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const SphereBudget& budget = tree.settings.budget;
+    const SphereBudget& budget = tree.settings.tight().budget;
     if (!budget.hasBound()) return true;
     const TightLevel alone{finest.balls, {}, finest.digital};
     return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, object, interrupter));
@@ -135,28 +134,29 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
 {
     requireRoom(tree);
     const SphereTreeSettings& settings = tree.settings;
-    const FlatAxis flat(settings.flatAxis);
+    const TightOptions& options = settings.tight();
+    const FlatAxis flat(tree.flatAxis);
     const auto voxels = flat.toZ(
         std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
     LevelWants wants;
     wants.memory = settings.memory;
-    const MedialLevel level(*voxels, settings.dim, settings.dist, interrupter, seconds, wants);
+    const MedialLevel level(*voxels, settings.dim, settings.dist(), interrupter, seconds, wants);
     const SampledObject samples(level.layout);
     const LeafBalls leafBalls = timed("leaves", interrupter, &seconds->tree,
-        [&] { return leafBallsOf(level, samples, settings.leaves, interrupter); });
-    const Effort effort = effortOf(settings.quality, leafBalls.fine.size());
+        [&] { return leafBallsOf(level, samples, options.leaves, interrupter); });
+    const Effort effort = effortOf(options.quality, leafBalls.fine.size());
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
-        const auto model = modelFor(settings, samples, leafBalls.fine, effort.fit, interrupter);
+        const auto model = modelFor(options, settings.dim == 2, samples, leafBalls.fine, effort.fit, interrupter);
         return mergeToRoots(*model, effort.neighbours, interrupter);
     });
     const auto cutError = [&](int64_t count) {
         return errorOf(levelsOf(forest, {count}, leafBalls.medial), tree, object, interrupter);
     };
     const auto counts =
-        levelCounts(settings.budget, int64_t(leafBalls.fine.size()), tree.voxelSize(), cutError);
-    const bool search = settings.quality == Quality::Best && settings.cover == Cover::Voxels;
+        levelCounts(options.budget, int64_t(leafBalls.fine.size()), tree.voxelSize(), cutError);
+    const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
     // A bound is on the finest level, which then is searched first and by itself.
-    const std::size_t middle = settings.budget.hasBound() ? 0 : counts.size() / 2;
+    const std::size_t middle = options.budget.hasBound() ? 0 : counts.size() / 2;
     const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
         const auto cuts = levelsOf(forest, counts, leafBalls.medial);
         if (!search) return cuts;
@@ -165,7 +165,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
         return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
     });
     appendLevels(levels, tree);
-    if (settings.cuts) tree.cuts = cutsOf(forest, settings);
+    if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
 }
 
 } // namespace tight

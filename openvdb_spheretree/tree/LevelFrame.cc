@@ -48,23 +48,26 @@ int64_t coverSqOfRoots(int64_t a, int64_t b, int64_t c)
     return D;
 }
 
-LevelFrame::LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings)
-    : mLevel(level), mTight(level == 0 || settings.scale == RadiusScale::Tight),
-      mDistance(settings.dist)
+LevelFrame::LevelFrame(
+    int level, const openvdb::Coord& origin, const SphereTreeSettings& settings, int flatAxis)
+    : mLevel(level), mDistance(settings.dist())
 {
+    const auto* given = settings.find<PyramidOptions>();
+    const PyramidOptions& options = given ? *given : PyramidOptions();
+    mTight = level == 0 || options.scale == RadiusScale::Tight;
     for (int k = 0; k < level; ++k) {
-        mScale *= settings.factor;
+        mScale *= options.factor;
         if (mScale <= kMaxScale) continue;
         OPENVDB_THROW(openvdb::ValueError,
             "the object is too wide for factor="
-                << settings.factor << ": level " << k + 1 << " would have voxels of " << mScale
+                << options.factor << ": level " << k + 1 << " would have voxels of " << mScale
                 << ", and " << kMaxScale << " is the most: use another factor, or larger voxels");
     }
     const int64_t grown = mScale - 1;
     mGrowthSq = mDistance.lengthSq(grown, grown, settings.dim == 3 ? grown : 0);
     if (mGrowthSq == INT64_MAX) throwTooWide();
     for (int axis = 0; axis < 3; ++axis) {
-        const bool scaled = settings.dim == 3 || axis != settings.flatAxis;
+        const bool scaled = settings.dim == 3 || axis != flatAxis;
         mStep[axis] = scaled ? 2 * mScale : 2;
         mFirst[axis] = (level == 0 ? 0 : 2 * int64_t(origin[axis])) + (scaled ? grown : 0);
     }

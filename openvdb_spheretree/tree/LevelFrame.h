@@ -73,10 +73,12 @@ public:
     /// bits.
     static constexpr int64_t kMaxScale = int64_t(1) << 29;
 
-    /// @param settings  its `flatAxis` is not scaled if `dim` is 2
+    /// @param settings  those of no pyramid stand for the default
+    /// @param flatAxis  not scaled if `dim` is 2
     /// @throw openvdb::ValueError if the level's voxels are wider than that, or than the distance's
     ///        weights allow
-    LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings);
+    LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings,
+        int flatAxis = 2);
 
     /// @return twice the centre of a voxel of the level.
     Doubled center(const openvdb::Coord& ijk) const

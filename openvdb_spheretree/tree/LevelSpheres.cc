@@ -9,7 +9,7 @@
 
 namespace openvdb_spheretree {
 
-SphereMetric metricOf(const SphereTree& tree) { return {tree.settings.dist, tree.subdivision}; }
+SphereMetric metricOf(const SphereTree& tree) { return {tree.settings.dist(), tree.subdivision}; }
 
 std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
@@ -27,7 +27,7 @@ std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLe
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres)
 {
     openvdb::CoordBBox box = boundingBox(spheres, metricOf(tree));
-    const int flat = tree.settings.flatAxis;
+    const int flat = tree.flatAxis;
     if (tree.settings.dim == 2) box.min()[flat] = box.max()[flat] = tree.object.bbox.min()[flat];
     return box;
 }
@@ -42,7 +42,7 @@ openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel&
             "the spheres of level " << level.level << " reach over " << box.extents()
                                     << " voxels, more than are drawn: choose a finer level");
     }
-    return sphereUnion(spheres, box, interrupter, metricOf(tree));
+    return sphereUnion(spheres, box, metricOf(tree), interrupter);
 }
 
 } // namespace openvdb_spheretree

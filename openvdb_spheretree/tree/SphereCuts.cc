@@ -16,7 +16,7 @@ SphereTree describedLike(const SphereTree& tree)
     SphereTree result;
     result.subdivision = tree.subdivision;
     result.settings = tree.settings;
-    result.settings.cuts = result.settings.dag = false;
+    result.flatAxis = tree.flatAxis;
     result.object = tree.object;
     result.origin = tree.origin;
     result.transform = tree.transform->copy();

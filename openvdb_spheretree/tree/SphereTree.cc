@@ -45,7 +45,7 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.levels[0].end = result.size();
     result.subdivision = tree.subdivision;
     result.settings = tree.settings;
-    result.settings.dag = result.settings.cuts = false; // edges lead from level to level
+    result.flatAxis = tree.flatAxis;
     result.object = tree.object;
     result.origin = tree.origin;
     result.transform = tree.transform->copy();

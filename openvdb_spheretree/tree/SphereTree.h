@@ -82,8 +82,14 @@ struct SphereTree {
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
     SphereCuts cuts;                     ///< empty unless asked for
+    /// @name Whether edges and cuts are those of the whole tree: a single level has neither
+    /// @{
+    bool hasDag = false, hasCuts = false;
+    /// @}
+    /// With dim = 2, the axis along which the object is one voxel thick: 0, 1 or 2 for x, y, z.
+    int flatAxis = 2;
 
-    SphereTreeSettings settings;
+    SphereTreeSettings settings; ///< what was asked for
     ObjectInfo object;
     openvdb::Coord origin;                   ///< level-grid (0,0,0) in index space; multiples of 8
     openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world

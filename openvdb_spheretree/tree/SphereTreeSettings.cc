@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeSettings.h"
 
-#include <openvdb_spheretree/base/Memory.h>
-
 #include <openvdb_spheretree/base/EnumNames.h>
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -12,36 +11,14 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <system_error>
 
 namespace openvdb_spheretree {
 
 namespace {
 
-using detail::fromName;
 using detail::inQuotes;
 using detail::Named;
-using detail::nameOf;
-
-constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Reversible, "reversible"},
-    {TreeType::Extended, "extended"}, {TreeType::Tight, "tight"}}};
-constexpr std::array<Named<Quality>, 3> kQualities{
-    {{Quality::Fast, "fast"}, {Quality::Normal, "normal"}, {Quality::Best, "best"}}};
-constexpr std::array<Named<Cover>, 2> kCovers{{{Cover::Voxels, "voxels"}, {Cover::Balls, "balls"}}};
-constexpr std::array<Named<Center>, 2> kCenters{
-    {{Center::Medial, "medial"}, {Center::Miniball, "miniball"}}};
-constexpr std::array<Named<Leaves>, 2> kLeaves{
-    {{Leaves::Pruned, "pruned"}, {Leaves::Medial, "medial"}}};
-constexpr std::array<Named<Side>, 2> kSides{{{Side::Outer, "outer"}, {Side::Inner, "inner"}}};
-constexpr std::array<Named<ParentRule>, 2> kParentRules{
-    {{ParentRule::Centre, "centre"}, {ParentRule::Dag, "dag"}}};
-constexpr std::array<Named<Reconstruction>, 3> kReconstructions{{{Reconstruction::Clip, "clip"},
-    {Reconstruction::Free, "free"}, {Reconstruction::None, "none"}}};
-constexpr std::array<Named<RadiusScale>, 2> kRadiusScales{
-    {{RadiusScale::Tight, "tight"}, {RadiusScale::Paper, "paper"}}};
-constexpr std::array<Named<DagEdges>, 2> kDagEdges{
-    {{DagEdges::Shared, "shared"}, {DagEdges::Intersecting, "intersecting"}}};
 
 const std::string kClosing = "closing:";
 
@@ -66,112 +43,103 @@ double bytesOf(double value, std::string unit)
     return std::nan("");
 }
 
-/// A setting that would change nothing is a mistake: whoever made it expects something of it.
-void refusePyramidSetting(bool given, const std::string& what)
+void requireMiniballSettings(const PyramidOptions& options, bool fitted)
 {
-    if (!given) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        what << " is for tree=extended and tree=reversible, not for tree=tight, which has no "
-                "pyramid: leave it out, or choose one of these");
-}
-
-/// What only the trees of the pyramid know.
-void refusePyramidSettings(const SphereTreeSettings& settings)
-{
-    const SphereTreeSettings usual;
-    refusePyramidSetting(
-        settings.factor != usual.factor, "factor=" + std::to_string(settings.factor));
-    refusePyramidSetting(
-        settings.closing != 0 || settings.customModel, "model=" + modelToString(settings));
-    refusePyramidSetting(
-        settings.parent != usual.parent, std::string("parent=") + toString(settings.parent));
-    refusePyramidSetting(settings.finalFit != usual.finalFit, "final_fit=0");
-    refusePyramidSetting(settings.reconstruct != usual.reconstruct,
-        std::string("reconstruct=") + toString(settings.reconstruct));
-    refusePyramidSetting(
-        settings.scale != usual.scale, std::string("scale=") + toString(settings.scale));
-    refusePyramidSetting(
-        settings.edges != usual.edges, std::string("edges=") + toString(settings.edges));
-}
-
-void requireTightSettings(const SphereTreeSettings& settings)
-{
-    refusePyramidSettings(settings);
-    if (!settings.dist.isEuclidean()) {
+    if (options.center != Center::Miniball) return;
+    if (!options.dist.isEuclidean()) {
         OPENVDB_THROW(openvdb::ValueError,
-            "tree=tight is for dist=l2, not for dist=" << toString(settings.dist)
-                                                       << ": use tree=extended or tree=reversible");
-    }
-    if (settings.center == Center::Miniball) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "center=miniball is for reversible and extended trees: the centres of tree=tight are "
-            "better than that already");
-    }
-    if (settings.dag) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "tree=tight has no Sphere-DAG: use tree=extended or tree=reversible with dag=1");
-    }
-    if (settings.quality == Quality::Best && settings.cuts) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "quality=best and cuts=1 contradict each other: best searches the levels that are "
-            "named, and cuts keep every number of spheres; use quality=normal");
-    }
-}
-
-void requireMiniballSettings(const SphereTreeSettings& settings)
-{
-    if (settings.center != Center::Miniball) return;
-    if (!settings.dist.isEuclidean()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "center=miniball is for dist=l2, not for dist=" << toString(settings.dist)
+            "center=miniball is for dist=l2, not for dist=" << toString(options.dist)
                                                             << ": use center=medial");
     }
-    if (settings.tree == TreeType::Extended && !settings.finalFit) {
+    if (!fitted) {
         OPENVDB_THROW(openvdb::ValueError,
             "center=miniball and final_fit=0 contradict each other: the first stores the smallest "
             "spheres there are, the second larger ones than need be");
     }
 }
 
-void requireInnerSettings(const SphereTreeSettings& settings)
+void requirePyramidSettings(const PyramidOptions& options, bool fitted)
 {
-    if (settings.side != Side::Inner || !settings.budget.hasBound()) return;
+    requireFactor(options.factor);
+    requireClosing(options.closing);
+    if (options.customModel && options.closing > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "closing and customModel are both set: choose one of these pyramid models");
+    }
+    requireMiniballSettings(options, fitted);
+}
+
+void requireValid(const TightOptions& options)
+{
+    options.budget.validate();
+    if (options.quality == Quality::Best && options.cuts) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "quality=best and cuts=1 contradict each other: best searches the levels that are "
+            "named, and cuts keep every number of spheres; use quality=normal");
+    }
+}
+
+void requireValid(const InnerOptions& options)
+{
+    options.budget.validate();
+    if (!options.budget.hasBound()) return;
     OPENVDB_THROW(openvdb::ValueError,
         "side=inner and a bound on the error or the distance contradict each other: inner spheres "
         "reach nowhere outside, and cover what their number allows; use spheres or branching");
 }
 
+void requireValid(const ExtendedOptions& options)
+{
+    requirePyramidSettings(options, options.finalFit);
+}
+
+void requireValid(const ReversibleOptions& options) { requirePyramidSettings(options, true); }
+
+/// Stands for the custom model of a tree that was read from a file.
+struct UnknownModel {
+    openvdb::MaskTree::Ptr operator()(const openvdb::MaskTree&, const PyramidStep&) const
+    {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree was built with a custom pyramid model, which no file holds: set customModel");
+    }
+};
+
 } // namespace
+
+bool isUnknown(const PyramidModel& model) { return model.target<UnknownModel>() != nullptr; }
+
+PyramidModel unknownModel() { return UnknownModel(); }
+
+TreeType SphereTreeSettings::type() const
+{
+    if (find<ExtendedOptions>()) return TreeType::Extended;
+    return find<ReversibleOptions>() ? TreeType::Reversible : TreeType::Tight;
+}
+
+void SphereTreeSettings::throwOtherKind(const char* wanted)
+{
+    OPENVDB_THROW(openvdb::ValueError,
+        "the settings are not those of a " << wanted << " tree, but of another kind");
+}
+
+const Distance& SphereTreeSettings::dist() const
+{
+    static const Distance kEuclidean;
+    const auto* options = find<PyramidOptions>();
+    return options ? options->dist : kEuclidean;
+}
 
 double SphereTreeSettings::paddingVoxels() const
 {
-    return padding == kPadCubes ? dist.length(0.5, 0.5, dim == 3 ? 0.5 : 0) / dist.unit() : padding;
+    if (isInner()) return 0;
+    if (padding != kPadCubes) return padding;
+    return dist().length(0.5, 0.5, dim == 3 ? 0.5 : 0) / dist().unit();
 }
 
 void SphereTreeSettings::validate() const
 {
-    requireFactor(factor);
     requireDim(dim);
-    if (flatAxis < 0 || flatAxis > 2) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the flat axis " << flatAxis << " is out of range: it must be 0, 1 or 2");
-    }
-    requireClosing(closing);
-    if (customModel && closing > 0) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "closing and customModel are both set: choose one of these pyramid models");
-    }
-    budget.validate();
-    if (tree == TreeType::Tight) {
-        requireTightSettings(*this);
-    } else if (!budget.empty() || cuts || side == Side::Inner) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "spheres, branching, error, distance, cuts and side=inner are for tree=tight, not for "
-            "tree="
-                << toString(tree));
-    }
-    requireMiniballSettings(*this);
-    requireInnerSettings(*this);
+    std::visit([](const auto& options) { requireValid(options); }, kind);
     if (memory < 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "memory=" << memory << " is out of range: it must be a number of bytes, or 0 for "
@@ -185,17 +153,6 @@ void SphereTreeSettings::validate() const
                        << kMaxPadding);
     }
 }
-
-const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
-const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
-const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
-const char* toString(RadiusScale value) { return nameOf(kRadiusScales, value); }
-const char* toString(DagEdges value) { return nameOf(kDagEdges, value); }
-const char* toString(Quality value) { return nameOf(kQualities, value); }
-const char* toString(Cover value) { return nameOf(kCovers, value); }
-const char* toString(Center value) { return nameOf(kCenters, value); }
-const char* toString(Leaves value) { return nameOf(kLeaves, value); }
-const char* toString(Side value) { return nameOf(kSides, value); }
 
 std::string paddingToString(double padding)
 {
@@ -217,40 +174,11 @@ std::string memoryToString(int64_t memory)
     return std::to_string(memory);
 }
 
-std::string modelToString(const SphereTreeSettings& settings)
+std::string modelToString(const PyramidOptions& options)
 {
-    if (settings.customModel || settings.hadCustomModel) return "custom";
-    return settings.closing == 0 ? "or" : kClosing + std::to_string(settings.closing);
+    if (options.customModel) return "custom";
+    return options.closing == 0 ? "or" : kClosing + std::to_string(options.closing);
 }
-
-TreeType treeTypeFromString(const std::string& text) { return fromName(kTreeTypes, "tree", text); }
-
-ParentRule parentRuleFromString(const std::string& text)
-{
-    return fromName(kParentRules, "parent", text);
-}
-
-Reconstruction reconstructionFromString(const std::string& text)
-{
-    return fromName(kReconstructions, "reconstruct", text);
-}
-
-RadiusScale radiusScaleFromString(const std::string& text)
-{
-    return fromName(kRadiusScales, "scale", text);
-}
-
-DagEdges dagEdgesFromString(const std::string& text) { return fromName(kDagEdges, "edges", text); }
-
-Quality qualityFromString(const std::string& text) { return fromName(kQualities, "quality", text); }
-
-Cover coverFromString(const std::string& text) { return fromName(kCovers, "cover", text); }
-
-Center centerFromString(const std::string& text) { return fromName(kCenters, "center", text); }
-
-Leaves leavesFromString(const std::string& text) { return fromName(kLeaves, "leaves", text); }
-
-Side sideFromString(const std::string& text) { return fromName(kSides, "side", text); }
 
 double paddingFromString(const std::string& text)
 {

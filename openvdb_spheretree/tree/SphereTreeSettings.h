@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTreeSettings.h
-/// @brief What the builder of a sphere-tree can be asked for. Every field is recorded in the tree
-/// it builds, and all but `memory` in the files written from it.
+/// @brief What the builder of a sphere-tree can be asked for: what all kinds of trees share, beside
+/// the options of one kind.
+///
+///     ExtendedOptions options;
+///     options.factor = 3;
+///     SphereTreeSettings settings = options;
+///     settings.name = "coarse";
+///
+/// Every field is recorded in the tree that is built, and all but `memory` in the files written
+/// from it.
 
 #pragma once
 
@@ -13,14 +21,14 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace openvdb_spheretree {
 
-enum class TreeType {
-    Reversible, ///< every level rebuilds its own pyramid level (Broutta et al. 2009, 3.2)
-    Extended,   ///< every sphere contains the leaf balls below it (Algorithm 2)
-    Tight       ///< the least error at a number of spheres that we know how to reach: TightTree.h
-};
+/// The names of trees: inner trees go by `Tight`.
+enum class TreeType { Reversible, Extended, Tight };
 
 enum class ParentRule {
     Centre, ///< the label of the parent voxel of the ball's centre (the paper's rule)
@@ -68,55 +76,65 @@ enum class Leaves {
     Medial  ///< all medial balls
 };
 
-enum class Side {
-    Outer, ///< spheres cover the object
-    Inner  ///< spheres lie inside the object, and cover as much of it as they can
+/// What tight and inner trees share.
+struct BudgetOptions {
+    SphereBudget budget; ///< which levels there are
+    bool cuts = false;   ///< also keep the tree for every number of spheres: SphereCuts.h
 };
 
-struct SphereTreeSettings {
-    TreeType tree = TreeType::Tight;
-    /// @name Tight trees
-    /// @{
+/// The least error at a number of spheres that we know how to reach.
+struct TightOptions : BudgetOptions {
     Quality quality = Quality::Normal;
-    SphereBudget budget; ///< which levels there are
     Cover cover = Cover::Voxels;
     Leaves leaves = Leaves::Pruned;
-    Side side = Side::Outer;
-    bool cuts = false; ///< also keep the tree for every number of spheres: SphereCuts.h
-    /// @}
-    Center center = Center::Medial; ///< reversible and extended trees
-    /// @name Reversible and extended trees, unless it says otherwise; tight trees refuse others
-    /// @{
+};
+
+/// Spheres that lie inside the object, and cover as much of it as they can. Their budget has no
+/// bound on the error, and their radii no padding.
+struct InnerOptions : BudgetOptions {};
+
+/// What the two trees of the paper share, which are built along a pyramid.
+struct PyramidOptions {
     /// Voxels of a level merged per axis into one voxel of the next level: 2 to kMaxFactor.
     int factor = 2;
-    /// All trees: 3, or 2 for an object one voxel thick along an axis, which then takes no part.
-    int dim = 3;
-    /// With dim = 2, the axis along which the object is one voxel thick (0, 1 or 2 for x, y, z).
-    /// Found by the builder, whatever stands here.
-    int flatAxis = 2;
-    Distance dist; ///< what the balls are balls of
     /// Pyramid model: 0 for OR, else OR after a closing of this radius (voxels of the child level).
     int closing = 0;
     /// An including model of one's own, in place of the above. It sees an object with dim = 2
-    /// turned so that it is flat along z. Files record that there was one, not which.
+    /// turned so that it is flat along z. Files record that there was one, not which: a tree read
+    /// back has one that isUnknown().
     PyramidModel customModel;
-    /// Set by the builder, and on a tree read back, whose customModel is then empty.
-    bool hadCustomModel = false;
+    Distance dist; ///< what the balls are balls of
+    Center center = Center::Medial;
     ParentRule parent = ParentRule::Centre;
-    /// Extended tree: store the smallest sphere around its own centre that contains the leaf balls
-    /// below it (Section 4.2 of the paper), rather than the one that the reconstruction used.
-    bool finalFit = true;
-    Reconstruction reconstruct = Reconstruction::Clip; ///< extended tree only
+    /// How the radii of a level's balls become those of level 0. In an extended tree only
+    /// parent = Dag asks for them.
     RadiusScale scale = RadiusScale::Tight;
-    /// @}
+    bool dag = false;                  ///< also collect the edges of the Sphere-DAG
+    DagEdges edges = DagEdges::Shared; ///< which ones; parent = Dag always goes by shared voxels
+};
+
+/// Every sphere contains the leaf balls below it (Broutta et al. 2009, Algorithm 2).
+struct ExtendedOptions : PyramidOptions {
+    /// Store the smallest sphere around its own centre that contains the leaf balls below it
+    /// (Section 4.2 of the paper), rather than the one that the reconstruction used.
+    bool finalFit = true;
+    Reconstruction reconstruct = Reconstruction::Clip;
+};
+
+/// Every level rebuilds its own pyramid level (Broutta et al. 2009, 3.2).
+struct ReversibleOptions : PyramidOptions {};
+
+struct SphereTreeSettings {
+    using Kind = std::variant<TightOptions, InnerOptions, ExtendedOptions, ReversibleOptions>;
+
+    Kind kind; ///< which kind of tree, and what only such trees can be asked for
+    /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
+    int dim = 3;
     /// Added to every radius that is stored, in voxels of level 0: 0 covers voxel centres, and
     /// kPadCubes (the only negative value) stands for sqrt(dim) / 2, which covers whole cubes.
     double padding = kPadCubes;
-    /// Also collect the edges of the Sphere-DAG.
-    bool dag = false;
     /// Also count components, tunnels and cavities of the voxels of every level.
     bool topology = true;
-    DagEdges edges = DagEdges::Shared; ///< which ones; parent=dag always goes by shared voxels
     /// Name of the tree, and of the grid it is stored in.
     std::string name = "spheretree";
     /// Bytes that the labels of a level and what they are made from may take while they are
@@ -127,11 +145,79 @@ struct SphereTreeSettings {
 
     static constexpr double kPadCubes = -1.0;
     static constexpr double kMaxPadding = 1e9;
-    /// @return the padding in voxels of level 0.
+
+    SphereTreeSettings() = default;
+    /// Any of the kinds above, all else at its default.
+    template <typename Options,
+        typename = std::enable_if_t<
+            std::is_constructible_v<Kind,
+                Options> && !std::is_same_v<std::decay_t<Options>, SphereTreeSettings>>>
+    SphereTreeSettings(Options&& options) : kind(std::forward<Options>(options))
+    {}
+
+    TreeType type() const;
+    bool isInner() const { return std::holds_alternative<InnerOptions>(kind); }
+
+    /// @return the options, if the kind is or shares these; else null.
+    template <typename Options>
+    const Options* find() const;
+    template <typename Options>
+    Options* find();
+    /// @name The options of a kind, or that it shares
+    /// @throw openvdb::ValueError if the tree is of another kind
+    /// @{
+    const TightOptions& tight() const { return required(find<TightOptions>(), "tight"); }
+    TightOptions& tight() { return required(find<TightOptions>(), "tight"); }
+    const ExtendedOptions& extended() const
+    {
+        return required(find<ExtendedOptions>(), "extended");
+    }
+    ExtendedOptions& extended() { return required(find<ExtendedOptions>(), "extended"); }
+    const BudgetOptions& budgeted() const { return required(find<BudgetOptions>(), "tight"); }
+    BudgetOptions& budgeted() { return required(find<BudgetOptions>(), "tight"); }
+    const PyramidOptions& pyramid() const { return required(find<PyramidOptions>(), "pyramid"); }
+    PyramidOptions& pyramid() { return required(find<PyramidOptions>(), "pyramid"); }
+    /// @}
+
+    /// @return that of the pyramid's options; Euclidean for other trees.
+    const Distance& dist() const;
+    /// @return the padding in voxels of level 0: none for inner trees.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
     void validate() const;
+
+private:
+    [[noreturn]] static void throwOtherKind(const char* wanted);
+    template <typename Options>
+    static Options& required(Options* options, const char* wanted)
+    {
+        if (!options) throwOtherKind(wanted);
+        return *options;
+    }
 };
+
+template <typename Options>
+const Options* SphereTreeSettings::find() const
+{
+    return std::visit(
+        [](const auto& options) -> const Options* {
+            using Own = std::decay_t<decltype(options)>;
+            if constexpr (std::is_base_of_v<Options, Own>) return &options;
+            else return nullptr;
+        },
+        kind);
+}
+
+template <typename Options>
+Options* SphereTreeSettings::find()
+{
+    return const_cast<Options*>(std::as_const(*this).find<Options>());
+}
+
+/// @return whether @a model stands for one that a file could not record: it throws when called.
+bool isUnknown(const PyramidModel& model);
+/// @throw openvdb::ValueError from the model, when it is called
+PyramidModel unknownModel();
 
 /// @name The names that the command line and the metadata of files use
 /// @{
@@ -140,7 +226,6 @@ const char* toString(ParentRule);
 const char* toString(Reconstruction);
 const char* toString(RadiusScale);
 const char* toString(DagEdges);
-const char* toString(Side);
 const char* toString(Leaves);
 const char* toString(Center);
 const char* toString(Cover);
@@ -150,18 +235,8 @@ std::string paddingToString(double padding);
 /// @return "75%" for 0, else the bytes, in GiB and so on where they come to a whole number.
 std::string memoryToString(int64_t memory);
 /// @return "or", "closing:2" and so on, or "custom".
-std::string modelToString(const SphereTreeSettings&);
+std::string modelToString(const PyramidOptions&);
 /// @throw openvdb::ValueError naming the value and the values there are.
-TreeType treeTypeFromString(const std::string&);
-ParentRule parentRuleFromString(const std::string&);
-Reconstruction reconstructionFromString(const std::string&);
-RadiusScale radiusScaleFromString(const std::string&);
-DagEdges dagEdgesFromString(const std::string&);
-Side sideFromString(const std::string&);
-Leaves leavesFromString(const std::string&);
-Center centerFromString(const std::string&);
-Cover coverFromString(const std::string&);
-Quality qualityFromString(const std::string&);
 double paddingFromString(const std::string&);
 /// @return the bytes of "4GiB", "500MB", "4e9" or, as a share of the machine's memory, "50%"; 0 for
 ///         "75%".

@@ -18,7 +18,7 @@ struct Spheres {
     std::vector<openvdb::Vec3d> center;
     std::vector<double> radius; ///< voxels of level 0, covers voxel centres, no padding
     /// The exact form of `radius`: voxel centre q is inside when
-    /// |subdivision (q - center)|^2 <= coverRadiusSq. The length is that of settings.dist, in its
+    /// |subdivision (q - center)|^2 <= coverRadiusSq. The length is that of settings.dist(), in its
     /// units.
     std::vector<int64_t> coverRadiusSq;
     /// World units, padded, rounded up. Of a norm: how far the ball reaches along an axis of index

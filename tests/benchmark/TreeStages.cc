@@ -12,20 +12,17 @@ namespace {
 
 namespace st = openvdb_spheretree;
 
-st::SphereTree buildTree(const BenchmarkInput& in, st::TreeType type, st::Quality quality)
+st::SphereTree buildTree(const BenchmarkInput& in, st::SphereTreeSettings settings)
 {
-    st::SphereTreeSettings settings;
-    settings.tree = type;
-    settings.quality = quality;
     settings.topology = false;
     return st::buildSphereTree(*in.grid, settings);
 }
 
-std::function<Work(const InputPtr&)> paperTree(st::TreeType type)
+std::function<Work(const InputPtr&)> paperTree(const st::SphereTreeSettings& settings)
 {
-    return [type](const InputPtr& in) -> Work {
-        return [in, type] {
-            benchmark::DoNotOptimize(buildTree(*in, type, st::Quality::Normal));
+    return [settings](const InputPtr& in) -> Work {
+        return [in, settings] {
+            benchmark::DoNotOptimize(buildTree(*in, settings));
             return int64_t(0);
         };
     };
@@ -35,7 +32,9 @@ std::function<Work(const InputPtr&)> tightTree(st::Quality quality)
 {
     return [quality](const InputPtr& in) -> Work {
         return [in, quality] {
-            const st::SphereTree tree = buildTree(*in, st::TreeType::Tight, quality);
+            st::TightOptions options;
+            options.quality = quality;
+            const st::SphereTree tree = buildTree(*in, options);
             return int64_t(tree.levels.front().size());
         };
     };
@@ -69,10 +68,10 @@ std::shared_ptr<const st::SphereTree> extendedTree(const BenchmarkInput& in)
 
 std::vector<BenchmarkStage> treeStages(bool more)
 {
-    std::vector<BenchmarkStage> stages{{"extended", paperTree(st::TreeType::Extended), {}},
+    std::vector<BenchmarkStage> stages{{"extended", paperTree(st::ExtendedOptions()), {}},
         {"errors", errors, {}}, {"tight-fast", tightTree(st::Quality::Fast), isDragon, true}};
     if (!more) return stages;
-    stages.push_back({"reversible", paperTree(st::TreeType::Reversible), {}});
+    stages.push_back({"reversible", paperTree(st::ReversibleOptions()), {}});
     stages.push_back({"tight-normal", tightTree(st::Quality::Normal), isDragon, true});
     return stages;
 }

@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/input/ObjectMask.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/tree/SettingsTable.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <gtest/gtest.h>
@@ -36,11 +37,7 @@ void setOption(SphereTreeSettings& settings, const std::string& option)
 {
     const auto equals = option.find('=');
     const std::string name = option.substr(0, equals), value = option.substr(equals + 1);
-    if (name == "tree") settings.tree = treeTypeFromString(value);
-    else if (name == "factor") settings.factor = std::stoi(value);
-    else if (name == "scale") settings.scale = radiusScaleFromString(value);
-    else if (name == "reconstruct") settings.reconstruct = reconstructionFromString(value);
-    else FAIL() << "unknown option " << option;
+    detail::settingNamed(name).set(settings, value);
 }
 
 Golden readGolden(const std::string& name)

@@ -128,7 +128,7 @@ TEST(Closing, AsAModelIsOrAfterAClosingOnEveryLevel)
         const RandomObject object = randomObject(40 + seed);
         const int radius = 1 + int(seed % 3), factor = 2 + int(seed % 2);
         const OrPyramid pyramid =
-            buildOrPyramid(*gridOf(object.voxels), factor, 3, nullptr, closingModel(radius));
+            buildOrPyramid(*gridOf(object.voxels), factor, 3, closingModel(radius));
         const OrPyramid plain = buildOrPyramid(*gridOf(object.voxels), factor);
         ASSERT_EQ(pyramid.levels.size(), plain.levels.size()) << object.name;
         PyramidStep step{pyramid.origin, factor, 3};

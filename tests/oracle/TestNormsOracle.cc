@@ -117,7 +117,7 @@ openvdb_spheretree::LevelError naiveError(
         reach = std::max(reach, tree.spheres.radius[id]);
     box.expand(int(reach) * 2 + 2);
     if (tree.settings.dim == 2) box.min()[2] = box.max()[2] = voxels[0][2];
-    const auto& dist = tree.settings.dist;
+    const auto& dist = tree.settings.dist();
     const Length length = normOf({dist.face(), dist.edge(), dist.corner()});
     openvdb_spheretree::LevelError error;
     int64_t farthest = 0;
@@ -150,7 +150,7 @@ void expectErrorsAgree(int dim, uint32_t firstSeed)
         for (const Weights& weights : kWeights) {
             for (SphereTreeSettings settings : bothTypes()) {
                 settings.dim = dim;
-                settings.dist = distanceOf(weights);
+                settings.pyramid().dist = distanceOf(weights);
                 SphereTree tree = buildSphereTree(*grid, settings);
                 computeLevelErrors(tree, *grid);
                 for (const SphereTreeLevel& level : tree.levels) {
@@ -195,8 +195,7 @@ TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
         const CoordBBox all(Coord(-70), Coord(70));
         CoordBBox clip = all;
         if (round % 3 == 0) clip.min() = Coord(corner(random), corner(random), corner(random));
-        const auto tree =
-            openvdb_spheretree::sphereUnion(balls, clip, nullptr, distanceOf(weights));
+        const auto tree = openvdb_spheretree::sphereUnion(balls, clip, distanceOf(weights));
         openvdb::tree::ValueAccessor<const openvdb::MaskTree> on(*tree);
         int64_t expected = 0;
         for (const Coord& q : voxelsOfBox(all)) {
@@ -226,14 +225,14 @@ TEST(NormsOracle, StoredTreesHoldWhatTheyPromiseAlsoInATurnedWorld)
         grid->setTransform(transform);
         for (const Weights& weights : kWeights) {
             for (SphereTreeSettings settings : bothTypes()) {
-                settings.dist = distanceOf(weights);
+                settings.pyramid().dist = distanceOf(weights);
                 SCOPED_TRACE(object.name + ": " + describe(settings));
                 SphereTree tree = buildSphereTree(*grid, settings);
                 computeLevelErrors(tree, *grid);
                 const SphereTree read =
                     openvdb_spheretree::fromPoints(*openvdb_spheretree::toPoints(tree));
                 ASSERT_TRUE(sameNodes(tree, read));
-                ASSERT_TRUE(read.settings.dist == settings.dist);
+                ASSERT_TRUE(read.settings.dist() == settings.dist());
                 const auto failures = openvdb_spheretree::checkSphereTree(read, *grid);
                 ASSERT_TRUE(failures.empty()) << failures.front();
             }
@@ -246,7 +245,7 @@ TEST(NormsOracle, ACheckFindsARadiusThatIsTooSmallAndOneThatIsNoSquare)
     const RandomObject object = randomObject(7);
     const auto grid = gridOf(object.voxels);
     SphereTreeSettings settings = extendedTree();
-    settings.dist = Distance::linf();
+    settings.pyramid().dist = Distance::linf();
     const SphereTree tree = buildSphereTree(*grid, settings);
     ASSERT_TRUE(openvdb_spheretree::checkSphereTree(tree, *grid).empty());
     SphereTree smaller = tree;

@@ -36,7 +36,7 @@ std::vector<SphereTreeSettings> flatSettings()
         for (const SphereTreeSettings& settings : allSettings(type, 2)) all.push_back(settings);
     }
     all.push_back(all.back());
-    all.back().dist = Distance::chamfer(3, 4, 5);
+    all.back().pyramid().dist = Distance::chamfer(3, 4, 5);
     return all;
 }
 
@@ -65,7 +65,7 @@ TEST(FlatObjects, HaveTheTreeOfTheObjectTurnedSoThatItIsFlatAlongZ)
                     + describe(settings));
                 const SphereTree expected = buildSphereTree(*upright, settings);
                 SphereTree tree = buildSphereTree(*grid, settings);
-                ASSERT_EQ(tree.settings.flatAxis, axis);
+                ASSERT_EQ(tree.flatAxis, axis);
                 ASSERT_EQ(turn.toZ(tree.origin), expected.origin);
                 ASSERT_TRUE(covers(tree, turned));
                 for (auto& center : tree.spheres.center) center = turn.toZ(center);
@@ -83,13 +83,13 @@ TEST(FlatObjects, AreCountedCheckedAndStoredInTheirPlane)
             const auto grid = gridOf(turnedFromZ(flatObject(seed), axis));
             SphereTreeSettings settings = extendedTree();
             settings.dim = 2;
-            settings.dag = true;
+            settings.pyramid().dag = true;
             SphereTree tree = buildSphereTree(*grid, settings);
             computeLevelErrors(tree, *grid);
             EXPECT_EQ(tree.levels[0].error->excess, 0);
             const SphereTree read = openvdb_spheretree::fromPoints(
                 *openvdb_spheretree::toPoints(tree), openvdb_spheretree::dagToPoints(tree).get());
-            EXPECT_EQ(read.settings.flatAxis, tree.settings.flatAxis);
+            EXPECT_EQ(read.flatAxis, tree.flatAxis);
             const auto failures = openvdb_spheretree::checkSphereTree(read, *grid);
             EXPECT_TRUE(failures.empty()) << failures.front();
         }

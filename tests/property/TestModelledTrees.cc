@@ -62,8 +62,8 @@ TEST(ModelledTrees, HoldWhatEveryTreeHolds)
             const auto grid = gridOf(object.voxels);
             for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
                 for (SphereTreeSettings settings : allSettings(type, 3)) {
-                    settings.closing = model.closing;
-                    settings.customModel = model.custom;
+                    settings.pyramid().closing = model.closing;
+                    settings.pyramid().customModel = model.custom;
                     SCOPED_TRACE(object.name + ", " + model.name + ": " + describe(settings));
                     expectSound(buildSphereTree(*grid, settings), *grid, object.voxels);
                     if (testing::Test::HasFailure()) return;
@@ -80,8 +80,8 @@ TEST(ModelledTrees, HoldInTwoDimensions)
             const Voxels voxels = flattened(object.voxels);
             const auto grid = gridOf(voxels);
             for (SphereTreeSettings settings : allSettings(TreeType::Extended, 2)) {
-                settings.closing = model.closing;
-                settings.customModel = model.custom;
+                settings.pyramid().closing = model.closing;
+                settings.pyramid().customModel = model.custom;
                 SCOPED_TRACE(object.name + ", " + model.name + ": " + describe(settings));
                 expectSound(buildSphereTree(*grid, settings), *grid, voxels);
                 if (testing::Test::HasFailure()) return;
@@ -95,12 +95,12 @@ TEST(ModelledTrees, AReversibleTreeRebuildsTheModelsLevels)
     for (const Model& model : models()) {
         const RandomObject object = randomObject(77);
         SphereTreeSettings settings;
-        settings.tree = TreeType::Reversible;
-        settings.closing = model.closing;
-        settings.customModel = model.custom;
+        setType(settings, TreeType::Reversible);
+        settings.pyramid().closing = model.closing;
+        settings.pyramid().customModel = model.custom;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         const PyramidModel step = model.custom ? model.custom : closingModel(model.closing);
-        const OrPyramid pyramid = buildOrPyramid(*gridOf(object.voxels), 2, 3, nullptr, step);
+        const OrPyramid pyramid = buildOrPyramid(*gridOf(object.voxels), 2, 3, step);
         for (const SphereTreeLevel& level : tree.levels) {
             EXPECT_EQ(
                 level.pyramidVoxels, int64_t(pyramid.levels.at(level.level)->activeVoxelCount()))
@@ -114,13 +114,13 @@ TEST(ModelledTrees, ACustomTreeReadBackIsKnownAsOneAndChecked)
     const RandomObject object = randomObject(12);
     const auto grid = gridOf(object.voxels);
     SphereTreeSettings settings = extendedTree();
-    settings.dag = true;
-    settings.customModel = blockModel(bridges);
+    settings.pyramid().dag = true;
+    settings.pyramid().customModel = blockModel(bridges);
     const SphereTree tree = buildSphereTree(*grid, settings);
-    EXPECT_TRUE(tree.settings.hadCustomModel);
+    EXPECT_FALSE(isUnknown(tree.settings.pyramid().customModel));
     SphereTree copy = tree;
-    copy.settings.customModel = {}; // as files give it
-    EXPECT_EQ(modelToString(copy.settings), "custom");
+    copy.settings.pyramid().customModel = unknownModel(); // as files give it
+    EXPECT_EQ(modelToString(copy.settings.pyramid()), "custom");
     EXPECT_TRUE(checkSphereTree(copy, *grid).empty());
     const std::string why =
         messageOf<openvdb::ValueError>([&] { buildSphereTree(*grid, copy.settings); });
@@ -131,17 +131,17 @@ TEST(ModelledTrees, ATreeKnowsWhetherItsModelIsCustom)
 {
     const auto grid = gridOf(randomObject(12).voxels);
     SphereTreeSettings settings = extendedTree();
-    EXPECT_FALSE(buildSphereTree(*grid, settings).settings.hadCustomModel);
-    settings.closing = 1;
-    EXPECT_EQ(modelToString(buildSphereTree(*grid, settings).settings), "closing:1");
+    EXPECT_EQ(modelToString(buildSphereTree(*grid, settings).settings.pyramid()), "or");
+    settings.pyramid().closing = 1;
+    EXPECT_EQ(modelToString(buildSphereTree(*grid, settings).settings.pyramid()), "closing:1");
 }
 
 std::string whyNoTree(const PyramidModel& model)
 {
     std::string all;
     for (SphereTreeSettings settings : bothTypes()) {
-        settings.customModel = model;
-        settings.reconstruct = Reconstruction::None;
+        settings.pyramid().customModel = model;
+        settings.extended().reconstruct = Reconstruction::None;
         all += messageOf<openvdb::ValueError>([&] {
             buildSphereTree(*gridOf(shapes::ball(60)), settings);
         }) + "\n";
@@ -177,8 +177,8 @@ TEST(ModelledTrees, AModelThatNeverEndsIsRefused)
         return next;
     };
     SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible; // the extended one may drop what the model adds
-    settings.customModel = swells;
+    setType(settings, TreeType::Reversible); // the extended one may drop what the model adds
+    settings.pyramid().customModel = swells;
     const std::string why = messageOf<openvdb::ValueError>(
         [&] { buildSphereTree(*gridOf(shapes::ball(60)), settings); });
     EXPECT_TRUE(mentions(why, "grows level"));

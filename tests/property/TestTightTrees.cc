@@ -67,13 +67,12 @@ std::vector<RandomObject> smallObjects()
 SphereTreeSettings tightSettings(Quality quality)
 {
     SphereTreeSettings settings;
-    settings.tree = TreeType::Tight;
-    settings.quality = quality;
+    settings.tight().quality = quality;
     settings.topology = false;
-    settings.budget.branching = 3;
+    settings.budgeted().budget.branching = 3;
     if (quality == Quality::Best) {
-        settings.budget = SphereBudget();
-        settings.budget.spheres = {1, 4};
+        settings.budgeted().budget = SphereBudget();
+        settings.budgeted().budget.spheres = {1, 4};
     }
     return settings;
 }
@@ -84,9 +83,9 @@ std::vector<SphereTreeSettings> tightVariants(Quality quality)
     std::vector<SphereTreeSettings> all;
     for (int i = 0; i < 16; ++i) {
         SphereTreeSettings settings = tightSettings(quality);
-        settings.cover = i % 2 ? Cover::Balls : Cover::Voxels;
-        settings.leaves = i / 2 % 2 ? Leaves::Medial : Leaves::Pruned;
-        settings.cuts = i / 4 % 2 && quality != Quality::Best; // which refuses them
+        settings.tight().cover = i % 2 ? Cover::Balls : Cover::Voxels;
+        settings.tight().leaves = i / 2 % 2 ? Leaves::Medial : Leaves::Pruned;
+        settings.budgeted().cuts = i / 4 % 2 && quality != Quality::Best; // which refuses them
         settings.padding = i / 8 % 2 ? 0 : SphereTreeSettings::kPadCubes;
         all.push_back(settings);
     }
@@ -95,9 +94,10 @@ std::vector<SphereTreeSettings> tightVariants(Quality quality)
 
 std::string describeTight(const SphereTreeSettings& s)
 {
-    return std::string("quality=") + toString(s.quality) + " cover=" + toString(s.cover)
-        + " leaves=" + toString(s.leaves) + " cuts=" + (s.cuts ? "1" : "0")
-        + " dim=" + std::to_string(s.dim) + " padding=" + paddingToString(s.padding);
+    return std::string("quality=") + toString(s.tight().quality)
+        + " cover=" + toString(s.tight().cover) + " leaves=" + toString(s.tight().leaves)
+        + " cuts=" + (s.tight().cuts ? "1" : "0") + " dim=" + std::to_string(s.dim)
+        + " padding=" + paddingToString(s.padding);
 }
 
 int64_t sumOf(const std::vector<int64_t>& counts)
@@ -118,7 +118,7 @@ Voxels rebuilt(const SphereTree& tree)
     Voxels voxels;
     for (int32_t id = tree.levels[0].begin; id < tree.levels[0].end; ++id) {
         for (const Coord& v : shapes::ball(tree.radiusSq[id])) {
-            const bool inPlane = tree.settings.dim == 3 || v[tree.settings.flatAxis] == 0;
+            const bool inPlane = tree.settings.dim == 3 || v[tree.flatAxis] == 0;
             if (inPlane) voxels.push_back(v + tree.ijk[id]);
         }
     }
@@ -172,8 +172,8 @@ void expectAllSound(Quality quality, std::size_t stride)
             SCOPED_TRACE(object.name + ": " + describeTight(variants[i]));
             const SphereTree tree = buildSphereTree(*grid, variants[i]);
             ASSERT_NO_FATAL_FAILURE(expectSound(tree, *grid, object.voxels));
-            ASSERT_EQ(tree.cuts.empty(), !variants[i].cuts);
-            if (variants[i].cuts) {
+            ASSERT_EQ(tree.cuts.empty(), !variants[i].tight().cuts);
+            if (variants[i].tight().cuts) {
                 ASSERT_NO_FATAL_FAILURE(expectCutsHold(tree, object.voxels));
             }
         }
@@ -193,7 +193,7 @@ TEST(TightTrees, OfQualityBestKeepTheirChainsFromTheMiddleOut)
         const RandomObject object = randomObject(seed);
         if (object.voxels.size() < 40 || object.voxels.size() > 150) continue;
         SphereTreeSettings settings = tightSettings(Quality::Best);
-        settings.budget.spheres =
+        settings.budgeted().budget.spheres =
             seed % 2 ? std::vector<int64_t>{13, 8, 5, 3, 1} : std::vector<int64_t>{9, 4, 1};
         SCOPED_TRACE(object.name + ": " + describeTight(settings));
         const auto grid = gridOf(object.voxels);
@@ -209,9 +209,9 @@ TEST(TightTrees, OfRandomObjectsKeepTheirChains)
         const Quality quality = Quality(seed % 3);
         if (object.voxels.size() > (quality == Quality::Best ? 120 : 400)) continue;
         SphereTreeSettings settings = tightSettings(quality);
-        settings.cover = seed % 5 ? Cover::Voxels : Cover::Balls;
-        settings.budget.spheres = {1, 5};
-        settings.budget.branching = 0;
+        settings.tight().cover = seed % 5 ? Cover::Voxels : Cover::Balls;
+        settings.budgeted().budget.spheres = {1, 5};
+        settings.budgeted().budget.branching = 0;
         SCOPED_TRACE(object.name + ": " + describeTight(settings));
         const auto grid = gridOf(object.voxels);
         ASSERT_NO_FATAL_FAILURE(
@@ -226,8 +226,8 @@ TEST(TightTrees, HaveTheCountsAskedFor)
         for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
             if (quality == Quality::Best && object.voxels.size() > 70) continue;
             SphereTreeSettings settings = tightSettings(quality);
-            settings.budget = SphereBudget();
-            settings.budget.spheres = {2, 7, 1000000, 1, 4};
+            settings.budgeted().budget = SphereBudget();
+            settings.budgeted().budget.spheres = {2, 7, 1000000, 1, 4};
             SCOPED_TRACE(object.name + ": " + describeTight(settings));
             const SphereTree tree = buildSphereTree(*grid, settings);
             const int32_t leaves = tree.levels[0].size();
@@ -250,7 +250,7 @@ TEST(TightTrees, PrunedLeavesAreFewerThanMedialOnes)
         if (object.name == "far apart") continue; // too wide for the reference
         SphereTreeSettings settings = tightSettings(Quality::Fast);
         const SphereTree pruned = buildSphereTree(*gridOf(object.voxels), settings);
-        settings.leaves = Leaves::Medial;
+        settings.tight().leaves = Leaves::Medial;
         const SphereTree medial = buildSphereTree(*gridOf(object.voxels), settings);
         EXPECT_LE(pruned.levels[0].size(), medial.levels[0].size());
         EXPECT_EQ(medial.levels[0].size(), int32_t(NaiveReference(object.voxels).balls().size()));
@@ -278,10 +278,10 @@ void expectFlat(const Voxels& flat, SphereTreeSettings settings)
         const auto grid = gridOf(voxels);
         const SphereTree tree = buildSphereTree(*grid, settings);
         ASSERT_NO_FATAL_FAILURE(expectSound(tree, *grid, voxels));
-        if (tree.settings.cuts) {
+        if (tree.settings.budgeted().cuts) {
             ASSERT_NO_FATAL_FAILURE(expectCutsHold(tree, voxels));
         }
-        const int along = tree.settings.flatAxis;
+        const int along = tree.flatAxis;
         for (const openvdb::Vec3d& center : tree.spheres.center) {
             ASSERT_EQ(center[along], double(boxOf(voxels).min()[along]));
         }
@@ -307,7 +307,7 @@ TEST(TightTrees, InTwoDimensionsStayInThePlaneHoweverWideTheObject)
     for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
         for (const Cover cover : {Cover::Voxels, Cover::Balls}) {
             SphereTreeSettings settings = tightSettings(quality);
-            settings.cover = cover;
+            settings.tight().cover = cover;
             SCOPED_TRACE(describeTight(settings));
             ASSERT_NO_FATAL_FAILURE(expectFlat(flat, settings));
         }
@@ -329,8 +329,8 @@ TEST(TightTrees, AreTheSameForAnyNumberOfThreads)
         const auto& grid = quality == Quality::Best ? few : many; // many at a time
         for (const Cover cover : {Cover::Voxels, Cover::Balls}) {
             SphereTreeSettings settings = tightSettings(quality);
-            settings.cover = cover;
-            settings.cuts = quality != Quality::Best;
+            settings.tight().cover = cover;
+            settings.budgeted().cuts = quality != Quality::Best;
             std::vector<SphereTree> trees;
             for (const std::size_t threads : {1, 2, 5}) {
                 const Control control(Control::max_allowed_parallelism, threads);
@@ -402,9 +402,9 @@ SphereTreeSettings bounded(
     Quality quality, std::optional<double> error, std::optional<double> distance)
 {
     SphereTreeSettings settings = tightSettings(quality);
-    settings.budget = SphereBudget();
-    settings.budget.error = error;
-    settings.budget.distance = distance;
+    settings.budgeted().budget = SphereBudget();
+    settings.budgeted().budget.error = error;
+    settings.budgeted().budget.distance = distance;
     return settings;
 }
 
@@ -413,15 +413,15 @@ void expectFewest(const openvdb::BoolGrid& grid, const SphereTreeSettings& setti
 {
     const SphereTree tree = buildSphereTree(grid, settings);
     ASSERT_EQ(tree.levels.size(), 1u);
-    ASSERT_TRUE(isWithin(tree, grid, settings.budget)) << tree.size() << " spheres";
+    ASSERT_TRUE(isWithin(tree, grid, settings.budgeted().budget)) << tree.size() << " spheres";
     ASSERT_EQ(failuresOf(tree, grid), "");
     SphereTreeSettings free = settings;
     free.budget = SphereBudget();
     free.cuts = true;
-    if (settings.quality == Quality::Best) return; // has no cuts of what was searched
+    if (settings.tight().quality == Quality::Best) return; // has no cuts of what was searched
     const SphereTree all = buildSphereTree(grid, free);
     for (int32_t n = tree.size() - 1; n > std::max(0, tree.size() - 9); --n) {
-        ASSERT_FALSE(isWithin(cutTree(all, n), grid, settings.budget))
+        ASSERT_FALSE(isWithin(cutTree(all, n), grid, settings.budgeted().budget))
             << n << " of " << tree.size();
     }
 }
@@ -431,7 +431,7 @@ void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settin
 {
     const auto grid = gridOf(object.voxels);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
-    const SphereBudget& budget = settings.budget;
+    const SphereBudget& budget = settings.budgeted().budget;
     SCOPED_TRACE(object.name + ": " + describeTight(settings) + ", error "
         + std::to_string(budget.error.value_or(-1)) + ", distance "
         + std::to_string(budget.distance.value_or(-1)));
@@ -469,7 +469,7 @@ TEST(TightTrees, WithinABoundHaveTheLadderBelow)
     const auto grid = gridOf(smallObjects()[3].voxels);
     SphereTreeSettings settings = bounded(Quality::Normal, 30.0, std::nullopt);
     const int32_t fewest = buildSphereTree(*grid, settings).size();
-    settings.budget.branching = 2;
+    settings.budgeted().budget.branching = 2;
     const SphereTree tree = buildSphereTree(*grid, settings);
     ASSERT_EQ(tree.levels[0].size(), fewest);
     for (std::size_t k = tree.levels.size(); k-- > 1;) {
@@ -484,9 +484,9 @@ TEST(TightTrees, SayWhenABoundCannotBeReached)
     SphereTreeSettings settings = bounded(Quality::Fast, 1.5, 0.25);
     const int32_t fewest = buildSphereTree(*grid, settings).size();
     ASSERT_GT(fewest, 2);
-    settings.budget.spheres = {fewest};
+    settings.budgeted().budget.spheres = {fewest};
     EXPECT_EQ(buildSphereTree(*grid, settings).size(), fewest);
-    settings.budget.spheres = {fewest - 1};
+    settings.budgeted().budget.spheres = {fewest - 1};
     const std::string message =
         messageOf<openvdb::ValueError>([&] { buildSphereTree(*grid, settings); });
     EXPECT_TRUE(mentions(message, "error=1.5 and distance=0.25 cannot be reached with spheres="));
@@ -512,12 +512,12 @@ TEST(TightTrees, EndSoonWhenInterrupted)
     for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
         SphereTreeSettings settings = tightSettings(quality);
         Stopper never(INT32_MAX);
-        buildSphereTree(*grid, settings, &never);
+        buildSphereTree(*grid, settings, nullptr, &never);
         ASSERT_GT(never.asked(), 100);
         for (int part = 0; part < 12; ++part) {
             const int after = int(int64_t(never.asked()) * part / 14);
             Stopper stop(after);
-            EXPECT_THROW(buildSphereTree(*grid, settings, &stop), Interrupted) << after;
+            EXPECT_THROW(buildSphereTree(*grid, settings, nullptr, &stop), Interrupted) << after;
             EXPECT_LT(stop.asked(), after + 40);
         }
     }
@@ -527,7 +527,7 @@ TEST(TightTrees, OfObjectsTooWideForTheirUnitsAreRefused)
 {
     for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
         SphereTreeSettings settings = tightSettings(quality);
-        settings.budget.spheres.clear();
+        settings.budgeted().budget.spheres.clear();
         const Voxels fits{Coord(0, 0, 0), Coord(1 << 24, 0, 0)};
         const SphereTree tree = buildSphereTree(*gridOf(fits), settings);
         ASSERT_NO_FATAL_FAILURE(expectChains(tree, fits));

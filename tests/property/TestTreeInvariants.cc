@@ -57,9 +57,9 @@ std::vector<SphereTreeSettings> someSettings()
 {
     std::vector<SphereTreeSettings> all = bothTypes();
     for (SphereTreeSettings settings : bothTypes()) {
-        settings.factor = 3;
-        settings.parent = ParentRule::Dag;
-        settings.finalFit = false;
+        settings.pyramid().factor = 3;
+        settings.pyramid().parent = ParentRule::Dag;
+        if (auto* options = settings.find<ExtendedOptions>()) options->finalFit = false;
         settings.padding = 0;
         all.push_back(settings);
     }
@@ -309,7 +309,7 @@ TEST(TreeInvariants, HoldOnRealObjects)
             if (settings.padding < 0) {
                 ASSERT_NO_FATAL_FAILURE(checkStoredCoverOfCubes(object, settings, tree));
             }
-            if (settings.tree == TreeType::Reversible) return;
+            if (settings.type() == TreeType::Reversible) return;
             ASSERT_NO_FATAL_FAILURE(checkChildren(object, settings, tree));
             ASSERT_NO_FATAL_FAILURE(checkStoredContainment(object, settings, tree));
         });
@@ -322,7 +322,7 @@ TEST(TreeInvariants, HoldOnRealObjectsInARoughWorld)
     forEachTree(objects, withPadding(bothTypes(), 0),
         [](const Object& object, const SphereTreeSettings& settings, const SphereTree& tree) {
             ASSERT_NO_FATAL_FAILURE(checkStoredCoverOfCentres(object, settings, tree));
-            if (settings.tree == TreeType::Reversible) return;
+            if (settings.type() == TreeType::Reversible) return;
             ASSERT_NO_FATAL_FAILURE(checkStoredContainment(object, settings, tree));
         });
 }
@@ -352,7 +352,7 @@ TEST(TreeInvariants, OneAndTwoThreadsGiveTheSameTree)
 {
     expectSameForOneAndTwoThreads(randomObjects(700, 22), allSettings());
     std::vector<SphereTreeSettings> withDag = someSettings();
-    for (SphereTreeSettings& settings : withDag) settings.dag = true;
+    for (SphereTreeSettings& settings : withDag) settings.pyramid().dag = true;
     Random random(1);
     const Voxels large = shapes::noise(Coord(70, 60, 50), 0.7, random);
     expectSameForOneAndTwoThreads({{"large noise", gridOf(large), large}}, withDag);
@@ -364,7 +364,8 @@ TEST(TreeInvariants, TranslationByMultiplesOfEightCarriesTheTreeAlong)
     const std::vector<Coord> shifts{Coord(8, 0, 0), Coord(-8, 16, -24), Coord(-4096, 128, 1 << 20)};
     for (const Object& object : randomObjects(800, 33)) {
         for (const SphereTreeSettings& settings : allSettings()) {
-            const Coord& by = shifts[settings.factor % 2 + int(settings.parent)];
+            const Coord& by =
+                shifts[settings.pyramid().factor % 2 + int(settings.pyramid().parent)];
             SCOPED_TRACE(object.name + ": " + describe(settings));
             SphereTree tree = buildSphereTree(*object.grid, settings);
             const SphereTree moved =
@@ -391,7 +392,7 @@ TEST(TreeInvariants, PermutingTheAxesPermutesThePyramidAndKeepsTheLargestBalls)
         Voxels permuted;
         for (const Coord& v : object.voxels) permuted.emplace_back(v[2], v[0], v[1]);
         SphereTreeSettings settings;
-        settings.tree = TreeType::Reversible;
+        setType(settings, TreeType::Reversible);
         const SphereTree a = buildSphereTree(*object.grid, settings);
         const SphereTree b = buildSphereTree(*gridOf(permuted), settings);
         for (std::size_t k = 0; k < std::min(a.levels.size(), b.levels.size()); ++k) {
@@ -458,7 +459,7 @@ TEST(TreeInvariants, ABlockOfTilesOf512GivesTheTreeOfTheSameBlockWrittenOut)
 /// every edge comes from a voxel.
 void checkDag(const Object& object, const SphereTreeSettings& settings, const SphereTree& tree)
 {
-    const auto pyramid = naiveOrPyramid(object.voxels, settings.factor);
+    const auto pyramid = naiveOrPyramid(object.voxels, settings.pyramid().factor);
     std::set<std::pair<int32_t, int32_t>> witnessed;
     std::map<Coord, int32_t> above; // id of the label of each voxel of the level above
     for (int k = int(tree.levels.size()) - 1; k >= 0; --k) {
@@ -471,7 +472,8 @@ void checkDag(const Object& object, const SphereTreeSettings& settings, const Sp
             labels[voxel] = idAt.at(naive.label(i));
             if (above.empty()) continue;
             Coord parent = k == 0 ? voxel - tree.origin : voxel;
-            for (int axis = 0; axis < 3; ++axis) parent[axis] /= settings.factor; // not negative
+            for (int axis = 0; axis < 3; ++axis)
+                parent[axis] /= settings.pyramid().factor; // not negative
             witnessed.emplace(above.at(parent), labels[voxel]);
         }
         above = labels;

@@ -7,6 +7,7 @@
 
 #include "CoreStages.h"
 #include "RandomObjects.h"
+#include "TreeSettings.h"
 
 #include <openvdb_spheretree/tree/SphereTree.h>
 
@@ -28,10 +29,14 @@ using openvdb_spheretree::TreeType;
 
 inline std::string describe(const SphereTreeSettings& s)
 {
-    return std::string(toString(s.tree)) + " factor=" + std::to_string(s.factor)
-        + " dim=" + std::to_string(s.dim) + " parent=" + toString(s.parent) + " final_fit="
-        + (s.finalFit ? "1" : "0") + " reconstruct=" + toString(s.reconstruct) + " scale="
-        + toString(s.scale) + " dist=" + toString(s.dist) + " padding=" + std::to_string(s.padding);
+    using namespace openvdb_spheretree;
+    const auto pyramid = optionsOr<PyramidOptions>(s);
+    const auto extended = optionsOr<ExtendedOptions>(s);
+    return std::string(toString(s.type())) + " factor=" + std::to_string(pyramid.factor)
+        + " dim=" + std::to_string(s.dim) + " parent=" + toString(pyramid.parent) + " final_fit="
+        + (extended.finalFit ? "1" : "0") + " reconstruct=" + toString(extended.reconstruct)
+        + " scale=" + toString(pyramid.scale) + " dist=" + toString(s.dist())
+        + " padding=" + std::to_string(s.padding);
 }
 
 /// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree
@@ -42,14 +47,16 @@ inline std::vector<SphereTreeSettings> allSettings(TreeType type, int dim)
     std::vector<SphereTreeSettings> all;
     for (int i = 0; i < 48; ++i) {
         SphereTreeSettings settings;
-        settings.tree = type;
+        setType(settings, type);
         settings.dim = dim;
-        settings.dag = true;
-        settings.factor = 2 + i % 2;
-        settings.parent = i / 2 % 2 ? ParentRule::Dag : ParentRule::Centre;
-        settings.scale = i / 4 % 2 ? RadiusScale::Paper : RadiusScale::Tight;
-        settings.finalFit = i / 8 % 2 == 0;
-        settings.reconstruct = Reconstruction(i / 16);
+        settings.pyramid().dag = true;
+        settings.pyramid().factor = 2 + i % 2;
+        settings.pyramid().parent = i / 2 % 2 ? ParentRule::Dag : ParentRule::Centre;
+        settings.pyramid().scale = i / 4 % 2 ? RadiusScale::Paper : RadiusScale::Tight;
+        if (extended) {
+            settings.extended().finalFit = i / 8 % 2 == 0;
+            settings.extended().reconstruct = Reconstruction(i / 16);
+        }
         if (extended || i < 8) all.push_back(settings);
     }
     return all;
@@ -63,9 +70,10 @@ inline std::vector<SphereTreeSettings> normSettings(TreeType type, int dim)
     for (const Distance& distance : {Distance::l1(), Distance::linf(), Distance::chamfer(3, 4, 5),
              Distance::chamfer(16, 21, 26), Distance::chamfer(2, 3, 3)}) {
         for (SphereTreeSettings settings : allSettings(type, dim)) {
-            const bool plain = settings.reconstruct == Reconstruction::Clip
-                && (settings.finalFit || settings.scale == RadiusScale::Tight);
-            settings.dist = distance;
+            const auto extended = optionsOr<openvdb_spheretree::ExtendedOptions>(settings);
+            const bool plain = extended.reconstruct == Reconstruction::Clip
+                && (extended.finalFit || settings.pyramid().scale == RadiusScale::Tight);
+            settings.pyramid().dist = distance;
             if (plain) all.push_back(settings);
         }
     }
@@ -84,7 +92,7 @@ inline std::vector<SphereTreeSettings> allSettings()
 inline SphereTreeSettings settingsFor(TreeType type)
 {
     SphereTreeSettings settings;
-    settings.tree = type;
+    setType(settings, type);
     return settings;
 }
 
@@ -121,7 +129,7 @@ inline int64_t distanceSqInUnits(const SphereTree& tree, int32_t id, const Coord
         d[axis] = int32_t(tree.subdivision * int64_t(q[axis])
             - std::llround(tree.subdivision * tree.spheres.center[id][axis]));
     }
-    const auto& dist = tree.settings.dist;
+    const auto& dist = tree.settings.dist();
     if (dist.isEuclidean()) return squaredDistance(d, Coord(0, 0, 0));
     const int64_t length = normOf({dist.face(), dist.edge(), dist.corner()})(d, Coord(0, 0, 0));
     return length * length;

@@ -85,7 +85,7 @@ private:
 struct CoreStages {
     explicit CoreStages(const openvdb::MaskTree& level, int dim = 3,
         const openvdb_spheretree::Distance& distance = {})
-        : layout(level), distances(distanceTransform(layout, dim, nullptr, distance)),
+        : layout(level), distances(distanceTransform(layout, dim, distance)),
           labels(powerMap(layout, distances, dim)), balls(medialBalls(labels, distances))
     {}
     CoreStages(const CoreStages&) = delete; // labels refer to the layout

@@ -15,17 +15,19 @@ constexpr double kDenseTolerance = 1e-9;
 
 inline DenseSettings denseSettings(const SphereTreeSettings& settings)
 {
+    const auto pyramid = optionsOr<openvdb_spheretree::PyramidOptions>(settings);
+    const auto extended = optionsOr<openvdb_spheretree::ExtendedOptions>(settings);
     DenseSettings dense;
-    dense.extended = settings.tree == TreeType::Extended;
-    dense.factor = settings.factor;
+    dense.extended = settings.type() == TreeType::Extended;
+    dense.factor = pyramid.factor;
     dense.dim = settings.dim;
-    dense.parentByDag = settings.parent == ParentRule::Dag;
-    dense.finalFit = settings.finalFit;
-    dense.reconstruct = settings.reconstruct == Reconstruction::Clip ? DenseReconstruction::Clip
-        : settings.reconstruct == Reconstruction::Free               ? DenseReconstruction::Free
+    dense.parentByDag = pyramid.parent == ParentRule::Dag;
+    dense.finalFit = extended.finalFit;
+    dense.reconstruct = extended.reconstruct == Reconstruction::Clip ? DenseReconstruction::Clip
+        : extended.reconstruct == Reconstruction::Free               ? DenseReconstruction::Free
                                                                      : DenseReconstruction::None;
-    dense.paperScale = settings.scale == RadiusScale::Paper;
-    dense.norm = {settings.dist.face(), settings.dist.edge(), settings.dist.corner()};
+    dense.paperScale = pyramid.scale == RadiusScale::Paper;
+    dense.norm = {settings.dist().face(), settings.dist().edge(), settings.dist().corner()};
     return dense;
 }
 
@@ -54,7 +56,7 @@ inline testing::AssertionResult agreeOnNode(
     }
     // coverSq is (2 radius)^2, in units of the distance, rounded down, but for what doubles cannot
     // tell.
-    const double unit = tree.settings.dist.unit();
+    const double unit = tree.settings.dist().unit();
     const double fourRSq = 4 * unit * unit * expected.radius * expected.radius;
     if (std::abs(double(tree.spheres.coverRadiusSq[id]) + 0.5 - fourRSq)
         > 0.5 + kDenseTolerance * (1 + fourRSq)) {

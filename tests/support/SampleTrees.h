@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/tree/SettingsTable.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ inline SphereTree oneVoxelTree()
     SphereTree tree;
     tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
     tree.origin = {-8, 0, 0};
-    tree.settings.tree = openvdb_spheretree::TreeType::Extended;
+    tree.settings.kind = openvdb_spheretree::ExtendedOptions();
     tree.settings.padding = 0;
     tree.object.name = "dot";
     tree.object.voxels = tree.object.leaves = 1;
@@ -67,16 +68,18 @@ inline void fillDescription(SphereTree& tree)
 {
     using namespace openvdb_spheretree;
     tree.origin = {-16, 8, -1024};
-    tree.settings.tree = TreeType::Reversible;
-    tree.settings.factor = 3;
-    tree.settings.closing = 5;
-    tree.settings.parent = ParentRule::Dag;
-    tree.settings.finalFit = false;
-    tree.settings.reconstruct = Reconstruction::Free;
-    tree.settings.scale = RadiusScale::Paper;
+    ExtendedOptions options;
+    options.factor = 3;
+    options.closing = 5;
+    options.parent = ParentRule::Dag;
+    options.finalFit = false;
+    options.reconstruct = Reconstruction::Free;
+    options.scale = RadiusScale::Paper;
+    options.dag = true;
+    options.edges = DagEdges::Intersecting;
+    tree.settings.kind = options;
+    tree.hasDag = true;
     tree.settings.padding = 0.1;
-    tree.settings.dag = true;
-    tree.settings.edges = openvdb_spheretree::DagEdges::Intersecting;
     tree.settings.topology = false;
     tree.settings.name = "sample tree";
     tree.object.name = "bunny, left ear";
@@ -121,14 +124,13 @@ inline SphereTree sampleTree()
 inline void fillTightSettings(openvdb_spheretree::SphereTreeSettings& settings)
 {
     using namespace openvdb_spheretree;
-    settings = SphereTreeSettings();
-    settings.tree = TreeType::Tight;
-    settings.quality = Quality::Fast;
-    settings.budget.spheres = {512, 2};
-    settings.cover = Cover::Balls;
-    settings.leaves = Leaves::Medial;
-    settings.side = Side::Inner;
-    settings.cuts = true;
+    TightOptions options;
+    options.quality = Quality::Fast;
+    options.budget.spheres = {512, 2};
+    options.cover = Cover::Balls;
+    options.leaves = Leaves::Medial;
+    options.cuts = true;
+    settings = options;
     settings.padding = 0.1;
     settings.name = "tight tree";
 }
@@ -166,6 +168,8 @@ inline SphereTree tightSampleTree()
     tree.transform = openvdb::math::Transform::createLinearTransform(0.1);
     fillDescription(tree);
     tree.settings = {};
+    tree.hasDag = false;
+    tree.hasCuts = true;
     fillTightSettings(tree.settings);
     tree.subdivision = 16;
     addLevel(tree, 1, 0);
@@ -185,7 +189,7 @@ inline SphereTree randomTree(int32_t n, unsigned seed)
     std::mt19937 random(seed);
     const auto number = [&](int lo, int hi) { return lo + int(random() % uint32_t(hi - lo + 1)); };
     SphereTree tree;
-    tree.settings.tree = openvdb_spheretree::TreeType::Extended;
+    tree.settings.kind = openvdb_spheretree::ExtendedOptions();
     tree.transform = openvdb::math::Transform::createLinearTransform(0.07);
     tree.object.name = "random";
     std::vector<int32_t> counts{n};
@@ -220,41 +224,21 @@ inline SphereTree oneLevelOf(const SphereTree& tree, int number)
     kept.levels[0].begin = 0;
     kept.levels[0].end = level.size();
     kept.dag.clear();
-    kept.settings.dag = false;
+    kept.hasDag = false;
     return kept;
-}
-
-inline void expectSameTightSettings(const openvdb_spheretree::SphereTreeSettings& a,
-    const openvdb_spheretree::SphereTreeSettings& b)
-{
-    EXPECT_EQ(a.quality, b.quality);
-    EXPECT_EQ(a.budget.spheres, b.budget.spheres);
-    EXPECT_EQ(a.budget.branching, b.budget.branching);
-    EXPECT_EQ(a.budget.error, b.budget.error);
-    EXPECT_EQ(a.budget.distance, b.budget.distance);
-    EXPECT_EQ(a.cover, b.cover);
-    EXPECT_EQ(a.leaves, b.leaves);
-    EXPECT_EQ(a.side, b.side);
-    EXPECT_EQ(a.cuts, b.cuts);
-    EXPECT_EQ(a.center, b.center);
 }
 
 inline void expectSameDescription(const SphereTree& a, const SphereTree& b)
 {
-    EXPECT_EQ(a.settings.tree, b.settings.tree);
-    EXPECT_EQ(a.settings.factor, b.settings.factor);
-    EXPECT_EQ(a.settings.dim, b.settings.dim);
-    EXPECT_EQ(modelToString(a.settings), modelToString(b.settings));
-    EXPECT_EQ(a.settings.parent, b.settings.parent);
-    EXPECT_EQ(a.settings.finalFit, b.settings.finalFit);
-    EXPECT_EQ(a.settings.reconstruct, b.settings.reconstruct);
-    EXPECT_EQ(a.settings.scale, b.settings.scale);
-    EXPECT_EQ(a.settings.padding, b.settings.padding);
-    EXPECT_EQ(a.settings.dag, b.settings.dag);
-    EXPECT_EQ(a.settings.edges, b.settings.edges);
-    EXPECT_EQ(a.settings.topology, b.settings.topology);
-    EXPECT_EQ(a.settings.name, b.settings.name);
-    expectSameTightSettings(a.settings, b.settings);
+    using namespace openvdb_spheretree::detail;
+    const auto ofA = recordedSettings(a), ofB = recordedSettings(b);
+    for (const Setting& setting : settingsTable()) {
+        if (setting.name == "memory") continue; // which no file records
+        EXPECT_EQ(setting.get(ofA), setting.get(ofB)) << setting.name;
+    }
+    EXPECT_EQ(a.hasDag, b.hasDag);
+    EXPECT_EQ(a.hasCuts, b.hasCuts);
+    EXPECT_EQ(a.flatAxis, b.flatAxis);
     EXPECT_EQ(a.object.name, b.object.name);
     EXPECT_EQ(a.object.voxels, b.object.voxels);
     EXPECT_EQ(a.object.leaves, b.object.leaves);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "CoreStages.h"
+#include "TreeSettings.h"
 #include "RandomObjects.h"
 
 #include <openvdb_spheretree/tree/SphereTree.h>
@@ -93,7 +94,7 @@ inline SphereTree describedTree(const openvdb::BoolGrid& object)
 {
     SphereTree tree;
     tree.subdivision = 16;
-    tree.settings.tree = openvdb_spheretree::TreeType::Tight;
+    setType(tree.settings, openvdb_spheretree::TreeType::Tight);
     tree.transform = object.transform().copy();
     tree.object.voxels = int64_t(object.activeVoxelCount());
     tree.object.leaves = int64_t(object.tree().leafCount());
@@ -186,7 +187,7 @@ inline void addRandomCuts(SphereTree& tree, const Groups& groups, int idle, Rand
         owned.push_back(all);
         alive.push_back(parent);
     }
-    tree.settings.cuts = true;
+    tree.hasCuts = true;
 }
 
 } // namespace spheretree_test

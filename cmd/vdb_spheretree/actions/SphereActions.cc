@@ -62,9 +62,9 @@ openvdb::GridBase::Ptr maskOf(
 openvdb::GridBase::Ptr levelSetOf(
     const SphereTree& tree, const SphereTreeLevel& level, const ActionCall& call, Session& session)
 {
-    if (!tree.settings.dist.isEuclidean()) {
+    if (!tree.settings.dist().isEuclidean()) {
         throwInput("-spheres2ls draws spheres, and the balls of dist="
-            + spheretree::toString(tree.settings.dist) + " are none: use -spheres2mask");
+            + spheretree::toString(tree.settings.dist()) + " are none: use -spheres2mask");
     }
     const double voxel = call.given("voxel") ? call.real("voxel") : tree.voxelSize();
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, call.real("width"));

@@ -56,7 +56,7 @@ SphereTree treeOf(
     }
     try {
         return spheretree::buildSphereTree(
-            object, settings, &session.progress, &session.seconds.build);
+            object, settings, &session.seconds.build, &session.progress);
     } catch (const openvdb::IoError&) { // of its temporary file
         rethrowNamed("", kOutput);
     }
@@ -73,7 +73,9 @@ void runSpheretree(const ActionCall& call, Session& session)
     result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
     session.remark(std::to_string(result.tree->size()) + " spheres on "
         + std::to_string(result.tree->levels.size()) + " levels");
-    noteOnBudget(settings.budget, *result.tree, session);
+    if (const auto* options = settings.find<spheretree::BudgetOptions>()) {
+        noteOnBudget(options->budget, *result.tree, session);
+    }
     if (call.flag("errors")) computeErrors(result, session);
     session.stack.beginBatch(call.label());
     session.stack.push(result);

@@ -28,7 +28,7 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         json.value("radius_min", radii.smallest);
         json.value("radius_max", radii.largest);
         writeError(json, level);
-        if (tree.settings.side == openvdb_spheretree::Side::Inner) {
+        if (tree.settings.isInner()) {
             if (level.error) json.value("covered_percent", coveredPercent(tree, level));
             else json.null("covered_percent");
         }
@@ -54,7 +54,7 @@ void writeDag(JsonWriter& json, const SphereTree& tree)
     }
     json.beginObject("dag");
     json.value("edges", int64_t(tree.dag.size()));
-    json.value("kind", toString(tree.settings.edges));
+    json.value("kind", toString(tree.settings.pyramid().edges));
     json.beginArray("levels");
     for (const auto& level : dagStats(tree)) {
         json.beginObject();
@@ -97,7 +97,7 @@ std::string statsJson(const SphereTree& tree, const Session& session)
     json.value("format", "vdb_spheretree.stats.1");
     writeObject(json, tree);
     json.beginObject("settings");
-    writeSettings(json, tree.settings);
+    writeSettings(json, tree);
     json.value("memory", openvdb_spheretree::memoryToString(tree.settings.memory));
     json.endObject();
     writeLevels(json, tree);

@@ -22,10 +22,7 @@ namespace {
 using Row = std::vector<std::string>;
 
 /// Where spheres lie inside the object, what counts is how much of it they cover.
-bool isInner(const SphereTree& tree)
-{
-    return tree.settings.side == openvdb_spheretree::Side::Inner;
-}
+bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
 
 Row headerOf(const SphereTree& tree)
 {
@@ -115,7 +112,7 @@ void printDag(std::ostream& out, const SphereTree& tree)
 {
     if (tree.dag.empty()) return;
     out << "Sphere-DAG: " << withCommas(int64_t(tree.dag.size())) << ' '
-        << toString(tree.settings.edges) << " edges, to each level from the one above\n";
+        << toString(tree.settings.pyramid().edges) << " edges, to each level from the one above\n";
     std::vector<Row> rows = {{"level", "edges", "children min / mean / max",
         "parents min / mean / max", "shared", "tree in dag %"}};
     for (const auto& level : dagStats(tree)) {
@@ -169,18 +166,21 @@ namespace {
 std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
 {
     using namespace openvdb_spheretree;
-    std::string text = toString(settings.tree);
-    if (settings.tree != TreeType::Tight) text += ", factor " + std::to_string(settings.factor);
-    else if (settings.side == Side::Inner) text += ", side inner";
-    else text += std::string(", quality ") + toString(settings.quality);
-    if (settings.cover == Cover::Balls) text += ", cover balls";
-    if (settings.leaves == Leaves::Medial) text += ", leaves medial";
-    if (settings.center == Center::Miniball) text += ", center miniball";
+    const auto* tight = settings.find<TightOptions>();
+    const auto* pyramid = settings.find<PyramidOptions>();
+    std::string text = toString(settings.type());
+    if (pyramid) text += ", factor " + std::to_string(pyramid->factor);
+    if (settings.isInner()) text += ", side inner";
+    if (tight) text += std::string(", quality ") + toString(tight->quality);
+    if (tight && tight->cover == Cover::Balls) text += ", cover balls";
+    if (tight && tight->leaves == Leaves::Medial) text += ", leaves medial";
+    if (pyramid && pyramid->center == Center::Miniball) text += ", center miniball";
     if (settings.dim == 2) text += ", dim 2";
-    if (!settings.dist.isEuclidean()) text += ", dist " + toString(settings.dist);
-    const std::string model = modelToString(settings);
+    if (!settings.dist().isEuclidean()) text += ", dist " + toString(settings.dist());
+    if (!pyramid) return text;
+    const std::string model = modelToString(*pyramid);
     if (model != "or") text += ", model " + model;
-    if (settings.scale == RadiusScale::Paper) text += ", scale paper";
+    if (pyramid->scale == RadiusScale::Paper) text += ", scale paper";
     return text;
 }
 

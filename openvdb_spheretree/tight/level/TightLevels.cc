@@ -74,7 +74,7 @@ std::vector<int32_t> idOrder(const std::vector<Coord>& ijk)
 std::vector<int32_t> appendLevel(
     const TightLevel& from, int level, const std::vector<int32_t>& idsAbove, SphereTree& tree)
 {
-    const FlatAxis flat(tree.settings.flatAxis);
+    const FlatAxis flat(tree.flatAxis);
     std::vector<Coord> ijk;
     std::vector<Vec3d> centers;
     for (std::size_t i = 0; i < from.balls.size(); ++i) {
@@ -170,9 +170,9 @@ void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree)
     }
 }
 
-SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSettings& settings)
+SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis)
 {
-    const FlatAxis flat(settings.flatAxis);
+    const FlatAxis flat(flatAxis);
     SphereCuts cuts;
     for (const ForestNode& node : forest) {
         cuts.spheres.center.push_back(flat.fromZ(centerOf(node.ball)));

@@ -46,7 +46,7 @@ std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
 void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
 
 /// @return the forest in the form of SphereTree, without stored radii.
-SphereCuts cutsOf(const std::vector<ForestNode>& forest, const SphereTreeSettings& settings);
+SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/build/MemoryPlan.h>
 
 #include "support/Messages.h"
+#include "support/TreeSettings.h"
 #include "support/TemporaryFolder.h"
 
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -50,7 +51,7 @@ std::string fileOf(const SphereTree& tree)
 SphereTreeSettings settingsOf(TreeType tree, int64_t memory)
 {
     SphereTreeSettings settings;
-    settings.tree = tree;
+    setType(settings, tree);
     settings.memory = memory;
     return settings;
 }
@@ -67,10 +68,11 @@ TEST_F(MemoryPlanTest, LittleMemoryGivesTheSameFile)
     for (const TreeType type : {TreeType::Reversible, TreeType::Extended, TreeType::Tight}) {
         for (const bool special : {false, true}) {
             SphereTreeSettings settings = settingsOf(type, 0);
-            if (special && type == TreeType::Tight) settings.side = Side::Inner;
-            settings.dag = special && type != TreeType::Tight;
+            if (special && type == TreeType::Tight) settings.kind = InnerOptions();
+            auto* options = settings.find<PyramidOptions>();
+            if (options) options->dag = special;
             const std::string expected = fileOf(buildSphereTree(*ball, settings));
-            settings.memory = (settings.dag ? 5 : 3) * kMiB / 2;
+            settings.memory = (options && options->dag ? 5 : 3) * kMiB / 2;
             EXPECT_TRUE(memoryPlan(*ball, settings).packed);
             EXPECT_EQ(fileOf(buildSphereTree(*ball, settings)), expected) << toString(type);
             settings.memory = 100 * kMiB;
@@ -133,7 +135,7 @@ TEST_F(MemoryPlanTest, NormsNeedAllTheirLabels)
 {
     const auto ball = ballGrid(20);
     SphereTreeSettings settings = settingsOf(TreeType::Extended, 0);
-    settings.dist = distanceFromString("l1");
+    settings.pyramid().dist = distanceFromString("l1");
     const MemoryPlan plan = memoryPlan(*ball, settings);
     EXPECT_FALSE(plan.packed);
     EXPECT_EQ(plan.slabsAtATime, plan.slabs);

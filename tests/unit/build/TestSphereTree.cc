@@ -73,8 +73,8 @@ TEST(SphereTree, RejectsTwoDimensionsForAThickObject)
 TEST(SphereTree, RejectsSettingsOutOfRange)
 {
     for (int factor : {1, 0, -2, 32769}) {
-        SphereTreeSettings settings;
-        settings.factor = factor;
+        SphereTreeSettings settings = ExtendedOptions();
+        settings.pyramid().factor = factor;
         EXPECT_TRUE(
             mentions(messageOfBuild(*someGrid(), settings), "factor=" + std::to_string(factor)));
     }
@@ -132,9 +132,9 @@ TEST(SphereTree, CollectsTheDagOnlyWhenAsked)
 {
     for (SphereTreeSettings settings : bothTypes()) {
         EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
-        settings.parent = ParentRule::Dag;
+        settings.pyramid().parent = ParentRule::Dag;
         EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
-        settings.dag = true;
+        settings.pyramid().dag = true;
         const SphereTree tree = buildSphereTree(*someGrid(), settings);
         EXPECT_FALSE(tree.dag.empty());
         EXPECT_TRUE(std::is_sorted(tree.dag.begin(), tree.dag.end()));
@@ -149,7 +149,7 @@ TEST(SphereTree, TheDagDoesNotChangeTheTree)
 {
     for (SphereTreeSettings settings : allSettings()) {
         SphereTree with = buildSphereTree(*someGrid(), settings);
-        settings.dag = false;
+        settings.pyramid().dag = false;
         with.dag.clear();
         EXPECT_TRUE(sameNodes(with, buildSphereTree(*someGrid(), settings))) << describe(settings);
     }
@@ -163,16 +163,16 @@ TEST(SphereTree, RecordsSettingsObjectAndTransform)
     grid->setName("bunny");
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
     SphereTreeSettings settings = extendedTree();
-    settings.factor = 3;
-    settings.finalFit = false;
+    settings.pyramid().factor = 3;
+    settings.extended().finalFit = false;
     settings.name = "my tree";
     settings.padding = 0.75;
     const SphereTree tree = buildSphereTree(*grid, settings);
-    EXPECT_EQ(tree.settings.factor, 3);
-    EXPECT_FALSE(tree.settings.finalFit);
+    EXPECT_EQ(tree.settings.pyramid().factor, 3);
+    EXPECT_FALSE(tree.settings.extended().finalFit);
     EXPECT_EQ(tree.settings.name, "my tree");
     EXPECT_EQ(tree.settings.padding, 0.75);
-    EXPECT_EQ(tree.settings.tree, TreeType::Extended);
+    EXPECT_EQ(tree.settings.type(), TreeType::Extended);
     EXPECT_EQ(tree.object.name, "bunny");
     EXPECT_EQ(tree.object.voxels, 17 * 9 * 12 + 512);
     EXPECT_EQ(tree.object.tiles, 1);
@@ -195,8 +195,7 @@ TEST(SphereTree, KeepsATransformOfItsOwn)
 TEST(SphereTree, CountsVoxelsOfTheOwnPyramidOnReversibleLevels)
 {
     const Voxels voxels = randomObject(30).voxels;
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible;
+    SphereTreeSettings settings = ReversibleOptions();
     const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
     const auto pyramid = naiveOrPyramid(voxels, 2);
     for (const SphereTreeLevel& level : tree.levels) {
@@ -228,8 +227,7 @@ TEST(SphereTree, StoresRadiiPaddedInWorldUnitsRoundedUp)
 
 TEST(SphereTree, StoresARadiusThatIsAFloatAsItIs)
 {
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible;
+    SphereTreeSettings settings = ReversibleOptions();
     settings.padding = 0;
     const SphereTree tree = buildSphereTree(*gridOf(Voxels{Coord(5, 6, 7)}), settings);
     EXPECT_EQ(tree.spheres.radiusWorld[0], 0.0f);
@@ -289,7 +287,7 @@ TEST(SphereTree, TwoVoxelsFarApartEndAtOneRootThatHoldsBoth)
         const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
         EXPECT_TRUE(endsAtOneRoot(tree));
         EXPECT_TRUE(covers(tree, voxels));
-        EXPECT_EQ(tree.levels.size(), settings.factor == 2 ? 21u : 14u);
+        EXPECT_EQ(tree.levels.size(), settings.pyramid().factor == 2 ? 21u : 14u);
     }
 }
 
@@ -299,9 +297,10 @@ void checkWideObject(const SphereTreeSettings& settings)
     SCOPED_TRACE(describe(settings));
     const Voxels voxels{Coord(-int(kMaxExtent / 2), 0, 0), Coord(int(kMaxExtent / 2) - 1, 5, 0)};
     const auto grid = gridOf(voxels);
-    if (settings.factor == 5 || settings.factor == 11 || settings.factor == 64) {
+    if (settings.pyramid().factor == 5 || settings.pyramid().factor == 11
+        || settings.pyramid().factor == 64) {
         const std::string message = messageOfBuild(*grid, settings); // f^k would pass 2^29
-        EXPECT_TRUE(mentions(message, "factor=" + std::to_string(settings.factor)));
+        EXPECT_TRUE(mentions(message, "factor=" + std::to_string(settings.pyramid().factor)));
         return;
     }
     const SphereTree tree = buildSphereTree(*grid, settings);
@@ -315,10 +314,10 @@ TEST(SphereTree, TheWidestObjectThereMayBeOverflowsNowhere)
 {
     for (SphereTreeSettings settings : bothTypes()) {
         for (int i = 0; i < 4; ++i) {
-            settings.finalFit = i % 2 == 0;
-            settings.scale = i / 2 ? RadiusScale::Paper : RadiusScale::Tight;
+            if (auto* options = settings.find<ExtendedOptions>()) options->finalFit = i % 2 == 0;
+            settings.pyramid().scale = i / 2 ? RadiusScale::Paper : RadiusScale::Tight;
             for (int factor : {2, 3, 5, 6, 7, 11, 17, 64}) {
-                settings.factor = factor;
+                settings.pyramid().factor = factor;
                 checkWideObject(settings);
             }
         }
@@ -356,7 +355,7 @@ TEST(SphereTree, AnyFactorEndsAtOneRoot)
     const Voxels voxels = randomObject(8).voxels;
     for (SphereTreeSettings settings : bothTypes()) {
         for (int factor : {4, 5, 7, 8, 16, 33, 64}) {
-            settings.factor = factor;
+            settings.pyramid().factor = factor;
             SCOPED_TRACE(describe(settings));
             const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
             EXPECT_TRUE(endsAtOneRoot(tree));
@@ -374,7 +373,7 @@ TEST(SphereTree, StopsWhenInterruptedAtAnyQuestion)
             ASSERT_LT(questions, 1000000);
             StopAfter stop(questions);
             try {
-                finished = buildSphereTree(*grid, settings, &stop).size() > 0;
+                finished = buildSphereTree(*grid, settings, nullptr, &stop).size() > 0;
             } catch (const Interrupted&) {}
         }
         EXPECT_GT(questions, 20) << "the build hardly asks";
@@ -385,7 +384,7 @@ TEST(SphereTree, AddsTheTimesOfItsStages)
 {
     StageSeconds seconds;
     seconds.pyramid = 1000;
-    buildSphereTree(*gridOf(block()), extendedTree(), nullptr, &seconds);
+    buildSphereTree(*gridOf(block()), extendedTree(), &seconds);
     EXPECT_GT(seconds.pyramid, 1000);
     EXPECT_GT(seconds.distance, 0);
     EXPECT_GT(seconds.power, 0);
@@ -400,7 +399,7 @@ TEST(SphereTree, CountsTopologyUnlessToldNotTo)
         for (const bool topology : {true, false}) {
             settings.topology = topology;
             StageSeconds seconds;
-            const SphereTree tree = buildSphereTree(*someGrid(), settings, nullptr, &seconds);
+            const SphereTree tree = buildSphereTree(*someGrid(), settings, &seconds);
             for (const SphereTreeLevel& level : tree.levels) {
                 EXPECT_EQ(level.topology.has_value(), topology);
             }
@@ -412,7 +411,7 @@ TEST(SphereTree, CountsTopologyUnlessToldNotTo)
 TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
 {
     SphereTreeSettings settings = extendedTree();
-    settings.dag = true;
+    settings.pyramid().dag = true;
     const SphereTree tree = buildSphereTree(*someGrid(), settings);
     ASSERT_GT(tree.levels.size(), 2u);
     for (const SphereTreeLevel& level : tree.levels) {
@@ -437,14 +436,14 @@ TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
 TEST(KeepLevel, KeepsWhatTheTreeRecords)
 {
     SphereTreeSettings settings = extendedTree();
-    settings.factor = 3;
+    settings.pyramid().factor = 3;
     settings.name = "kept";
     const auto grid = someGrid();
     grid->setName("object");
     SphereTree tree = buildSphereTree(*grid, settings);
     tree.levels[1].error = LevelError{5, 4, 3, 2, 1};
     const SphereTree kept = keepLevel(tree, 1);
-    EXPECT_EQ(kept.settings.factor, 3);
+    EXPECT_EQ(kept.settings.pyramid().factor, 3);
     EXPECT_EQ(kept.settings.name, "kept");
     EXPECT_EQ(kept.object.name, "object");
     EXPECT_EQ(kept.object.bbox, tree.object.bbox);
@@ -503,7 +502,7 @@ TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
             return false;
         }
     } listener;
-    buildSphereTree(*someGrid(), extendedTree(), &listener);
+    buildSphereTree(*someGrid(), extendedTree(), nullptr, &listener);
     for (const char* name :
         {"distances and power labels", "power labels along x", "medial balls", "pyramid"}) {
         EXPECT_TRUE(listener.names.count(name)) << name;
@@ -528,10 +527,10 @@ TEST(SphereTree, StagesRefuseADimensionThatIsNone)
 TEST(SphereTree, ParentsByTheDagLeaveNoEdgesBehindUnlessAsked)
 {
     for (SphereTreeSettings settings : bothTypes()) {
-        settings.parent = ParentRule::Dag;
+        settings.pyramid().parent = ParentRule::Dag;
         EXPECT_TRUE(buildSphereTree(*someGrid(), settings).dag.empty());
-        settings.dag = true;
-        settings.edges = DagEdges::Intersecting;
+        settings.pyramid().dag = true;
+        settings.pyramid().edges = DagEdges::Intersecting;
         const SphereTree tree = buildSphereTree(*someGrid(), settings);
         EXPECT_TRUE(tree.dag == intersectionDag(tree));
     }

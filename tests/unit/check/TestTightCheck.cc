@@ -5,6 +5,7 @@
 
 #include <openvdb_spheretree/check/TreeCheck.h>
 
+#include "support/TreeSettings.h"
 #include "support/TightSamples.h"
 
 #include <openvdb_spheretree/measure/LevelErrors.h>
@@ -57,7 +58,7 @@ void addCuts(SphereTree& tree)
     add(tree.cuts.spheres, tree, {5, 2, 2}, 16, -1);
     tree.cuts.first = {2, 2, 1};
     tree.cuts.last = {2, 2, 1};
-    tree.settings.cuts = true;
+    tree.hasCuts = true;
 }
 
 /// Three levels of 1, 2 and 2 spheres, the leaves medial balls, with cuts.
@@ -120,7 +121,7 @@ void makeLeavesNoBalls(SphereTree& tree)
 TEST(TightCheck, FindsNothingWrongWithValidTrees)
 {
     EXPECT_EQ(after([](SphereTree&) {}), "");
-    EXPECT_EQ(after([](SphereTree& tree) { tree.settings.cover = Cover::Balls; }), "");
+    EXPECT_EQ(after([](SphereTree& tree) { tree.settings.tight().cover = Cover::Balls; }), "");
 }
 
 TEST(TightCheck, TheTopLevelMayHaveManyNodes)
@@ -161,7 +162,7 @@ TEST(TightCheck, SaysWhenASphereThatIsNoBallClaimsWhatABallHas)
     expectSaid("level 1: ijk is not the voxel nearest to the centre for 1 node (first: id 2)",
         [](SphereTree& tree) { tree.ijk[2] = Coord(9, 3, 2); });
     expectSaid("radius_sq is less than 1 for 3 nodes (first: id 0)",
-        [](SphereTree& tree) { tree.settings.tree = TreeType::Extended; });
+        [](SphereTree& tree) { setType(tree.settings, TreeType::Extended); });
     expectSaid("radius_sq is less than 1 for 1 node (first: id 3)",
         [](SphereTree& tree) { tree.radiusSq[3] = -2; });
 }
@@ -219,7 +220,7 @@ TEST(TightCheck, SaysWhenAnInnerNodeHasNoChild)
 TEST(TightCheck, SaysWhenASphereDoesNotContainItsLeavesWhereThatIsAsked)
 {
     const Change wider = [](SphereTree& tree) {
-        tree.settings.cover = Cover::Balls;
+        tree.settings.tight().cover = Cover::Balls;
         tree.spheres.radiusWorld[1] += 0.01f;
         tree.spheres.radiusWorld[0] += 0.01f;
     };
@@ -310,7 +311,7 @@ TEST(TightCheck, ANodeThatEndsOwingNothingBreaksNoChain)
 SphereTree innerTree(const BoolGrid& object)
 {
     SphereTree tree = describedTree(object);
-    tree.settings.side = Side::Inner;
+    tree.settings.kind = InnerOptions();
     tree.settings.padding = 0;
     add(tree.spheres, tree, {2, 2, 2}, 0.5, -1);
     add(tree.spheres, tree, {2, 2.0625, 2}, 1, 0);
@@ -389,7 +390,7 @@ TEST(TightCheck, InnerCutsMustLieInside)
 {
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = innerTree(*object);
-    tree.settings.cuts = true;
+    tree.hasCuts = true;
     add(tree.cuts.spheres, tree, {2, 2, 2}, 1, -1);
     tree.cuts.spheres.radiusWorld[0] = 0.5f;
     tree.cuts.first = tree.cuts.last = {1};
@@ -416,7 +417,7 @@ TEST(TightCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     tree.levels.resize(1);
     tree.levels[0].end = 1;
     EXPECT_EQ(check(tree, *object), "");
-    tree.settings.side = Side::Inner;
+    tree.settings.kind = InnerOptions();
     tree.spheres.coverRadiusSq[0] = 16 * 16 * 16;
     tree.spheres.radius[0] = tree.spheres.radiusWorld[0] = 4;
     EXPECT_EQ(check(tree, *object), "");

@@ -5,6 +5,8 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 
+#include "support/TreeSettings.h"
+
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
@@ -20,6 +22,7 @@ using namespace openvdb_spheretree;
 using openvdb::BoolGrid;
 using openvdb::Coord;
 using openvdb::CoordBBox;
+using spheretree_test::setType;
 
 class TreeCheck : public ::testing::Test {
 protected:
@@ -61,7 +64,7 @@ void addNode(SphereTree& tree, const openvdb::Vec3d& center, int64_t coverSq, in
 SphereTree validTree(const BoolGrid& object, TreeType type = TreeType::Extended)
 {
     SphereTree tree;
-    tree.settings.tree = type;
+    setType(tree.settings, type);
     tree.settings.padding = 0;
     tree.transform = object.transform().copy();
     tree.object = {"plus", 8, 2, 0, CoordBBox(Coord(1, 1, 1), Coord(9, 3, 3))};
@@ -175,7 +178,7 @@ TEST_F(TreeCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
         object->tree().setValueOn(q);
     }
     SphereTree tree;
-    tree.settings.tree = TreeType::Extended;
+    setType(tree.settings, TreeType::Extended);
     tree.settings.dim = 2;
     tree.settings.padding = 0;
     tree.transform = object->transform().copy();
@@ -201,7 +204,7 @@ TEST_F(TreeCheck, FindsNothingWrongWithADiscInTwoDimensions)
     for (TreeType type : {TreeType::Extended, TreeType::Reversible}) {
         SphereTreeSettings settings;
         settings.dim = 2;
-        settings.tree = type;
+        setType(settings, type);
         EXPECT_EQ(joined(checkSphereTree(buildSphereTree(*object, settings), *object)), "");
     }
 }
@@ -473,7 +476,7 @@ TEST_F(TreeCheck, CoverageOfVoxelsFarApartIsCheckedWithoutDrawingWhatIsBetween)
     object->tree().setValueOn(Coord(0));
     object->tree().setValueOn(Coord(1000000));
     SphereTree tree;
-    tree.settings.tree = TreeType::Extended;
+    setType(tree.settings, TreeType::Extended);
     tree.settings.padding = 0;
     tree.transform = object->transform().copy();
     tree.object = {"", 2, 2, 0, CoordBBox(Coord(0), Coord(1000000))};

@@ -67,10 +67,8 @@ InnerOrder naiveOrder(const Voxels& object, const std::vector<MedialBall>& balls
 
 SphereTreeSettings innerSettings(const std::vector<int64_t>& spheres = {})
 {
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Tight;
-    settings.side = Side::Inner;
-    settings.budget.spheres = spheres;
+    SphereTreeSettings settings = InnerOptions();
+    settings.budgeted().budget.spheres = spheres;
     return settings;
 }
 
@@ -108,10 +106,10 @@ TEST(InnerOrder, EndsWhereItIsTold)
     const CoreStages stages(*maskOf(severalBalls()));
     const InnerOrder all = innerOrder(stages.layout, stages.balls);
     ASSERT_GT(all.ball.size(), 5u);
-    const InnerOrder some = innerOrder(stages.layout, stages.balls, 3, nullptr, 5);
+    const InnerOrder some = innerOrder(stages.layout, stages.balls, 3, 5);
     EXPECT_EQ(some.ball, std::vector<int32_t>(all.ball.begin(), all.ball.begin() + 5));
     EXPECT_EQ(some.covered, std::vector<int64_t>(all.covered.begin(), all.covered.begin() + 5));
-    EXPECT_TRUE(innerOrder(stages.layout, stages.balls, 3, nullptr, 0).ball.empty());
+    EXPECT_TRUE(innerOrder(stages.layout, stages.balls, 3, 0).ball.empty());
 }
 
 TEST(InnerOrder, IsTheSameForAnyNumberOfThreads)
@@ -135,7 +133,7 @@ TEST(InnerOrder, CanBeInterrupted)
 {
     const CoreStages stages(*maskOf(shapes::ball(90)));
     StopAfter stop;
-    EXPECT_THROW(innerOrder(stages.layout, stages.balls, 3, &stop), Interrupted);
+    EXPECT_THROW(innerOrder(stages.layout, stages.balls, 3, INT64_MAX, &stop), Interrupted);
 }
 
 TEST(InnerBalls, LieInsideTheObjectAndTogetherAreTheObject)
@@ -205,7 +203,7 @@ TEST(InnerTree, HangsABallBelowItselfOrTheNearestByPower)
     for (const RandomObject& object : someObjects(300, 33)) {
         SCOPED_TRACE(object.name);
         SphereTreeSettings settings = innerSettings();
-        settings.budget.branching = 3;
+        settings.budgeted().budget.branching = 3;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         ASSERT_TRUE(endsAtOneRoot(tree));
         for (std::size_t k = 0; k + 1 < tree.levels.size(); ++k) {
@@ -277,7 +275,8 @@ TEST(InnerTree, StoresRadiiRoundedDownAndAddsNothing)
         SphereTreeSettings settings = innerSettings();
         settings.padding = 3;
         const SphereTree tree = buildSphereTree(*grid, settings);
-        ASSERT_EQ(tree.settings.padding, 0);
+        ASSERT_EQ(tree.settings.padding, 3) << "what was asked for";
+        ASSERT_EQ(tree.settings.paddingVoxels(), 0);
         for (int32_t id = 0; id < tree.size(); ++id) {
             const long double exact = std::sqrt((long double)(tree.radiusSq[id] - 1));
             ASSERT_LE((long double)(tree.spheres.radius[id]), exact);
@@ -320,7 +319,7 @@ TEST(InnerTree, WithCutsHasABallInEveryCutFromItsOwnOn)
     const auto grid = gridOf(severalBalls());
     SphereTreeSettings settings = innerSettings({3});
     EXPECT_TRUE(buildSphereTree(*grid, settings).cuts.empty());
-    settings.cuts = true;
+    settings.budgeted().cuts = true;
     const SphereTree tree = buildSphereTree(*grid, settings);
     const auto order = innerBalls(*grid, INT64_MAX);
     EXPECT_EQ(tree.size(), 3);

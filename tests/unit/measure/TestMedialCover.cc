@@ -8,6 +8,8 @@
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
+#include "support/TreeSettings.h"
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -15,6 +17,7 @@ namespace {
 using namespace openvdb_spheretree;
 using openvdb::BoolGrid;
 using openvdb::Coord;
+using spheretree_test::setType;
 
 /// A solid with a corner, so that it has balls of many sizes.
 BoolGrid::Ptr solid()
@@ -39,7 +42,7 @@ protected:
     static SphereTree treeOf(const BoolGrid& object, TreeType type)
     {
         SphereTreeSettings settings;
-        settings.tree = type;
+        setType(settings, type);
         return buildSphereTree(object, settings);
     }
 };

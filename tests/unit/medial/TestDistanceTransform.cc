@@ -209,12 +209,12 @@ TEST(DistanceTransform, StopsWhenInterrupted)
     const LeafLayout layout(*mask);
     for (int after : {0, 1, 2}) {
         StopAfter interrupter(after);
-        EXPECT_THROW(distanceTransform(layout, 3, &interrupter), Interrupted) << after;
+        EXPECT_THROW(distanceTransform(layout, 3, {}, &interrupter), Interrupted) << after;
     }
     StopAfter never(1 << 30);
-    EXPECT_EQ(distanceTransform(layout, 3, &never).largest(), 100u);
+    EXPECT_EQ(distanceTransform(layout, 3, {}, &never).largest(), 100u);
     StopAfter interrupter;
-    EXPECT_THROW(distanceTransform(*gridOf(*mask), 3, &interrupter), Interrupted);
+    EXPECT_THROW(distanceTransform(*gridOf(*mask), 3, {}, &interrupter), Interrupted);
 }
 
 } // namespace

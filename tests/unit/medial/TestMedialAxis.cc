@@ -148,10 +148,10 @@ TEST(MedialAxis, StopsWhenInterrupted)
         StopAfter interrupter(after);
         EXPECT_THROW(medialBalls(stages.labels, stages.distances, &interrupter), Interrupted);
         StopAfter another(after);
-        EXPECT_THROW(medialBalls(*gridOf(*mask), 3, &another), Interrupted);
+        EXPECT_THROW(medialBalls(*gridOf(*mask), 3, {}, &another), Interrupted);
     }
     StopAfter never(1 << 30);
-    EXPECT_EQ(medialBalls(*gridOf(*mask), 3, &never), stages.balls);
+    EXPECT_EQ(medialBalls(*gridOf(*mask), 3, {}, &never), stages.balls);
 }
 
 } // namespace

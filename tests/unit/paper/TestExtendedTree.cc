@@ -21,8 +21,8 @@ using namespace spheretree_test;
 SphereTreeSettings extended(Reconstruction reconstruct = Reconstruction::Clip, int factor = 2)
 {
     SphereTreeSettings settings = extendedTree();
-    settings.reconstruct = reconstruct;
-    settings.factor = factor;
+    settings.extended().reconstruct = reconstruct;
+    settings.pyramid().factor = factor;
     return settings;
 }
 
@@ -62,7 +62,7 @@ TEST(ExtendedTree, WithoutTheFinalFitRadiiGrowAsAnyBallsDoAndNothingElseChanges)
         SCOPED_TRACE(object.name);
         SphereTreeSettings settings = extended();
         const SphereTree fitted = buildSphereTree(*gridOf(object.voxels), settings);
-        settings.finalFit = false;
+        settings.extended().finalFit = false;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         ASSERT_EQ(tree.ijk, fitted.ijk);
         ASSERT_EQ(tree.spheres.parent, fitted.spheres.parent);
@@ -100,7 +100,7 @@ TEST(ExtendedTree, DropsBallsThatAReversibleTreeKeeps)
     for (const RandomObject& object : someObjects(700, 33)) {
         SphereTreeSettings settings = extended();
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
-        settings.tree = TreeType::Reversible;
+        setType(settings, TreeType::Reversible);
         const SphereTree all = buildSphereTree(*gridOf(object.voxels), settings);
         if (tree.levels.size() < 2) continue;
         ASSERT_LE(tree.levels[1].size(), all.levels[1].size()) << object.name;
@@ -173,7 +173,7 @@ TEST(ExtendedTree, Level0IsThatOfTheReversibleTree)
     for (const RandomObject& object : someObjects(1100, 11)) {
         SphereTreeSettings settings = extended();
         SphereTree a = keepLevel(buildSphereTree(*gridOf(object.voxels), settings), 0);
-        settings.tree = TreeType::Reversible;
+        setType(settings, TreeType::Reversible);
         SphereTree b = keepLevel(buildSphereTree(*gridOf(object.voxels), settings), 0);
         EXPECT_TRUE(sameNodes(a, b)) << object.name;
     }
@@ -184,7 +184,7 @@ TEST(ExtendedTree, TheRadiusScaleDoesNotMatterToFittedSpheres)
     const auto grid = gridOf(randomObject(8).voxels);
     SphereTreeSettings settings = extended();
     const SphereTree tight = buildSphereTree(*grid, settings);
-    settings.scale = RadiusScale::Paper;
+    settings.pyramid().scale = RadiusScale::Paper;
     EXPECT_TRUE(sameNodes(tight, buildSphereTree(*grid, settings)));
 }
 

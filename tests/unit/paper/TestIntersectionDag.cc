@@ -24,6 +24,7 @@ using namespace spheretree_test;
 SphereTree starOf(const std::vector<std::pair<openvdb::Vec3d, int64_t>>& spheres)
 {
     SphereTree tree;
+    tree.settings.kind = ExtendedOptions();
     for (const auto& [center, coverSq] : spheres) {
         tree.spheres.center.push_back(center);
         tree.spheres.coverRadiusSq.push_back(coverSq);
@@ -93,12 +94,12 @@ TEST(IntersectionDag, CubesMeetAtTheirCorners)
 {
     for (const double apart : {4.0, 4.5}) {
         SphereTree tree = starOf({{{0, 0, 0}, 16}, {{4, apart, 4}, 16}});
-        tree.settings.dist = distanceFromString("linf");
+        tree.settings.pyramid().dist = distanceFromString("linf");
         EXPECT_EQ(intersectionDag(tree).size(), apart == 4 ? 1u : 0u);
     }
     const openvdb::Vec3d far(1000, 1000, 1000);
     SphereTree tree = starOf({{{0, 0, 0}, 4000000}, {far, 0}}); // far outside the Euclidean ball
-    tree.settings.dist = distanceFromString("linf");
+    tree.settings.pyramid().dist = distanceFromString("linf");
     EXPECT_EQ(intersectionDag(tree).size(), 1u);
 }
 
@@ -108,7 +109,7 @@ TEST(IntersectionDag, IsEveryPairThatMeets)
         const RandomObject object = randomObject(seed);
         for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
             SphereTreeSettings settings;
-            settings.tree = type;
+            setType(settings, type);
             const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
             EXPECT_TRUE(intersectionDag(tree) == allPairsThatMeet(tree)) << object.name;
         }
@@ -120,13 +121,13 @@ TEST(IntersectionDag, HoldsTheEdgesOfSharedVoxelsOfAReversibleTree)
     for (uint32_t seed = 100; seed < 160; ++seed) {
         const RandomObject object = randomObject(seed);
         SphereTreeSettings settings;
-        settings.tree = TreeType::Reversible;
-        settings.dag = true;
-        settings.factor = 2 + int(seed % 2);
+        setType(settings, TreeType::Reversible);
+        settings.pyramid().dag = true;
+        settings.pyramid().factor = 2 + int(seed % 2);
         settings.dim = seed % 3 ? 3 : 2;
         const Voxels voxels = settings.dim == 3 ? object.voxels : flattened(object.voxels);
         const SphereTree shared = buildSphereTree(*gridOf(voxels), settings);
-        settings.edges = DagEdges::Intersecting;
+        settings.pyramid().edges = DagEdges::Intersecting;
         const SphereTree meeting = buildSphereTree(*gridOf(voxels), settings);
         EXPECT_TRUE(meeting.dag == intersectionDag(shared)) << object.name;
         EXPECT_TRUE(std::includes(
@@ -142,7 +143,7 @@ TEST(IntersectionDag, LacksAnEdgeOfSharedVoxelsOfAnExtendedTree)
 {
     const RandomObject object = randomObject(70);
     SphereTreeSettings settings = extendedTree();
-    settings.dag = true;
+    settings.pyramid().dag = true;
     const auto lacking = [&] {
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         const std::vector<DagEdge> meeting = intersectionDag(tree);
@@ -152,7 +153,7 @@ TEST(IntersectionDag, LacksAnEdgeOfSharedVoxelsOfAnExtendedTree)
         return lacks.size();
     };
     EXPECT_EQ(lacking(), 1u) << object.name;
-    settings.finalFit = false;
+    settings.extended().finalFit = false;
     EXPECT_EQ(lacking(), 0u) << "the whole cell lies in the sphere";
 }
 
@@ -161,8 +162,8 @@ TEST(IntersectionDag, IsCheckedWithTheTree)
     for (const DagEdges edges : {DagEdges::Shared, DagEdges::Intersecting}) {
         const auto object = gridOf(shapes::ball(30));
         SphereTreeSettings settings = extendedTree();
-        settings.dag = true;
-        settings.edges = edges;
+        settings.pyramid().dag = true;
+        settings.pyramid().edges = edges;
         SphereTree tree = buildSphereTree(*object, settings);
         ASSERT_TRUE(checkSphereTree(tree, *object).empty()) << toString(edges);
         const DagEdge first = tree.dag.front();
@@ -178,11 +179,11 @@ TEST(IntersectionDag, AnEdgeThatNoVoxelWitnessesIsReported)
 {
     const auto object = gridOf(shapes::box(openvdb::Coord(40, 3, 3)));
     SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible;
-    settings.dag = true;
-    settings.edges = DagEdges::Intersecting;
+    setType(settings, TreeType::Reversible);
+    settings.pyramid().dag = true;
+    settings.pyramid().edges = DagEdges::Intersecting;
     SphereTree tree = buildSphereTree(*object, settings);
-    tree.settings.edges = DagEdges::Shared;
+    tree.settings.pyramid().edges = DagEdges::Shared;
     const auto failures = checkSphereTree(tree, *object);
     ASSERT_EQ(failures.size(), 1u);
     EXPECT_EQ(failures[0].rfind("the DAG should lack ", 0), 0u) << failures[0];

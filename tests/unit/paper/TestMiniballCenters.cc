@@ -19,7 +19,7 @@ using openvdb::Vec3d;
 
 SphereTreeSettings miniballs(SphereTreeSettings settings)
 {
-    settings.center = Center::Miniball;
+    settings.pyramid().center = Center::Miniball;
     return settings;
 }
 
@@ -29,11 +29,11 @@ std::vector<SphereTreeSettings> medialSettings(int dim = 3)
     std::vector<SphereTreeSettings> all;
     for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
         for (const SphereTreeSettings& settings : allSettings(type, dim)) {
-            if (settings.finalFit) all.push_back(settings);
+            if (optionsOr<ExtendedOptions>(settings).finalFit) all.push_back(settings);
         }
     }
     all.push_back(all.back());
-    all.back().closing = 2;
+    all.back().pyramid().closing = 2;
     return all;
 }
 
@@ -170,7 +170,7 @@ TEST(MiniballCenters, OfExtendedTreesAreNeverLargerThanAroundTheMedialCentre)
     int smaller = 0, all = 0;
     forEachPair(someObjects(300, 22), 3,
         [&](const Voxels&, const SphereTree& medial, const SphereTree& tree) {
-            if (tree.settings.tree != TreeType::Extended) return;
+            if (tree.settings.type() != TreeType::Extended) return;
             for (int32_t id = 0; id < tree.levels[0].begin; ++id) {
                 ASSERT_LE(tree.spheres.radius[id], medial.spheres.radius[id]);
                 smaller += tree.spheres.radius[id] < medial.spheres.radius[id] - 0.1;
@@ -218,7 +218,7 @@ TEST(MiniballCenters, InTwoDimensionsStayInThePlaneWhateverItsAxis)
             for (const SphereTreeSettings& settings : medialSettings(2)) {
                 SCOPED_TRACE(object.name + ": " + describe(settings));
                 const SphereTree tree = buildSphereTree(*gridOf(turned), miniballs(settings));
-                const int along = tree.settings.flatAxis;
+                const int along = tree.flatAxis;
                 for (const Vec3d& center : tree.spheres.center) {
                     ASSERT_EQ(center[along], double(boxOf(turned).min()[along]));
                 }

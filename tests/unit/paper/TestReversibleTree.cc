@@ -18,8 +18,8 @@ using namespace spheretree_test;
 SphereTreeSettings reversible(int factor = 2, int dim = 3)
 {
     SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible;
-    settings.factor = factor;
+    setType(settings, TreeType::Reversible);
+    settings.pyramid().factor = factor;
     settings.dim = dim;
     return settings;
 }
@@ -109,23 +109,11 @@ TEST(ReversibleTree, StoresTheSpheresOfTheFormula)
     EXPECT_DOUBLE_EQ(tight.spheres.radius[0], std::sqrt(3.0) / 2);
     EXPECT_EQ(tight.spheres.coverRadiusSq[0], 3);
     EXPECT_EQ(tight.spheres.radius[1], 0);
-    settings.scale = RadiusScale::Paper;
+    settings.pyramid().scale = RadiusScale::Paper;
     const SphereTree paper = buildSphereTree(*grid, settings);
     EXPECT_DOUBLE_EQ(paper.spheres.radius[0], 2 + std::sqrt(3.0) / 2);
     EXPECT_EQ(paper.spheres.coverRadiusSq[0], 32); // (4 + sqrt 3)^2 = 32.86
     EXPECT_EQ(paper.spheres.radius[1], 0) << "level 0 is not scaled";
-}
-
-TEST(ReversibleTree, IgnoresWhatOnlyExtendedTreesHave)
-{
-    const auto grid = gridOf(randomObject(8).voxels);
-    const SphereTree plain = buildSphereTree(*grid, reversible());
-    for (const Reconstruction reconstruct : {Reconstruction::Free, Reconstruction::None}) {
-        SphereTreeSettings settings = reversible();
-        settings.finalFit = false;
-        settings.reconstruct = reconstruct;
-        EXPECT_TRUE(sameNodes(plain, buildSphereTree(*grid, settings)));
-    }
 }
 
 TEST(ReversibleTree, ParentsByDagAreDagParents)
@@ -133,9 +121,9 @@ TEST(ReversibleTree, ParentsByDagAreDagParents)
     int others = 0;
     for (const RandomObject& object : someObjects(800, 33)) {
         SphereTreeSettings settings = reversible();
-        settings.dag = true;
+        settings.pyramid().dag = true;
         const SphereTree byCentre = buildSphereTree(*gridOf(object.voxels), settings);
-        settings.parent = ParentRule::Dag;
+        settings.pyramid().parent = ParentRule::Dag;
         const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
         for (int32_t id = 1; id < tree.size(); ++id) {
             const DagEdge edge{tree.spheres.parent[id], id};
@@ -153,8 +141,8 @@ TEST(ReversibleTree, OfItsDagParentsANodeHasTheOneOfLeastCoveringPowerAndOfEqual
         for (int factor : {2, 3}) {
             SCOPED_TRACE(object.name + ", factor " + std::to_string(factor));
             SphereTreeSettings settings = reversible(factor);
-            settings.dag = true;
-            settings.parent = ParentRule::Dag;
+            settings.pyramid().dag = true;
+            settings.pyramid().parent = ParentRule::Dag;
             const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
             const auto power = [&](int32_t parent, int32_t child) {
                 const double apart =

@@ -213,7 +213,7 @@ std::vector<DagEdge> edgesOfFlatTree(const SphereTree& tree, Voxels voxels, cons
 {
     for (Coord& voxel : voxels) voxel = flat.toZ(voxel);
     std::vector<DagEdge> edges;
-    PyramidStep step{flat.toZ(tree.origin), tree.settings.factor, 2};
+    PyramidStep step{flat.toZ(tree.origin), tree.settings.pyramid().factor, 2};
     for (std::size_t k = 0; k + 1 < tree.levels.size(); ++k) {
         const Voxels above = coarsened(voxels, step);
         std::map<Coord, int32_t> parents, children; // ids by centre
@@ -241,12 +241,12 @@ TEST(SphereDag, OfATreeOfAFlatObjectIsThatOfItsPlane)
             Voxels voxels = flattened(object.voxels);
             for (Coord& voxel : voxels) voxel = FlatAxis(axis).fromZ(voxel + Coord(-3, 5, 13));
             SphereTreeSettings settings;
-            settings.tree = TreeType::Reversible;
+            setType(settings, TreeType::Reversible);
             settings.dim = 2;
-            settings.factor = 2 + int(seed % 4);
-            settings.dag = true;
+            settings.pyramid().factor = 2 + int(seed % 4);
+            settings.pyramid().dag = true;
             const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
-            const FlatAxis flat(tree.settings.flatAxis);
+            const FlatAxis flat(tree.flatAxis);
             EXPECT_TRUE(tree.dag == edgesOfFlatTree(tree, voxels, flat))
                 << object.name << " axis " << axis;
         }

@@ -39,6 +39,7 @@ PictureSettings small(PictureColor color = PictureColor::Parent)
 SphereTree treeOf(const std::vector<std::pair<Vec3d, double>>& balls, double voxel = 1)
 {
     SphereTree tree;
+    tree.settings.kind = ExtendedOptions();
     tree.transform = openvdb::math::Transform::createLinearTransform(voxel);
     tree.object.bbox.reset(Coord(-4, -4, -4), Coord(4, 4, 4));
     addLevel(tree, int32_t(balls.size()), 1);
@@ -163,7 +164,7 @@ TEST(SpherePicture, BallsOfNormsAreThePolyhedraThatTheyAre)
     const double pixel = 2 * 1000 * std::tan(0.4 * M_PI / 180) / settings.height;
     SphereTree tree = treeOf({{Vec3d(0.0), 6}}, 2); // three voxels
     const auto areaOf = [&](const char* dist) {
-        tree.settings.dist = distanceFromString(dist);
+        tree.settings.pyramid().dist = distanceFromString(dist);
         return darkPixels(renderLevel(tree, 0, camera, settings)) * pixel * pixel;
     };
     // Seen along an axis: a square of 12 x 12, one half as large on its tip, and between them an

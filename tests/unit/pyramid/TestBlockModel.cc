@@ -124,7 +124,7 @@ TEST(BlockModel, MayAddVoxelsBetweenOthers)
         return block.any() || (block.any(-1, 0, 0) && block.any(1, 0, 0));
     };
     const Voxels object{Coord(0, 0, 0), Coord(4, 0, 0), Coord(12, 0, 0)};
-    const OrPyramid pyramid = buildOrPyramid(*gridOf(object), 2, 3, nullptr, blockModel(bridge));
+    const OrPyramid pyramid = buildOrPyramid(*gridOf(object), 2, 3, blockModel(bridge));
     EXPECT_EQ(voxelsOf(*pyramid.levels[1]),
         (Voxels{Coord(0, 0, 0), Coord(1, 0, 0), Coord(2, 0, 0), Coord(6, 0, 0)}));
     EXPECT_EQ(pyramid.levels.back()->activeVoxelCount(), 1u);
@@ -149,7 +149,7 @@ TEST(BlockModel, OneThatIsNotIncludingIsRefusedWithTheFirstVoxelItLoses)
     const auto most = [](const ChildBlock& block) { return block.count() >= 5; };
     const Voxels object{Coord(0, 0, 0), Coord(3, 0, 0), Coord(20, 9, 9)};
     const std::string why = messageOf<openvdb::ValueError>(
-        [&] { buildOrPyramid(*gridOf(object), 2, 3, nullptr, blockModel(most)); });
+        [&] { buildOrPyramid(*gridOf(object), 2, 3, blockModel(most)); });
     EXPECT_TRUE(mentions(why, "not including: it leaves out 3 voxels with a child that is on"));
     EXPECT_TRUE(mentions(why, "(first: [0, 0, 0])"));
 }

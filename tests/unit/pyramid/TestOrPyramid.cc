@@ -311,7 +311,7 @@ TEST(OrPyramid, AnIncludingModelMayAddVoxels)
 {
     const Voxels object{Coord(0, 0, 0), Coord(30, 30, 30), Coord(15, 2, 9)};
     const OrPyramid plain = buildOrPyramid(*gridOf(object));
-    const OrPyramid dilated = buildOrPyramid(*gridOf(object), 2, 3, nullptr, dilatedOr);
+    const OrPyramid dilated = buildOrPyramid(*gridOf(object), 2, 3, dilatedOr);
     ASSERT_EQ(plain.levels.size(), dilated.levels.size());
     EXPECT_GT(dilated.levels[1]->activeVoxelCount(), plain.levels[1]->activeVoxelCount());
     for (std::size_t k = 0; k < plain.levels.size(); ++k) {
@@ -331,7 +331,7 @@ TEST(OrPyramid, AnIncludingModelMayTakeMoreLevelsThanTheWidestObjectButNotForeve
             if (++level < levels) next->setValueOn(Coord(1, 0, 0));
             return next;
         };
-        const auto build = [&] { return buildOrPyramid(*object, 2, 3, nullptr, model); };
+        const auto build = [&] { return buildOrPyramid(*object, 2, 3, model); };
         if (levels < 1000) EXPECT_EQ(build().levels.size(), std::size_t(levels + 1));
         else EXPECT_THROW(build(), ValueError);
     }
@@ -345,7 +345,7 @@ TEST(OrPyramid, AModelThatIsTheOrModelGivesTheSame)
     };
     for (int factor : {2, 3}) {
         const OrPyramid plain = buildOrPyramid(*object, factor);
-        const OrPyramid modelled = buildOrPyramid(*object, factor, 3, nullptr, model);
+        const OrPyramid modelled = buildOrPyramid(*object, factor, 3, model);
         ASSERT_EQ(plain.levels.size(), modelled.levels.size());
         for (std::size_t k = 0; k < plain.levels.size(); ++k) {
             EXPECT_EQ(voxelsOf(*plain.levels[k]), voxelsOf(*modelled.levels[k]));
@@ -363,12 +363,12 @@ TEST(OrPyramid, AModelThatLosesAVoxelOnAnyLevelIsRefused)
             if (level++ == bad) next->setValueOff(voxelsOf(*next).front());
             return next;
         };
-        EXPECT_THROW(buildOrPyramid(*object, 2, 3, nullptr, model), ValueError) << bad;
+        EXPECT_THROW(buildOrPyramid(*object, 2, 3, model), ValueError) << bad;
     }
     const auto nothing = [](const MaskTree&, const PyramidStep&) {
         return std::make_shared<MaskTree>(false);
     };
-    EXPECT_THROW(buildOrPyramid(*object, 2, 3, nullptr, nothing), ValueError);
+    EXPECT_THROW(buildOrPyramid(*object, 2, 3, nothing), ValueError);
 }
 
 TEST(OrPyramid, StopsWhenInterrupted)
@@ -376,11 +376,11 @@ TEST(OrPyramid, StopsWhenInterrupted)
     const auto object = gridOf(shapes::ball(200));
     for (int factor : {2, 3}) {
         StopAfter interrupter;
-        EXPECT_THROW(buildOrPyramid(*object, factor, 3, &interrupter), Interrupted);
+        EXPECT_THROW(buildOrPyramid(*object, factor, 3, {}, &interrupter), Interrupted);
         StopAfter later(2);
-        EXPECT_THROW(buildOrPyramid(*object, factor, 3, &later), Interrupted);
+        EXPECT_THROW(buildOrPyramid(*object, factor, 3, {}, &later), Interrupted);
         StopAfter never(1 << 30);
-        EXPECT_NO_THROW(buildOrPyramid(*object, factor, 3, &never));
+        EXPECT_NO_THROW(buildOrPyramid(*object, factor, 3, {}, &never));
     }
 }
 

@@ -54,7 +54,7 @@ bool inAny(const ExactSpheres& spheres, const Coord& q, int subdivision = 2)
 void expectLikeBruteForce(
     const ExactSpheres& spheres, const CoordBBox& clip, const CoordBBox& all, int subdivision = 2)
 {
-    const MaskTree::Ptr tree = sphereUnion(spheres, clip, nullptr, {{}, subdivision});
+    const MaskTree::Ptr tree = sphereUnion(spheres, clip, {{}, subdivision});
     openvdb::tree::ValueAccessor<const MaskTree> voxels(*tree);
     int64_t expected = 0;
     for (auto q = all.begin(); q; ++q) {
@@ -149,7 +149,7 @@ TEST_F(SphereUnion, MatchesBruteForceWhereTilesAndLeavesMix)
     const ExactSpheres fine{
         ball(7, -23, 41, 256 * 41 * 41 + 5), ball(723, 77, -55, 256 * 25 * 25 - 7)};
     expectLikeBruteForce(fine, kWide, CoordBBox(Coord(-48), Coord(80)), 16);
-    EXPECT_GT(sphereUnion(fine, kWide, nullptr, {{}, 16})->activeTileCount(), 0u);
+    EXPECT_GT(sphereUnion(fine, kWide, {{}, 16})->activeTileCount(), 0u);
 }
 
 /// @return the union, made of a few spheres at a time.
@@ -213,7 +213,7 @@ TEST_F(SphereUnion, TheSameSpheresInOtherUnitsAreTheSameVoxels)
             for (int64_t& c : s.center) c *= units / 2;
             s.radiusSq *= units / 2 * units / 2;
         }
-        const MaskTree::Ptr same = sphereUnion(finer, kWide, nullptr, {{}, units});
+        const MaskTree::Ptr same = sphereUnion(finer, kWide, {{}, units});
         EXPECT_TRUE(expected->hasSameTopology(*same));
         EXPECT_EQ(expected->activeVoxelCount(), same->activeVoxelCount());
         EXPECT_EQ(boundingBox(finer, {{}, units}), boundingBox(spheres));
@@ -225,8 +225,7 @@ TEST_F(SphereUnion, TheSameSpheresInOtherUnitsAreTheSameVoxels)
 TEST_F(SphereUnion, UnitsThatAreNoPowerOfTwoInRangeAreAnError)
 {
     for (int units : {-16, 0, 1, 3, 12, 32}) {
-        EXPECT_THROW(
-            sphereUnion({ball(0, 0, 0, 9)}, kWide, nullptr, {{}, units}), openvdb::ValueError)
+        EXPECT_THROW(sphereUnion({ball(0, 0, 0, 9)}, kWide, {{}, units}), openvdb::ValueError)
             << units;
         EXPECT_THROW(boundingBox({ball(0, 0, 0, 9)}, {{}, units}), openvdb::ValueError) << units;
     }
@@ -366,7 +365,7 @@ TEST_F(SphereUnion, HugeSpheresFarAwayDoNotOverflow)
     // In 16ths of a voxel, so at an eighth of the distance.
     const CoordBBox near(Coord(-20, -1, -1), Coord(20, 1, 1));
     const ExactSpheres fine{ball(-r2, 0, 0, r2 * r2)};
-    EXPECT_EQ(sphereUnion(fine, near, nullptr, {{}, 16})->activeVoxelCount(), 20u * 9 + 1);
+    EXPECT_EQ(sphereUnion(fine, near, {{}, 16})->activeVoxelCount(), 20u * 9 + 1);
     EXPECT_EQ(boundingBox(fine, {{}, 16}).max().x(), 0);
     EXPECT_EQ(boundingBox({ball(-r2, 0, 0, r2 * r2 - 1)}, {{}, 16}).max().x(), -1);
 
@@ -464,7 +463,7 @@ TEST_F(SphereUnion, StopsWhenInterrupted)
     struct Stop : openvdb::util::NullInterrupter {
         bool wasInterrupted(int) override { return true; }
     } stop;
-    EXPECT_THROW(sphereUnion({ball(0, 0, 0, 100)}, kWide, &stop), Interrupted);
+    EXPECT_THROW(sphereUnion({ball(0, 0, 0, 100)}, kWide, {}, &stop), Interrupted);
 }
 
 TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
@@ -475,7 +474,7 @@ TEST_F(SphereUnion, BoundingBoxIsTheSmallestOne)
         const ExactSpheres spheres =
             randomSpheres(random, 1 + i % 3, Coord(-5, 3, 9), 12, 1 + i % 5, metric.subdivision);
         CoordBBox expected;
-        sphereUnion(spheres, kWide, nullptr, metric)->evalActiveVoxelBoundingBox(expected);
+        sphereUnion(spheres, kWide, metric)->evalActiveVoxelBoundingBox(expected);
         EXPECT_EQ(boundingBox(spheres, metric), expected) << "trial " << i;
     }
 }

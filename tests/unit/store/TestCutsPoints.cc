@@ -34,7 +34,7 @@ TEST(CutsPoints, ATreeReadWithoutItsCutsSaysThatItHasNone)
 {
     const SphereTree read = fromPoints(*toPoints(tightSampleTree()));
     EXPECT_TRUE(read.cuts.empty());
-    EXPECT_FALSE(read.settings.cuts);
+    EXPECT_FALSE(read.hasCuts);
     EXPECT_EQ(read.subdivision, 16);
     EXPECT_FALSE(cutsToPoints(read));
 }

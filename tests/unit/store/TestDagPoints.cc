@@ -33,10 +33,10 @@ TEST(DagPoints, ATreeReadWithoutItsDagGridSaysThatItHasNoEdges)
 {
     const SphereTree tree = sampleTree();
     ASSERT_FALSE(tree.dag.empty());
-    ASSERT_TRUE(tree.settings.dag);
+    ASSERT_TRUE(tree.hasDag);
     const SphereTree read = fromPoints(*toPoints(tree));
     EXPECT_TRUE(read.dag.empty());
-    EXPECT_FALSE(read.settings.dag);
+    EXPECT_FALSE(read.hasDag);
     EXPECT_EQ(read.size(), tree.size());
 }
 

@@ -172,7 +172,7 @@ TEST(DamagedPoints, AnEmptyGridIsNotMistakenForATree)
 int expectMissingMetadataIsNamed(const SphereTree& tree)
 {
     const PointDataGrid::Ptr complete = toPoints(tree);
-    const bool tight = tree.settings.tree == TreeType::Tight;
+    const bool tight = tree.settings.type() == TreeType::Tight;
     int keys = 0;
     for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
         const std::string key = it->first;

@@ -66,7 +66,7 @@ TEST(RefusedPoints, ATreeThatContradictsItselfIsNotWritten)
     tree.levels.pop_back();
     EXPECT_TRUE(mentions(why(tree), "where nodes from 0 on are expected"));
     tree = sampleTree();
-    tree.settings.factor = 1;
+    tree.settings.pyramid().factor = 1;
     EXPECT_TRUE(mentions(why(tree), "factor=1"));
     for (int32_t parent : {-1, 8, 99}) {
         tree = sampleTree();

@@ -49,19 +49,23 @@ void expectObject(const json& object, const SphereTree& tree)
 
 json orNull(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
-void expectSettings(const json& written, const SphereTreeSettings& settings)
+void expectSettings(const json& written, const SphereTree& tree)
 {
-    const json expected = {{"tree", toString(settings.tree)}, {"factor", settings.factor},
-        {"dim", settings.dim}, {"model", modelToString(settings)},
-        {"dist", toString(settings.dist)}, {"parent", toString(settings.parent)},
-        {"final_fit", settings.finalFit}, {"reconstruct", toString(settings.reconstruct)},
-        {"scale", toString(settings.scale)}, {"padding", paddingToString(settings.padding)},
-        {"dag", settings.dag}, {"edges", toString(settings.edges)}, {"topology", settings.topology},
-        {"center", toString(settings.center)}, {"quality", toString(settings.quality)},
-        {"spheres", settings.budget.spheres}, {"branching", settings.budget.branching},
-        {"error", orNull(settings.budget.error)}, {"distance", orNull(settings.budget.distance)},
-        {"cover", toString(settings.cover)}, {"leaves", toString(settings.leaves)},
-        {"side", toString(settings.side)}, {"cuts", settings.cuts}, {"name", settings.name}};
+    const SphereTreeSettings& settings = tree.settings;
+    const auto pyramid = optionsOr<PyramidOptions>(settings);
+    const auto extended = optionsOr<ExtendedOptions>(settings);
+    const auto tight = optionsOr<TightOptions>(settings);
+    const json expected = {{"tree", toString(settings.type())}, {"factor", pyramid.factor},
+        {"dim", settings.dim}, {"model", modelToString(pyramid)},
+        {"dist", toString(pyramid.dist)}, {"parent", toString(pyramid.parent)},
+        {"final_fit", extended.finalFit}, {"reconstruct", toString(extended.reconstruct)},
+        {"scale", toString(pyramid.scale)}, {"padding", paddingToString(settings.padding)},
+        {"dag", tree.hasDag}, {"edges", toString(pyramid.edges)}, {"topology", settings.topology},
+        {"center", toString(pyramid.center)}, {"quality", toString(tight.quality)},
+        {"spheres", tight.budget.spheres}, {"branching", tight.budget.branching},
+        {"error", orNull(tight.budget.error)}, {"distance", orNull(tight.budget.distance)},
+        {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)},
+        {"side", "outer"}, {"cuts", tree.hasCuts}, {"name", settings.name}};
     EXPECT_EQ(written, expected);
 }
 
@@ -109,7 +113,7 @@ void expectNode(const json& columns, const json& row, const SphereTree& tree, in
 
 void expectDag(const json& dag, const SphereTree& tree)
 {
-    if (!tree.settings.dag && tree.dag.empty()) {
+    if (!tree.hasDag && tree.dag.empty()) {
         EXPECT_TRUE(dag.is_null());
         return;
     }
@@ -152,7 +156,7 @@ void expectAll(const SphereTree& tree)
     EXPECT_EQ(read.size(), 10u);
     EXPECT_EQ(read.at("format"), "vdb_spheretree.tree.1");
     expectObject(read.at("object"), tree);
-    expectSettings(read.at("settings"), tree.settings);
+    expectSettings(read.at("settings"), tree);
     json levels = json::array();
     for (const SphereTreeLevel& level : tree.levels) levels.push_back(levelOf(level));
     EXPECT_EQ(read.at("levels"), levels);
@@ -195,8 +199,8 @@ TEST(SphereTreeJson, HoldsTreesThatWereBuilt)
         object->transform().postRotate(0.7, openvdb::math::Y_AXIS);
         object->transform().postTranslate({1e3, -0.1, 5});
         SphereTreeSettings settings;
-        settings.tree = seed % 2 ? TreeType::Extended : TreeType::Reversible;
-        settings.dag = seed % 3 != 0;
+        setType(settings, seed % 2 ? TreeType::Extended : TreeType::Reversible);
+        settings.pyramid().dag = seed % 3 != 0;
         settings.topology = seed % 4 != 0;
         SphereTree tree = buildSphereTree(*object, settings);
         if (seed % 5 != 0) computeLevelErrors(tree, *object);
@@ -208,7 +212,7 @@ TEST(SphereTreeJson, ADagWithoutEdgesIsAnEmptyArray)
 {
     SphereTree tree = oneVoxelTree();
     EXPECT_TRUE(json::parse(textOf(tree)).at("dag").is_null());
-    tree.settings.dag = true;
+    tree.hasDag = true;
     EXPECT_EQ(json::parse(textOf(tree)).at("dag"), json::array());
 }
 

@@ -6,6 +6,7 @@
 
 #include "support/Messages.h"
 #include "support/PointsFiles.h"
+#include "support/TreeSettings.h"
 #include "support/SampleTrees.h"
 
 #include <openvdb/points/PointCount.h>
@@ -110,7 +111,7 @@ TEST(SphereTreePoints, SettingsOfEveryKindComeBack)
     SphereTree tree = oneVoxelTree();
     for (TreeType type : {TreeType::Reversible, TreeType::Extended}) {
         for (double padding : {SphereTreeSettings::kPadCubes, 0.0, 1.0 / 3}) {
-            tree.settings.tree = type;
+            setType(tree.settings, type);
             tree.settings.padding = padding;
             tree.settings.dim = 5 - tree.settings.dim; // 2 and 3 in turn
             tree.settings.name = "";
@@ -122,16 +123,16 @@ TEST(SphereTreePoints, SettingsOfEveryKindComeBack)
 TEST(SphereTreePoints, SettingsOfTightTreesComeBack)
 {
     SphereTree tree = oneVoxelTree();
-    tree.settings.center = Center::Miniball;
+    tree.settings.pyramid().center = Center::Miniball;
     expectSameTree(fromPoints(*toPoints(tree)), tree);
-    tree.settings.center = Center::Medial;
-    tree.settings.tree = TreeType::Tight;
-    tree.settings.budget.branching = 5;
-    tree.settings.budget.error = 1.0 / 3;
+    tree.settings.pyramid().center = Center::Medial;
+    setType(tree.settings, TreeType::Tight);
+    tree.settings.budgeted().budget.branching = 5;
+    tree.settings.budgeted().budget.error = 1.0 / 3;
     expectSameTree(fromPoints(*toPoints(tree)), tree);
-    tree.settings.budget = {};
-    tree.settings.budget.distance = 1e-300;
-    tree.settings.quality = Quality::Fast;
+    tree.settings.budgeted().budget = {};
+    tree.settings.budgeted().budget.distance = 1e-300;
+    tree.settings.tight().quality = Quality::Fast;
     expectSameTree(fromPoints(*toPoints(tree)), tree);
 }
 
@@ -139,7 +140,7 @@ TEST(SphereTreePoints, AFileFromBeforeTightTreesIsReadAsItWas)
 {
     SphereTree tree = randomTree(50, 3);
     fillDescription(tree);
-    tree.settings.dag = false; // without a grid of edges
+    tree.hasDag = false; // without a grid of edges
     const PointDataGrid::Ptr grid = toPoints(tree);
     for (const char* key : {"subdivision", "quality", "spheres", "branching", "cover", "leaves",
              "side", "cuts", "center"}) {
@@ -153,7 +154,7 @@ TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
 {
     SphereTree tree = sampleTree();
     tree.dag.clear(); // which is a grid of its own
-    tree.settings.dag = false;
+    tree.hasDag = false;
     tree.settings.topology = true;
     const PointDataGrid::Ptr grid = toPoints(tree);
     for (const char* key :
@@ -279,7 +280,7 @@ TEST(SphereTreePoints, LevelsAreGroups)
 TEST(SphereTreePoints, ATreeOfMoreLevelsThanAGroupByteHoldsComesBack)
 {
     SphereTree tree;
-    tree.settings.tree = TreeType::Extended;
+    setType(tree.settings, TreeType::Extended);
     tree.transform = math::Transform::createLinearTransform(1.0);
     for (int i = 0; i < 20; ++i) addLevel(tree, 1, 1);
     for (int i = 0; i < 20; ++i) addNode(tree, {0.5, 0.5, 0.5}, {0, 0, 0}, 20 - i, i - 1);

@@ -31,10 +31,10 @@ std::vector<DagEdge> randomEdges(int parents, int children, double rate, Random&
 SphereTree randomTree(uint32_t seed, TreeType type, DagEdges edges)
 {
     SphereTreeSettings settings;
-    settings.tree = type;
-    settings.factor = 2 + int(seed % 2);
-    settings.dag = true;
-    settings.edges = edges;
+    setType(settings, type);
+    settings.pyramid().factor = 2 + int(seed % 2);
+    settings.pyramid().dag = true;
+    settings.pyramid().edges = edges;
     return buildSphereTree(*gridOf(randomObject(seed).voxels), settings);
 }
 

@@ -31,10 +31,10 @@ std::vector<Pyramid> somePyramids()
 
 SphereTreeSettings settingsOf(const Pyramid& pyramid, RadiusScale scale = RadiusScale::Tight)
 {
-    SphereTreeSettings settings;
-    settings.factor = pyramid.factor;
+    SphereTreeSettings settings = ReversibleOptions();
+    settings.pyramid().factor = pyramid.factor;
     settings.dim = pyramid.dim;
-    settings.scale = scale;
+    settings.pyramid().scale = scale;
     return settings;
 }
 
@@ -262,13 +262,13 @@ TEST(LevelFrame, RejectsALevelWhoseVoxelsAreTooWide)
 TEST(LevelFrame, RejectsBallsOfANormWhoseSquareDoesNotFit)
 {
     using openvdb_spheretree::Distance;
-    SphereTreeSettings settings;
-    settings.factor = 2900;
-    settings.dist = Distance::chamfer(255, 255, 255);
-    settings.scale = RadiusScale::Paper;
+    SphereTreeSettings settings = ReversibleOptions();
+    settings.pyramid().factor = 2900;
+    settings.pyramid().dist = Distance::chamfer(255, 255, 255);
+    settings.pyramid().scale = RadiusScale::Paper;
     EXPECT_NO_THROW(LevelFrame(1, kOrigin, settings).radius(255 * 255));
     EXPECT_THROW(LevelFrame(2, kOrigin, settings).radius(255 * 255), openvdb::ValueError);
-    settings.scale = RadiusScale::Tight; // a single voxel has no width
+    settings.pyramid().scale = RadiusScale::Tight; // a single voxel has no width
     EXPECT_NO_THROW(LevelFrame(2, kOrigin, settings).radius(255 * 255));
 }
 

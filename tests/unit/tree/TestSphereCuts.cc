@@ -51,7 +51,7 @@ TEST(SphereCuts, ACutAsATreeIsOneLevelOfItsNodes)
         EXPECT_TRUE(cut.cuts.empty());
         EXPECT_EQ(cut.subdivision, 16);
         SphereTree described = tree;
-        described.settings.cuts = false;
+        described.hasCuts = false;
         expectSameDescription(cut, described);
         expectSameTransform(*cut.transform, *tree.transform);
         EXPECT_NE(cut.transform, tree.transform) << "of its own";
@@ -73,7 +73,7 @@ TEST(SphereCuts, ALevelThatIsKeptLosesTheCutsButNotTheUnits)
 {
     const SphereTree kept = keepLevel(tightSampleTree(), 0);
     EXPECT_TRUE(kept.cuts.empty());
-    EXPECT_FALSE(kept.settings.cuts);
+    EXPECT_FALSE(kept.hasCuts);
     EXPECT_EQ(kept.subdivision, 16);
     EXPECT_EQ(kept.spheres.center[1], tightSampleTree().spheres.center[2]);
 }

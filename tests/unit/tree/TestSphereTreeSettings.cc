@@ -27,217 +27,25 @@ TEST(SphereTreeSettings, DefaultsAreValid) { EXPECT_NO_THROW(SphereTreeSettings(
 
 TEST(SphereTreeSettings, ModelsHaveNamesThatReadBack)
 {
-    SphereTreeSettings settings;
-    EXPECT_EQ(modelToString(settings), "or");
+    PyramidOptions options;
+    EXPECT_EQ(modelToString(options), "or");
     for (const int radius : {1, 2, 17, kMaxClosing}) {
-        settings.closing = radius;
-        EXPECT_EQ(modelToString(settings), "closing:" + std::to_string(radius));
-        EXPECT_EQ(closingFromString(modelToString(settings)), radius);
+        options.closing = radius;
+        EXPECT_EQ(modelToString(options), "closing:" + std::to_string(radius));
+        EXPECT_EQ(closingFromString(modelToString(options)), radius);
     }
     EXPECT_EQ(closingFromString("or"), 0);
-    settings.hadCustomModel = true;
-    EXPECT_EQ(modelToString(settings), "custom");
+    options.customModel = unknownModel();
+    EXPECT_EQ(modelToString(options), "custom");
     for (const char* text : {"", "OR", "closing", "closing:", "closing:0", "closing:-1",
              "closing:65", "closing:2x", "closing: 2", "closing:+2", "custom", "2"}) {
         EXPECT_THROW(closingFromString(text), openvdb::ValueError) << text;
     }
 }
 
-TEST(SphereTreeSettings, ClosingsHaveALimit)
-{
-    for (const int radius : {-1, 65}) {
-        SphereTreeSettings settings;
-        settings.tree = TreeType::Extended;
-        settings.closing = radius;
-        const std::string why = whyInvalid(settings);
-        EXPECT_TRUE(mentions(why, "closing=" + std::to_string(radius) + " is out of range"));
-    }
-}
-
-TEST(SphereTreeSettings, TheNamesOfValuesReadBack)
-{
-    EXPECT_EQ(treeTypeFromString("reversible"), TreeType::Reversible);
-    EXPECT_EQ(treeTypeFromString("extended"), TreeType::Extended);
-    EXPECT_EQ(parentRuleFromString("centre"), ParentRule::Centre);
-    EXPECT_EQ(parentRuleFromString("dag"), ParentRule::Dag);
-    EXPECT_EQ(reconstructionFromString("clip"), Reconstruction::Clip);
-    EXPECT_EQ(reconstructionFromString("free"), Reconstruction::Free);
-    EXPECT_EQ(reconstructionFromString("none"), Reconstruction::None);
-    EXPECT_EQ(radiusScaleFromString("tight"), RadiusScale::Tight);
-    EXPECT_EQ(radiusScaleFromString("paper"), RadiusScale::Paper);
-    for (TreeType v : {TreeType::Reversible, TreeType::Extended, TreeType::Tight}) {
-        EXPECT_EQ(treeTypeFromString(toString(v)), v);
-    }
-    for (ParentRule v : {ParentRule::Centre, ParentRule::Dag}) {
-        EXPECT_EQ(parentRuleFromString(toString(v)), v);
-    }
-    for (Reconstruction v : {Reconstruction::Clip, Reconstruction::Free, Reconstruction::None}) {
-        EXPECT_EQ(reconstructionFromString(toString(v)), v);
-    }
-    for (RadiusScale v : {RadiusScale::Tight, RadiusScale::Paper}) {
-        EXPECT_EQ(radiusScaleFromString(toString(v)), v);
-    }
-    EXPECT_EQ(dagEdgesFromString("shared"), DagEdges::Shared);
-    EXPECT_EQ(dagEdgesFromString("intersecting"), DagEdges::Intersecting);
-    for (DagEdges v : {DagEdges::Shared, DagEdges::Intersecting}) {
-        EXPECT_EQ(dagEdgesFromString(toString(v)), v);
-    }
-}
-
-TEST(SphereTreeSettings, AnUnknownNameIsAnErrorThatNamesItAndTheValuesThereAre)
-{
-    const std::string tree = messageOf<openvdb::ValueError>([] { treeTypeFromString("octree"); });
-    EXPECT_TRUE(mentions(tree, "tree='octree'"));
-    EXPECT_TRUE(mentions(tree, "reversible, extended or tight"));
-    const std::string reconstruct =
-        messageOf<openvdb::ValueError>([] { reconstructionFromString("Clip"); });
-    EXPECT_TRUE(mentions(reconstruct, "reconstruct='Clip'"));
-    EXPECT_TRUE(mentions(reconstruct, "clip, free or none"));
-    EXPECT_TRUE(mentions(
-        messageOf<openvdb::ValueError>([] { parentRuleFromString("center"); }), "centre or dag"));
-    EXPECT_TRUE(mentions(
-        messageOf<openvdb::ValueError>([] { radiusScaleFromString(""); }), "tight or paper"));
-}
-
-TEST(SphereTreeSettings, TheNamesOfWhatTightTreesCanBeAskedForReadBack)
-{
-    EXPECT_EQ(treeTypeFromString("tight"), TreeType::Tight);
-    EXPECT_STREQ(toString(TreeType::Tight), "tight");
-    const std::pair<const char*, Quality> qualities[] = {
-        {"fast", Quality::Fast}, {"normal", Quality::Normal}, {"best", Quality::Best}};
-    for (const auto& [name, value] : qualities) {
-        EXPECT_EQ(qualityFromString(name), value);
-        EXPECT_STREQ(toString(value), name);
-    }
-    const std::pair<const char*, Cover> covers[] = {
-        {"voxels", Cover::Voxels}, {"balls", Cover::Balls}};
-    for (const auto& [name, value] : covers) {
-        EXPECT_EQ(coverFromString(name), value);
-        EXPECT_STREQ(toString(value), name);
-    }
-    const std::pair<const char*, Center> centers[] = {
-        {"medial", Center::Medial}, {"miniball", Center::Miniball}};
-    for (const auto& [name, value] : centers) {
-        EXPECT_EQ(centerFromString(name), value);
-        EXPECT_STREQ(toString(value), name);
-    }
-    const std::pair<const char*, Leaves> leaves[] = {
-        {"pruned", Leaves::Pruned}, {"medial", Leaves::Medial}};
-    for (const auto& [name, value] : leaves) {
-        EXPECT_EQ(leavesFromString(name), value);
-        EXPECT_STREQ(toString(value), name);
-    }
-    const std::pair<const char*, Side> sides[] = {{"outer", Side::Outer}, {"inner", Side::Inner}};
-    for (const auto& [name, value] : sides) {
-        EXPECT_EQ(sideFromString(name), value);
-        EXPECT_STREQ(toString(value), name);
-    }
-}
-
-TEST(SphereTreeSettings, AnUnknownNameOfATightTreeIsAnErrorThatNamesItAndTheValuesThereAre)
-{
-    const auto why = [](auto parse, const char* text) {
-        return messageOf<openvdb::ValueError>([&] { parse(text); });
-    };
-    EXPECT_TRUE(mentions(why(qualityFromString, "Best"), "quality='Best'"));
-    EXPECT_TRUE(mentions(why(qualityFromString, ""), "fast, normal or best"));
-    EXPECT_TRUE(mentions(why(coverFromString, "cubes"), "cover='cubes' is unknown"));
-    EXPECT_TRUE(mentions(why(coverFromString, "voxel"), "voxels or balls"));
-    EXPECT_TRUE(mentions(why(centerFromString, "centre"), "medial or miniball"));
-    EXPECT_TRUE(mentions(why(leavesFromString, "all"), "pruned or medial"));
-    EXPECT_TRUE(mentions(why(sideFromString, "both"), "outer or inner"));
-}
-
-TEST(SphereTreeSettings, ATightTreeTakesEverySettingOfItsOwn)
-{
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Tight;
-    EXPECT_NO_THROW(settings.validate());
-    settings.quality = Quality::Best;
-    settings.budget.spheres = {512, 64, 8};
-    settings.cover = Cover::Balls;
-    settings.leaves = Leaves::Medial;
-    EXPECT_NO_THROW(settings.validate());
-    settings.quality = Quality::Normal;
-    settings.cuts = true;
-    EXPECT_NO_THROW(settings.validate());
-    settings.side = Side::Inner;
-    EXPECT_NO_THROW(settings.validate());
-    settings.budget.branching = 4;
-    EXPECT_TRUE(mentions(whyInvalid(settings), "contradict each other"));
-}
-
-TEST(SphereTreeSettings, ATightTreeRefusesWhatOnlyTreesOfThePyramidHave)
-{
-    SphereTreeSettings norm, miniball, dag;
-    norm.tree = miniball.tree = dag.tree = TreeType::Tight;
-    norm.dist = Distance::chamfer(3, 4, 5);
-    miniball.center = Center::Miniball;
-    dag.dag = true;
-    EXPECT_TRUE(mentions(whyInvalid(norm), "not for dist=chamfer:3,4,5"));
-    EXPECT_TRUE(mentions(whyInvalid(miniball), "center=miniball"));
-    EXPECT_TRUE(mentions(whyInvalid(dag), "no Sphere-DAG"));
-
-    SphereTreeSettings factor, closing, custom, parent, fit, reconstruct, scale, edges;
-    factor.factor = 3;
-    closing.closing = 2;
-    custom.customModel = [](const openvdb::MaskTree&, const PyramidStep&) {
-        return openvdb::MaskTree::Ptr();
-    };
-    parent.parent = ParentRule::Dag;
-    fit.finalFit = false;
-    reconstruct.reconstruct = Reconstruction::None;
-    scale.scale = RadiusScale::Paper;
-    edges.edges = DagEdges::Intersecting;
-    const std::vector<std::pair<SphereTreeSettings, std::string>> others{{factor, "factor=3"},
-        {closing, "model=closing:2"}, {custom, "model=custom"}, {parent, "parent=dag"},
-        {fit, "final_fit=0"}, {reconstruct, "reconstruct=none"}, {scale, "scale=paper"},
-        {edges, "edges=intersecting"}};
-    for (auto [settings, what] : others) {
-        EXPECT_TRUE(mentions(whyInvalid(settings), what + " is for tree=extended"));
-        settings.tree = TreeType::Extended;
-        EXPECT_NO_THROW(settings.validate()) << what;
-    }
-}
-
-TEST(SphereTreeSettings, ATightTreeIsWhatThereIsUnlessAskedOtherwise)
-{
-    EXPECT_EQ(SphereTreeSettings().tree, TreeType::Tight);
-}
-
-TEST(SphereTreeSettings, TheBestLevelsAndAllCutsContradictEachOther)
-{
-    SphereTreeSettings settings;
-    settings.quality = Quality::Best;
-    EXPECT_NO_THROW(settings.validate());
-    settings.cuts = true;
-    EXPECT_TRUE(mentions(whyInvalid(settings), "quality=best and cuts=1 contradict"));
-    EXPECT_TRUE(mentions(whyInvalid(settings), "use quality=normal"));
-}
-
-TEST(SphereTreeSettings, OtherTreesRefuseWhatOnlyTightTreesHave)
-{
-    for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
-        SphereTreeSettings spheres, branching, error, distance, cuts, inner;
-        spheres.budget.spheres = {8};
-        branching.budget.branching = 4;
-        error.budget.error = 1;
-        distance.budget.distance = 1;
-        cuts.cuts = true;
-        inner.side = Side::Inner;
-        for (SphereTreeSettings settings : {spheres, branching, error, distance, cuts, inner}) {
-            settings.tree = type;
-            const std::string why = whyInvalid(settings);
-            EXPECT_TRUE(mentions(why, "for tree=tight"));
-            EXPECT_TRUE(mentions(why, toString(type)));
-        }
-    }
-}
-
 TEST(SphereTreeSettings, ALongValueIsClippedInTheMessage)
 {
     const std::string value(100000, 'x');
-    EXPECT_LT(messageOf<openvdb::ValueError>([&] { treeTypeFromString(value); }).size(), 200u);
     EXPECT_LT(messageOf<openvdb::ValueError>([&] { paddingFromString(value); }).size(), 200u);
 }
 
@@ -317,33 +125,6 @@ TEST(SphereTreeSettings, AMemoryThatIsNoneIsAnError)
         300u);
 }
 
-TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
-{
-    SphereTreeSettings settings;
-    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(3.0) / 2);
-    settings.dim = 2;
-    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(2.0) / 2);
-    settings.padding = 0;
-    EXPECT_EQ(settings.paddingVoxels(), 0);
-    settings.padding = 0.25;
-    EXPECT_EQ(settings.paddingVoxels(), 0.25);
-}
-
-TEST(SphereTreeSettings, AFactorOutOfRangeIsAnErrorThatNamesTheRange)
-{
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Extended;
-    for (int factor : {2, 3, 64}) {
-        settings.factor = factor;
-        EXPECT_NO_THROW(settings.validate());
-    }
-    for (int factor : {1, 0, -2, 32769, std::numeric_limits<int>::min()}) {
-        settings.factor = factor;
-        EXPECT_TRUE(mentions(whyInvalid(settings), "factor=" + std::to_string(factor)));
-        EXPECT_TRUE(mentions(whyInvalid(settings), "2 to 32768"));
-    }
-}
-
 TEST(SphereTreeSettings, ADimensionOtherThan2Or3IsAnError)
 {
     SphereTreeSettings settings;
@@ -368,35 +149,118 @@ TEST(SphereTreeSettings, APaddingThatIsNegativeOrNoNumberIsAnError)
     }
 }
 
-TEST(SphereTreeSettings, MiniballsAreEuclideanAndFitted)
+TEST(SphereTreeSettings, OfATightTreeAreWhatThereIsUnlessAskedOtherwise)
 {
-    for (const TreeType type : {TreeType::Reversible, TreeType::Extended}) {
-        SphereTreeSettings settings;
-        settings.tree = type;
-        settings.center = Center::Miniball;
-        EXPECT_NO_THROW(settings.validate());
-        settings.dist = Distance::l1();
-        EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball is for dist=l2"));
-        settings.dist = Distance();
-        settings.finalFit = false;
-        if (type == TreeType::Reversible) {
-            EXPECT_NO_THROW(settings.validate()) << "which knows no final fit";
-        } else {
-            EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball and final_fit=0"));
-        }
-    }
+    EXPECT_TRUE(SphereTreeSettings().find<TightOptions>());
+    EXPECT_EQ(SphereTreeSettings().type(), TreeType::Tight);
+    EXPECT_FALSE(SphereTreeSettings().isInner());
+}
+
+TEST(SphereTreeSettings, HaveTheOptionsOfTheirKindAndNoOthers)
+{
+    SphereTreeSettings extended = ExtendedOptions();
+    extended.pyramid().factor = 5;
+    EXPECT_EQ(extended.extended().factor, 5);
+    EXPECT_EQ(extended.type(), TreeType::Extended);
+    EXPECT_FALSE(extended.find<TightOptions>());
+    EXPECT_FALSE(extended.find<ReversibleOptions>());
+    EXPECT_THROW(extended.tight(), openvdb::ValueError);
+    EXPECT_THROW(extended.budgeted(), openvdb::ValueError);
+    SphereTreeSettings inner = InnerOptions();
+    inner.budgeted().budget.spheres = {8};
+    EXPECT_TRUE(inner.isInner());
+    EXPECT_EQ(inner.type(), TreeType::Tight);
+    EXPECT_THROW(inner.tight(), openvdb::ValueError);
+    EXPECT_THROW(inner.pyramid(), openvdb::ValueError);
+    const SphereTreeSettings reversible = ReversibleOptions();
+    EXPECT_EQ(reversible.type(), TreeType::Reversible);
+    EXPECT_EQ(reversible.pyramid().factor, 2);
+    EXPECT_THROW(reversible.extended(), openvdb::ValueError);
+}
+
+TEST(SphereTreeSettings, ATightTreeTakesEverySettingOfItsOwn)
+{
+    SphereTreeSettings settings;
+    TightOptions& options = settings.tight();
+    options.quality = Quality::Best;
+    options.budget.spheres = {512, 64, 8};
+    options.cover = Cover::Balls;
+    options.leaves = Leaves::Medial;
+    EXPECT_NO_THROW(settings.validate());
+    options.cuts = true;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "quality=best and cuts=1 contradict"));
+    EXPECT_TRUE(mentions(whyInvalid(settings), "use quality=normal"));
+    options.quality = Quality::Normal;
+    EXPECT_NO_THROW(settings.validate());
+    options.budget.branching = 4;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "contradict each other"));
 }
 
 TEST(SphereTreeSettings, InnerTreesHaveNoBoundOnWhatTheyReachOutside)
 {
+    InnerOptions options;
+    options.budget.spheres = {64};
+    EXPECT_NO_THROW(SphereTreeSettings(options).validate());
+    options.budget.error = 1;
+    EXPECT_TRUE(mentions(whyInvalid(options), "side=inner and a bound"));
+    options.budget.error.reset();
+    options.budget.distance = 1;
+    EXPECT_TRUE(mentions(whyInvalid(options), "side=inner and a bound"));
+}
+
+TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
+{
     SphereTreeSettings settings;
-    settings.tree = TreeType::Tight;
-    settings.side = Side::Inner;
-    settings.budget.spheres = {64};
-    EXPECT_NO_THROW(settings.validate());
-    settings.budget.error = 1;
-    EXPECT_TRUE(mentions(whyInvalid(settings), "side=inner and a bound"));
-    settings.budget.error.reset();
-    settings.budget.distance = 1;
-    EXPECT_TRUE(mentions(whyInvalid(settings), "side=inner and a bound"));
+    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(3.0) / 2);
+    settings.dim = 2;
+    EXPECT_DOUBLE_EQ(settings.paddingVoxels(), std::sqrt(2.0) / 2);
+    settings.padding = 0;
+    EXPECT_EQ(settings.paddingVoxels(), 0);
+    settings.padding = 0.25;
+    EXPECT_EQ(settings.paddingVoxels(), 0.25);
+    settings.kind = InnerOptions();
+    EXPECT_EQ(settings.paddingVoxels(), 0) << "would stick out";
+}
+
+TEST(SphereTreeSettings, FactorsAndClosingsHaveALimit)
+{
+    SphereTreeSettings settings = ExtendedOptions();
+    for (int factor : {2, 3, 64}) {
+        settings.pyramid().factor = factor;
+        EXPECT_NO_THROW(settings.validate());
+    }
+    for (int factor : {1, 0, -2, 32769, std::numeric_limits<int>::min()}) {
+        settings.pyramid().factor = factor;
+        EXPECT_TRUE(mentions(whyInvalid(settings), "factor=" + std::to_string(factor)));
+        EXPECT_TRUE(mentions(whyInvalid(settings), "2 to 32768"));
+    }
+    settings = ReversibleOptions();
+    for (const int radius : {-1, 65}) {
+        settings.pyramid().closing = radius;
+        const std::string why = whyInvalid(settings);
+        EXPECT_TRUE(mentions(why, "closing=" + std::to_string(radius) + " is out of range"));
+    }
+}
+
+TEST(SphereTreeSettings, MiniballsAreEuclideanAndFitted)
+{
+    for (SphereTreeSettings settings :
+        {SphereTreeSettings(ReversibleOptions()), SphereTreeSettings(ExtendedOptions())}) {
+        settings.pyramid().center = Center::Miniball;
+        EXPECT_NO_THROW(settings.validate());
+        settings.pyramid().dist = Distance::l1();
+        EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball is for dist=l2"));
+        settings.pyramid().dist = Distance();
+        if (settings.type() == TreeType::Reversible) continue;
+        settings.extended().finalFit = false;
+        EXPECT_TRUE(mentions(whyInvalid(settings), "center=miniball and final_fit=0"));
+    }
+}
+
+TEST(SphereTreeSettings, AModelThatNoFileHoldsSaysSo)
+{
+    EXPECT_FALSE(isUnknown({}));
+    EXPECT_TRUE(isUnknown(unknownModel()));
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([] { unknownModel()({}, {}); }), "set customModel"));
 }

@@ -231,7 +231,7 @@ TEST(TightLevels, AreAppendedFromTheRootDownByVoxel)
     for (int turn = 0; turn < 90; ++turn) {
         const auto levels = randomLevels(random);
         SphereTree tree;
-        tree.settings.flatAxis = turn % 3;
+        tree.flatAxis = turn % 3;
         tree.object.voxels = 77;
         appendLevels(levels, tree);
         ASSERT_EQ(tree.subdivision, 16);
@@ -245,8 +245,8 @@ TEST(TightLevels, HaveCutsThatAreTheForest)
     for (int turn = 0; turn < 9; ++turn) {
         const Forest forest = randomForest(20, 0.2, random);
         SphereTree tree; // of the balls, to compare with
-        tree.settings.flatAxis = turn % 3;
-        const SphereCuts cuts = cutsOf(forest, tree.settings);
+        tree.flatAxis = turn % 3;
+        const SphereCuts cuts = cutsOf(forest, tree.flatAxis);
         ASSERT_EQ(cuts.spheres.center.size(), forest.size());
         tree.spheres.center = cuts.spheres.center;
         tree.spheres.radius = cuts.spheres.radius;
