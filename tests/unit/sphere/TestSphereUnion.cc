@@ -496,7 +496,7 @@ TEST_F(SphereUnion, SpheresOfALevelAreItsRangeInTheTreesUnits)
     EXPECT_EQ(spheres[1].center[1], -8);
     EXPECT_EQ(spheres[1].radiusSq, 9);
     tree.subdivision = 16;
-    tree.center[1] = {-1.4375, 2147483647.9375, -2147483648.0};
+    tree.spheres.center[1] = {-1.4375, 2147483647.9375, -2147483648.0};
     const ExactSphere fine = levelSpheres(tree, level)[0];
     EXPECT_EQ(fine.center[0], -23);
     EXPECT_EQ(fine.center[1], (int64_t(1) << 35) - 1);
