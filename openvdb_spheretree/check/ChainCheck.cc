@@ -16,7 +16,7 @@
 #include "ChainCheck.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/sphere/BallWords.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <algorithm>
@@ -29,7 +29,6 @@ namespace detail {
 namespace {
 
 using openvdb::Coord;
-using Words = std::array<uint64_t, 8>;
 
 /// A node that reaches into a part of space.
 struct Candidate {
@@ -40,32 +39,27 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// A part of the object: some of its cells.
+/// A part of the object: some of its cubes of voxels.
 struct Part {
-    VoxelCell *begin, *end;
-    std::shared_ptr<VoxelCell> own; ///< holds the cell of a part that is an eighth of a tile
+    VoxelCube *begin, *end;
+    std::shared_ptr<VoxelCube> own; ///< holds the cube of a part that is an eighth of a tile
     std::shared_ptr<const Candidates> candidates; ///< of the part that this is part of
 
     openvdb::CoordBBox box() const
     {
         openvdb::CoordBBox result;
-        for (const VoxelCell* cell = begin; cell != end; ++cell) {
-            result.expand(openvdb::CoordBBox::createCube(cell->origin, cell->size));
+        for (const VoxelCube* cube = begin; cube != end; ++cube) {
+            result.expand(openvdb::CoordBBox::createCube(cube->origin, cube->size));
         }
         return result;
     }
 };
 
-bool isEmpty(const Words& words)
-{
-    return std::all_of(words.begin(), words.end(), [](uint64_t word) { return word == 0; });
-}
-
 class ChainSearch {
 public:
     ChainSearch(const ChainForest& forest, const SphereMetric& metric);
 
-    Part whole(std::vector<VoxelCell>& cells) const;
+    Part whole(std::vector<VoxelCube>& cubes) const;
     /// @return the parts that are to be looked at in place of one; losses are added up.
     std::vector<Part> step(const Part& part, std::vector<ChainLoss>& losses) const;
 
@@ -78,8 +72,9 @@ private:
     bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const;
     Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const;
     void searchLeaf(
-        const VoxelCell& cell, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
-    Words chainedVoxels(const Candidate& candidate, const Words& below, const Coord& origin) const;
+        const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
+    LeafMask chainedVoxels(
+        const Candidate& candidate, const LeafMask& below, const Coord& origin) const;
 
     const ChainForest& mForest;
     std::vector<ClippedSphere> mBalls;
@@ -98,13 +93,13 @@ ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) 
     }
 }
 
-Part ChainSearch::whole(std::vector<VoxelCell>& cells) const
+Part ChainSearch::whole(std::vector<VoxelCube>& cubes) const
 {
     auto all = std::make_shared<Candidates>();
     for (int32_t node = 0; node < int32_t(mBalls.size()); ++node) {
         all->push_back({node, mForest.parent[node], false, false});
     }
-    return {cells.data(), cells.data() + cells.size(), nullptr, all};
+    return {cubes.data(), cubes.data() + cubes.size(), nullptr, all};
 }
 
 bool ChainSearch::reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const
@@ -151,24 +146,19 @@ std::vector<Part> split(
     const Part& part, const openvdb::CoordBBox& box, std::shared_ptr<const Candidates> candidates)
 {
     if (part.end - part.begin > 1) {
-        VoxelCell* const middle = part.begin + (part.end - part.begin) / 2;
+        VoxelCube* const middle = part.begin + (part.end - part.begin) / 2;
         const std::size_t axis = box.maxExtent();
         std::nth_element(
-            part.begin, middle, part.end, [axis](const VoxelCell& a, const VoxelCell& b) {
+            part.begin, middle, part.end, [axis](const VoxelCube& a, const VoxelCube& b) {
                 return a.origin[axis] < b.origin[axis];
             });
         return {
             {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
     }
     std::vector<Part> parts;
-    const int32_t half = part.begin->size / 2;
     for (int i = 0; i < 8; ++i) {
-        auto cell = std::make_shared<VoxelCell>();
-        cell->origin =
-            part.begin->origin.offsetBy(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0);
-        cell->size = half;
-        std::fill(cell->words, cell->words + 8, ~uint64_t(0));
-        parts.push_back({cell.get(), cell.get() + 1, cell, candidates});
+        auto cube = std::make_shared<VoxelCube>(part.begin->eighth(i));
+        parts.push_back({cube.get(), cube.get() + 1, cube, candidates});
     }
     return parts;
 }
@@ -180,45 +170,39 @@ std::vector<Part> ChainSearch::step(const Part& part, std::vector<ChainLoss>& lo
     const bool done = std::any_of(candidates->begin(), candidates->end(),
         [&](const Candidate& c) { return c.chainedAll && isLast(c.node); });
     if (done) return {};
-    if (part.end - part.begin > 1 || part.begin->size > 8) return split(part, box, candidates);
+    if (part.end - part.begin > 1 || part.begin->size > kLeafDim)
+        return split(part, box, candidates);
     searchLeaf(*part.begin, *candidates, losses);
     return {};
 }
 
 /// @param below  S of the children, of a leaf the object's voxels
-Words ChainSearch::chainedVoxels(
-    const Candidate& candidate, const Words& below, const Coord& origin) const
+LeafMask ChainSearch::chainedVoxels(
+    const Candidate& candidate, const LeafMask& below, const Coord& origin) const
 {
-    if (candidate.holdsAll || isEmpty(below)) return below;
-    Words words{};
-    orBallIntoWords(mBalls[candidate.node], origin, words.data());
-    for (int x = 0; x < 8; ++x) words[x] &= below[x];
-    return words;
+    if (candidate.holdsAll || below.none()) return below;
+    LeafMask held{};
+    addVoxelsOf(mBalls[candidate.node], origin, held);
+    return held & below;
 }
 
 void ChainSearch::searchLeaf(
-    const VoxelCell& cell, const Candidates& candidates, std::vector<ChainLoss>& losses) const
+    const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const
 {
-    std::vector<Words> below(candidates.size(), Words{});
-    std::array<Words, ChainForest::kMaxSections> chained{};
-    Words object;
-    std::copy(cell.words, cell.words + 8, object.begin());
+    std::vector<LeafMask> below(candidates.size(), LeafMask{});
+    std::array<LeafMask, ChainForest::kMaxSections> chained{};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
-        const Words words =
-            chainedVoxels(candidate, isLeaf(candidate.node) ? object : below[i], cell.origin);
-        if (candidate.parent >= 0) {
-            for (int x = 0; x < 8; ++x) below[candidate.parent][x] |= words[x];
-        }
+        const LeafMask& under = isLeaf(candidate.node) ? leaf.mask : below[i];
+        const LeafMask voxels = chainedVoxels(candidate, under, leaf.origin);
+        if (candidate.parent >= 0) below[candidate.parent] |= voxels;
         for (uint64_t rest = mForest.sections[candidate.node]; rest != 0; rest &= rest - 1) {
-            Words& section = chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))];
-            for (int x = 0; x < 8; ++x) section[x] |= words[x];
+            chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))] |= voxels;
         }
     }
-    const Words* before = &object;
+    const LeafMask* before = &leaf.mask;
     for (int section = 0; section < mForest.sectionCount; ++section) {
-        VoxelCell lost = cell;
-        for (int x = 0; x < 8; ++x) lost.words[x] = (*before)[x] & ~chained[section][x];
+        const VoxelCube lost{leaf.origin, kLeafDim, *before - chained[section]};
         before = &chained[section];
         const int64_t voxels = lost.voxels();
         if (voxels > 0) losses[section].add({voxels, lost.first()});
@@ -273,10 +257,10 @@ std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetri
     const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<ChainLoss> losses(std::size_t(forest.sectionCount));
-    std::vector<VoxelCell> cells = maskDifference(object, openvdb::MaskTree(), interrupter).cells;
-    if (cells.empty() || forest.sectionCount == 0) return losses;
+    std::vector<VoxelCube> cubes = maskDifference(object, openvdb::MaskTree(), interrupter).cubes;
+    if (cubes.empty() || forest.sectionCount == 0) return losses;
     const ChainSearch search(forest, metric);
-    const std::vector<Part> parts = manyParts(search, search.whole(cells), losses, interrupter);
+    const std::vector<Part> parts = manyParts(search, search.whole(cubes), losses, interrupter);
     std::vector<std::vector<ChainLoss>> lost(parts.size(), losses);
     for (auto& some : lost) std::fill(some.begin(), some.end(), ChainLoss());
     parallelFor(parts.size(), interrupter,

@@ -22,7 +22,7 @@ std::string voxelsOf(const MaskDifference& difference)
 {
     std::ostringstream text;
     text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels")
-         << " (first: " << difference.cells.front().first() << ')';
+         << " (first: " << difference.cubes.front().first() << ')';
     return text.str();
 }
 
@@ -31,9 +31,8 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
 {
     std::vector<ExactSphere> balls;
     for (int32_t id = level.begin; id < level.end; ++id) {
-        const openvdb::Coord& c = tree.ijk[id];
-        balls.push_back({{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * tree.settings.dist().closedSq(tree.radiusSq[id])});
+        balls.push_back(
+            ExactSphere::around(tree.ijk[id], 4 * tree.settings.dist().closedSq(tree.radiusSq[id])));
     }
     return balls;
 }

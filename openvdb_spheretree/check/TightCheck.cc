@@ -146,7 +146,7 @@ void checkWithin(TreeCheck& check, const std::vector<ExactSphere>& spheres, int3
     const auto drawn = sphereUnion(spheres, check.box, metric, check.interrupter);
     const MaskDifference extra = maskDifference(*drawn, check.mask, check.interrupter);
     if (extra.voxels == 0) return;
-    check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cells.front().first()}),
+    check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cubes.front().first()}),
         " that the object has not, but its spheres lie inside");
 }
 

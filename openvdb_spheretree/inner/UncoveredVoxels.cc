@@ -4,8 +4,6 @@
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
 
-#include <hwy/base.h>
-
 #include <algorithm>
 
 namespace openvdb_spheretree {
@@ -40,21 +38,13 @@ struct Gap {
 
 } // namespace
 
-LeafMask voxelsInside(const Coord& center, int64_t closedSq)
-{
-    constexpr int64_t kUnits = 2; // a voxel, the fewest that a sphere is measured in
-    const ExactSphere sphere{
-        {kUnits * center[0], kUnits * center[1], kUnits * center[2]}, kUnits * kUnits * closedSq};
-    return voxelsOf(sphere, /*shift=*/1, Coord(0));
-}
-
 UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
     : mLayout(layout), mDim(dim), mLeft(layout.voxelCount()), mMasks(layout.leafCount()),
       mCounts(layout.leafCount(), 0), mChangedAt(layout.leafCount(), 0)
 {
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
         mMasks[leaf] = layout.mask(leaf);
-        for (const uint64_t word : mMasks[leaf]) mCounts[leaf] += uint16_t(hwy::PopCount(word));
+        mCounts[leaf] = uint16_t(mMasks[leaf].count());
     }
 }
 
@@ -92,8 +82,7 @@ int64_t UncoveredVoxels::countIn(const MedialBall& ball) const
             count += mCounts[leaf];
             return true;
         }
-        const LeafMask inside = partInside(ball, leaf);
-        for (int x = 0; x < kLeafDim; ++x) count += hwy::PopCount(inside[x] & mMasks[leaf][x]);
+        count += (partInside(ball, leaf) & mMasks[leaf]).count();
         return true;
     });
     return count;
@@ -103,16 +92,11 @@ void UncoveredVoxels::cover(const MedialBall& ball, uint32_t now)
 {
     visitLeaves(ball, [&](uint32_t leaf, bool whole) {
         if (mCounts[leaf] == 0) return true;
-        LeafMask inside;
-        if (whole) inside.fill(~uint64_t(0));
-        else inside = partInside(ball, leaf);
-        std::size_t taken = 0;
-        for (int x = 0; x < kLeafDim; ++x) {
-            taken += hwy::PopCount(inside[x] & mMasks[leaf][x]);
-            mMasks[leaf][x] &= ~inside[x];
-        }
+        const LeafMask inside = whole ? LeafMask::full() : partInside(ball, leaf);
+        const int taken = (inside & mMasks[leaf]).count();
+        mMasks[leaf] -= inside;
         mCounts[leaf] = uint16_t(mCounts[leaf] - taken);
-        mLeft -= int64_t(taken);
+        mLeft -= taken;
         if (taken > 0) mChangedAt[leaf] = now;
         return true;
     });

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstdint>
@@ -21,12 +22,6 @@
 
 namespace openvdb_spheretree {
 namespace detail {
-
-/// @param center    from the leaf's corner
-/// @param closedSq  the ball's squared radius
-/// @return the voxels of a leaf in the closed ball; the ball must come near it, as balls that reach
-///         into it do.
-LeafMask voxelsInside(const openvdb::Coord& center, int64_t closedSq);
 
 /// Counting is thread-safe while nobody covers.
 class UncoveredVoxels {
@@ -50,7 +45,9 @@ private:
     void visitLeaves(const MedialBall& ball, const Visit& visit) const;
     LeafMask partInside(const MedialBall& ball, uint32_t leaf) const
     {
-        return voxelsInside(ball.center - mLayout.origin(leaf), int64_t(ball.radiusSq) - 1);
+        const int64_t closedSq = int64_t(ball.radiusSq) - 1; // in voxels
+        return voxelsOf(
+            ExactSphere::around(ball.center, 4 * closedSq), /*shift=*/1, mLayout.origin(leaf));
     }
 
     const LeafLayout& mLayout;

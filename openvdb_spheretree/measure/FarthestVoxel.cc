@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FarthestVoxel.cc
-/// @brief Branch and bound over cells of voxels, with one best distance B for all threads.
+/// @brief Branch and bound over cubes of voxels, with one best distance B for all threads.
 ///
-/// A box of voxels with centre c and half diagonal r is dismissed when an object voxel lies within
+/// A box of voxels with center c and half diagonal r is dismissed when an object voxel lies within
 /// B - r of c, for then no voxel of the box is farther than B.
 ///
-/// 1. seed: exact distances of some samples, then the cell of the best one in full.
-/// 2. Every node, in parallel (NodeSearch): its cells, sorted along a Morton curve, so that those of
-///    any cube stand together. The cube's box is dismissed, or split in eight, down to single cells.
-///    In those, voxels within B are taken off by words (LeafReach.h), which decides where B is a few
-///    voxels. Of what is left, one voxel at a time has its exact distance taken, which may raise B,
-///    and all go that are within B of the object voxel nearest to it. Tiles are split likewise.
+/// 1. seed: the exact distances of some samples, then all of the cube that the farthest one is in.
+/// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any larger
+///    cube stand together. The box of such a cube is dismissed, or the cube is split in eight, down
+///    to single leaves. Tiles are split likewise.
+/// 3. A leaf that is not dismissed (visitLeaf): voxels within B go by words (LeafReach.h), which is
+///    enough where B is a few voxels. Of those left, one at a time has its exact distance taken,
+///    which may raise B; then all go that are within B of the object voxel nearest to it.
 ///
 /// The order decides how much is dismissed, not the result: a maximum. Distances are doubled and
 /// squared integers; the one place with rounding, B - r, is rounded down, which dismisses less.
@@ -20,7 +21,7 @@
 #include "LeafReach.h"
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/sphere/BallWords.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include <algorithm>
 #include <atomic>
@@ -31,14 +32,11 @@ namespace detail {
 namespace {
 
 using openvdb::Coord;
+using openvdb::CoordBBox;
 
-struct CellBox {
-    int32_t lo[3], hi[3]; // inclusive
-};
-
-/// A cell of eight, and its place in its block of 128.
-struct PlacedCell {
-    const VoxelCell* cell;
+/// A leaf's voxels, and where in its node of 128 it is.
+struct PlacedLeaf {
+    const VoxelCube* leaf;
     uint32_t morton; ///< of 12 bits
 
     /// @return which eighth of a cube of @a size it is in.
@@ -67,27 +65,23 @@ public:
         return sq2;
     }
 
-    void visit(const VoxelCell& cell, LeafReach& reach)
+    /// Recursion: from 4096 to 8 in nine halvings.
+    void visit(const VoxelCube& cube, LeafReach& reach)
     {
-        if (cell.size > 8) {
-            visitTile(cell.origin, cell.size, reach);
-        } else {
-            visitLeaf(cell, reach);
-        }
+        if (cube.size == kLeafDim) return visitLeaf(cube.origin, cube.mask, reach);
+        if (dismissed(CoordBBox::createCube(cube.origin, cube.size))) return;
+        for (int i = 0; i < 8; ++i) visit(cube.eighth(i), reach);
     }
 
-    /// Visits cells of eight that are in one cube of @a size, sorted by their places.
+    /// Visits leaves that are in one cube of @a size, in Morton order.
     /// Recursion: from 128 to 8 in four halvings.
-    void visitGroup(const PlacedCell* begin, const PlacedCell* end, int32_t size, LeafReach& reach)
+    void visitGroup(const PlacedLeaf* begin, const PlacedLeaf* end, int32_t size, LeafReach& reach)
     {
-        if (end - begin == 1 || size == 8) {
-            for (; begin != end; ++begin) visit(*begin->cell, reach);
-            return;
-        }
+        if (end - begin == 1) return visit(*begin->leaf, reach);
         if (dismissed(boxOf(begin, end))) return;
         while (begin != end) {
             const uint32_t part = begin->partOf(size);
-            const PlacedCell* const first = begin;
+            const PlacedLeaf* const first = begin;
             while (begin != end && begin->partOf(size) == part) ++begin;
             visitGroup(first, begin, size / 2, reach);
         }
@@ -95,12 +89,12 @@ public:
 
 private:
     /// @return whether no voxel of the box can be farther than B.
-    bool dismissed(const CellBox& box) const
+    bool dismissed(const CoordBBox& box) const
     {
         int64_t center2[3], side[3];
         for (int a = 0; a < 3; ++a) {
-            side[a] = int64_t(box.hi[a]) - box.lo[a];
-            center2[a] = int64_t(box.lo[a]) + box.hi[a];
+            side[a] = int64_t(box.max()[a]) - box.min()[a];
+            center2[a] = int64_t(box.min()[a]) + box.max()[a];
         }
         const int64_t diagonalSq = mObject.distance().lengthSq(side[0], side[1], side[2]);
         constexpr double kLess = 1 - 1e-12; // by more than all that the roots may be off
@@ -110,81 +104,36 @@ private:
         return mObject.anyWithin(center2, int64_t(reach * reach * kLess));
     }
 
-    void visitLeaf(VoxelCell cell, LeafReach& reach)
+    static CoordBBox boxOf(const PlacedLeaf* begin, const PlacedLeaf* end)
     {
-        const Coord& lo = cell.origin;
-        if (dismissed({{lo[0], lo[1], lo[2]}, {lo[0] + 7, lo[1] + 7, lo[2] + 7}})) return;
-        reach.takeNear(mMask, mObject.distance(), bestSq2() / 4, cell);
-        visitVoxels(cell);
-    }
-
-    static CellBox boxOf(const PlacedCell* begin, const PlacedCell* end)
-    {
-        CellBox box{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+        CoordBBox box;
         for (; begin != end; ++begin) {
-            for (int a = 0; a < 3; ++a) {
-                box.lo[a] = std::min(box.lo[a], begin->cell->origin[a]);
-                box.hi[a] = std::max(box.hi[a], begin->cell->origin[a] + 7);
-            }
+            box.expand(CoordBBox::createCube(begin->leaf->origin, kLeafDim));
         }
         return box;
     }
 
-    /// Recursion: from 4096 to 8 in nine halvings.
-    void visitTile(const Coord& origin, int32_t size, LeafReach& reach)
+    /// Visits voxels of a leaf until none is left, each with all that are within B of the object
+    /// voxel nearest to it: one search settles many voxels.
+    void visitLeaf(const Coord& origin, LeafMask left, LeafReach& reach)
     {
-        if (size == 8) {
-            VoxelCell cell;
-            cell.origin = origin;
-            std::fill(cell.words, cell.words + 8, ~uint64_t(0));
-            visitLeaf(cell, reach);
-            return;
-        }
-        const Coord last = origin.offsetBy(size - 1);
-        if (dismissed({{origin[0], origin[1], origin[2]}, {last[0], last[1], last[2]}})) return;
-        const int32_t half = size / 2;
-        for (int i = 0; i < 8; ++i) {
-            const Coord corner(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0);
-            visitTile(origin + corner, half, reach);
-        }
-    }
-
-    /// Visits voxels until none is left, each with all that are within B of the object voxel that
-    /// is nearest to it: that settles a patch of them, where one after the other would take a
-    /// question each.
-    void visitVoxels(VoxelCell& cell)
-    {
-        while (!isEmpty(cell)) {
-            const Coord voxel = cell.first();
+        if (dismissed(CoordBBox::createCube(origin, kLeafDim))) return;
+        reach.takeNear(mMask, mObject.distance(), bestSq2() / 4, origin, left);
+        while (!left.none()) {
+            const Coord voxel = VoxelCube{origin, kLeafDim, left}.first();
             Coord nearest;
             raiseTo(mBestSq2, mObject.nearest(voxel, nearest));
-            const Coord at = voxel - cell.origin;
-            cell.words[at[0]] &= ~(uint64_t(1) << (8 * at[1] + at[2])); // however far it is
-            takeWithin(nearest, cell);
+            LeafMask settled = voxelsWithin(nearest, origin);
+            settled.setOn(leafIndex(voxel)); // however far it is
+            left -= settled;
         }
     }
 
-    static bool isEmpty(const VoxelCell& cell)
+    /// @return the voxels of a leaf within B of an object voxel.
+    LeafMask voxelsWithin(const Coord& voxel, const Coord& origin) const
     {
-        return std::all_of(cell.words, cell.words + 8, [](uint64_t word) { return word == 0; });
-    }
-
-    /// Takes off the voxels within B of an object voxel.
-    void takeWithin(const Coord& voxel, VoxelCell& cell) const
-    {
-        ClippedSphere ball;
-        for (int a = 0; a < 3; ++a) {
-            ball.center[a] = 2 * int64_t(voxel[a]);
-            ball.lo[a] = INT32_MIN;
-            ball.hi[a] = INT32_MAX;
-        }
-        ball.radiusSq = bestSq2();
-        ball.distance = mObject.distance();
-        ball.clipped = ball.plain = false;
-        ball.shift = 1; // doubled coordinates
-        uint64_t within[8] = {};
-        orBallIntoWords(ball, cell.origin, within);
-        for (int x = 0; x < 8; ++x) cell.words[x] &= ~within[x];
+        const ExactSphere near = ExactSphere::around(voxel, bestSq2());
+        return voxelsOf(near, /*shift=*/1, origin, mObject.distance());
     }
 
     const openvdb::MaskTree& mMask;
@@ -192,7 +141,7 @@ private:
     std::atomic<int64_t> mBestSq2{0};
 };
 
-/// Bits x, y, z of a place in a block, from the highest: three of Morton's code at a time.
+/// @return the place of a leaf in its node of 128: bits of x, y and z, from the highest on.
 uint32_t mortonOf(const Coord& origin)
 {
     uint32_t code = 0;
@@ -207,11 +156,11 @@ class NodeSearch {
 public:
     void visit(FarthestSearch& search, const MaskMinus& set, std::size_t node)
     {
-        set.cells(node, mCells);
-        for (std::size_t begin = 0, end; begin < mCells.size(); begin = end) {
-            end = endOfBlock(begin);
-            if (mCells[begin].size > 8) {
-                search.visit(mCells[begin], mReach);
+        set.cubes(node, mCubes);
+        for (std::size_t begin = 0, end; begin < mCubes.size(); begin = end) {
+            end = endOfNode(begin);
+            if (mCubes[begin].size > kLeafDim) {
+                search.visit(mCubes[begin], mReach);
                 continue;
             }
             sort(begin, end);
@@ -219,24 +168,24 @@ public:
         }
     }
 
-    /// Visits the cell of a sample alone.
+    /// Visits the cube of a sample alone.
     void visit(FarthestSearch& search, const MaskMinus& set, const VoxelCount::Sample& sample)
     {
-        set.cells(sample.node, mCells);
-        const auto cell = std::find_if(mCells.begin(), mCells.end(),
-            [&](const VoxelCell& c) { return c.origin == (sample.voxel & ~(c.size - 1)); });
-        search.visit(*cell, mReach);
+        set.cubes(sample.node, mCubes);
+        const auto cube = std::find_if(mCubes.begin(), mCubes.end(),
+            [&](const VoxelCube& c) { return c.origin == (sample.voxel & ~(c.size - 1)); });
+        search.visit(*cube, mReach);
     }
 
 private:
-    /// @return behind the cells of eight that are in one block of 128; or behind one larger cell.
-    std::size_t endOfBlock(std::size_t begin) const
+    /// @return behind the leaves that are in one node of 128; or behind one larger cube.
+    std::size_t endOfNode(std::size_t begin) const
     {
-        const auto blockOf = [](const VoxelCell& cell) { return cell.origin & ~127; };
+        const auto nodeOf = [](const VoxelCube& leaf) { return leaf.origin & ~127; };
         std::size_t end = begin + 1;
-        if (mCells[begin].size > 8) return end;
-        while (end < mCells.size() && mCells[end].size == 8
-            && blockOf(mCells[end]) == blockOf(mCells[begin])) {
+        if (mCubes[begin].size > kLeafDim) return end;
+        while (end < mCubes.size() && mCubes[end].size == kLeafDim
+            && nodeOf(mCubes[end]) == nodeOf(mCubes[begin])) {
             ++end;
         }
         return end;
@@ -245,7 +194,7 @@ private:
     void sort(std::size_t begin, std::size_t end)
     {
         mAt.assign(kPlaces, nullptr);
-        for (std::size_t i = begin; i < end; ++i) mAt[mortonOf(mCells[i].origin)] = &mCells[i];
+        for (std::size_t i = begin; i < end; ++i) mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
         mPlaced.clear();
         for (uint32_t place = 0; place < kPlaces; ++place) {
             if (mAt[place]) mPlaced.push_back({mAt[place], place});
@@ -253,9 +202,9 @@ private:
     }
 
     static constexpr uint32_t kPlaces = 16 * 16 * 16;
-    std::vector<VoxelCell> mCells;
-    std::vector<const VoxelCell*> mAt; ///< by place
-    std::vector<PlacedCell> mPlaced;
+    std::vector<VoxelCube> mCubes;
+    std::vector<const VoxelCube*> mAt; ///< by place
+    std::vector<PlacedLeaf> mPlaced;
     LeafReach mReach;
 };
 
@@ -277,18 +226,18 @@ class NodeCount {
 public:
     void count(const MaskMinus& set, std::size_t node, VoxelCount& result)
     {
-        set.cells(node, mCells);
+        set.cubes(node, mCubes);
         uint32_t seen = 0; // eighths
-        for (const VoxelCell& cell : mCells) {
-            result.voxels += cell.voxels();
-            const uint32_t eighth = 1u << (mortonOf(cell.origin) >> 9);
-            if (!(seen & eighth)) result.samples.push_back({node, cell.first()});
+        for (const VoxelCube& cube : mCubes) {
+            result.voxels += cube.voxels();
+            const uint32_t eighth = 1u << (mortonOf(cube.origin) >> 9);
+            if (!(seen & eighth)) result.samples.push_back({node, cube.first()});
             seen |= eighth;
         }
     }
 
 private:
-    std::vector<VoxelCell> mCells;
+    std::vector<VoxelCube> mCubes;
 };
 
 } // namespace

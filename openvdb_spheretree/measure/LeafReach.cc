@@ -86,15 +86,14 @@ uint64_t LeafReach::slice(int x, const Offset& offset) const
     return word;
 }
 
-void LeafReach::takeNear(
-    const MaskTree& object, const Distance& distance, int64_t limitSq, VoxelCell& cell)
+void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64_t limitSq,
+    const Coord& origin, LeafMask& mask)
 {
     if (limitSq < 0) return;
     order(distance, limitSq);
-    if (!gather(object, cell.origin)) return;
+    if (!gather(object, origin)) return;
     widen();
-    uint64_t left[8];
-    std::copy(cell.words, cell.words + 8, left);
+    LeafMask left = mask;
     for (std::size_t i = 0; i < mOffsets.size(); ++i) {
         uint64_t any = 0;
         for (int x = 0; x < 8; ++x) {
@@ -103,7 +102,7 @@ void LeafReach::takeNear(
         }
         if (!any) break;
     }
-    std::copy(left, left + 8, cell.words);
+    mask = left;
 }
 
 } // namespace detail

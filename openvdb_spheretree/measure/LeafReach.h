@@ -14,7 +14,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/Distance.h>
-#include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <openvdb/openvdb.h>
 
@@ -29,10 +29,10 @@ public:
     /// Voxels beyond this are never near, however large the limit: the leaves around end there.
     static constexpr int kReach = 8;
 
-    /// Takes those voxels off a cell of eight that are within the squared distance @a limitSq (or
-    /// what kReach is of it) of the object.
+    /// Takes those voxels off the mask of the leaf at @a origin that are within the squared distance
+    /// @a limitSq of the object, or within kReach voxels where that is less.
     void takeNear(const openvdb::MaskTree& object, const Distance& distance, int64_t limitSq,
-        VoxelCell& cell);
+        const openvdb::Coord& origin, LeafMask& mask);
 
 private:
     static constexpr int kSide = 8 + 2 * kReach; ///< of the rows around

@@ -184,7 +184,7 @@ void requireIncluding(
         OPENVDB_THROW(openvdb::ValueError,
             "the pyramid model is not including: it leaves out "
                 << lost.voxels << (lost.voxels == 1 ? " voxel" : " voxels")
-                << " with a child that is on (first: " << lost.cells.front().first() << ')');
+                << " with a child that is on (first: " << lost.cubes.front().first() << ')');
     }
     if (step.dim == 3) return;
     CoordBBox all, most;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallLists.h
-/// @brief Which balls reach into which child of a cubic cell.
+/// @brief Which spheres reach into which child of a node or of another cube.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// The spheres that reach into each child of a cell, as one array with offsets. Reused, as building
+/// The spheres that reach into each child of a cube, as one array with offsets. Reused, as building
 /// these lists is most of the work for small spheres.
 class BallLists {
 public:
@@ -25,10 +25,10 @@ public:
         int32_t first, last;
     };
 
-    /// @param origin, log2    the cell
+    /// @param origin, log2    the cube
     /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered x
     ///                        slowest, as in OpenVDB
-    /// @param alongX          those wanted; others get no ball
+    /// @param alongX          children elsewhere along x get no ball
     void build(const ClippedSphere* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
     {

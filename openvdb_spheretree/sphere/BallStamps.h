@@ -10,7 +10,7 @@
 
 #pragma once
 
-#include "BallWords.h"
+#include "SphereRows.h"
 
 #include <array>
 #include <cstdint>

@@ -71,6 +71,8 @@ struct ClippedSphere {
     /// Balls of this size and less are plain: what is asked is within 2^29 units and a cube of 4096
     /// voxels, 2^16 units, of the centre; three such squares are below 2^60.
     static constexpr int64_t kMaxPlainRadiusSq = int64_t(1) << 58;
+    /// Lengths that do not fit 63 bits are INT64_MAX (Distance::lengthSq): no sphere holds them.
+    static constexpr int64_t kMaxRadiusSq = INT64_MAX - 1;
 
     /// @return whether the ball holds what is so far from its centre; the most that is asked are
     /// the corners of a cube that meets its box.
@@ -152,7 +154,7 @@ inline bool clipSphere(const ExactSphere& s, const Distance& distance, int shift
         ball.clipped = ball.clipped || lo != range.lo || hi != range.hi;
     }
     ball.plain = distance.isEuclidean() && s.radiusSq <= ClippedSphere::kMaxPlainRadiusSq;
-    ball.radiusSq = std::min(s.radiusSq, INT64_MAX - 1); // lengths that do not fit are beyond it
+    ball.radiusSq = std::min(s.radiusSq, ClippedSphere::kMaxRadiusSq);
     return true;
 }
 

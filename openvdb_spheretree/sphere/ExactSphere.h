@@ -6,6 +6,8 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 
+#include <openvdb/math/Coord.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -32,6 +34,13 @@ struct SphereMetric {
 struct ExactSphere {
     int64_t center[3] = {0, 0, 0}; ///< units
     int64_t radiusSq = -1;         ///< units squared; negative: the empty sphere
+
+    /// @return the sphere around a voxel.
+    static ExactSphere around(const openvdb::Coord& voxel, int64_t radiusSq, int subdivision = 2)
+    {
+        const int64_t units = subdivision;
+        return {{units * voxel[0], units * voxel[1], units * voxel[2]}, radiusSq};
+    }
 
     bool empty() const { return radiusSq < 0; }
     /// Units; the sphere must not be empty.

@@ -1,57 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafVoxels.h"
 
+#include "SphereRows.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace openvdb_spheretree {
 namespace detail {
 
 namespace {
 
-/// The voxels i in 0...7 of a row with |2^shift i - center| <= half, as a byte.
-uint64_t rowByte(int64_t center, int64_t half, int shift)
+/// How far the nearest and the farthest of a leaf's voxels are along an axis, in units.
+/// @param center  from the leaf's corner
+int64_t nearestAlong(int64_t center, int64_t last)
 {
-    const int64_t first = std::max<int64_t>(0, (center - half + (1 << shift) - 1) >> shift);
-    const int64_t last = std::min<int64_t>(7, (center + half) >> shift);
-    if (first > last) return 0;
-    return (uint64_t(0xff) << first) & (uint64_t(0xff) >> (7 - last));
+    return std::max<int64_t>(0, std::max(-center, center - last));
+}
+int64_t farthestAlong(int64_t center, int64_t last) { return std::max(center, last - center); }
+
+/// ORs the voxels of a sphere into a leaf's by a kernel, where that is exact.
+/// @param center    from the leaf's corner
+/// @param farthest  what farthestAlong() is at most
+/// @return whether it is
+bool addByKernel(const int64_t center[3], int64_t farthest, int64_t radiusSq, int shift,
+    const Distance& distance, LeafMask& mask)
+{
+    const int64_t reach = distance.isEuclidean() ? kLeafBallReach : kLeafNormReach;
+    if (farthest > reach || radiusSq > reach * reach) return false;
+    if (distance.isEuclidean()) {
+        orBallIntoLeaf(center, radiusSq, shift, mask.data());
+    } else {
+        orNormBallIntoLeaf(center, distance, floorSqrt(radiusSq), shift, mask.data());
+    }
+    return true;
+}
+
+void addByRows(const ClippedSphere& sphere, const openvdb::Coord& origin, LeafMask& mask)
+{
+    forEachRow(sphere, origin, kLeafDim, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
+        if (lo <= hi) mask[x] |= rowBits(lo, hi) << (8 * y);
+    });
+}
+
+/// @return the voxels of the leaf at @a origin that lie in the sphere's box.
+LeafMask boxVoxels(const ClippedSphere& sphere, const openvdb::Coord& origin)
+{
+    constexpr int32_t kLast = kLeafDim - 1;
+    int32_t first[3], last[3];
+    for (int a = 0; a < 3; ++a) {
+        first[a] = std::max(sphere.lo[a], origin[a]) - origin[a];
+        last[a] = std::min(sphere.hi[a], origin[a] + kLast) - origin[a];
+        assert(first[a] <= last[a]);
+    }
+    const uint64_t rows = ~uint64_t(0) >> (8 * (kLast - last[1])) & ~uint64_t(0) << (8 * first[1]);
+    LeafMask box{};
+    for (int32_t x = first[0]; x <= last[0]; ++x) {
+        box[x] = rows & rowBits(first[2], last[2]) * 0x0101010101010101;
+    }
+    return box;
 }
 
 } // namespace
 
-LeafMask voxelsOf(const ExactSphere& sphere, int shift, const openvdb::Coord& origin)
+LeafMask voxelsOf(
+    const ExactSphere& sphere, int shift, const openvdb::Coord& origin, const Distance& distance)
 {
-    LeafMask mask{};
-    int64_t center[3], nearestSq = 0, farthestSq = 0, farthest = 0; // of the leaf's voxels
-    const int64_t last = int64_t(kLeafDim - 1) << shift;
+    const int64_t last = inUnits(kLeafDim - 1, shift);
+    int64_t center[3], near[3], far[3];
     for (int a = 0; a < 3; ++a) {
-        center[a] = sphere.center[a] - int64_t(origin[a]) * (int64_t(1) << shift);
-        const int64_t near = std::max<int64_t>(0, std::max(-center[a], center[a] - last));
-        const int64_t far = std::max(center[a], last - center[a]);
-        nearestSq += near * near;
-        farthestSq += far * far;
-        farthest = std::max(farthest, far);
+        center[a] = sphere.center[a] - inUnits(origin[a], shift);
+        near[a] = nearestAlong(center[a], last);
+        far[a] = farthestAlong(center[a], last);
     }
-    if (nearestSq > sphere.radiusSq) return mask;
-    if (farthestSq <= sphere.radiusSq) {
-        mask.fill(~uint64_t(0));
-        return mask;
-    }
-    if (farthest <= kLeafBallReach && sphere.radiusSq <= kLeafBallReach * kLeafBallReach) {
-        orBallIntoLeaf(center, sphere.radiusSq, shift, mask.data());
-        return mask;
-    }
-    for (int x = 0; x < kLeafDim; ++x) {
-        const int64_t dx = (int64_t(x) << shift) - center[0], slice = sphere.radiusSq - dx * dx;
-        for (int y = 0; y < kLeafDim; ++y) {
-            const int64_t dy = (int64_t(y) << shift) - center[1], row = slice - dy * dy;
-            if (row >= 0) mask[x] |= rowByte(center[2], floorSqrt(row), shift) << (8 * y);
-        }
-    }
+    const int64_t radiusSq = std::min(sphere.radiusSq, ClippedSphere::kMaxRadiusSq);
+    if (distance.lengthSq(near[0], near[1], near[2]) > radiusSq) return LeafMask{};
+    if (distance.lengthSq(far[0], far[1], far[2]) <= radiusSq) return LeafMask::full();
+    LeafMask mask{};
+    const int64_t farthest = std::max(far[0], std::max(far[1], far[2]));
+    if (addByKernel(center, farthest, radiusSq, shift, distance, mask)) return mask;
+    ClippedSphere inLeaf;
+    const auto leaf = openvdb::CoordBBox::createCube(origin, kLeafDim);
+    if (clipSphere(sphere, distance, shift, leaf, inLeaf)) addByRows(inLeaf, origin, mask);
     return mask;
+}
+
+void addVoxelsOf(const ClippedSphere& sphere, const openvdb::Coord& origin, LeafMask& mask)
+{
+    const int64_t last = inUnits(kLeafDim - 1, sphere.shift);
+    int64_t center[3], farthest = 0;
+    for (int a = 0; a < 3; ++a) {
+        center[a] = sphere.center[a] - inUnits(origin[a], sphere.shift);
+        farthest = std::max(farthest, farthestAlong(center[a], last));
+    }
+    LeafMask unclipped{};
+    LeafMask& target = sphere.clipped ? unclipped : mask;
+    if (!addByKernel(center, farthest, sphere.radiusSq, sphere.shift, sphere.distance, target)) {
+        addByRows(sphere, origin, mask);
+    } else if (sphere.clipped) {
+        mask |= unclipped & boxVoxels(sphere, origin);
+    }
 }
 
 } // namespace detail

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereRaster.cc
-/// @brief Spheres to a sparse mask: sorted into cells, then drawn on mask words.
+/// @brief Spheres to a sparse mask: sorted into nodes, then drawn on leaf masks.
 ///
 /// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
-/// 2. sortIntoBlocks: which spheres reach into which 4096^3 and 128^3 cell
-/// 3. drawSlab, in parallel over quarters of 128^3 cells: see BlockPainter.h
+/// 2. sortIntoNodes: which spheres reach into which upper node (4096^3), and which lower one (128^3)
+/// 3. drawSlab, in parallel over quarters of lower nodes: see NodePainter.h
 ///
-/// A cell of 4096 or 128 wholly inside a single sphere (and the clip) becomes a tile and is not
-/// descended; a leaf does when it is full. Clipping needs no step of its own, since every sphere's
-/// box is clipped. Exact: integers throughout. OR does not depend on the order of spheres, hence
-/// the result not on threads.
+/// A node wholly inside a single sphere (and the clip) becomes a tile and is not descended; a leaf
+/// does when it is full. Clipping needs no step of its own, since every sphere's box is clipped.
+/// Exact: integers throughout. OR does not depend on the order of spheres, so the result does not
+/// depend on threads.
 
 #include "SphereRaster.h"
 
-#include "BlockPainter.h"
-#include "SphereBlocks.h"
+#include "NodePainter.h"
+#include "SphereNodes.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 
@@ -30,99 +30,91 @@ namespace {
 using openvdb::Coord;
 using openvdb::MaskTree;
 
-/// The voxels of blocks; null for those that are full.
-using BlockNodes = std::vector<std::unique_ptr<BlockNode>>;
+/// The voxels of lower nodes; null for those that are full.
+using DrawnNodes = std::vector<std::unique_ptr<LowerNode>>;
 
-void excludeUnwanted(BlockCanvas& canvas, const Wanted& wanted)
+void excludeOutside(NodeCanvas& canvas, const ClipMask& clipMask)
 {
-    if (wanted.everywhere()) return;
-    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) {
+    if (clipMask.everywhere()) return;
+    for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) {
         for (int leaf = 0; leaf < 64; ++leaf) {
-            if (!wanted.has<LeafNode>(canvas.leafOrigin(cell, leaf))) canvas.exclude(cell, leaf);
+            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
+            if (!inside) canvas.exclude(group, leaf);
         }
     }
 }
 
-bool allOn(const uint64_t words[8])
-{
-    return std::all_of(words, words + 8, [](uint64_t word) { return word == ~uint64_t(0); });
-}
-
-bool allOff(const uint64_t words[8])
-{
-    return std::all_of(words, words + 8, [](uint64_t word) { return word == 0; });
-}
-
 /// Moves the slab on the canvas to its node. A full leaf is a tile. Slabs of a node have no word of
 /// its masks in common, so several threads may do this.
-void storeSlab(const BlockCanvas& canvas, const Wanted& wanted, BlockNode& node)
+void storeSlab(const NodeCanvas& canvas, const ClipMask& clipMask, LowerNode& node)
 {
-    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) {
+    for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) {
         for (int l = 0; l < 64; ++l) {
-            const bool full = canvas.full(cell) >> l & 1, drawn = canvas.drawn(cell) >> l & 1;
+            const bool full = canvas.full(group) >> l & 1, drawn = canvas.drawn(group) >> l & 1;
             if (!full && !drawn) continue;
-            const Coord origin = canvas.leafOrigin(cell, l);
-            if (!wanted.has<LeafNode>(origin)) continue;
-            const uint64_t* words = canvas.words(cell, l);
-            if (full || allOn(words)) {
-                node.addTile(BlockNode::coordToOffset(origin), true, true);
+            const Coord origin = canvas.leafOrigin(group, l);
+            if (!clipMask.has<LeafNode>(origin)) continue;
+            const LeafMask& mask = canvas.mask(group, l);
+            if (full || mask.all()) {
+                node.addTile(LowerNode::coordToOffset(origin), true, true);
                 continue;
             }
-            if (allOff(words)) continue; // a sphere came near, but holds no voxel of it
+            if (mask.none()) continue; // a sphere came near, but holds no voxel of it
             auto leaf = std::make_unique<LeafNode>(origin);
-            for (int x = 0; x < 8; ++x) leaf->getValueMask().getWord<uint64_t>(x) = words[x];
+            mask.copyTo(leaf->getValueMask());
             node.addLeaf(leaf.release());
         }
     }
 }
 
-void drawSlab(const Block& block, int slab, const ClippedSphere* balls, const Wanted& wanted,
-    BlockPainter& painter, BlockNode& node)
+void drawSlab(const NodeSpheres& spheres, int slab, const ClippedSphere* balls,
+    const ClipMask& clipMask, NodePainter& painter, LowerNode& node)
 {
-    BlockCanvas& canvas = painter.canvas;
-    canvas.begin(block.origin, slab);
-    excludeUnwanted(canvas, wanted);
-    painter.draw(balls, block.balls);
-    storeSlab(canvas, wanted, node);
-    for (int cell = canvas.firstCell(); cell < canvas.endCell(); ++cell) canvas.clean(cell);
+    NodeCanvas& canvas = painter.canvas;
+    canvas.begin(spheres.origin, slab);
+    excludeOutside(canvas, clipMask);
+    painter.draw(balls, spheres.balls);
+    storeSlab(canvas, clipMask, node);
+    for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) canvas.clean(group);
 }
 
 /// Lists of balls are given back as they are drawn.
-BlockNodes drawBlocks(std::vector<Block>& blocks, const ClippedSphere* balls, const Wanted& wanted,
-    openvdb::util::NullInterrupter* interrupter)
+DrawnNodes drawNodes(std::vector<NodeSpheres>& spheres, const ClippedSphere* balls,
+    const ClipMask& clipMask, openvdb::util::NullInterrupter* interrupter)
 {
-    constexpr std::size_t kSlabs = BlockCanvas::kSlabs;
-    BlockNodes nodes(blocks.size());
-    parallelFor(blocks.size(), interrupter, [&](std::size_t i) {
-        if (!blocks[i].full) nodes[i] = std::make_unique<BlockNode>(blocks[i].origin, false, false);
+    constexpr std::size_t kSlabs = NodeCanvas::kSlabs;
+    DrawnNodes nodes(spheres.size());
+    parallelFor(spheres.size(), interrupter, [&](std::size_t i) {
+        if (spheres[i].full) return;
+        nodes[i] = std::make_unique<LowerNode>(spheres[i].origin, false, false);
     });
-    std::vector<std::atomic<std::size_t>> slabsLeft(blocks.size()); // there may be many balls
+    std::vector<std::atomic<std::size_t>> slabsLeft(spheres.size()); // there may be many balls
     for (auto& left : slabsLeft) left = kSlabs;
-    parallelForWithScratch<BlockPainter>(
-        kSlabs * blocks.size(), interrupter, [&](std::size_t i, BlockPainter& painter) {
-            Block& block = blocks[i / kSlabs];
-            if (block.full) return;
-            drawSlab(block, int(i % kSlabs), balls, wanted, painter, *nodes[i / kSlabs]);
-            if (--slabsLeft[i / kSlabs] == 0) std::vector<int32_t>().swap(block.balls);
+    parallelForWithScratch<NodePainter>(
+        kSlabs * spheres.size(), interrupter, [&](std::size_t i, NodePainter& painter) {
+            NodeSpheres& ofNode = spheres[i / kSlabs];
+            if (ofNode.full) return;
+            drawSlab(ofNode, int(i % kSlabs), balls, clipMask, painter, *nodes[i / kSlabs]);
+            if (--slabsLeft[i / kSlabs] == 0) std::vector<int32_t>().swap(ofNode.balls);
         });
     return nodes;
 }
 
-MaskTree::Ptr assemble(const SphereBlocks& cells, BlockNodes& nodes)
+MaskTree::Ptr assemble(const SphereNodes& sorted, DrawnNodes& nodes)
 {
     auto tree = std::make_shared<MaskTree>();
-    for (const Coord& origin : cells.fullRootCells) tree->root().addTile(origin, true, true);
-    RootCellNode* parent = nullptr; // blocks of a root cell stand together
+    for (const Coord& origin : sorted.fullUpperNodes) tree->root().addTile(origin, true, true);
+    UpperNode* parent = nullptr; // the lower nodes of an upper one stand together
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Block& block = cells.blocks[i];
-        if (!block.full && nodes[i]->isChildMaskOff() && nodes[i]->isValueMaskOff()) continue;
-        const Coord origin = block.origin & ~((1 << kRootCellLog2) - 1);
+        const NodeSpheres& spheres = sorted.lowerNodes[i];
+        if (!spheres.full && nodes[i]->isChildMaskOff() && nodes[i]->isValueMaskOff()) continue;
+        const Coord origin = spheres.origin & ~((1 << kUpperLog2) - 1);
         if (!parent || parent->origin() != origin) {
-            parent = new RootCellNode(origin, false, false);
+            parent = new UpperNode(origin, false, false);
             tree->root().addChild(parent);
         }
-        if (block.full) {
-            parent->addTile(RootCellNode::coordToOffset(block.origin), true, true);
+        if (spheres.full) {
+            parent->addTile(UpperNode::coordToOffset(spheres.origin), true, true);
         } else {
             parent->addChild(nodes[i].release());
         }
@@ -136,11 +128,11 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Spher
     const openvdb::CoordBBox& clip, const MaskTree* within,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const Wanted wanted(within);
+    const ClipMask clipMask(within);
     const ClippedSpheres clipped = clipSpheres(spheres, metric, clip, interrupter);
-    SphereBlocks cells = sortIntoBlocks(clipped, wanted, interrupter);
-    BlockNodes nodes = drawBlocks(cells.blocks, clipped.balls.get(), wanted, interrupter);
-    return assemble(cells, nodes);
+    SphereNodes sorted = sortIntoNodes(clipped, clipMask, interrupter);
+    DrawnNodes nodes = drawNodes(sorted.lowerNodes, clipped.balls.get(), clipMask, interrupter);
+    return assemble(sorted, nodes);
 }
 
 } // namespace detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MaskDifference.cc
-/// @brief Difference of two masks: leaf words against leaf words, tiles against whatever is there.
+/// @brief Difference of two masks: leaf masks against leaf masks, tiles against whatever is there.
 ///
 /// The 128^3 nodes of the first mask come first; its larger tiles are few, and come last.
 
@@ -18,102 +18,70 @@ namespace {
 using openvdb::Coord;
 using openvdb::MaskTree;
 
-constexpr uint64_t kAllOn = ~uint64_t(0);
-
-bool isEmpty(const VoxelCell& cell)
+/// The voxels of a lower node's n-th leaf, or of the tile in its place.
+LeafMask leafVoxels(const LowerNode& node, openvdb::Index n)
 {
-    uint64_t any = 0;
-    for (const uint64_t word : cell.words) any |= word;
-    return any == 0;
+    if (node.isChildMaskOn(n)) return LeafMask::from(node.getTable()[n].getChild()->getValueMask());
+    return node.isValueMaskOn(n) ? LeafMask::full() : LeafMask{};
 }
 
-VoxelCell tileCell(const Coord& origin, int32_t size)
+void append(const Coord& origin, const LeafMask& mask, std::vector<VoxelCube>& result)
 {
-    VoxelCell cell;
-    cell.origin = origin;
-    cell.size = size;
-    std::fill(cell.words, cell.words + 8, kAllOn);
-    return cell;
+    if (!mask.none()) result.push_back({origin, kLeafDim, mask});
 }
 
-/// The words of a block's n-th leaf, of a tile likewise.
-void leafWords(const BlockNode& block, openvdb::Index n, uint64_t words[8])
+/// A lower node minus what the other mask has there.
+void subtractFromNode(const LowerNode& a, const MaskTree& b, std::vector<VoxelCube>& result)
 {
-    if (block.isChildMaskOn(n)) {
-        const auto& mask = block.getTable()[n].getChild()->getValueMask();
-        for (int x = 0; x < 8; ++x) words[x] = mask.getWord<uint64_t>(x);
-    } else {
-        std::fill(words, words + 8, block.isValueMaskOn(n) ? kAllOn : 0);
-    }
-}
-
-/// A 128^3 node minus what the other mask has there.
-void subtractBlock(const BlockNode& a, const MaskTree& b, std::vector<VoxelCell>& result)
-{
-    const BlockNode* other = b.probeConstNode<BlockNode>(a.origin());
+    const LowerNode* other = b.probeConstNode<LowerNode>(a.origin());
     if (!other && b.isValueOn(a.origin())) return; // a tile over all of it
-    for (openvdb::Index n = 0; n < BlockNode::NUM_VALUES; ++n) {
+    for (openvdb::Index n = 0; n < LowerNode::NUM_VALUES; ++n) {
         if (!a.isChildMaskOn(n) && !a.isValueMaskOn(n)) continue;
-        VoxelCell cell;
-        cell.origin = a.offsetToGlobalCoord(n);
-        leafWords(a, n, cell.words);
-        if (other) {
-            uint64_t words[8];
-            leafWords(*other, n, words);
-            for (int x = 0; x < 8; ++x) cell.words[x] &= ~words[x];
-        }
-        if (!isEmpty(cell)) result.push_back(cell);
+        LeafMask mask = leafVoxels(a, n);
+        if (other) mask -= leafVoxels(*other, n);
+        append(a.offsetToGlobalCoord(n), mask, result);
     }
 }
 
 /// A tile of 128^3 minus what the other mask has there.
-void subtractBlockTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCell>& result)
+void subtractFromTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCube>& result)
 {
-    const BlockNode* other = b.probeConstNode<BlockNode>(origin);
+    const LowerNode* other = b.probeConstNode<LowerNode>(origin);
     if (!other) {
-        if (!b.isValueOn(origin)) result.push_back(tileCell(origin, BlockNode::DIM));
+        if (!b.isValueOn(origin)) result.push_back(VoxelCube::full(origin, LowerNode::DIM));
         return;
     }
-    for (openvdb::Index n = 0; n < BlockNode::NUM_VALUES; ++n) {
-        VoxelCell cell;
-        cell.origin = other->offsetToGlobalCoord(n);
-        leafWords(*other, n, cell.words);
-        for (uint64_t& word : cell.words) word = ~word;
-        if (!isEmpty(cell)) result.push_back(cell);
+    for (openvdb::Index n = 0; n < LowerNode::NUM_VALUES; ++n) {
+        append(other->offsetToGlobalCoord(n), LeafMask::full() - leafVoxels(*other, n), result);
     }
 }
 
 /// A tile of 4096^3 minus what the other mask has there.
-void subtractRootTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCell>& result)
+void subtractFromLargeTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCube>& result)
 {
-    const RootCellNode* other = b.probeConstNode<RootCellNode>(origin);
+    const UpperNode* other = b.probeConstNode<UpperNode>(origin);
     if (!other) {
-        if (!b.isValueOn(origin)) result.push_back(tileCell(origin, RootCellNode::DIM));
+        if (!b.isValueOn(origin)) result.push_back(VoxelCube::full(origin, UpperNode::DIM));
         return;
     }
-    for (openvdb::Index n = 0; n < RootCellNode::NUM_VALUES; ++n) {
-        subtractBlockTile(other->offsetToGlobalCoord(n), b, result);
+    for (openvdb::Index n = 0; n < UpperNode::NUM_VALUES; ++n) {
+        subtractFromTile(other->offsetToGlobalCoord(n), b, result);
     }
 }
 
 } // namespace
 
-int64_t VoxelCell::voxels() const
+int64_t VoxelCube::voxels() const
 {
-    if (size > 8) return int64_t(size) * size * size;
-    uint64_t all = kAllOn;
-    for (const uint64_t word : words) all &= word;
-    if (all == kAllOn) return 512;
-    int64_t count = 0;
-    for (const uint64_t word : words) count += openvdb::util::CountOn(openvdb::Index64(word));
-    return count;
+    if (size > kLeafDim) return int64_t(size) * size * size;
+    return mask.all() ? kLeafVoxels : mask.count();
 }
 
-Coord VoxelCell::first() const
+Coord VoxelCube::first() const
 {
-    for (int x = 0; x < 8 && size == 8; ++x) {
-        if (!words[x]) continue;
-        const int bit = int(openvdb::util::FindLowestOn(openvdb::Index64(words[x])));
+    for (int x = 0; x < kLeafDim && size == kLeafDim; ++x) {
+        if (!mask[x]) continue;
+        const int bit = int(openvdb::util::FindLowestOn(openvdb::Index64(mask[x])));
         return origin.offsetBy(x, bit >> 3, bit & 7);
     }
     return origin;
@@ -121,32 +89,32 @@ Coord VoxelCell::first() const
 
 MaskMinus::MaskMinus(const MaskTree& a, const MaskTree& b) : mA(a), mB(b)
 {
-    constexpr int32_t kBlock = BlockNode::DIM;
+    constexpr int32_t kSize = LowerNode::DIM;
     std::vector<Node> tiles;
-    for (auto cell = a.root().cbeginChildOn(); cell; ++cell) {
-        for (auto block = cell->cbeginChildOn(); block; ++block) {
-            mNodes.push_back({block->origin(), kBlock, false});
+    for (auto upper = a.root().cbeginChildOn(); upper; ++upper) {
+        for (auto lower = upper->cbeginChildOn(); lower; ++lower) {
+            mNodes.push_back({lower->origin(), kSize, false});
         }
-        for (auto tile = cell->cbeginValueOn(); tile; ++tile) {
-            tiles.push_back({tile.getCoord(), kBlock, true});
+        for (auto tile = upper->cbeginValueOn(); tile; ++tile) {
+            tiles.push_back({tile.getCoord(), kSize, true});
         }
     }
     mNodes.insert(mNodes.end(), tiles.begin(), tiles.end());
     for (auto tile = a.root().cbeginValueOn(); tile; ++tile) {
-        mNodes.push_back({tile.getCoord(), int32_t(RootCellNode::DIM), true});
+        mNodes.push_back({tile.getCoord(), int32_t(UpperNode::DIM), true});
     }
 }
 
-void MaskMinus::cells(std::size_t index, std::vector<VoxelCell>& result) const
+void MaskMinus::cubes(std::size_t index, std::vector<VoxelCube>& result) const
 {
     result.clear();
     const Node& node = mNodes[index];
     if (!node.tile) {
-        subtractBlock(*mA.probeConstNode<BlockNode>(node.origin), mB, result);
-    } else if (node.size == int32_t(BlockNode::DIM)) {
-        subtractBlockTile(node.origin, mB, result);
+        subtractFromNode(*mA.probeConstNode<LowerNode>(node.origin), mB, result);
+    } else if (node.size == int32_t(LowerNode::DIM)) {
+        subtractFromTile(node.origin, mB, result);
     } else {
-        subtractRootTile(node.origin, mB, result);
+        subtractFromLargeTile(node.origin, mB, result);
     }
 }
 
@@ -154,16 +122,16 @@ MaskDifference maskDifference(
     const MaskTree& a, const MaskTree& b, openvdb::util::NullInterrupter* interrupter)
 {
     const MaskMinus minus(a, b);
-    std::vector<std::vector<VoxelCell>> parts(minus.nodeCount());
+    std::vector<std::vector<VoxelCube>> parts(minus.nodeCount());
     parallelFor(
-        parts.size(), interrupter, [&](std::size_t node) { minus.cells(node, parts[node]); });
+        parts.size(), interrupter, [&](std::size_t node) { minus.cubes(node, parts[node]); });
     MaskDifference result;
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
-    result.cells.reserve(count);
+    result.cubes.reserve(count);
     for (auto& part : parts) {
-        for (const VoxelCell& cell : part) result.voxels += cell.voxels();
-        result.cells.insert(result.cells.end(), part.begin(), part.end());
+        for (const VoxelCube& cube : part) result.voxels += cube.voxels();
+        result.cubes.insert(result.cubes.end(), part.begin(), part.end());
         part = {};
     }
     return result;

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "LeafMask.h"
 #include "Masks.h"
 
 #include <openvdb/openvdb.h>
@@ -16,30 +17,40 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// A cube of 8, 128 or 4096 voxels a side with voxels in it: of 8, those of the words (word x, bit
-/// 8 y + z); of more, all.
-struct VoxelCell {
+/// A cube of 8, 128 or 4096 voxels a side, and which of its voxels are in a set: of a cube of 8 those
+/// of the mask, of a larger one all.
+struct VoxelCube {
     openvdb::Coord origin;
-    int32_t size = 8;
-    uint64_t words[8] = {};
+    int32_t size = kLeafDim;
+    LeafMask mask{};
 
+    static VoxelCube full(const openvdb::Coord& origin, int32_t size)
+    {
+        return {origin, size, LeafMask::full()};
+    }
+    /// @return an eighth of a cube of 16 or more, 0 to 7 in the order x, y, z.
+    VoxelCube eighth(int i) const
+    {
+        const int32_t half = size / 2;
+        return full(origin.offsetBy(i & 4 ? half : 0, i & 2 ? half : 0, i & 1 ? half : 0), half);
+    }
     int64_t voxels() const;
     /// @return the first voxel, x slowest.
     openvdb::Coord first() const;
 };
 
-/// What one mask has and another has not, node by node of the first: nodes of 128 and larger tiles.
-/// Nothing of it is in memory; a node's cells are made when they are asked for.
+/// What one mask has and another has not, by the lower internal nodes and the tiles of 128 or more of
+/// the first. Nothing of it is in memory; the cubes of a node are made when they are asked for.
 class MaskMinus {
 public:
     /// Both are kept by reference.
     MaskMinus(const openvdb::MaskTree& a, const openvdb::MaskTree& b);
 
     std::size_t nodeCount() const { return mNodes.size(); }
-    /// @param result  becomes the cells of a node, each with voxels in it, those of a block of 128
-    ///                together. Tiles are compared as tiles: one is descended only where the other
-    ///                mask has nodes.
-    void cells(std::size_t node, std::vector<VoxelCell>& result) const;
+    /// @param result  becomes the cubes of a node, none of them empty; those of a lower internal node
+    ///                stand together. Tiles are compared as tiles: one is cut up only where the
+    ///                other mask has nodes.
+    void cubes(std::size_t node, std::vector<VoxelCube>& result) const;
 
 private:
     /// A node of 128, or a tile.
@@ -55,7 +66,7 @@ private:
 
 struct MaskDifference {
     int64_t voxels = 0;
-    std::vector<VoxelCell> cells; ///< in node order of the first mask
+    std::vector<VoxelCube> cubes; ///< in node order of the first mask
 };
 
 /// @return a \ b, as it comes from MaskMinus.

@@ -11,9 +11,9 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-using RootCellNode = openvdb::MaskTree::RootNodeType::ChildNodeType; ///< 4096^3 voxels
-using BlockNode = RootCellNode::ChildNodeType;                       ///< 128^3
-using LeafNode = openvdb::MaskTree::LeafNodeType;                    ///< 8^3
+using UpperNode = openvdb::MaskTree::RootNodeType::ChildNodeType; ///< 4096^3 voxels
+using LowerNode = UpperNode::ChildNodeType;                       ///< 128^3
+using LeafNode = openvdb::MaskTree::LeafNodeType;                 ///< 8^3
 
 /// Calls f(box) for every active tile of a tree, of whatever size; box is inclusive.
 template <typename TreeType, typename F>

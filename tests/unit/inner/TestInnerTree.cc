@@ -336,26 +336,6 @@ TEST(InnerTree, WithCutsHasABallInEveryCutFromItsOwnOn)
 }
 
 /// Small balls and large ones are drawn by different kernels.
-TEST(UncoveredVoxels, OfALeafInsideABallAreThoseNearEnough)
-{
-    Random random(8);
-    for (const int radius : {0, 1, 5, 60, 539, 541, 2330, 2334, 32000}) {
-        for (int i = 0; i < 300; ++i) {
-            Coord center = random.coord(-3, 10); // so that the sphere passes through the leaf
-            center[i % 3] += (i % 2 ? 1 : -1) * radius;
-            const int64_t closedSq = int64_t(radius) * radius + random.between(0, radius);
-            LeafMask expected{};
-            for (const Coord& v : voxelsOfBox(CoordBBox(Coord(0, 0, 0), Coord(7, 7, 7)))) {
-                if (squaredDistance(v, center) > closedSq) continue;
-                expected[v[0]] |= uint64_t(1) << (8 * v[1] + v[2]);
-            }
-            if (expected == LeafMask{}) continue; // not a leaf that the ball reaches into
-            ASSERT_EQ(detail::voxelsInside(center, closedSq), expected)
-                << "radius " << radius << " around " << center;
-        }
-    }
-}
-
 TEST(PowerSearch, FindsWhatALookAtAllBallsFinds)
 {
     Random random(3);

@@ -8,7 +8,6 @@
 
 using namespace openvdb_spheretree;
 using detail::LeafReach;
-using detail::VoxelCell;
 using openvdb::Coord;
 using openvdb::MaskTree;
 
@@ -17,33 +16,20 @@ namespace {
 const std::vector<Distance> kDistances = {Distance(), Distance::l1(), Distance::linf(),
     Distance::chamfer(3, 4, 5), Distance::chamfer(5, 7, 8)};
 
-VoxelCell fullCell(const Coord& origin)
+/// The leaf's voxels that are farther from all of @a object, one by one.
+LeafMask farByOne(const std::vector<Coord>& object, const Distance& distance, int64_t limitSq,
+    const Coord& origin, const LeafMask& mask)
 {
-    VoxelCell cell;
-    cell.origin = origin;
-    std::fill(cell.words, cell.words + 8, ~uint64_t(0));
-    return cell;
-}
-
-/// The cell's voxels that are farther from all of @a object, one by one.
-VoxelCell farByOne(const std::vector<Coord>& object, const Distance& distance, int64_t limitSq,
-    const VoxelCell& cell)
-{
-    VoxelCell result = cell;
-    for (int n = 0; n < 512; ++n) {
-        const Coord q = cell.origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+    LeafMask result = mask;
+    for (int n = 0; n < kLeafVoxels; ++n) {
+        const Coord q = origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
         for (const Coord& p : object) {
             const Coord d = p - q;
             if (distance.lengthSq(d[0], d[1], d[2]) > limitSq) continue;
-            result.words[n >> 6] &= ~(uint64_t(1) << (n & 63));
+            result[n >> 6] &= ~(uint64_t(1) << (n & 63));
         }
     }
     return result;
-}
-
-void expectSame(const VoxelCell& actual, const VoxelCell& expected)
-{
-    for (int x = 0; x < 8; ++x) ASSERT_EQ(actual.words[x], expected.words[x]) << x;
 }
 
 } // namespace
@@ -65,12 +51,11 @@ TEST(LeafReach, TakesWhatIsNearAndNothingElse)
         const Distance distance = kDistances[random() % kDistances.size()];
         const int64_t most = distance.lengthSq(LeafReach::kReach + 1, 0, 0) - 1;
         const int64_t limitSq = int64_t(random() % uint64_t(most + 1));
-        VoxelCell cell = fullCell(origin);
-        for (uint64_t& word : cell.words) word = random() | uint64_t(random()) << 32;
-        const VoxelCell expected = farByOne(object, distance, limitSq, cell);
-        reach.takeNear(mask, distance, limitSq, cell);
-        SCOPED_TRACE(toString(distance) + " " + std::to_string(limitSq));
-        expectSame(cell, expected);
+        LeafMask leaf;
+        for (uint64_t& word : leaf) word = random() | uint64_t(random()) << 32;
+        const LeafMask expected = farByOne(object, distance, limitSq, origin, leaf);
+        reach.takeNear(mask, distance, limitSq, origin, leaf);
+        ASSERT_EQ(leaf, expected) << toString(distance) << ' ' << limitSq;
     }
 }
 
@@ -82,10 +67,10 @@ TEST(LeafReach, ReachesNoFartherThanItsReachWhateverTheLimit)
     LeafReach reach;
     for (const Distance& distance : kDistances) {
         const int64_t most = distance.lengthSq(LeafReach::kReach + 1, 0, 0) - 1;
-        VoxelCell cell = fullCell(origin);
-        reach.takeNear(mask, distance, int64_t(1) << 60, cell);
-        SCOPED_TRACE(toString(distance));
-        expectSame(cell, farByOne({voxel}, distance, most, fullCell(origin)));
+        LeafMask leaf = LeafMask::full();
+        reach.takeNear(mask, distance, int64_t(1) << 60, origin, leaf);
+        EXPECT_EQ(leaf, farByOne({voxel}, distance, most, origin, LeafMask::full()))
+            << toString(distance);
     }
 }
 
@@ -94,21 +79,21 @@ TEST(LeafReach, ATileIsAllOfItsVoxels)
     MaskTree mask;
     mask.addTile(1, Coord(-8, 0, 0), true, true);
     LeafReach reach;
-    VoxelCell cell = fullCell(Coord(0, 0, 0));
-    reach.takeNear(mask, {}, 9, cell); // three slices
-    for (int x = 0; x < 8; ++x) EXPECT_EQ(cell.words[x], x < 3 ? 0 : ~uint64_t(0)) << x;
+    LeafMask leaf = LeafMask::full();
+    reach.takeNear(mask, {}, 9, Coord(0), leaf); // three slices
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(leaf[x], x < 3 ? 0 : ~uint64_t(0)) << x;
 }
 
 TEST(LeafReach, WhereNothingIsNearAllStays)
 {
     LeafReach reach;
-    VoxelCell cell = fullCell(Coord(0, 0, 0));
-    reach.takeNear(MaskTree(), {}, 50, cell);
-    expectSame(cell, fullCell(Coord(0, 0, 0)));
+    LeafMask leaf = LeafMask::full();
+    reach.takeNear(MaskTree(), {}, 50, Coord(0), leaf);
+    EXPECT_TRUE(leaf.all());
     MaskTree mask;
     mask.setValueOn(Coord(3, 3, 3));
-    reach.takeNear(mask, {}, -1, cell);
-    expectSame(cell, fullCell(Coord(0, 0, 0)));
-    reach.takeNear(mask, {}, 0, cell);
-    EXPECT_EQ(cell.voxels(), 511);
+    reach.takeNear(mask, {}, -1, Coord(0), leaf);
+    EXPECT_TRUE(leaf.all());
+    reach.takeNear(mask, {}, 0, Coord(0), leaf);
+    EXPECT_EQ(leaf.count(), 511);
 }

@@ -258,9 +258,9 @@ TEST_F(LevelErrors, TheDifferenceOfMasksIsOpenVdbsForNodesOfEveryLevelAgainstEac
             const detail::MaskDifference actual = detail::maskDifference(a, b, nullptr);
             EXPECT_EQ(actual.voxels, int64_t(expected.activeVoxelCount()));
             int64_t voxels = 0;
-            for (const detail::VoxelCell& cell : actual.cells) {
-                voxels += cell.voxels();
-                EXPECT_TRUE(expected.isValueOn(cell.first()));
+            for (const detail::VoxelCube& cube : actual.cubes) {
+                voxels += cube.voxels();
+                EXPECT_TRUE(expected.isValueOn(cube.first()));
             }
             EXPECT_EQ(voxels, actual.voxels);
         }
