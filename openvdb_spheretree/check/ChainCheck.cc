@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ChainCheck.cc
-/// @brief Chains are followed upwards, in all of a leaf's voxels at once. With S(n) the voxels of
-/// object and ball n that a leaf, or S of some child of n, has, a voxel has a chain from the leaves
-/// up to a section just when S of some node of the section has it.
+/// @brief Chains are followed upwards, in all voxels of an 8^3 leaf at once.
 ///
-/// 1. The object's cells are halved in space over and over, each part with the nodes that reach
-///    into it: those of the part before whose balls touch its box, less those left childless.
-/// 2. A part is done with as soon as balls that hold all of its box make a chain up to the last
+/// Let S(n) be the object's voxels that have a chain from a leaf of the forest up to node n. For a
+/// leaf these are the voxels its ball holds; for other nodes, those of S of any child that the
+/// node's ball holds. A voxel has a chain up to a section just when S of some node of it has the
+/// voxel.
+///
+/// 1. The object's cubes of voxels are halved in space over and over. Each part keeps the nodes of
+///    the part before whose balls touch its box, less those left without a child.
+/// 2. A part is finished as soon as balls that hold all of its box make a chain up to the last
 ///    section: what is inside costs little.
-/// 3. What is left comes down to leaves of 8^3 voxels, where S is computed as mask words.
+/// 3. What is left comes down to single leaves, where S is computed as masks.
 ///
 /// First parts are made until there are enough for all threads, then each is taken to its end. No
 /// more masks exist at a time than nodes reach into one leaf.
@@ -33,9 +36,9 @@ using openvdb::Coord;
 /// A node that reaches into a part of space.
 struct Candidate {
     int32_t node;
-    int32_t parent;  ///< in the list of candidates; -1 if it does not reach there
-    bool holdsAll;   ///< its ball, of the part
-    bool chainedAll; ///< and so do some leaf below it and all balls in between
+    int32_t parent;  ///< place in the list of candidates; -1 if the parent does not reach there
+    bool holdsAll;   ///< its ball holds all of the part
+    bool chainedAll; ///< and so do a leaf below it and all balls in between
 };
 using Candidates = std::vector<Candidate>;
 

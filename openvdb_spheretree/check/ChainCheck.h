@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ChainCheck.h
-/// @brief Which voxels of an object have no chain of spheres, each the child of the one above, that
-/// all hold them.
+/// @brief Which voxels of an object have no chain of spheres that all hold them, each sphere the
+/// child of the one above.
 
 #pragma once
 
@@ -17,30 +17,31 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// A forest of spheres, and the sections through it that chains are asked for: sets of nodes that
-/// every way up from a leaf meets once while it lasts, in the same order on each. Levels are such,
-/// and so are cuts of fewer and fewer spheres.
+/// A forest of spheres, and the sections through it that chains must lead to. A section is a set of
+/// nodes. Every path from a leaf towards its root meets a section in one node, or ends below it; it
+/// meets the sections in their order. The levels of a tree are sections, and so are cuts of fewer
+/// and fewer spheres.
 struct ChainForest {
     static constexpr int kMaxSections = 64;
 
     std::vector<ExactSphere> spheres; ///< children stand before their parents
     std::vector<int32_t> parent;      ///< by place in the list, or -1
-    std::vector<uint64_t> sections;   ///< of each node, bit s: it is of section s; 0 are the leaves
+    std::vector<uint64_t> sections;   ///< of each node; bit s: it is in section s (0: the leaves)
     int sectionCount = 0;
 };
 
 /// The voxels that have a chain from the leaves up to the section before, but not to this one.
 struct ChainLoss {
     int64_t voxels = 0;
-    openvdb::Coord first; ///< in the order of Coord; of no meaning if there are none
+    openvdb::Coord first; ///< in the order of Coord; undefined without voxels
 
     void add(const ChainLoss& other);
 };
 
-/// @return for each section, what has lost its chain there. Exact. The same for any number of
-///         threads.
-/// @note Cost: nodes near each part of the object, mostly along surfaces; memory: some times that
-///       of the nodes, and as much again as the object's leaves.
+/// @return for each section, the voxels whose chain ends below it. Exact, and the same for any
+///         number of threads.
+/// @note Cost: linear in the nodes near each part of the object, mostly along its surface. Memory: a
+///       few times that of the nodes, and that of the object's leaves.
 std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetric& metric,
     const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter);
 

@@ -10,8 +10,8 @@
 /// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
 /// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
-/// 4. checkDigitalBalls, checkCoverage: spheres against the object (detail/CoverageCheck.cc), and
-///    checkChains, checkCutChains, checkInside: those of tight trees (detail/TightCheck.cc)
+/// 4. checkDigitalBalls, checkCoverage: spheres against the object (CoverageCheck.cc), and
+///    checkChains, checkCutChains, checkInside: those of tight trees (TightCheck.cc)
 ///
 /// A tree of a single level has no links to check; only what concerns the level is.
 

@@ -33,8 +33,8 @@ VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* int
 /// @param samples  of the set, by countVoxels()
 /// @param mask     the object
 /// @param object   the same, as an index
-/// @note Cost: at most a microsecond or so for 8^3 voxels where the distance is a few voxels; those
-///       far nearer than the farthest are dismissed by the block. Memory: a node's cells a thread.
+/// @note Cost: at most about a microsecond for a leaf where the distance is a few voxels; voxels far
+///       nearer than the farthest are dismissed by whole nodes. Memory: a node's leaves a thread.
 int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples,
     const openvdb::MaskTree& mask, const NearestVoxel& object,
     openvdb::util::NullInterrupter* interrupter);

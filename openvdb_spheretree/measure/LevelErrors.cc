@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelErrors.cc
-/// @brief The exact error of every level (DESIGN: excess, missing, Hamming, one-sided Hausdorff).
+/// @brief The exact error of every level: excess, missing voxels, Hamming and one-sided Hausdorff.
 ///
 /// Per level: the sparse union of its spheres; what it has and the object has not, node by node;
 /// the farthest voxel of that. Missing voxels follow from the counts:

@@ -68,7 +68,7 @@ int64_t countOn(const Accessor& accessor, const CoordBBox& box, int size)
     return count;
 }
 
-/// The voxels that the function decides about: those next to an on voxel of the OR model.
+/// The voxels that the function decides: those next to an on voxel of the OR model.
 MaskTree::Ptr candidatesOf(const MaskTree& orLevel)
 {
     using namespace openvdb::tools;
@@ -94,7 +94,7 @@ bool ChildBlock::any(int x, int y, int z) const
     return mOr->isValueOn(mParent.offsetBy(x, y, z));
 }
 
-/// Asks the function about the voxels of a leaf.
+/// Evaluates the function in the voxels of a leaf.
 class BlockEvaluator {
 public:
     BlockEvaluator(const MaskTree& children, const MaskTree& orLevel, const PyramidStep& step,
@@ -102,7 +102,7 @@ public:
         : mStep(step), mChildren(children), mOr(orLevel), mBox(box)
     {}
 
-    /// Leaves on what the function says yes to, of the on voxels of @a leaf.
+    /// Keeps those on voxels of @a leaf on for which the function is true.
     void decide(LeafNode& leaf, const std::function<bool(const ChildBlock&)>& isOn) const
     {
         ChildBlock block;

@@ -9,13 +9,13 @@
 ///         return block.any() || (block.any(-1, 0, 0) && block.any(1, 0, 0));
 ///     });
 ///
-/// An including model that saw no more than its own block would be OR: with a child on it has to
-/// say yes, without one nobody would ask. That is why the function sees the neighbours too.
+/// The function sees the blocks around its own as well, since an including model of one block alone
+/// could only be OR: it must be on where a child is on, and is not called where none is.
 ///
-/// It stays sparse: the function is asked only about parent voxels of which a child, or a child of
-/// one of the 3^dim - 1 blocks around, is on. A voxel farther from everything stays off. Nor is it
-/// asked about voxels within tiles of the OR model's level (8^3 voxels or more, all on): these have
-/// to be on. Cost: a call for every other such voxel, in parallel. Tests: TestBlockModel.cc.
+/// Levels stay sparse: the function is called only for parent voxels of which a child, or a child of
+/// one of the 3^dim - 1 blocks around, is on. All other voxels stay off. It is not called within
+/// tiles of the OR model's level (8^3 voxels or more, all on): these voxels have to be on.
+/// Cost: a call for every other such voxel, in parallel. Tests: TestBlockModel.cc.
 
 #pragma once
 
@@ -37,18 +37,17 @@ public:
     int factor() const { return mStep->factor; }
     int dim() const { return mStep->dim; }
 
-    /// @return whether a child is on. Each of i, j, k is 0 to factor - 1 within the block, and may
-    /// be
-    /// -factor to 2 factor - 1, in the blocks around it; k is 0 if dim is 2.
+    /// @return whether a child is on.
+    /// @param i, j, k  0 to factor - 1 within the block; -factor to 2 factor - 1 with the blocks
+    ///                 around it. With dim = 2, k is 0.
     bool isOn(int i, int j, int k) const { return mChildren->isValueOn(mFirst.offsetBy(i, j, k)); }
 
     /// @return how many of the factor^dim children are on. Cost: the nodes of the block, at most
     /// one for every 8^3 children.
     int64_t count() const;
 
-    /// @return whether a child of the block that is @a x, @a y, @a z blocks away is on; each of
-    /// them
-    /// -1, 0 or 1.
+    /// @return whether any child of a block is on.
+    /// @param x, y, z  -1, 0 or 1 each: the block's place, counted in blocks from this one
     bool any(int x = 0, int y = 0, int z = 0) const;
 
 private:

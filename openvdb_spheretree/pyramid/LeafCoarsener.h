@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafCoarsener.h
-/// @brief What a leaf's mask leaves on the next level, for any factor, on whole words.
+/// @brief The parents of a leaf's voxels, for any factor, on whole mask words.
 ///
-/// Parents differ by axis only, so the 512 bits are folded one axis at a time: words of equal
-/// parent are ORed (x), rows of eight bits move to their parent's row (y), and the bits within a
-/// row come from a table of 256 entries (z). Along an axis that takes no part (z with dim = 2) the
-/// factor is
-/// 1 and the same code copies.
+/// A parent's coordinate along an axis depends on its child's along that axis only, so the 512 bits
+/// are folded one axis at a time. Along x, words of equal parent are ORed. Along y, rows of eight
+/// bits move to their parent's row. Along z, the bits of a row come from a table of 256 entries.
+/// Along an axis that takes no part (z with dim = 2) the factor is 1, and the same code copies.
 ///
-/// How the eight coordinates of a leaf fall to parents depends only on how many of them the first
-/// parent takes: 1 to 8. That is why eight tables an axis do, whatever factor and origin are.
+/// Which of the eight coordinates of a leaf share a parent depends only on how many of them the
+/// first parent takes: 1 to 8. So eight tables an axis suffice, whatever factor and origin are.
 
 #pragma once
 

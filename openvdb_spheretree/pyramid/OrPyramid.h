@@ -10,7 +10,7 @@
 /// From level to level, for any factor (`coarsen`):
 /// 1. `collectParts`: each leaf, and each tile as large as a leaf, with the leaf of the next level
 ///    that it goes into, or the few that share it where the factor or the origin cuts leaves;
-/// 2. `joinLeaves`: these by parent leaf, in parallel, on mask words (detail/LeafCoarsener.h);
+/// 2. `joinLeaves`: these by parent leaf, in parallel, on mask words (LeafCoarsener.h);
 /// 3. `joinTiles`: larger tiles as boxes; a cube that tiles of its size fill is a tile again.
 ///
 /// Other *including* models (a parent of an on voxel is always on) plug in as a function; this is

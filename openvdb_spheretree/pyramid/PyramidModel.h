@@ -2,14 +2,14 @@
 /// @file PyramidModel.h
 /// @brief How the voxels of a level become those of the next one: the step, and models of it.
 ///
-/// The OR model (OrPyramid.h) is the default. Any other one must be *including* (Broutta et al.
-/// 2009, section 2.3): a parent of an on voxel is always on. Whoever uses a model verifies that
-/// (nextLevel() in OrPyramid.h). There are three ways to have another one:
+/// The OR model (OrPyramid.h) is the default. Any other model must be *including* (Broutta et al.
+/// 2009, section 2.3): the parent of an on voxel is on. nextLevel() in OrPyramid.h verifies that.
+/// There are three kinds of other models:
 ///
-/// - OR after a closing, which ships: `closing` in SphereTreeSettings.h, closingModel() in
-/// Closing.h;
-/// - a function of the children of a voxel and of those around them: blockModel() in BlockModel.h;
-/// - a whole step of one's own, from mask to mask: any PyramidModel.
+/// - OR after a closing: the setting `closing`, or closingModel() in Closing.h;
+/// - a function of the children of a voxel and of the voxels around these children: blockModel() in
+///   BlockModel.h;
+/// - any function from the mask of a level to that of the next: a PyramidModel.
 
 #pragma once
 

@@ -2,10 +2,10 @@
 /// @file ClippedSphere.h
 /// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
 ///
-/// Everything is in units of a half or less of a voxel, so that centres between voxels stay
-/// integers: 2^shift units are a voxel. A sphere may be one of a norm. All that is used of a
-/// distance is that it grows with each coordinate: the nearest and the farthest voxel of a box are
-/// so along every axis.
+/// Everything is in units of half a voxel or less, so that centers between voxels are integers:
+/// 2^shift units are a voxel. A sphere may be one of a norm. All that is used of a distance is that
+/// it grows with each coordinate: so the nearest voxel of a box is the nearest along every axis, and
+/// the farthest voxel the farthest.
 
 #pragma once
 
@@ -48,9 +48,9 @@ inline int64_t offVoxel(int64_t center, int shift)
     return std::min(above, inUnits(1, shift) - above);
 }
 
-/// @return the voxels along @a axis between the first and the last that the sphere holds, exactly:
-/// the other two axes owe the way to the nearest voxel, where the centre is between voxels. Empty
-/// with the sphere.
+/// @return the first and the last coordinate along @a axis of the voxels that the sphere holds,
+/// exactly: along the other two axes a voxel is no nearer than the one nearest to the center. Empty
+/// if the sphere holds none.
 inline Interval extent(const ExactSphere& s, int axis, const Distance& distance, int shift)
 {
     const int64_t reach = distance.reach(offVoxel(s.center[(axis + 1) % 3], shift),
@@ -66,16 +66,16 @@ struct ClippedSphere {
     int32_t lo[3], hi[3]; ///< inclusive
     bool clipped;         ///< the box is smaller than the sphere's own
     bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
-    int8_t shift;         ///< 2^shift units of centre and radiusSq are a voxel
+    int8_t shift;         ///< 2^shift units of center and radiusSq are a voxel
 
-    /// Balls of this size and less are plain: what is asked is within 2^29 units and a cube of 4096
-    /// voxels, 2^16 units, of the centre; three such squares are below 2^60.
+    /// Spheres of this size and less are plain. holds() is called for voxels of cubes that meet the
+    /// sphere's box, at most 4096 voxels or 2^16 units wide: they are less than 2^29 + 2^16 units
+    /// from the center along an axis, and three squares of that are below 2^60.
     static constexpr int64_t kMaxPlainRadiusSq = int64_t(1) << 58;
     /// Lengths that do not fit 63 bits are INT64_MAX (Distance::lengthSq): no sphere holds them.
     static constexpr int64_t kMaxRadiusSq = INT64_MAX - 1;
 
-    /// @return whether the ball holds what is so far from its centre; the most that is asked are
-    /// the corners of a cube that meets its box.
+    /// @param d  from the center, in units; no farther than the corners of a cube that meets the box
     bool holds(const int64_t d[3]) const
     {
         if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= radiusSq;

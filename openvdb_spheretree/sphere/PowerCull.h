@@ -3,13 +3,13 @@
 /// @brief Which of the balls that reach into a cube can add a voxel there to the others.
 ///
 /// A ball holds voxel q where its power radiusSq - |2^shift q - center|^2 is not negative. The
-/// powers of two balls differ by a linear function of q, so that one of them is the larger in all
-/// of a cube just when it is so at a corner that is known beforehand: the other ball adds nothing
-/// there. (Thousands of medial balls reach into a leaf on the surface of a solid, and a few dozen
-/// shape what is there.)
+/// powers of two balls differ by a linear function of q. So one of them is the larger in all of a
+/// cube if it is the larger at all corners, and one corner, known by the signs of the function,
+/// decides: the other ball then adds nothing there. (Thousands of medial balls reach into a leaf on
+/// the surface of a solid, and a few dozen of them determine its voxels.)
 ///
-/// Balls are held against those of largest power at the cube's centre and corners only: what is
-/// left may have some more that add nothing. Exact. Cost: linear in the balls.
+/// Balls are compared with those of largest power at the cube's center and corners only: some that
+/// add nothing may be left. Exact. Cost: linear in the balls.
 
 #pragma once
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file EulerNumber.cc
-/// @brief Voxels are added one by one in the order x, y, z. A voxel adds those of its cells (the
-/// cube, 6 faces, 12 edges, 8 vertices) that no voxel before it has.
+/// @brief Voxels are added one by one in the order x, y, z. A voxel adds those of its faces of any
+/// dimension (the cube, 6 faces, 12 edges, 8 vertices) that no voxel before it has.
 ///
-/// A cell lies in direction d of the cube's centre, with components -1, 0, 1; its voxels are v + e
-/// where each component of e is 0 or that of d. For d with dx = 1 and for the same d with dx = 0,
-/// the voxels *before* v are the same ones, and the two cells count with opposite signs: they
-/// cancel out. The 9 directions with dx = -1 remain, 9 bit counts for a word of 64 voxels.
+/// Such a face lies in direction d of the cube's center, with components -1, 0, 1. It belongs to the
+/// voxels v + e where each component of e is 0 or that of d. For d with dx = 1 and for the same d
+/// with dx = 0, the voxels *before* v are the same ones, and the two faces count with opposite signs:
+/// they cancel out. The 9 directions with dx = -1 remain: 9 bit counts for a word of 64 voxels.
 
 #include "EulerNumber.h"
 
@@ -66,7 +66,7 @@ int64_t eulerOfWord(const Beside<uint64_t>& below, const Beside<uint64_t>& here)
     int64_t sum = 0;
     for (int y = 0; y < 3; ++y) {
         for (int z = 0; z < 3; ++z) {
-            // The voxels before v of the cell in direction (-1, y - 1, z - 1).
+            // The voxels before v of the face in direction (-1, y - 1, z - 1).
             uint64_t before = below[1][1] | below[y][1] | below[1][z] | below[y][z];
             if (y == 0) before |= here[0][1] | here[0][z];
             if (z == 0) before |= here[1][0];
