@@ -26,28 +26,28 @@ using openvdb::CoordBBox;
 using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
 
-/// The 8^3 cells that hold a voxel, one voxel for each.
-MaskTree::Ptr cellsOf(const MaskTree& voxels, NullInterrupter* interrupter)
+/// The leaf cubes, of 8^3 voxels, that hold a voxel: one voxel for each.
+MaskTree::Ptr leafCubesOf(const MaskTree& voxels, NullInterrupter* interrupter)
 {
     return coarsen(voxels, PyramidStep{Coord(), 8, 3}, interrupter);
 }
 
-/// Cells, and all others at most @a steps further along each axis.
-MaskTree::Ptr grown(const MaskTree& cells, int steps)
+/// The cubes, and all others at most @a count further along each axis.
+MaskTree::Ptr grown(const MaskTree& cubes, int count)
 {
     using namespace openvdb::tools;
-    auto result = std::make_shared<MaskTree>(cells);
-    dilateActiveValues(*result, steps, NN_FACE_EDGE_VERTEX, IGNORE_TILES);
-    detail::forEachTile(cells, [&](const CoordBBox& tile) {
-        result->sparseFill(CoordBBox(tile.min() - Coord(steps), tile.max() + Coord(steps)), true);
+    auto result = std::make_shared<MaskTree>(cubes);
+    dilateActiveValues(*result, count, NN_FACE_EDGE_VERTEX, IGNORE_TILES);
+    detail::forEachTile(cubes, [&](const CoordBBox& tile) {
+        result->sparseFill(CoordBBox(tile.min() - Coord(count), tile.max() + Coord(count)), true);
     });
     prune(*result);
     return result;
 }
 
-/// All voxels of cells, as tiles, within @a box along z. (In two dimensions nothing happens outside
-/// the planes of the object, and cells reach beyond them.)
-MaskTree::Ptr voxelsOfCells(const MaskTree& cells, const CoordBBox& box, int dim)
+/// All voxels of cubes, as tiles, within @a box along z. (In two dimensions nothing happens outside
+/// the planes of the object, and cubes reach beyond them.)
+MaskTree::Ptr voxelsOfCubes(const MaskTree& cubes, const CoordBBox& box, int dim)
 {
     auto result = std::make_shared<MaskTree>(false);
     const auto add = [&](const CoordBBox& of) {
@@ -60,12 +60,12 @@ MaskTree::Ptr voxelsOfCells(const MaskTree& cells, const CoordBBox& box, int dim
         }
         if (!voxels.empty()) result->sparseFill(voxels, true);
     };
-    for (auto leaf = cells.cbeginLeaf(); leaf; ++leaf) {
-        for (auto cell = leaf->cbeginValueOn(); cell; ++cell) {
-            add(CoordBBox(cell.getCoord(), cell.getCoord()));
+    for (auto leaf = cubes.cbeginLeaf(); leaf; ++leaf) {
+        for (auto cube = leaf->cbeginValueOn(); cube; ++cube) {
+            add(CoordBBox(cube.getCoord(), cube.getCoord()));
         }
     }
-    detail::forEachTile(cells, add);
+    detail::forEachTile(cubes, add);
     return result;
 }
 
@@ -95,18 +95,18 @@ MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrup
 
 /// Off voxels at most @a radius away from an on one. Off voxels far from the set are not looked at:
 /// to the distance transform of a band of off voxels, what lies behind the band is on like the
-/// set. The band is twice as wide as the cells that can be near the set, so voxels of these cells
+/// set. The band is twice as wide as the cubes that can be near the set, so voxels of these cubes
 /// are farther than the radius from what lies behind.
 MaskTree::Ptr nearSet(const MaskTree& set, int radius, int dim, NullInterrupter* interrupter)
 {
     CoordBBox box;
     set.evalActiveVoxelBoundingBox(box);
-    const int steps = (radius + 7) / 8;
-    const MaskTree::Ptr inReach = grown(*cellsOf(set, interrupter), steps);
-    const MaskTree::Ptr band = voxelsOfCells(*grown(*inReach, steps), box, dim);
+    const int cubes = (radius + 7) / 8;
+    const MaskTree::Ptr inReach = grown(*leafCubesOf(set, interrupter), cubes);
+    const MaskTree::Ptr band = voxelsOfCubes(*grown(*inReach, cubes), box, dim);
     band->topologyDifference(set);
     const MaskTree::Ptr near = nearOutside(*band, radius, dim, interrupter);
-    near->topologyIntersection(*voxelsOfCells(*inReach, box, dim));
+    near->topologyIntersection(*voxelsOfCubes(*inReach, box, dim));
     return near;
 }
 
@@ -132,7 +132,7 @@ MaskTree::Ptr closing(const MaskTree& voxels, int radius, int dim, NullInterrupt
     CoordBBox box;
     added->evalActiveVoxelBoundingBox(box);
     const MaskTree::Ptr reach =
-        voxelsOfCells(*grown(*cellsOf(*added, interrupter), (radius + 7) / 8), box, dim);
+        voxelsOfCubes(*grown(*leafCubesOf(*added, interrupter), (radius + 7) / 8), box, dim);
     MaskTree dilated(*closed);
     dilated.topologyIntersection(*reach);
     const MaskTree::Ptr lost = nearOutside(dilated, radius, dim, interrupter);

@@ -117,17 +117,14 @@ Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const 
 std::unique_ptr<LeafNode> joinParts(
     const LeafPart* begin, const LeafPart* end, const LeafCoarsener& coarsener)
 {
-    LeafMask joined{}, mask;
+    LeafMask joined{};
     for (const LeafPart* part = begin; part != end; ++part) {
-        for (uint32_t x = 0; x < 8; ++x) {
-            mask[x] = part->node ? part->node->getValueMask().getWord<uint64_t>(x) : ~uint64_t(0);
-        }
+        const LeafNode* const node = part->node;
+        const LeafMask mask = node ? LeafMask::from(node->getValueMask()) : LeafMask::full();
         coarsener.add(mask, part->origin, part->parent, joined);
     }
     auto leaf = std::make_unique<LeafNode>(begin->parent, false);
-    LeafNode::NodeMaskType nodeMask;
-    for (uint32_t x = 0; x < 8; ++x) nodeMask.getWord<uint64_t>(x) = joined[x];
-    leaf->setValueMask(nodeMask);
+    joined.copyTo(leaf->getValueMask());
     return leaf;
 }
 

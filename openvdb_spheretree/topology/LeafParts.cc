@@ -3,8 +3,6 @@
 
 #include <openvdb_spheretree/voxel/LeafPlanes.h>
 
-#include <openvdb/util/NodeMasks.h>
-
 namespace openvdb_spheretree {
 namespace detail {
 
@@ -71,15 +69,6 @@ LeafMask floodLeaf(const LeafMask& mask, int x)
     return part;
 }
 
-void setLabels(const LeafMask& part, int label, PartLabels& labels)
-{
-    for (uint32_t x = 0; x < 8; ++x) {
-        for (uint64_t left = part[x]; left; left &= left - 1) {
-            labels[64 * x + openvdb::util::FindLowestOn(left)] = uint8_t(label);
-        }
-    }
-}
-
 template <typename Connected>
 int labelParts(LeafMask left, PartLabels& labels)
 {
@@ -90,9 +79,10 @@ int labelParts(LeafMask left, PartLabels& labels)
             continue;
         }
         const LeafMask part = floodLeaf<Connected>(left, x);
-        if (count > 0) setLabels(part, count, labels); // 0 they have already
+        // Labels are 0 to begin with.
+        if (count > 0) part.visitOn([&](uint32_t index) { labels[index] = uint8_t(count); });
         ++count;
-        for (int i = x; i < 8; ++i) left[i] &= ~part[i];
+        left -= part;
     }
     return count;
 }
@@ -101,10 +91,9 @@ int labelParts(LeafMask left, PartLabels& labels)
 
 PartCounts leafParts(const LeafMask& mask, PartLabels& labels)
 {
-    LeafMask background;
-    for (int x = 0; x < 8; ++x) background[x] = ~mask[x];
     labels.fill(0);
-    return {labelParts<ByCorners>(mask, labels), labelParts<ByFaces>(background, labels)};
+    return {
+        labelParts<ByCorners>(mask, labels), labelParts<ByFaces>(LeafMask::full() - mask, labels)};
 }
 
 } // namespace detail

@@ -5,10 +5,10 @@
 /// - b0 is the number of 26-connected components of the object;
 /// - b2 is the number of 6-connected components of the background, less the one outside (Alexander
 ///   duality);
-/// - b0 - b1 + b2 is the Euler characteristic, a sum over leaves (detail/EulerNumber.cc).
+/// - b0 - b1 + b2 is the Euler characteristic, a sum over leaves (EulerNumber.cc).
 ///
 /// 1. `LevelParts`: cut object and background into their parts within each leaf, by flooding mask
-///    words (detail/LeafParts.h). Background outside the leaves is *gaps*: where a column of leaves
+///    words (LeafParts.h). Background outside the leaves is *gaps*: where a column of leaves
 ///    along z has a hole, the places in the hole are one part. All other places, before, behind and
 ///    beside the columns, are open to infinity along z or in the column they are in, so they are
 ///    one part as well, whatever the bounding box.
@@ -164,12 +164,7 @@ struct Contact {
     static Contact withFaces(Axis axis) { return {axis, 0, 7, {0, 0}, {0, 0}}; }
 };
 
-LeafMask complement(const LeafMask& mask)
-{
-    LeafMask result;
-    for (int x = 0; x < 8; ++x) result[x] = ~mask[x];
-    return result;
-}
+LeafMask complement(const LeafMask& mask) { return LeafMask::full() - mask; }
 
 /// Joins the parts of leaves with what is around them, each pair of leaves once, and sums up the
 /// Euler characteristic on the way.
