@@ -13,12 +13,12 @@
 ///    section: what is inside costs little.
 /// 3. What is left comes down to single leaves, where S is computed as masks.
 ///
-/// First parts are made until there are enough for all threads, then each is taken to its end. No
-/// more masks exist at a time than nodes reach into one leaf.
+/// Parts are halved in parallel (RegionHalving.h). No more masks exist at a time than nodes reach into
+/// one leaf.
 
 #include "ChainCheck.h"
 
-#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/index/RegionHalving.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
@@ -149,12 +149,8 @@ std::vector<Part> split(
     const Part& part, const openvdb::CoordBBox& box, std::shared_ptr<const Candidates> candidates)
 {
     if (part.end - part.begin > 1) {
-        VoxelCube* const middle = part.begin + (part.end - part.begin) / 2;
-        const std::size_t axis = box.maxExtent();
-        std::nth_element(
-            part.begin, middle, part.end, [axis](const VoxelCube& a, const VoxelCube& b) {
-                return a.origin[axis] < b.origin[axis];
-            });
+        VoxelCube* const middle = halve(part.begin, part.end, box,
+            [](const VoxelCube& some) -> const Coord& { return some.origin; });
         return {
             {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
     }
@@ -212,41 +208,6 @@ void ChainSearch::searchLeaf(
     }
 }
 
-/// Takes parts apart until there are enough for all threads.
-std::vector<Part> manyParts(const ChainSearch& search, const Part& whole,
-    std::vector<ChainLoss>& losses, openvdb::util::NullInterrupter* interrupter)
-{
-    constexpr std::size_t kEnough = 256;
-    std::vector<Part> parts{whole};
-    while (!parts.empty() && parts.size() < kEnough) {
-        std::vector<std::vector<Part>> next(parts.size());
-        std::vector<std::vector<ChainLoss>> lost(
-            parts.size(), std::vector<ChainLoss>(losses.size()));
-        parallelFor(parts.size(), interrupter,
-            [&](std::size_t i) { next[i] = search.step(parts[i], lost[i]); });
-        parts.clear();
-        for (const std::vector<Part>& some : next) {
-            parts.insert(parts.end(), some.begin(), some.end());
-        }
-        for (const auto& some : lost) {
-            for (std::size_t s = 0; s < losses.size(); ++s) losses[s].add(some[s]);
-        }
-    }
-    return parts;
-}
-
-void finish(const ChainSearch& search, const Part& part, std::vector<ChainLoss>& losses,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    std::vector<Part> stack{part};
-    for (int64_t steps = 0; !stack.empty(); ++steps) {
-        if (steps % 256 == 0) checkInterrupt(interrupter);
-        const Part next = std::move(stack.back());
-        stack.pop_back();
-        for (Part& piece : search.step(next, losses)) stack.push_back(std::move(piece));
-    }
-}
-
 } // namespace
 
 void ChainLoss::add(const ChainLoss& other)
@@ -263,12 +224,10 @@ std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetri
     std::vector<VoxelCube> cubes = maskDifference(object, openvdb::MaskTree(), interrupter).cubes;
     if (cubes.empty() || forest.sectionCount == 0) return losses;
     const ChainSearch search(forest, metric);
-    const std::vector<Part> parts = manyParts(search, search.whole(cubes), losses, interrupter);
-    std::vector<std::vector<ChainLoss>> lost(parts.size(), losses);
-    for (auto& some : lost) std::fill(some.begin(), some.end(), ChainLoss());
-    parallelFor(parts.size(), interrupter,
-        [&](std::size_t i) { finish(search, parts[i], lost[i], interrupter); });
-    for (const auto& some : lost) {
+    const auto step = [&](const Part& part, std::vector<ChainLoss>& lost) {
+        return search.step(part, lost);
+    };
+    for (const auto& some : divideRegions(search.whole(cubes), losses, step, interrupter)) {
         for (std::size_t s = 0; s < losses.size(); ++s) losses[s].add(some[s]);
     }
     return losses;
