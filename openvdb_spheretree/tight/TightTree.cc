@@ -53,7 +53,7 @@ Effort effortOf(Quality quality, std::size_t leafBalls)
 /// The leaf balls of the tree, in both forms.
 struct LeafBalls {
     std::vector<MedialBall> medial;
-    std::vector<FineBall> fine;
+    std::vector<ExactSphere> fine;
 };
 
 LeafBalls leafBallsOf(const MedialLevel& level, const SampledObject& object, Leaves which,
@@ -72,7 +72,7 @@ LeafBalls leafBallsOf(const MedialLevel& level, const SampledObject& object, Lea
 }
 
 std::unique_ptr<MergeModel> modelFor(const TightOptions& options, bool flat,
-    const SampledObject& object, const std::vector<FineBall>& leafBalls, const FitEffort& fit,
+    const SampledObject& object, const std::vector<ExactSphere>& leafBalls, const FitEffort& fit,
     openvdb::util::NullInterrupter* interrupter)
 {
     if (options.cover == Cover::Balls) {

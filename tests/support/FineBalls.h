@@ -8,7 +8,7 @@
 #include "CoreStages.h"
 #include "RandomObjects.h"
 
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
@@ -19,11 +19,11 @@
 
 namespace spheretree_test {
 
+using openvdb_spheretree::ExactSphere;
 using openvdb_spheretree::LeafMask;
-using openvdb_spheretree::tight::FineBall;
 using openvdb_spheretree::tight::SampledObject;
 
-inline bool holds(const FineBall& ball, const Coord& voxel)
+inline bool holds(const ExactSphere& ball, const Coord& voxel)
 {
     __int128 sum = 0;
     for (int a = 0; a < 3; ++a) {
@@ -39,7 +39,7 @@ inline bool atLeastSum(__int128 D, __int128 a, __int128 b)
     return D >= a + b && (D - a - b) * (D - a - b) >= 4 * a * b;
 }
 
-inline __int128 centersApartSq(const FineBall& a, const FineBall& b)
+inline __int128 centersApartSq(const ExactSphere& a, const ExactSphere& b)
 {
     __int128 sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -50,13 +50,13 @@ inline __int128 centersApartSq(const FineBall& a, const FineBall& b)
 }
 
 /// All of @a held, not its voxels alone.
-inline bool contains(const FineBall& ball, const FineBall& held)
+inline bool contains(const ExactSphere& ball, const ExactSphere& held)
 {
     return atLeastSum(ball.radiusSq, centersApartSq(ball, held), held.radiusSq);
 }
 
 /// The smallest squared radius around the centre of @a ball that holds these voxels; -1 for none.
-inline int64_t neededRadiusSq(const FineBall& ball, const Voxels& voxels)
+inline int64_t neededRadiusSq(const ExactSphere& ball, const Voxels& voxels)
 {
     __int128 most = -1;
     for (const Coord& v : voxels) {
@@ -67,18 +67,19 @@ inline int64_t neededRadiusSq(const FineBall& ball, const Voxels& voxels)
 
 /// @param low, high  of the centre, voxels
 /// @param radius     at most, voxels
-inline FineBall randomBall(Random& random, int low, int high, int radius)
+inline ExactSphere randomBall(Random& random, int low, int high, int radius)
 {
-    FineBall ball;
+    ExactSphere ball;
     for (int64_t& c : ball.center) c = random.between(16 * low, 16 * high);
     const int64_t r = random.between(0, 16 * radius);
     ball.radiusSq = r * r + random.between(0, int(r));
     return ball;
 }
 
-inline std::vector<FineBall> randomBalls(int count, Random& random, int low, int high, int radius)
+inline std::vector<ExactSphere> randomBalls(
+    int count, Random& random, int low, int high, int radius)
 {
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     for (int i = 0; i < count; ++i) balls.push_back(randomBall(random, low, high, radius));
     return balls;
 }
@@ -94,10 +95,10 @@ inline bool contains(const Voxels& voxels, const Coord& voxel)
 }
 
 /// How many voxels balls hold together that are not the object's.
-inline int64_t excess(const std::vector<FineBall>& balls, const Voxels& object)
+inline int64_t excess(const std::vector<ExactSphere>& balls, const Voxels& object)
 {
     CoordBBox box;
-    for (const FineBall& ball : balls) {
+    for (const ExactSphere& ball : balls) {
         const int reach = int(ball.radius() / 16) + 1;
         for (const int r : {-reach, reach}) {
             box.expand(Coord(int(ball.center[0] >> 4) + r, int(ball.center[1] >> 4) + r,
@@ -107,7 +108,7 @@ inline int64_t excess(const std::vector<FineBall>& balls, const Voxels& object)
     int64_t sum = 0;
     for (const Coord& v : voxelsOfBox(box)) {
         const bool held = std::any_of(
-            balls.begin(), balls.end(), [&](const FineBall& ball) { return holds(ball, v); });
+            balls.begin(), balls.end(), [&](const ExactSphere& ball) { return holds(ball, v); });
         sum += held && !contains(object, v);
     }
     return sum;

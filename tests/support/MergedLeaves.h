@@ -28,7 +28,7 @@ struct MergedLeaves {
 
     Voxels voxels;
     SampledObject object;
-    std::vector<FineBall> leaves;
+    std::vector<ExactSphere> leaves;
     std::vector<ForestNode> forest;
     LevelMaker maker;
 
@@ -44,35 +44,36 @@ struct MergedLeaves {
     }
     MergedLeaves(const MergedLeaves&) = delete; // `maker` refers to `object`
 
-    std::vector<FineBall> cut(int64_t count) const { return ballsOfCut(forest, count); }
+    std::vector<ExactSphere> cut(int64_t count) const { return ballsOfCut(forest, count); }
     /// The cuts of these counts, with the parents of the forest.
     std::vector<TightLevel> levels(const std::vector<int64_t>& counts) const
     {
         return levelsOf(forest, counts,
             std::vector<openvdb_spheretree::MedialBall>(leaves.size(), {Coord(), 1}));
     }
-    std::vector<VoxelRegion> regions(const std::vector<FineBall>& balls) const
+    std::vector<VoxelRegion> regions(const std::vector<ExactSphere>& balls) const
     {
         return regionsOf(balls, object.level(0), nullptr);
     }
 };
 
 /// The balls that are not empty.
-inline std::vector<FineBall> thereOf(const std::vector<openvdb_spheretree::tight::CoverBall>& cover)
+inline std::vector<ExactSphere> thereOf(
+    const std::vector<openvdb_spheretree::tight::CoverBall>& cover)
 {
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     for (const auto& ball : cover) {
         if (!ball.empty()) balls.push_back(ball.ball);
     }
     return balls;
 }
 
-inline Voxels heldBy(const std::vector<FineBall>& balls, const Voxels& voxels)
+inline Voxels heldBy(const std::vector<ExactSphere>& balls, const Voxels& voxels)
 {
     Voxels held;
     for (const Coord& v : voxels) {
         const bool any = std::any_of(
-            balls.begin(), balls.end(), [&](const FineBall& ball) { return holds(ball, v); });
+            balls.begin(), balls.end(), [&](const ExactSphere& ball) { return holds(ball, v); });
         if (any) held.push_back(v);
     }
     return held;
@@ -105,7 +106,7 @@ inline std::vector<Voxels> voxelsOf(
 }
 
 /// @return what each ball holds of its children's regions.
-inline std::vector<Voxels> heldBelow(const std::vector<FineBall>& balls,
+inline std::vector<Voxels> heldBelow(const std::vector<ExactSphere>& balls,
     const std::vector<int32_t>& parents, const std::vector<Voxels>& regions)
 {
     std::vector<Voxels> held(balls.size());

@@ -35,10 +35,9 @@ public:
     {
         const LocalBall ball = ballAround(mPoints, x, y, z);
         if (containsBest(ball) || !mCosts.fits(ball)) return false;
-        const int64_t cost = mCosts.count(ball, mBest.cost);
-        const bool better =
-            cost < mBest.cost || (cost == mBest.cost && ball.radiusSq < mBest.ball.radiusSq);
-        if (better) mBest = {ball, cost};
+        const BallFit fit{ball, mCosts.count(ball, mBest.cost)};
+        const bool better = fit.isBetterThan(mBest);
+        if (better) mBest = fit;
         return better;
     }
 
@@ -154,10 +153,7 @@ BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostR
         Descent again(points, costs, flat);
         again.attempt(start.x, start.y, start.z);
         again.run(effort);
-        const BallFit& other = again.best();
-        const bool better = other.cost < best.cost
-            || (other.cost == best.cost && other.ball.radiusSq < best.ball.radiusSq);
-        if (better) best = other;
+        if (again.best().isBetterThan(best)) best = again.best();
     }
     return best;
 }

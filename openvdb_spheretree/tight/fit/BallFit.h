@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallFit.h
-/// @brief The ball of least cost that holds given points: a descent over its centre.
+/// @brief A cheap ball that holds given points: a descent over its center.
 ///
-/// A centre decides the radius, so there are three unknowns. From the smallest enclosing ball and
-/// from the centres that were there before, steps along the axes (and diagonals), of a quarter of
-/// the radius down to 1/16 of a sample, as long as the cost falls. A candidate that contains the
+/// The center decides the radius, so there are three unknowns. The descent starts at the smallest
+/// enclosing ball and at given centers. It takes steps along the axes (and diagonals), from a quarter
+/// of the radius down to 1/16 of a sample, as long as the cost falls. A candidate that contains the
 /// best ball so far cannot cost less, and is not counted. Nothing is random.
 
 #pragma once
@@ -20,11 +20,17 @@ namespace tight {
 struct BallFit {
     LocalBall ball;
     int64_t cost = INT64_MAX; ///< samples
+
+    /// @return whether it costs less, or as much with a smaller ball.
+    bool isBetterThan(const BallFit& o) const
+    {
+        return cost < o.cost || (cost == o.cost && ball.radiusSq < o.ball.radiusSq);
+    }
 };
 
-/// How hard to look.
+/// How long to search.
 struct FitEffort {
-    bool diagonals = false; ///< also the 20 directions that are no axes
+    bool diagonals = false; ///< also steps in the 20 diagonal directions
     int stepsPerSize = 12;  ///< rounds of steps of one size
     int smallest = 1;       ///< the last size of steps, 1/16 sample
     bool restarts = false;  ///< descend from each start, not only from the best of them
@@ -34,13 +40,13 @@ struct FitEffort {
 /// @param points    not empty; in the window's coordinates
 /// @param smallest  the smallest ball around the points
 /// @param costs     around its centre; balls that reach further are not tried
-/// @param starts    centres to try, their radii are not looked at
+/// @param starts    centers to try; their radii do not matter
 /// @param flat      leave z alone
 BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat = false);
 
-/// @return the smallest ball around the points, never too small; its centre is among integers, and
-/// its radius to about one more, or a percent, the smallest.
+/// @return a ball around all points with a center of integers. Its radius is that of the smallest, to
+/// about one unit or one percent.
 LocalBall smallestBall(const PointCloud& points, bool flat = false);
 
 } // namespace tight

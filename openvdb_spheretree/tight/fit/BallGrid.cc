@@ -15,7 +15,7 @@ namespace {
 using openvdb::Vec3i;
 
 /// @return log2 of the width of the cells that a ball is put in; at least four voxels.
-int log2CellOf(const FineBall& ball)
+int log2CellOf(const ExactSphere& ball)
 {
     int log2 = 6;
     while (double(int64_t(1) << log2) < ball.radius()) ++log2;
@@ -49,7 +49,14 @@ std::size_t BallGrid::CellHash::operator()(const Vec3i& cell) const
     return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(cell[2])));
 }
 
-void BallGrid::add(int32_t id, const FineBall& ball)
+BallGrid::BallGrid(const std::vector<ExactSphere>& balls)
+{
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (!balls[i].empty()) add(int32_t(i), balls[i]);
+    }
+}
+
+void BallGrid::add(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
     const Vec3i at = cellOf(ball.center, log2);
@@ -60,7 +67,7 @@ void BallGrid::add(int32_t id, const FineBall& ball)
     ++mSize;
 }
 
-void BallGrid::remove(int32_t id, const FineBall& ball)
+void BallGrid::remove(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
     const Vec3i at = cellOf(ball.center, log2);
@@ -124,7 +131,7 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
     }
 }
 
-std::vector<int32_t> BallGrid::near(const FineBall& ball, double slack) const
+std::vector<int32_t> BallGrid::near(const ExactSphere& ball, double slack) const
 {
     const FineBox box(ball, std::max(0.0, slack));
     std::vector<int32_t> found;
@@ -145,7 +152,7 @@ std::vector<int32_t> BallGrid::meeting(const FineBox& box) const
     return found;
 }
 
-std::vector<int32_t> BallGrid::nearest(int32_t id, const FineBall& ball, std::size_t count) const
+std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std::size_t count) const
 {
     // All others are a fair answer, however far they are: without a neighbour no ball could merge.
     constexpr double kFarthest = double(int64_t(1) << 36); // wider than any object

@@ -13,7 +13,7 @@
 #pragma once
 
 #include "CostWindow.h"
-#include "FineBall.h"
+#include "FineSphere.h"
 
 #include <cstdint>
 #include <map>
@@ -25,25 +25,29 @@ namespace tight {
 
 class BallGrid {
 public:
-    void add(int32_t id, const FineBall& ball);
+    BallGrid() = default;
+    /// Adds the balls by their place in the list; empty ones are left out.
+    explicit BallGrid(const std::vector<ExactSphere>& balls);
+
+    void add(int32_t id, const ExactSphere& ball);
     /// @param ball  as it was added
-    void remove(int32_t id, const FineBall& ball);
+    void remove(int32_t id, const ExactSphere& ball);
 
     /// @return the balls no further than @a slack (1/16 voxel) from @a ball, ascending. A negative
     /// slack asks for an overlap.
-    std::vector<int32_t> near(const FineBall& ball, double slack = 0) const;
+    std::vector<int32_t> near(const ExactSphere& ball, double slack = 0) const;
     /// @return the balls whose boxes meet the box, ascending.
     std::vector<int32_t> meeting(const FineBox& box) const;
     /// @return the @a count balls next to @a ball, or all there are, without itself (@a id). Next is
-    /// who has the smallest gap, divided by the smaller of the two radii (and a voxel); ascending.
-    std::vector<int32_t> nearest(int32_t id, const FineBall& ball, std::size_t count) const;
+    /// the one with the smallest gap, divided by the smaller radius plus a voxel; ascending.
+    std::vector<int32_t> nearest(int32_t id, const ExactSphere& ball, std::size_t count) const;
 
     std::size_t size() const { return mSize; }
 
 private:
     struct Entry {
         int32_t id;
-        FineBall ball;
+        ExactSphere ball;
         double radius;
     };
     struct CellHash {

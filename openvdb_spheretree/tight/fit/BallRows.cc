@@ -32,7 +32,7 @@ struct Slice {
     HWY_ALIGN int32_t z1[kMostRows + 32];
 };
 
-/// No window is as large; keeps ends of rows of far and huge balls in range.
+/// No window is as large; keeps the chords of far and huge balls in range.
 constexpr float kFar = float(1 << 26);
 
 float clamped(float value) { return std::max(-kFar, std::min(kFar, value)); }

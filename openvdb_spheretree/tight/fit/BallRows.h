@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallRows.h
-/// @brief Counts, lists and clears the bits of a window that lie in a ball: row by row along z,
-/// whose ends are found for several rows at once.
+/// @brief Counts, lists and clears the bits of a window that lie in a ball, row by row along z. Where
+/// rows enter and leave the ball is found for several rows at once.
 
 #pragma once
 

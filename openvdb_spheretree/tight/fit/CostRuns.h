@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CostRuns.h
-/// @brief The samples that cost around one place, as a list: how many of them does a ball hold?
+/// @brief The samples that cost around one place, as a list of runs: how many of them does a ball hold?
 ///
-/// A run is samples along z, one behind the other; so is a row's part of a ball, and what both
-/// have is found for several rows at once. The runs nearest to the place come first: a ball that
-/// is worse than the best one so far is given up as soon as it holds too many, and the near ones
-/// are those it is likely to hold. Rows of bits (BallRows.h) cost a square root for each row of
-/// the ball, and most rows have nothing to count: with them a tight tree took three times as long
-/// as with lists.
+/// A run is consecutive samples along z. The samples of a run in a ball follow from one square root,
+/// for several runs at once. The runs nearest to the place come first, since a ball is likely to hold
+/// these: so a ball that is worse than the best one so far is given up early. (Counting rows of bits,
+/// BallRows.h, takes a square root for each row of the ball, though most rows have nothing to count:
+/// a tight tree took three times as long.)
 
 #pragma once
 

@@ -50,17 +50,17 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
     });
 }
 
-LocalBall CostWindow::toLocal(const FineBall& ball) const
+LocalBall CostWindow::toLocal(const ExactSphere& ball) const
 {
     const auto rounded = [&](int axis) { return std::rint(local(ball.center[axis], axis)); };
     const double radiusSq = std::floor(double(ball.radiusSq) * mToLocal * mToLocal);
     return {rounded(0), rounded(1), rounded(2), float(radiusSq)};
 }
 
-FineBall CostWindow::centerOf(const LocalBall& ball) const
+ExactSphere CostWindow::centerOf(const LocalBall& ball) const
 {
     const float center[3] = {ball.x, ball.y, ball.z};
-    FineBall fine;
+    ExactSphere fine;
     for (int a = 0; a < 3; ++a) {
         fine.center[a] = mFineOrigin[a] + int64_t(center[a]) * (int64_t(1) << mLevel);
     }

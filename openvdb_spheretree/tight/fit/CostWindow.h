@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CostWindow.h
-/// @brief A small box of samples, one bit each, of what it costs a sphere to hold them: outside the
-/// object, and in no other sphere of the cover. The cost of a ball is the bits that it holds.
+/// @brief A small box of samples with a bit for each that costs: that is outside the object, and in no
+/// other ball of the cover. The cost of a ball is the number of bits in it.
 ///
-/// A window is made for one decision, read-only from what it is made of. So decisions are made in
-/// parallel, and nothing has to be kept up to date between them: a count for each voxel outside
-/// would take memory with the volume of the largest sphere.
+/// A window is made for one decision, and only reads the object and the cover. So many decisions can
+/// be made in parallel. (A count for each voxel outside, kept up to date, would take memory with the
+/// volume of the largest ball.)
 ///
-/// Numbers are local: relative to the window's origin, 1/16 of a sample. At sample level 0 they are
-/// exact for balls that fit in the window; above it centres and radii are rounded, and the bits
-/// stand for 8^level voxels.
+/// Numbers are local: relative to the window's origin, in 1/16 of a sample. At sample level 0 they are
+/// exact for balls that fit in the window. Above it, centers and radii are rounded, and a bit stands
+/// for 8^level voxels.
 /// Cost: filling, a byte for 8 samples; counting, a square root for each row and a word for 64
 /// samples.
 
 #pragma once
 
-#include "FineBall.h"
+#include "FineSphere.h"
 #include "SampledObject.h"
 
 #include <algorithm>
@@ -30,11 +30,11 @@ struct LocalBall {
     float x = 0, y = 0, z = 0, radiusSq = -1;
 };
 
-/// Samples along z that cost, one behind the other.
+/// Consecutive samples along z that cost.
 struct CostRun {
     float x, y;          ///< in a window's own coordinates
     int32_t first, last; ///< samples of the window
-    float distanceSq;    ///< of the nearest one to the place that they were collected around
+    float distanceSq;    ///< of the nearest one, to the place around which they were collected
 
     /// Made in place: an aggregate that is copied waits for its parts to be stored.
     CostRun(float rowX, float rowY, int32_t from, int32_t to, float nearestSq)
@@ -49,8 +49,8 @@ public:
 
     /// Every sample of the box that is outside the object costs.
     void reset(const SampledObject& object, const FineBox& box, int level);
-    /// What @a ball holds costs nothing any more.
-    void cover(const FineBall& ball) { cover(toLocal(ball)); }
+    /// Clears the bits in @a ball: another ball of the cover.
+    void cover(const ExactSphere& ball) { cover(toLocal(ball)); }
     void cover(const LocalBall& ball);
 
     /// @return the samples of a ball that cost; the window reaches over all of it.
@@ -58,9 +58,9 @@ public:
     /// Appends the runs of such samples, of a ball that may reach out of the window.
     void collect(const LocalBall& ball, std::vector<CostRun>& found) const;
 
-    LocalBall toLocal(const FineBall& ball) const;
+    LocalBall toLocal(const ExactSphere& ball) const;
     /// @return the centre of a local ball, its radius left empty.
-    FineBall centerOf(const LocalBall& ball) const;
+    ExactSphere centerOf(const LocalBall& ball) const;
     /// Voxels a sample stands for, as a power of two.
     int level() const { return mLevel; }
     int64_t voxelsPerSample() const { return int64_t(1) << std::min(3 * mLevel, 60); }

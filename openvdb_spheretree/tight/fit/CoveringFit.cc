@@ -16,23 +16,9 @@ namespace {
 constexpr float kRoom = 0.35f;
 constexpr float kMoreRoom = 2 * float(kFine);
 
-/// @return the ball around the box of the targets: the smallest one around them is no larger.
-FineBall ballAroundBox(const std::vector<FineBall>& targets)
-{
-    FineBox box;
-    for (const FineBall& held : targets) box.expand(held);
-    FineBall ball{{}, 0};
-    for (int a = 0; a < 3; ++a) {
-        ball.center[a] = (box.lo[a] + box.hi[a]) / 2;
-        const int64_t half = (box.hi[a] - box.lo[a] + 1) / 2 + 1;
-        ball.radiusSq += half * half;
-    }
-    return ball;
-}
-
 } // namespace
 
-int64_t radiusSqToHold(const FineBall& ball, const FineBall& held)
+int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held)
 {
     int64_t apart = 0;
     for (int a = 0; a < 3; ++a) apart += detail::square(ball.center[a] - held.center[a]);
@@ -44,7 +30,7 @@ int64_t radiusSqToHold(const FineBall& ball, const FineBall& held)
 }
 
 void CoveringFit::open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,
-    const std::vector<FineBall>& replaced, int samples)
+    const std::vector<ExactSphere>& replaced, int samples)
 {
     mTargets.clear();
     for (const openvdb::Coord& p : targets) mTargets.push_back(voxelBall(p));
@@ -52,8 +38,8 @@ void CoveringFit::open(const SampledObject& object, const std::vector<openvdb::C
     openWindow(object, samples);
 }
 
-void CoveringFit::open(const SampledObject& object, const std::vector<FineBall>& targets,
-    const std::vector<FineBall>& replaced, int samples)
+void CoveringFit::open(const SampledObject& object, const std::vector<ExactSphere>& targets,
+    const std::vector<ExactSphere>& replaced, int samples)
 {
     mTargets = targets;
     mReplaced = replaced;
@@ -62,17 +48,19 @@ void CoveringFit::open(const SampledObject& object, const std::vector<FineBall>&
 
 void CoveringFit::openWindow(const SampledObject& object, int samples)
 {
-    const FineBall around = ballAroundBox(mTargets);
+    FineBox targets;
+    for (const ExactSphere& held : mTargets) targets.expand(held);
+    const ExactSphere around = ballAround(targets); // the smallest ball around them is no larger
     double largest = around.radius();
     mBox = FineBox(around, double(kRoom) * around.radius() + double(kMoreRoom));
-    for (const FineBall& other : mReplaced) {
+    for (const ExactSphere& other : mReplaced) {
         mBox.expand(other);
         largest = std::max(largest, other.radius());
     }
     mWindow.reset(object, mBox, CostWindow::levelFor(largest, samples));
 }
 
-double CoveringFit::costOf(const std::vector<FineBall>& balls)
+double CoveringFit::costOf(const std::vector<ExactSphere>& balls)
 {
     int64_t samples = 0;
     if (balls.size() > 1) mLeft = mWindow;
@@ -87,16 +75,16 @@ double CoveringFit::costOf(const std::vector<FineBall>& balls)
 FittedBall CoveringFit::best(const FitEffort& effort, bool flat)
 {
     mPoints.clear();
-    for (const FineBall& held : mTargets) {
+    for (const ExactSphere& held : mTargets) {
         const LocalBall at = mWindow.toLocal(held);
         mPoints.add(at.x, at.y, at.z, std::sqrt(at.radiusSq));
     }
     mPoints.finish();
     mStarts.clear();
-    for (const FineBall& other : mReplaced) mStarts.push_back(mWindow.toLocal(other));
+    for (const ExactSphere& other : mReplaced) mStarts.push_back(mWindow.toLocal(other));
     const LocalBall smallest = smallestBall(mPoints, flat);
     float reach = std::sqrt(smallest.radiusSq) * (1 + kRoom);
-    for (const FineBall& other : mReplaced) {
+    for (const ExactSphere& other : mReplaced) {
         const LocalBall ball = mWindow.toLocal(other);
         const float x = ball.x - smallest.x, y = ball.y - smallest.y, z = ball.z - smallest.z;
         reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + std::sqrt(ball.radiusSq));
@@ -108,7 +96,7 @@ FittedBall CoveringFit::best(const FitEffort& effort, bool flat)
     FittedBall fitted;
     fitted.ball = mWindow.centerOf(fit.ball);
     if (flat) fitted.ball.center[2] = mTargets.front().center[2]; // which need not be on a sample
-    for (const FineBall& held : mTargets) {
+    for (const ExactSphere& held : mTargets) {
         fitted.ball.radiusSq = std::max(fitted.ball.radiusSq, radiusSqToHold(fitted.ball, held));
     }
     fitted.cost = double(fit.cost) * double(mWindow.voxelsPerSample());

@@ -17,14 +17,14 @@ namespace openvdb_spheretree {
 namespace tight {
 
 struct FittedBall {
-    FineBall ball;
+    ExactSphere ball;
     double cost = 0; ///< voxels, counted on samples
 };
 
 /// @return the smallest squared radius around the centre of @a ball that holds @a held, a ball.
-int64_t radiusSqToHold(const FineBall& ball, const FineBall& held);
+int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held);
 
-/// Owns the window of what costs and all lists: who keeps one for many fits allocates once.
+/// Owns the window of what costs, and all lists. Reused for many fits, it allocates once.
 class CoveringFit {
 public:
     /// Opens the window around @a targets and the balls @a replaced: there, everything outside the
@@ -33,22 +33,22 @@ public:
     /// @param replaced  balls in whose place the new one comes
     /// @param samples   of a radius, at most: FitEffort
     void open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,
-        const std::vector<FineBall>& replaced, int samples);
-    void open(const SampledObject& object, const std::vector<FineBall>& targets,
-        const std::vector<FineBall>& replaced, int samples);
-    /// Opens the window around @a ball, to ask what it costs.
-    void open(const SampledObject& object, const FineBall& ball, int samples)
+        const std::vector<ExactSphere>& replaced, int samples);
+    void open(const SampledObject& object, const std::vector<ExactSphere>& targets,
+        const std::vector<ExactSphere>& replaced, int samples);
+    /// Opens the window around @a ball alone, to find its cost.
+    void open(const SampledObject& object, const ExactSphere& ball, int samples)
     {
-        open(object, std::vector<FineBall>{ball}, {}, samples);
+        open(object, std::vector<ExactSphere>{ball}, {}, samples);
     }
 
     /// What the window reaches over.
     const FineBox& box() const { return mBox; }
     /// Voxels in @a ball, another one of the cover, cost nothing.
-    void cover(const FineBall& ball) { mWindow.cover(ball); }
+    void cover(const ExactSphere& ball) { mWindow.cover(ball); }
 
     /// @return what the balls cost together, voxels.
-    double costOf(const std::vector<FineBall>& balls);
+    double costOf(const std::vector<ExactSphere>& balls);
     /// @return the best ball found. It holds all targets, exactly. The centres of the replaced balls
     /// are among those tried.
     FittedBall best(const FitEffort& effort, bool flat);
@@ -56,7 +56,7 @@ public:
 private:
     void openWindow(const SampledObject& object, int samples);
 
-    std::vector<FineBall> mTargets, mReplaced; ///< a voxel is a ball of radius 0
+    std::vector<ExactSphere> mTargets, mReplaced; ///< a voxel is a ball of radius 0
     FineBox mBox;
     CostWindow mWindow, mLeft;
     PointCloud mPoints;

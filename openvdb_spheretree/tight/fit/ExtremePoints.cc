@@ -48,13 +48,26 @@ void appendHull(const SlicePoint* begin, const SlicePoint* end, std::vector<Coor
     for (const SlicePoint& p : chain) corners.push_back(p.at);
 }
 
-/// @param slice, u, v  the slice of a point, and its place in there
-template <typename Slice, typename U, typename V>
-void keepSliceHulls(std::vector<Coord>& points, const Slice& slice, const U& u, const V& v)
+/// Parallel slices: the number of a point's slice is a sum of its coordinates, and two of them are its
+/// place in there.
+struct Slicing {
+    int x, y, z; ///< factors of the sum
+    int u, v;    ///< axes
+};
+
+constexpr Slicing kAlongAxes[3] = {{0, 0, 1, 0, 1}, {0, 1, 0, 0, 2}, {1, 0, 0, 1, 2}};
+constexpr Slicing kDiagonal[6] = {{1, 1, 0, 0, 2}, {1, -1, 0, 0, 2}, {1, 0, 1, 0, 1},
+    {1, 0, -1, 0, 1}, {0, 1, 1, 1, 0}, {0, 1, -1, 1, 0}};
+
+/// Cuts each slice down to the corners of its hull.
+void keepSliceHulls(std::vector<Coord>& points, const Slicing& by)
 {
     thread_local std::vector<SlicePoint> order, chain;
     order.clear();
-    for (const Coord& p : points) order.push_back({slice(p), u(p), v(p), p});
+    for (const Coord& p : points) {
+        const int64_t slice = int64_t(by.x) * p[0] + int64_t(by.y) * p[1] + int64_t(by.z) * p[2];
+        order.push_back({slice, p[by.u], p[by.v], p});
+    }
     std::sort(order.begin(), order.end(), [](const SlicePoint& a, const SlicePoint& b) {
         return a.slice != b.slice ? a.slice < b.slice : a.u != b.u ? a.u < b.u : a.v < b.v;
     });
@@ -66,10 +79,6 @@ void keepSliceHulls(std::vector<Coord>& points, const Slice& slice, const U& u, 
         i = j;
     }
 }
-
-int64_t x(const Coord& p) { return p[0]; }
-int64_t y(const Coord& p) { return p[1]; }
-int64_t z(const Coord& p) { return p[2]; }
 
 /// The lower and the upper hull of a slice's rows, which are ordered by y.
 template <typename Rows>
@@ -150,27 +159,11 @@ std::vector<Coord>& ExtremePoints::finish()
 void dropInnerPoints(std::vector<Coord>& points)
 {
     constexpr std::size_t kMany = 40; // diagonal slices cost more than they save below
-    if (points.size() < 5) {
-        std::sort(points.begin(), points.end());
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        return;
-    }
-    keepSliceHulls(points, z, x, y);
-    keepSliceHulls(points, y, x, z);
-    keepSliceHulls(points, x, y, z);
-    if (points.size() > kMany) {
-        keepSliceHulls(
-            points, [](const Coord& p) { return x(p) + y(p); }, x, z);
-        keepSliceHulls(
-            points, [](const Coord& p) { return x(p) - y(p); }, x, z);
-        keepSliceHulls(
-            points, [](const Coord& p) { return x(p) + z(p); }, x, y);
-        keepSliceHulls(
-            points, [](const Coord& p) { return x(p) - z(p); }, x, y);
-        keepSliceHulls(
-            points, [](const Coord& p) { return y(p) + z(p); }, y, x);
-        keepSliceHulls(
-            points, [](const Coord& p) { return y(p) - z(p); }, y, x);
+    if (points.size() >= 5) {
+        for (const Slicing& slices : kAlongAxes) keepSliceHulls(points, slices);
+        if (points.size() > kMany) {
+            for (const Slicing& slices : kDiagonal) keepSliceHulls(points, slices);
+        }
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());

@@ -2,12 +2,12 @@
 /// @file ExtremePoints.h
 /// @brief The few voxels of a set that a ball must hold to hold them all.
 ///
-/// A ball is convex, so it holds a set of voxels when it holds the corners of its convex hull. Those
-/// are among the corners of the 2-D hulls of the set's slices, along any direction of slices: a
-/// slice is cut down to its hull by a monotone chain (A. M. Andrew, "Another efficient algorithm for
-/// convex hulls in two dimensions", 1979), in integers, and that for several directions one after
-/// the other. What is left are all corners of the hull and few points more; flat, thin and single
-/// voxels are no special cases.
+/// A ball is convex, so it holds a set of voxels if it holds the corners of the set's convex hull. Cut
+/// the set into parallel slices, in any direction: each of these corners is also a corner of the 2-D
+/// hull of its slice. So each slice is reduced to the corners of its hull, by a monotone chain (A. M.
+/// Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979) in integers. That
+/// is done for several directions, one after the other. All corners of the hull are left, and a few
+/// points more. Flat and thin sets and single voxels are no special cases.
 
 #pragma once
 
@@ -37,13 +37,13 @@ private:
     void addRow(std::vector<Row>& slice, int32_t y, int32_t first, int32_t last);
     void flush();
 
-    openvdb::Coord mSlab;        ///< origin of the slab of leaves that is collected; only x counts
+    openvdb::Coord mSlab;        ///< origin of a leaf of the slab that is collected; only x counts
     std::vector<Row> mSlices[8]; ///< one row for each y
     std::vector<openvdb::Coord> mPoints;
 };
 
-/// @brief Drops points that are no corners of the hull: of every slice along x, y and z, and where
-/// many are left, of diagonal slices.
+/// @brief Drops points that are no corners of the hull of a slice along x, y or z and, where many are
+/// left, along diagonals.
 void dropInnerPoints(std::vector<openvdb::Coord>& points);
 
 } // namespace tight

@@ -19,7 +19,7 @@ public:
     std::size_t size() const { return mCount; }
     /// @param radius  of a ball around the point that has to be held with it
     void add(float x, float y, float z, float radius = 0);
-    /// To be called when all points are there, before any question is asked.
+    /// To be called when all points are there, before the first query.
     void finish();
 
     struct Farthest {

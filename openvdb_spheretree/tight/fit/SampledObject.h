@@ -2,14 +2,13 @@
 /// @file SampledObject.h
 /// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis.
 ///
-/// Large spheres are compared by how much they hold outside the object. Counted voxel by voxel, that
-/// costs their volume; counted on samples it costs no more than for a sphere of some 16 to 40 voxels
-/// (FitEffort), so the time for a ball is bounded. Only choices are made by samples: what a
-/// sphere has to cover is always every voxel.
+/// Balls are compared by how much they hold outside the object. Counting voxels takes time with the
+/// volume of a ball. Counting samples takes no more than for a ball of radius 16 to 40 (FitEffort), so
+/// the time for a ball is bounded. Samples only decide which ball is chosen: what it has to cover
+/// is always every voxel.
 ///
-/// Samples and not the OR-pyramid: a thin sheet would count as thick as its coarse voxels. Cost:
-/// 72 bytes for each leaf of each level that has any sample; 1.15 times the object's leaves on
-/// solids.
+/// These are samples and not an OR-pyramid, in which a thin sheet would be as thick as a coarse voxel.
+/// Memory: 72 bytes for each leaf of each level; solids have 1.15 times the object's leaves.
 
 #pragma once
 

@@ -19,11 +19,11 @@ struct Move {
 };
 
 /// @return a ball around both.
-FineBall ballAround(const FineBall& ball, const FineBall& child)
+ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
 {
     const double apart = centerDistance(ball, child);
     const double radius = std::max(ball.radius(), (apart + ball.radius() + child.radius()) / 2);
-    FineBall around = ball;
+    ExactSphere around = ball;
     if (apart > 0) {
         const double part = (radius - ball.radius()) / apart;
         for (int a = 0; a < 3; ++a) {
@@ -63,7 +63,7 @@ public:
         return !taken.empty();
     }
 
-    std::vector<FineBall> balls() const { return ballsOf(mCover.balls()); }
+    std::vector<ExactSphere> balls() const { return ballsOf(mCover.balls()); }
 
 private:
     std::vector<Move> candidates() const
@@ -104,8 +104,8 @@ private:
         const PartFit fit(mCover, mMaker.object, goal, {mMaker.fit, 0, 0, mMaker.flat});
         CoverPart part = fit.around({move.from, move.to});
         const std::size_t to = part.indexOf(move.to);
-        const FineBall& child = mFiner.balls[move.child];
-        const FineBall grown = ballAround(mCover[move.to].ball, child);
+        const ExactSphere& child = mFiner.balls[move.child];
+        const ExactSphere grown = ballAround(mCover[move.to].ball, child);
         if (!part.box.contains(FineBox(grown))) return {};
         fit.replace(part, to, grown);
         fit.refit(part, part.indexOf(move.from));
@@ -142,7 +142,7 @@ std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
     return below;
 }
 
-void moveChildren(std::vector<FineBall>& balls, TightLevel& finer,
+void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     constexpr int kMostRounds = 8;

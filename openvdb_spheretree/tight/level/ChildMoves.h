@@ -27,7 +27,7 @@ std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
 /// @param balls    of the coarser level; together they hold what is in their children's regions
 /// @param finer    the children, whose parents may change
 /// @param regions  of the children
-void moveChildren(std::vector<FineBall>& balls, TightLevel& finer,
+void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
 
 } // namespace tight

@@ -5,7 +5,6 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
-#include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
@@ -24,20 +23,8 @@ constexpr int kTurns = 2;
 /// Extreme points of each unit.
 using Units = std::vector<std::vector<Coord>>;
 
-/// The balls of a coarser level before the search: the finer ones, merged.
-std::vector<FineBall> mergedBalls(
-    const std::vector<FineBall>& finer, const Units& units, int64_t count, const LevelMaker& maker)
-{
-    HeldByLeafBalls held = heldVoxels(units);
-    held.areInside = false;
-    StrictMerging merging(
-        maker.object, finer, std::move(held), maker.fit, maker.flat, maker.interrupter);
-    constexpr int kNeighbours = 8;
-    return ballsOfCut(mergeToRoots(merging, kNeighbours, maker.interrupter), count);
-}
-
 /// @return how far inside a ball a unit is, 1/256 voxel^2; negative where it is not.
-int64_t depthIn(const FineBall& ball, const std::vector<Coord>& unit)
+int64_t depthIn(const ExactSphere& ball, const std::vector<Coord>& unit)
 {
     int64_t farthest = 0;
     for (const Coord& p : unit) {
@@ -47,13 +34,10 @@ int64_t depthIn(const FineBall& ball, const std::vector<Coord>& unit)
 }
 
 /// @return for each unit the ball it is deepest in; for an empty one, any that is near.
-std::vector<int32_t> parentsOf(const Units& units, const std::vector<FineBall>& finer,
-    const std::vector<FineBall>& balls, openvdb::util::NullInterrupter* interrupter)
+std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere>& finer,
+    const std::vector<ExactSphere>& balls, openvdb::util::NullInterrupter* interrupter)
 {
-    BallGrid grid;
-    for (std::size_t b = 0; b < balls.size(); ++b) {
-        if (!balls[b].empty()) grid.add(int32_t(b), balls[b]);
-    }
+    const BallGrid grid(balls);
     std::vector<int32_t> parents(units.size(), -1);
     detail::parallelFor(units.size(), interrupter, [&](std::size_t i) {
         if (units[i].empty()) {
@@ -83,7 +67,7 @@ void adopt(const TightLevel& level, TightLevel& finer)
 }
 
 /// The balls, each for itself, while what they hold counts in their own regions only.
-std::vector<FineBall> settled(const std::vector<FineBall>& balls,
+std::vector<ExactSphere> settled(const std::vector<ExactSphere>& balls,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     const VoxelGoal goal(maker.object.level(0), regions);
@@ -101,9 +85,8 @@ TightLevel coarserLevel(
     TightLevel level;
     level.balls = finer.balls;
     if (count < int64_t(finer.balls.size())) {
-        level.balls =
-            ballsOf(maker.improve(ungrouped(mergedBalls(finer.balls, units, count, maker)),
-                ungrouped(finer.balls), UnitGoal(units)));
+        level.balls = ballsOf(maker.improve(ungrouped(maker.merged(finer.balls, units, count)),
+            ungrouped(finer.balls), UnitGoal(units)));
     }
     finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
     dropChildless(level, finer);

@@ -55,37 +55,37 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
     return groups;
 }
 
-/// @return the leaves in their groups, some in more than one.
-std::vector<CoverBall> dealtOut(const BallCells& leaves, const TightLevel& coarser,
+/// @return the leafBalls in their groups, some in more than one.
+std::vector<CoverBall> dealtOut(const BallCells& leafBalls, const TightLevel& coarser,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     BallGrid grid;
     for (std::size_t i = 0; i < coarser.balls.size(); ++i) grid.add(int32_t(i), coarser.balls[i]);
-    std::vector<std::vector<int32_t>> groups(leaves.balls.size());
+    std::vector<std::vector<int32_t>> groups(leafBalls.balls.size());
     detail::parallelFor(groups.size(), maker.interrupter, [&](std::size_t i) {
-        groups[i] = groupsFor(leaves.cells[i], grid.near(leaves.balls[i], 1), regions);
+        groups[i] = groupsFor(leafBalls.cells[i], grid.near(leafBalls.balls[i], 1), regions);
     });
     std::vector<CoverBall> dealt;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        for (const int32_t group : groups[i]) dealt.push_back({leaves.balls[i], group});
+        for (const int32_t group : groups[i]) dealt.push_back({leafBalls.balls[i], group});
     }
     return dealt;
 }
 
-/// The balls of a level before the search: leaves merged within their groups.
-std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leaves,
+/// The balls of a level before the search: leafBalls merged within their groups.
+std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leafBalls,
     const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
 {
-    std::vector<VoxelRegion> held(leaves.size());
+    std::vector<VoxelRegion> held(leafBalls.size());
     detail::parallelFor(held.size(), maker.interrupter, [&](std::size_t i) {
-        const VoxelRegion region = regionOf(leaves[i].ball, maker.object.level(0));
-        held[i] = partOf(region, regions[leaves[i].group], true);
+        const VoxelRegion region = regionOf(leafBalls[i].ball, maker.object.level(0));
+        held[i] = partOf(region, regions[leafBalls[i].group], true);
     });
     SlackMerging merging(
-        maker.object, leaves, std::move(held), maker.fit, maker.flat, maker.interrupter);
+        maker.object, leafBalls, std::move(held), maker.fit, maker.flat, maker.interrupter);
     constexpr int kNeighbours = 6;
     const std::vector<ForestNode> forest = mergeToRoots(merging, kNeighbours, maker.interrupter);
-    std::vector<int32_t> group(groupsOf(leaves));
+    std::vector<int32_t> group(groupsOf(leafBalls));
     group.resize(forest.size(), -1);
     for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
         if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
@@ -112,9 +112,9 @@ std::vector<VoxelRegion> chainRegions(
 }
 
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
-    const BallCells& leaves, int64_t count, const LevelMaker& maker)
+    const BallCells& leafBalls, int64_t count, const LevelMaker& maker)
 {
-    const std::vector<CoverBall> dealt = dealtOut(leaves, coarser, regions, maker);
+    const std::vector<CoverBall> dealt = dealtOut(leafBalls, coarser, regions, maker);
     const VoxelGoal goal(maker.object.level(0), regions);
     const auto balls =
         filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, goal), dealt);

@@ -3,9 +3,10 @@
 /// @brief A level below a finished one (quality=best): what a ball holds counts where all of its
 /// ancestors hold it, too.
 ///
-/// The leaves are dealt out to groups, one for each ball of the coarser level: a leaf goes to the
-/// group whose region has the most of its cell. Where a part of the cell is left, another group gets
-/// the leaf as well. A group is merged by itself, with slack, and costs are common to all.
+/// There is a group of balls for each ball of the coarser level: its children. First the leaf balls are
+/// dealt out: a leaf ball goes to the group whose region has the most of its power cell. If a part of
+/// the cell is left, another group gets the leaf ball as well. Then each group is merged by itself,
+/// with slack (SlackMerging.h). What costs in one group costs nothing in another that holds it, too.
 
 #pragma once
 
@@ -19,10 +20,10 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// The leaves, and how the object is shared among them.
+/// The leaf balls and their power cells.
 struct BallCells {
-    std::vector<FineBall> balls;
-    std::vector<VoxelRegion> cells; ///< disjoint, each in its ball; together the object
+    std::vector<ExactSphere> balls;
+    std::vector<VoxelRegion> cells; ///< each in its ball; together the object, no voxel twice
 };
 
 /// @return for each ball of @a level the voxels that it and its ancestors hold.
@@ -34,7 +35,7 @@ std::vector<VoxelRegion> chainRegions(
 /// @param regions  its chainRegions(): together the object
 /// @param count    of balls, at most
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
-    const BallCells& leaves, int64_t count, const LevelMaker& maker);
+    const BallCells& leafBalls, int64_t count, const LevelMaker& maker);
 
 } // namespace tight
 } // namespace openvdb_spheretree

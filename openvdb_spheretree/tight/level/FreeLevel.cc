@@ -3,7 +3,6 @@
 
 #include "TightLevels.h"
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
-#include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverPart.h>
@@ -28,34 +27,22 @@ int startsFor(int64_t count)
     return int(std::max<int64_t>(1, std::min<int64_t>(kMostStarts, kBalls / count)));
 }
 
-/// @return the balls of @a cover merged to @a count of them, each holding what its parts cover best.
-std::vector<FineBall> mergedTo(
-    int64_t count, const std::vector<FineBall>& cover, const LevelMaker& maker)
-{
-    constexpr int kNeighbours = 8;
-    HeldByLeafBalls cells =
-        heldVoxels(powerCellPoints(cover, maker.object.level(0), maker.interrupter));
-    cells.areInside = false;
-    StrictMerging merging(
-        maker.object, cover, std::move(cells), maker.fit, maker.flat, maker.interrupter);
-    return ballsOfCut(mergeToRoots(merging, kNeighbours, maker.interrupter), count);
-}
-
 class FreeSearch {
 public:
-    FreeSearch(const std::vector<ForestNode>& forest, const std::vector<FineBall>& leaves,
+    FreeSearch(const std::vector<ForestNode>& forest, const std::vector<ExactSphere>& leafBalls,
         const LevelMaker& maker)
-        : mForest(forest), mLeaves(ungrouped(leaves)), mMaker(maker), mGoal(maker.object.level(0))
+        : mForest(forest), mLeafBalls(ungrouped(leafBalls)), mMaker(maker),
+          mGoal(maker.object.level(0))
     {}
 
-    std::vector<FineBall> cheapest(int64_t count) const
+    std::vector<ExactSphere> cheapest(int64_t count) const
     {
-        std::vector<FineBall> best;
+        std::vector<ExactSphere> best;
         double least = std::numeric_limits<double>::infinity();
         const int starts = startsFor(count);
         for (int start = 0; start < starts; ++start) {
             const int64_t many = count * kTimesAsMany[start];
-            if (many > int64_t(mLeaves.size())) break;
+            if (many > int64_t(mLeafBalls.size())) break;
             auto found = searched(startFrom(many, count), start);
             if (starts == 1) return found;
             const double cost = costOfCover(found, mMaker.object, mMaker.fit);
@@ -67,42 +54,43 @@ public:
     }
 
 private:
-    std::vector<FineBall> startFrom(int64_t many, int64_t count) const
+    std::vector<ExactSphere> startFrom(int64_t many, int64_t count) const
     {
         constexpr int kTrialsPerBall = 20;
-        const std::vector<FineBall> cut = ballsOfCut(mForest, many);
+        const std::vector<ExactSphere> cut = ballsOfCut(mForest, many);
         if (many == count) return cut;
-        return mergedTo(
-            count, full(mMaker.search(ungrouped(cut), mLeaves, mGoal, kTrialsPerBall)), mMaker);
+        const auto cover = full(mMaker.search(ungrouped(cut), mLeafBalls, mGoal, kTrialsPerBall));
+        return mMaker.merged(
+            cover, powerCellPoints(cover, mMaker.object.level(0), mMaker.interrupter), count);
     }
 
-    std::vector<FineBall> searched(const std::vector<FineBall>& start, int number) const
+    std::vector<ExactSphere> searched(const std::vector<ExactSphere>& start, int number) const
     {
         return full(mMaker.search(
-            ungrouped(start), mLeaves, mGoal, mMaker.trialsFor(start.size()), number));
+            ungrouped(start), mLeafBalls, mGoal, mMaker.trialsFor(start.size()), number));
     }
 
-    std::vector<FineBall> full(const SearchedCover& cover) const
+    std::vector<ExactSphere> full(const SearchedCover& cover) const
     {
-        return ballsOf(filledUp(cover.balls, mLeaves));
+        return ballsOf(filledUp(cover.balls, mLeafBalls));
     }
 
     const std::vector<ForestNode>& mForest;
-    std::vector<CoverBall> mLeaves;
+    std::vector<CoverBall> mLeafBalls;
     const LevelMaker& mMaker;
     VoxelGoal mGoal;
 };
 
 } // namespace
 
-std::vector<FineBall> freeLevel(const std::vector<ForestNode>& forest, int64_t count,
-    const std::vector<FineBall>& leaves, const LevelMaker& maker)
+std::vector<ExactSphere> freeLevel(const std::vector<ForestNode>& forest, int64_t count,
+    const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker)
 {
-    return FreeSearch(forest, leaves, maker).cheapest(count);
+    return FreeSearch(forest, leafBalls, maker).cheapest(count);
 }
 
 double costOfCover(
-    const std::vector<FineBall>& balls, const SampledObject& object, const FitEffort& effort)
+    const std::vector<ExactSphere>& balls, const SampledObject& object, const FitEffort& effort)
 {
     CoveringFit fit;
     double cost = 0;

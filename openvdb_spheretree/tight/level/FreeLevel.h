@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FreeLevel.h
-/// @brief A level of quality=best that is searched by itself, bound to no other one.
+/// @brief A level of quality=best that is searched by itself, bound to no other level.
 ///
 /// A search of few balls ends near where it begins. So there are several starts: the cut of the merge
-/// forest, and levels of some times as many balls that are searched and then merged. The cheapest
-/// end is taken (dragon-128, 16 balls: 137 % of error in place of 147).
+/// forest, and finer cuts that are searched and then merged. The cheapest result is taken (dragon-128,
+/// 16 balls: 137 % of error in place of 147).
 
 #pragma once
 
 #include "LevelMaker.h"
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 
@@ -19,14 +19,14 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// @param forest  of the leaves
+/// @param forest  of the leaf balls
 /// @return a level of at most @a count balls that cover the object.
-std::vector<FineBall> freeLevel(const std::vector<ForestNode>& forest, int64_t count,
-    const std::vector<FineBall>& leaves, const LevelMaker& maker);
+std::vector<ExactSphere> freeLevel(const std::vector<ForestNode>& forest, int64_t count,
+    const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker);
 
 /// @return the voxels outside the object that balls hold together, counted on samples.
 double costOfCover(
-    const std::vector<FineBall>& balls, const SampledObject& object, const FitEffort& effort);
+    const std::vector<ExactSphere>& balls, const SampledObject& object, const FitEffort& effort);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -20,11 +20,11 @@ std::string boundsOf(const SphereBudget& budget)
     return text.str();
 }
 
-/// @return the fewest balls within the bounds; leaves are the object itself, without any error.
+/// @return the fewest balls within the bounds; all leaf balls are the object itself, without any error.
 template <typename Within>
-int64_t fewest(int64_t leaves, const Within& within)
+int64_t fewest(int64_t leafBalls, const Within& within)
 {
-    int64_t low = 1, high = leaves; // high is within, and nothing below low is known to be
+    int64_t low = 1, high = leafBalls; // high is within, and nothing below low is known to be
     while (low < high) {
         const int64_t middle = low + (high - low) / 2;
         if (within(middle)) high = middle;
@@ -46,11 +46,11 @@ bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& er
 }
 
 std::vector<int64_t> levelCounts(
-    const SphereBudget& budget, int64_t leaves, double voxelSize, const ErrorOfCut& errorOf)
+    const SphereBudget& budget, int64_t leafBalls, double voxelSize, const ErrorOfCut& errorOf)
 {
-    if (!budget.hasBound()) return budget.counts(leaves);
+    if (!budget.hasBound()) return budget.counts(leafBalls);
     const int64_t count =
-        fewest(leaves, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
+        fewest(leafBalls, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
     if (!budget.spheres.empty() && count > budget.spheres.front()) {
         OPENVDB_THROW(openvdb::ValueError,
             boundsOf(budget)
@@ -61,7 +61,7 @@ std::vector<int64_t> levelCounts(
     std::vector<int64_t> counts{count};
     SphereBudget ladder;
     ladder.branching = budget.branching;
-    for (const int64_t n : ladder.counts(leaves)) {
+    for (const int64_t n : ladder.counts(leafBalls)) {
         if (n < count) counts.push_back(n);
     }
     return counts;

@@ -20,14 +20,14 @@ using ErrorOfCut = std::function<LevelError(int64_t count)>;
 /// @return whether an error is within what the budget bounds of it; @a voxelSize is in world units.
 bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error);
 
-/// @param leaves     balls there are at most
+/// @param leafBalls  balls there are at most
 /// @param voxelSize  world units
 /// @return counts, finest first, falling. With a bound on the error, the first one is the smallest
 /// for which it was found to hold: by bisection, then by trying some more below, as the error of a
 /// cut may fall where its count does.
 /// @throw openvdb::ValueError if the bound needs more balls than the budget allows
 std::vector<int64_t> levelCounts(
-    const SphereBudget& budget, int64_t leaves, double voxelSize, const ErrorOfCut& errorOf);
+    const SphereBudget& budget, int64_t leafBalls, double voxelSize, const ErrorOfCut& errorOf);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelMaker.h"
 
+#include "TightLevels.h"
+#include <openvdb_spheretree/tight/merge/StrictMerging.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -9,8 +12,8 @@ namespace tight {
 
 namespace {
 
-/// More trials gain little, but few balls have searches that end in different places, and take no
-/// time.
+/// More trials of one search gain little. But searches of few balls end in different places, and take
+/// little time: so there are several.
 int searchesFor(std::size_t count)
 {
     constexpr std::size_t kBalls = 128, kMost = 6;
@@ -44,15 +47,26 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     return std::move(best.balls);
 }
 
+std::vector<ExactSphere> LevelMaker::merged(const std::vector<ExactSphere>& balls,
+    const std::vector<std::vector<openvdb::Coord>>& points, int64_t count) const
+{
+    constexpr int kNeighbours = 8;
+    HeldByLeafBalls held = heldVoxels(points);
+    held.areInside = false;
+    StrictMerging merging(object, balls, std::move(held), fit, flat, interrupter);
+    return ballsOfCut(mergeToRoots(merging, kNeighbours, interrupter), count);
+}
+
 std::vector<CoverBall> filledUp(
-    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leaves)
+    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls)
 {
     std::vector<CoverBall> filled;
     for (const CoverBall& ball : cover) {
         if (!ball.empty()) filled.push_back(ball);
     }
-    for (auto leaf = leaves.begin(); leaf != leaves.end() && filled.size() < cover.size(); ++leaf) {
-        if (std::find(cover.begin(), cover.end(), *leaf) == cover.end()) filled.push_back(*leaf);
+    for (const CoverBall& ball : leafBalls) {
+        if (filled.size() == cover.size()) break;
+        if (std::find(cover.begin(), cover.end(), ball) == cover.end()) filled.push_back(ball);
     }
     return filled;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelMaker.h
-/// @brief What all levels of quality=best are made with.
+/// @brief What the levels of quality=best have in common: searches, merges, and what these need.
 
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -24,23 +25,28 @@ struct LevelMaker {
     bool flat;
     openvdb::util::NullInterrupter* interrupter;
 
-    /// At so many balls the time for a ball would become hours for all of them.
+    /// @return the trials for each ball of a level: fewer for many balls, to bound the time.
     static int trialsFor(std::size_t count);
 
     /// @return the level after one search: CoverSearch.h.
-    /// @param number  another one tries other things
+    /// @param number  of the search: another one makes other trials
     SearchedCover search(const std::vector<CoverBall>& start, const std::vector<CoverBall>& finer,
         const CoverGoal& goal, int trialsPerBall, int number = 0) const;
 
     /// @return the level after the best of some searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
+    /// @param balls   which may have voxels outside the object
+    /// @param points  extreme points of the voxels that each of them has to hold
+    /// @return the balls merged to @a count that hold these voxels.
+    std::vector<ExactSphere> merged(const std::vector<ExactSphere>& balls,
+        const std::vector<std::vector<openvdb::Coord>>& points, int64_t count) const;
 };
 
-/// @return the cover, with leaves that are not in it in the places of empty balls; where there are
-/// no such leaves, without these places. Leaves cost nothing.
+/// @return the cover, where leaf balls that are not in it yet stand in for empty balls, as far as there
+/// are any. Leaf balls cost nothing.
 std::vector<CoverBall> filledUp(
-    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leaves);
+    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls);
 
 } // namespace tight
 } // namespace openvdb_spheretree

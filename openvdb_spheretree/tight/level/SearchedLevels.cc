@@ -27,11 +27,12 @@ void makeCoarser(std::vector<TightLevel>& levels, std::size_t from,
 
 /// Makes the levels below levels[from].
 void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
-    const std::vector<int64_t>& counts, const std::vector<FineBall>& leaves,
+    const std::vector<int64_t>& counts, const std::vector<ExactSphere>& leafBalls,
     const LevelMaker& maker)
 {
     if (from == 0) return;
-    const BallCells cells{leaves, powerCells(leaves, maker.object.level(0), maker.interrupter)};
+    const BallCells cells{
+        leafBalls, powerCells(leafBalls, maker.object.level(0), maker.interrupter)};
     std::vector<VoxelRegion> regions;
     for (std::size_t k = levels.size(); k-- > 0;) {
         if (k < from) levels[k] = finerLevel(levels[k + 1], regions, cells, counts[k], maker);
@@ -42,15 +43,15 @@ void makeFiner(std::vector<TightLevel>& levels, std::size_t from,
 } // namespace
 
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves, std::size_t middle,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
     const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
 {
     const LevelMaker maker{object, effort, flat, interrupter};
-    const std::vector<FineBall> leafBalls = ballsOfCut(forest, int64_t(leaves.size()));
+    const std::vector<ExactSphere> leafBalls = ballsOfCut(forest, int64_t(medial.size()));
     std::vector<TightLevel> levels(counts.size());
-    if (counts.front() == int64_t(leaves.size())) {
-        levels.front() = {leafBalls, {}, leaves};
+    if (counts.front() == int64_t(medial.size())) {
+        levels.front() = {leafBalls, {}, medial};
         makeCoarser(levels, 0, counts, maker);
         return levels;
     }

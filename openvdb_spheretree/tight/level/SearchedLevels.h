@@ -4,15 +4,15 @@
 ///
 /// 1. The middle level is searched by itself (FreeLevel.h).
 /// 2. Coarser levels come from the level below them (CoarserLevel.h).
-/// 3. Finer levels come from the leaves, and are bound to the levels above them: what a ball holds
-///    counts only where its ancestors hold it (FinerLevel.h).
+/// 3. Finer levels come from the leaf balls, and are bound to the levels above them: what a ball
+///    holds counts only where its ancestors hold it (FinerLevel.h).
 ///
-/// If the finest level is all leaves, which cannot be chosen, all others come from it by step 2.
+/// If the finest level has to be all leaf balls, the others come from it by step 2.
 
 #pragma once
 
 #include "TightLevels.h"
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
@@ -24,12 +24,12 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-/// @param forest  of the leaves, for the start of the middle level
+/// @param forest  of the leaf balls, for the start of the middle level
 /// @param counts  of balls, finest first, falling
-/// @param leaves  the leaves of the forest
+/// @param medial  the leaf balls of the forest
 /// @param middle  index of the level to begin with
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves, std::size_t middle,
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
     const SampledObject& object, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter);
 

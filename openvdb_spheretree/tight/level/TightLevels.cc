@@ -24,14 +24,14 @@ bool isIn(const ForestNode& node, int64_t count)
     return node.first <= count && count <= node.last;
 }
 
-Vec3d centerOf(const FineBall& ball)
+Vec3d centerOf(const ExactSphere& ball)
 {
     const double unit = 1.0 / double(kFine);
     return unit * Vec3d(double(ball.center[0]), double(ball.center[1]), double(ball.center[2]));
 }
 
 /// In voxels, rounded up.
-double radiusOf(const FineBall& ball)
+double radiusOf(const ExactSphere& ball)
 {
     return detail::sqrtUp(detail::toDoubleUp(ball.radiusSq)) / double(kFine); // 16 is exact
 }
@@ -44,7 +44,8 @@ Coord nearestVoxel(const Vec3d& center)
 
 /// The parents of the nodes of a cut in a coarser one.
 std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
-    const std::vector<int32_t>& nodes, int64_t coarser, const std::vector<FineBall>& coarserBalls)
+    const std::vector<int32_t>& nodes, int64_t coarser,
+    const std::vector<ExactSphere>& coarserBalls)
 {
     const std::vector<int32_t> cut = cutOf(forest, coarser);
     std::vector<int32_t> parents;
@@ -110,9 +111,9 @@ std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
     return nodes;
 }
 
-std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count)
+std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count)
 {
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     for (const int32_t node : cutOf(forest, count)) balls.push_back(forest[node].ball);
     return balls;
 }
@@ -132,9 +133,9 @@ void dropChildless(TightLevel& level, TightLevel& finer)
     level = std::move(kept);
 }
 
-int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level)
+int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level)
 {
-    const auto protrusion = [&](const FineBall& other) {
+    const auto protrusion = [&](const ExactSphere& other) {
         return other.empty() ? std::numeric_limits<double>::infinity()
                              : centerDistance(ball, other) + ball.radius() - other.radius();
     };
@@ -146,13 +147,13 @@ int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level
 }
 
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves)
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leafBalls)
 {
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) {
         const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
         levels[k].balls = ballsOfCut(forest, counts[k]);
-        if (nodes.size() == leaves.size()) levels[k].digital = leaves;
+        if (nodes.size() == leafBalls.size()) levels[k].digital = leafBalls;
         if (k + 1 < counts.size()) {
             levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);
         }

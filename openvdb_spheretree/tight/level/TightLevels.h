@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TightLevels.h
-/// @brief From lists of balls to the nodes of a SphereTree.
+/// @brief From balls and cuts of a forest to the nodes of a SphereTree.
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
@@ -16,7 +16,7 @@ namespace tight {
 
 /// The balls of one level.
 struct TightLevel {
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     std::vector<int32_t> parent; ///< in the next coarser level; empty for the coarsest
     /// Per ball, the digital ball that it is; empty where they are none.
     std::vector<MedialBall> digital;
@@ -26,20 +26,20 @@ struct TightLevel {
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
 
 /// @return the balls of the cut with @a count balls.
-std::vector<FineBall> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
+std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
 
 /// Drops balls of @a level that are the parent of none of @a finer: no chain needs them.
 void dropChildless(TightLevel& level, TightLevel& finer);
 
 /// @return the ball of @a level that @a ball protrudes from least; empty ones do not count.
-int32_t leastProtruding(const FineBall& ball, const std::vector<FineBall>& level);
+int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
 
-/// @param counts  finest first, falling, none above the number of leaves
-/// @param leaves  the first nodes of the forest, as medial balls
+/// @param counts  finest first, falling, none above the number of leaf balls
+/// @param leafBalls  the first nodes of the forest, as medial balls
 /// @return a level for each count. A node's parent is its ancestor in the coarser cut. A ball without
 /// one, which no voxel needs there, goes to the ball that it protrudes from least.
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leaves);
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leafBalls);
 
 /// @brief Make the levels those of @a tree, which has none: all but its stored radii.
 /// @param levels  finest first; flat objects are flat along z

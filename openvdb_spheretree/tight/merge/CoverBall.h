@@ -2,13 +2,13 @@
 /// @file CoverBall.h
 /// @brief A ball of a level that is being made, and the group it is in.
 ///
-/// A level that is split from a coarser one has a group for each ball of that: its children. What a
-/// ball holds counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls
-/// of other levels are in group 0.
+/// A level below a finished one has a group for each ball of that: its children. What a ball holds
+/// counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls of other
+/// levels are in group 0.
 
 #pragma once
 
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@ namespace openvdb_spheretree {
 namespace tight {
 
 struct CoverBall {
-    FineBall ball;
+    ExactSphere ball;
     int32_t group = 0;
 
     bool empty() const { return ball.empty(); }
@@ -25,24 +25,24 @@ struct CoverBall {
 };
 
 /// @return the balls, all in group 0.
-inline std::vector<CoverBall> ungrouped(const std::vector<FineBall>& balls)
+inline std::vector<CoverBall> ungrouped(const std::vector<ExactSphere>& balls)
 {
     std::vector<CoverBall> cover;
-    for (const FineBall& ball : balls) cover.push_back({ball, 0});
+    for (const ExactSphere& ball : balls) cover.push_back({ball, 0});
     return cover;
 }
 
 /// @return the balls, each in a group of its own: those of its number.
-inline std::vector<CoverBall> eachInItsGroup(const std::vector<FineBall>& balls)
+inline std::vector<CoverBall> eachInItsGroup(const std::vector<ExactSphere>& balls)
 {
     std::vector<CoverBall> cover;
-    for (const FineBall& ball : balls) cover.push_back({ball, int32_t(cover.size())});
+    for (const ExactSphere& ball : balls) cover.push_back({ball, int32_t(cover.size())});
     return cover;
 }
 
-inline std::vector<FineBall> ballsOf(const std::vector<CoverBall>& cover)
+inline std::vector<ExactSphere> ballsOf(const std::vector<CoverBall>& cover)
 {
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     for (const CoverBall& ball : cover) balls.push_back(ball.ball);
     return balls;
 }

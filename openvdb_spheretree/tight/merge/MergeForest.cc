@@ -18,7 +18,8 @@ using Pair = std::pair<int32_t, int32_t>;
 /// All pairs are evaluated anew when the count has shrunk to this part: sooner where costs depend on
 /// other balls.
 constexpr double kRebuild = 0.7, kRebuildDependent = 0.85;
-constexpr int32_t kShare = 64;       // a round merges one pair for so many balls
+constexpr int32_t kShare = 64; // a round merges one pair for so many balls
+constexpr double kLock = 1;    // balls may share a voxel where they touch, and gaps are rounded
 constexpr double kTouch = 8 * kFine; // pairs of balls this near to a merge are stale
 
 class Forest {
@@ -26,13 +27,13 @@ public:
     Forest(MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
         : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
     {
-        const std::vector<FineBall> leafBalls = model.leafBalls();
+        const std::vector<ExactSphere> leafBalls = model.leafBalls();
         int32_t groups = 1;
         for (std::size_t i = 0; i < leafBalls.size(); ++i) {
             groups = std::max(groups, model.groupOf(int32_t(i)) + 1);
         }
         mGrids.resize(std::size_t(groups));
-        for (const FineBall& ball : leafBalls) {
+        for (const ExactSphere& ball : leafBalls) {
             addNode(ball, model.groupOf(int32_t(mNodes.size())));
         }
         mLeafBalls = mLive = int32_t(mNodes.size());
@@ -57,10 +58,10 @@ public:
     }
 
 private:
-    bool alive(int32_t node) const { return mNodes[node].parent == -1 && !mGone[node]; }
+    bool alive(int32_t node) const { return !mGone[node]; }
     int32_t perRound() const { return std::max(1, mLive / kShare); }
 
-    void addNode(const FineBall& ball, int32_t group)
+    void addNode(const ExactSphere& ball, int32_t group)
     {
         mGrids[group].add(int32_t(mNodes.size()), ball);
         if (mGrids.size() > 1) mAllGroups.add(int32_t(mNodes.size()), ball);
@@ -99,7 +100,7 @@ private:
     }
 
     /// Evaluates those of the candidates that are stale.
-    bool refresh(std::vector<MergeCandidate>& candidates)
+    void refresh(std::vector<MergeCandidate>& candidates)
     {
         std::vector<std::size_t> stale;
         for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -110,7 +111,6 @@ private:
             c = mModel.evaluate(c.a, c.b);
             c.round = mRound;
         });
-        return !stale.empty();
     }
 
     std::vector<MergeCandidate> evaluateAll(const std::vector<Pair>& pairs)
@@ -193,19 +193,13 @@ private:
 
     // ---- Merges
 
-    template <typename Body>
-    void forEachNear(const FineBall& ball, double slack, const Body& body) const
+    /// Sets @a marks to this round at the living nodes near the two balls of a merge and the new one.
+    void markAround(const MergeCandidate& c, double slack, std::vector<int32_t>& marks) const
     {
         const BallGrid& all = mGrids.size() > 1 ? mAllGroups : mGrids.front();
-        for (const int32_t node : all.near(ball, slack)) body(node);
-    }
-
-    void lockAround(const MergeCandidate& c)
-    {
-        for (const FineBall& ball : {mNodes[c.a].ball, mNodes[c.b].ball, c.ball}) {
+        for (const ExactSphere& ball : {mNodes[c.a].ball, mNodes[c.b].ball, c.ball}) {
             if (ball.empty()) continue;
-            // Balls may share a voxel where they touch, and gaps are rounded.
-            forEachNear(ball, 1, [&](int32_t node) { mLocked[node] = mRound; });
+            for (const int32_t node : all.near(ball, slack)) marks[node] = mRound;
         }
     }
 
@@ -221,19 +215,13 @@ private:
                 if (aside.size() > std::size_t(4 * perRound())) break;
                 continue;
             }
-            if (mModel.dependsOnOthers()) lockAround(c);
+            if (mModel.dependsOnOthers()) markAround(c, kLock, mLocked);
             else mLocked[c.a] = mLocked[c.b] = mRound;
             mModel.complete(c);
             taken.push_back(c);
         }
         for (const MergeCandidate& waiting : aside) push(waiting);
         return taken;
-    }
-
-    void touchAround(const FineBall& ball)
-    {
-        if (ball.empty()) return;
-        forEachNear(ball, kTouch, [&](int32_t node) { mTouched[node] = mRound; });
     }
 
     void retire(int32_t node, int32_t parent)
@@ -272,11 +260,7 @@ private:
         if (!merges.empty()) mModel.merge(merges, firstNode);
         ++mRound; // what is evaluated from here on knows of these merges
         if (mModel.dependsOnOthers()) {
-            for (const MergeCandidate& c : taken) {
-                touchAround(mNodes[c.a].ball);
-                touchAround(mNodes[c.b].ball);
-                touchAround(c.ball);
-            }
+            for (const MergeCandidate& c : taken) markAround(c, kTouch, mTouched);
         }
         for (const MergeCandidate& c : evaluateAll(pairsOf(born))) push(c);
     }

@@ -15,7 +15,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
@@ -29,7 +29,7 @@ namespace tight {
 struct MergeCandidate {
     double cost = 0; ///< what the cover gains in outside voxels; negative where it loses some
     int32_t a = 0, b = 0;
-    FineBall ball;     ///< empty: no voxel needs either node, both can go
+    ExactSphere ball;  ///< empty: no voxel needs either node, both can go
     int32_t round = 0; ///< in which it was evaluated
 
     /// The order of the queue: smallest first.
@@ -43,7 +43,7 @@ struct MergeCandidate {
 class MergeModel {
 public:
     virtual ~MergeModel() = default;
-    virtual std::vector<FineBall> leafBalls() const = 0;
+    virtual std::vector<ExactSphere> leafBalls() const = 0;
     /// Leaf balls of different groups never merge: CoverBall.h.
     virtual int32_t groupOf(int32_t /*leafBall*/) const { return 0; }
     /// @return the merge of two nodes; thread-safe, changes nothing.
@@ -59,7 +59,7 @@ public:
 
 /// The forest is binary; children stand before their parents.
 struct ForestNode {
-    FineBall ball;
+    ExactSphere ball;
     int32_t parent = -1;
     int32_t first = 1, last = 0; ///< it is in the cuts of so many balls: SphereCuts.h
 };

@@ -56,13 +56,13 @@ MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
     thread_local ExtremePoints points;
     collectUncovered(a, b, points);
     const std::vector<openvdb::Coord>& targets = points.finish();
-    if (targets.empty()) return {-1e300, a, b, FineBall(), 0}; // nothing is better than this
+    if (targets.empty()) return {-1e300, a, b, ExactSphere(), 0}; // nothing is better than this
 
     fit.open(mObject, targets, {mBalls[a], mBalls[b]}, mEffort.samples);
     for (const int32_t other : mMerged.meeting(fit.box())) {
         if (other != a && other != b) fit.cover(mBalls[other]);
     }
-    std::vector<FineBall> replaced;
+    std::vector<ExactSphere> replaced;
     for (const int32_t node : {a, b}) {
         if (!isLeafBall(node)) replaced.push_back(mBalls[node]);
     }
@@ -84,7 +84,7 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     detail::parallelFor(merges.size(), mInterrupter, [&](std::size_t i) {
         const MergeCandidate& c = merges[i];
         if (c.ball.empty()) return;
-        regions[i] = clippedUnion(mRegions[c.a], mRegions[c.b], c.ball, mVoxels);
+        regions[i] = clipped(unionOf(mRegions[c.a], mRegions[c.b]), c.ball, mVoxels);
     });
     for (std::size_t i = 0; i < merges.size(); ++i) {
         const MergeCandidate& c = merges[i];

@@ -36,7 +36,7 @@ public:
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
 
-    std::vector<FineBall> leafBalls() const override
+    std::vector<ExactSphere> leafBalls() const override
     {
         return {mBalls.begin(), mBalls.begin() + mLeafBalls};
     }
@@ -46,7 +46,7 @@ public:
     bool dependsOnOthers() const override { return true; }
 
 private:
-    /// Leaf balls hold nothing outside the object.
+    /// These hold nothing outside the object.
     bool isLeafBall(int32_t node) const { return node < mLeafBalls; }
     /// Collects the voxels that are in no region but those of the two nodes.
     void collectUncovered(int32_t a, int32_t b, class ExtremePoints& points) const;
@@ -58,7 +58,7 @@ private:
     bool mFlat;
     openvdb::util::NullInterrupter* mInterrupter;
     int32_t mLeafBalls;
-    std::vector<FineBall> mBalls;
+    std::vector<ExactSphere> mBalls;
     std::vector<int32_t> mGroups;      ///< of leaf balls
     std::vector<VoxelRegion> mRegions; ///< of living nodes
     CoverCounts mCounts;               ///< of the living nodes' regions

@@ -23,7 +23,7 @@ Held joined(const Held& a, const Held& b)
     return held;
 }
 
-Coord voxelOf(const FineBall& ball)
+Coord voxelOf(const ExactSphere& ball)
 {
     const auto axis = [&](int a) { return int32_t(ball.center[a] / kFine); };
     return Coord(axis(0), axis(1), axis(2));
@@ -32,7 +32,7 @@ Coord voxelOf(const FineBall& ball)
 Held extremeVoxels(const Held& held)
 {
     std::vector<Coord> points;
-    for (const FineBall& voxel : held) points.push_back(voxelOf(voxel));
+    for (const ExactSphere& voxel : held) points.push_back(voxelOf(voxel));
     dropInnerPoints(points);
     Held extreme;
     for (const Coord& p : points) extreme.push_back(voxelBall(p));
@@ -51,7 +51,7 @@ Held extremeBalls(const Held& held)
         const bool twice = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
         if (twice) continue; // none at all, or a direction that comes without the factor, too
         const double length = std::sqrt(double(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
-        const auto reach = [&](const FineBall& ball) {
+        const auto reach = [&](const ExactSphere& ball) {
             double along = 0;
             for (int a = 0; a < 3; ++a) along += u[a] * double(ball.center[a]);
             return along / length + ball.radius();
@@ -71,7 +71,7 @@ Held extremeBalls(const Held& held)
 
 } // namespace
 
-StrictMerging::StrictMerging(const SampledObject& object, std::vector<FineBall> leafBalls,
+StrictMerging::StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
     HeldByLeafBalls held, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
@@ -99,7 +99,7 @@ MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 void StrictMerging::complete(MergeCandidate& merge) const
 {
     for (const int32_t node : {merge.a, merge.b}) {
-        for (const FineBall& held : mHeld[node]) {
+        for (const ExactSphere& held : mHeld[node]) {
             merge.ball.radiusSq = std::max(merge.ball.radiusSq, radiusSqToHold(merge.ball, held));
         }
     }
@@ -139,10 +139,10 @@ HeldByLeafBalls heldVoxels(const std::vector<std::vector<Coord>>& points)
     return {std::move(held), true, true};
 }
 
-HeldByLeafBalls heldBalls(const std::vector<FineBall>& leafBalls)
+HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls)
 {
     std::vector<Held> held;
-    for (const FineBall& ball : leafBalls) held.push_back({ball});
+    for (const ExactSphere& ball : leafBalls) held.push_back({ball});
     return {std::move(held), false, true};
 }
 

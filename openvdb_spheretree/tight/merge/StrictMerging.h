@@ -23,7 +23,7 @@ namespace openvdb_spheretree {
 namespace tight {
 
 /// What a node holds: balls; a voxel is one of radius 0.
-using Held = std::vector<FineBall>;
+using Held = std::vector<ExactSphere>;
 
 /// What leaf balls hold.
 struct HeldByLeafBalls {
@@ -36,11 +36,11 @@ class StrictMerging : public MergeModel {
 public:
     /// @param leafBalls  whose union is the object
     /// @param flat       centres keep their z
-    StrictMerging(const SampledObject& object, std::vector<FineBall> leafBalls,
+    StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
         HeldByLeafBalls held, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
 
-    std::vector<FineBall> leafBalls() const override { return mBalls; }
+    std::vector<ExactSphere> leafBalls() const override { return mBalls; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override;
     void complete(MergeCandidate& merge) const override;
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override;
@@ -51,7 +51,7 @@ private:
     FitEffort mEffort;
     bool mFlat, mVoxels;
     openvdb::util::NullInterrupter* mInterrupter;
-    std::vector<FineBall> mBalls;
+    std::vector<ExactSphere> mBalls;
     std::vector<Held> mHeld;    ///< of living nodes: all balls, or all extreme voxels
     std::vector<Held> mExtreme; ///< of living nodes: the part that a new ball is fitted to
     std::vector<double> mCost;  ///< outside voxels in a node's ball
@@ -60,7 +60,7 @@ private:
 /// @param points  extreme points of each leaf ball's power cell
 HeldByLeafBalls heldVoxels(const std::vector<std::vector<openvdb::Coord>>& points);
 /// @return each leaf ball itself.
-HeldByLeafBalls heldBalls(const std::vector<FineBall>& leafBalls);
+HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -3,7 +3,8 @@
 
 #include "LeafDescent.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <algorithm>
 #include <numeric>
@@ -28,7 +29,7 @@ struct Part {
 /// Balls are numbered in the order in which they are tested.
 class Pruning {
 public:
-    Pruning(std::vector<FineBall> balls, const SampleLevel& object,
+    Pruning(std::vector<ExactSphere> balls, const SampleLevel& object,
         openvdb::util::NullInterrupter* interrupter)
         : mBalls(std::move(balls)), mObject(object), mLastHeld(object.leafCount()),
           mKeptHold(object.leafCount(), LeafMask{})
@@ -75,7 +76,8 @@ private:
         std::vector<LastHeld> parts;
         LeafMask left = mObject.mask(leaf);
         for (const int32_t ball : lastFirst) {
-            const LeafMask mask = ballMask(mBalls[ball], mObject.origin(leaf)) & left;
+            const LeafMask mask =
+                detail::voxelsOf(mBalls[ball], kFineShift, mObject.origin(leaf)) & left;
             if (mask.none()) continue;
             parts.push_back({ball, mask});
             left -= mask;
@@ -109,11 +111,11 @@ private:
         mObject.forEachLeaf(box, [&](std::size_t leaf) {
             const auto& last = mLastHeld[leaf];
             if (last.empty() || last.front().ball <= ball) return; // is not read again
-            mKeptHold[leaf] |= ballMask(mBalls[ball], mObject.origin(leaf));
+            mKeptHold[leaf] |= detail::voxelsOf(mBalls[ball], kFineShift, mObject.origin(leaf));
         });
     }
 
-    std::vector<FineBall> mBalls;
+    std::vector<ExactSphere> mBalls;
     const SampleLevel& mObject;
     std::vector<std::vector<LastHeld>> mLastHeld; ///< of a leaf, the last ball first
     std::vector<LeafMask> mKeptHold;              ///< voxels in balls that stay
@@ -128,7 +130,7 @@ std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const Sa
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
         [&](int32_t a, int32_t b) { return medial[a].radiusSq < medial[b].radiusSq; });
-    std::vector<FineBall> balls;
+    std::vector<ExactSphere> balls;
     for (const int32_t i : order) balls.push_back(fineBall(medial[i]));
 
     std::vector<int32_t> kept;

@@ -19,7 +19,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <openvdb/util/NullInterrupter.h>

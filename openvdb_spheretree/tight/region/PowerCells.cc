@@ -3,7 +3,7 @@
 
 #include "LeafDescent.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct CellPart {
 struct PowerTerms {
     std::array<int64_t, 8> axis[3];
 
-    PowerTerms(const FineBall& ball, const openvdb::Coord& origin)
+    PowerTerms(const ExactSphere& ball, const openvdb::Coord& origin)
     {
         for (int a = 0; a < 3; ++a) {
             for (int i = 0; i < 8; ++i) {
@@ -38,7 +38,7 @@ struct PowerTerms {
 };
 
 /// @return the power of a ball in the middle of a box.
-double powerInMiddle(const FineBall& ball, const openvdb::CoordBBox& box)
+double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
 {
     double power = double(ball.radiusSq);
     for (int a = 0; a < 3; ++a) {
@@ -51,7 +51,7 @@ double powerInMiddle(const FineBall& ball, const openvdb::CoordBBox& box)
 
 /// @return whether the power of @a ball is larger than that of @a other in all of the box: the
 /// difference is linear, so it is smallest at an end of each axis.
-bool dominates(const FineBall& ball, const FineBall& other, const openvdb::CoordBBox& box)
+bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
 {
     int64_t least = ball.radiusSq - other.radiusSq;
     for (int a = 0; a < 3; ++a) {
@@ -65,7 +65,7 @@ bool dominates(const FineBall& ball, const FineBall& other, const openvdb::Coord
 }
 
 /// Leaves out the balls that are weaker everywhere than the one that is strongest in the middle.
-BallFilter ballsWithPower(const std::vector<FineBall>& balls)
+BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
                std::vector<int32_t>& to) {
@@ -93,14 +93,14 @@ struct Claim {
 /// @param claims  by ball
 /// @return the parts of power cells in the leaf at @a origin, by ball.
 std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
-    const std::vector<FineBall>& balls)
+    const std::vector<ExactSphere>& balls)
 {
     std::array<int64_t, kLeafVoxels> best;
     std::array<int32_t, kLeafVoxels> label; // place in `claims`
     best.fill(-1); // a ball without a power of 0 or more does not hold the voxel
     label.fill(0);
     for (std::size_t k = 0; k < claims.size(); ++k) {
-        const FineBall& ball = balls[claims[k].ball];
+        const ExactSphere& ball = balls[claims[k].ball];
         const LeafMask& within = *claims[k].within;
         const PowerTerms terms(ball, origin);
         for (int i = 0; i < kLeafVoxels; ++i) {
@@ -140,7 +140,7 @@ std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellPart>>& parts, std:
 
 } // namespace
 
-std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls,
+std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
@@ -156,8 +156,8 @@ std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls,
     return cellsOf(parts, balls.size());
 }
 
-std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls, const SampleLevel& object,
-    openvdb::util::NullInterrupter* interrupter)
+std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<int32_t> all(balls.size());
     std::iota(all.begin(), all.end(), 0);
@@ -186,7 +186,7 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
     return points;
 }
 
-std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<FineBall>& balls,
+std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
     return extremePoints(powerCells(balls, object, interrupter), object, interrupter);

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "VoxelRegion.h"
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -25,13 +25,13 @@ namespace tight {
 /// @param balls    that cover @a object
 /// @param regions  where each of them counts; together the object
 /// @return the power cell of each ball.
-std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls,
+std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 /// @return the power cell of each ball, if every one counts everywhere.
-std::vector<VoxelRegion> powerCells(const std::vector<FineBall>& balls, const SampleLevel& object,
-    openvdb::util::NullInterrupter* interrupter);
+std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
 /// @return for each region its extreme points: ExtremePoints.h; none for an empty one.
 std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
@@ -39,7 +39,7 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
 
 /// @param balls  that cover @a object
 /// @return for each ball the extreme points of its power cell: ExtremePoints.h; none for an empty one.
-std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<FineBall>& balls,
+std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace tight

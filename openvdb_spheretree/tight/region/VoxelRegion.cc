@@ -2,7 +2,8 @@
 #include "VoxelRegion.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <algorithm>
 
@@ -18,18 +19,19 @@ void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
 
 } // namespace
 
-VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object)
+VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
     VoxelRegion region;
     openvdb::CoordBBox box;
     if (!ballBox(ball, box)) return region;
     object.forEachLeaf(box, [&](std::size_t leaf) {
-        append(region, leaf, ballMask(ball, object.origin(leaf)) & object.mask(leaf));
+        append(region, leaf,
+            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf));
     });
     return region;
 }
 
-std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+std::vector<VoxelRegion> regionsOf(const std::vector<ExactSphere>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<VoxelRegion> regions(balls.size());
@@ -46,13 +48,13 @@ const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)
     return found != region.end() && found->leaf == leaf ? found->mask : kNone;
 }
 
-VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object)
+VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object)
 {
     VoxelRegion inside;
     for (const RegionLeaf& part : region) {
         const openvdb::Coord& origin = object.origin(part.leaf);
         if (!mayReach(ball, origin)) continue;
-        append(inside, part.leaf, ballMask(ball, origin) & part.mask);
+        append(inside, part.leaf, detail::voxelsOf(ball, kFineShift, origin) & part.mask);
     }
     return inside;
 }
@@ -77,16 +79,6 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
     VoxelRegion region;
     forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
         region.push_back({leaf, inA | inB});
-    });
-    return region;
-}
-
-VoxelRegion clippedUnion(
-    const VoxelRegion& a, const VoxelRegion& b, const FineBall& ball, const SampleLevel& object)
-{
-    VoxelRegion region;
-    forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-        append(region, leaf, ballMask(ball, object.origin(leaf)) & (inA | inB));
     });
     return region;
 }

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -24,10 +24,10 @@ struct RegionLeaf {
 using VoxelRegion = std::vector<RegionLeaf>;
 
 /// @return the object voxels in @a ball.
-VoxelRegion regionOf(const FineBall& ball, const SampleLevel& object);
+VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object);
 
 /// @return the object voxels in each ball.
-std::vector<VoxelRegion> regionsOf(const std::vector<FineBall>& balls, const SampleLevel& object,
+std::vector<VoxelRegion> regionsOf(const std::vector<ExactSphere>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 /// @return the voxels of the region in one leaf.
@@ -49,16 +49,12 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 }
 
 /// @return the voxels of a region that lie in @a ball.
-VoxelRegion clipped(const VoxelRegion& region, const FineBall& ball, const SampleLevel& object);
+VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object);
 
 /// Makes a region of parts in any order, of which several may lie in the same leaf.
 void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
-
-/// @return the voxels of either region that lie in @a ball.
-VoxelRegion clippedUnion(
-    const VoxelRegion& a, const VoxelRegion& b, const FineBall& ball, const SampleLevel& object);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -18,12 +18,8 @@ namespace tight {
 class BallCover {
 public:
     explicit BallCover(std::vector<CoverBall> balls)
-        : mBalls(std::move(balls)), mPlacedFor(mBalls.size(), 0)
-    {
-        for (std::size_t i = 0; i < mBalls.size(); ++i) {
-            if (!mBalls[i].empty()) mGrid.add(int32_t(i), mBalls[i].ball);
-        }
-    }
+        : mBalls(std::move(balls)), mPlacedFor(mBalls.size(), 0), mGrid(ballsOf(mBalls))
+    {}
 
     std::size_t size() const { return mBalls.size(); }
     /// @return the ball of a number, empty where one was dropped.
@@ -34,7 +30,7 @@ public:
     uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
 
     /// @return as BallGrid::nearest.
-    std::vector<int32_t> nearest(int32_t id, const FineBall& ball, std::size_t count) const
+    std::vector<int32_t> nearest(int32_t id, const ExactSphere& ball, std::size_t count) const
     {
         return mGrid.nearest(id, ball, count);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CoverGoal.h"
 
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
@@ -11,31 +12,13 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-namespace {
-
 using openvdb::Coord;
-
-/// @return a ball around the box of a unit.
-FineBall ballAround(const std::vector<Coord>& points)
-{
-    openvdb::CoordBBox box;
-    for (const Coord& p : points) box.expand(p);
-    FineBall ball{{}, 0};
-    for (int a = 0; a < 3; ++a) {
-        ball.center[a] = kFine / 2 * (int64_t(box.min()[a]) + box.max()[a]);
-        const int64_t half = kFine * (int64_t(box.max()[a]) - box.min()[a]) / 2 + 1;
-        ball.radiusSq += half * half;
-    }
-    return ball;
-}
-
-} // namespace
 
 LeafMask VoxelGoal::heldIn(std::size_t leaf, const CoverBall& ball) const
 {
     const LeafMask& counts =
         mRegions.empty() ? mObject.mask(leaf) : maskIn(*mRegions[ball.group], uint32_t(leaf));
-    return ballMask(ball.ball, mObject.origin(leaf)) & counts;
+    return detail::voxelsOf(ball.ball, kFineShift, mObject.origin(leaf)) & counts;
 }
 
 void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
@@ -71,7 +54,9 @@ UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units, std::vector<int
 {
     mGroups.resize(units.size(), 0);
     for (std::size_t i = 0; i < units.size(); ++i) {
-        if (!units[i].empty()) mGrid.add(int32_t(i), ballAround(units[i]));
+        FineBox box;
+        for (const Coord& p : units[i]) box.expand(voxelBall(p));
+        if (!units[i].empty()) mGrid.add(int32_t(i), ballAround(box));
     }
 }
 
@@ -95,7 +80,7 @@ void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
     dropInnerPoints(points);
 }
 
-bool holdsAll(const FineBall& ball, const std::vector<Coord>& points)
+bool holdsAll(const ExactSphere& ball, const std::vector<Coord>& points)
 {
     return !ball.empty() && std::all_of(points.begin(), points.end(), [&](const Coord& p) {
         return radiusSqToHold(ball, voxelBall(p)) <= ball.radiusSq;

@@ -71,7 +71,7 @@ private:
 };
 
 /// @return whether @a ball holds all the points.
-bool holdsAll(const FineBall& ball, const std::vector<openvdb::Coord>& points);
+bool holdsAll(const ExactSphere& ball, const std::vector<openvdb::Coord>& points);
 
 } // namespace tight
 } // namespace openvdb_spheretree

@@ -68,7 +68,7 @@ CoverPart PartFit::around(const std::vector<int32_t>& ids) const
 {
     CoverPart part;
     for (const int32_t id : ids) {
-        const FineBall& ball = mCover[id].ball;
+        const ExactSphere& ball = mCover[id].ball;
         part.box.expand(ball, 0.5 * ball.radius() + 4 * kFine);
     }
     part.ids = mCover.meeting(part.box);
@@ -89,7 +89,7 @@ std::vector<Coord> PartFit::uncoveredWithout(const CoverPart& part, std::size_t 
 double PartFit::costOf(const CoverPart& part, std::size_t i) const
 {
     CoveringFit& fit = scratchFit();
-    const FineBall& ball = part.balls[i].ball;
+    const ExactSphere& ball = part.balls[i].ball;
     fit.open(mObject, ball, mEffort.fit.samples);
     coverOthers(part, i, fit);
     return fit.costOf({ball});
@@ -104,11 +104,11 @@ std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
     return part.ids.size() - 1;
 }
 
-void PartFit::replace(CoverPart& part, std::size_t i, const FineBall& instead) const
+void PartFit::replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const
 {
     CoveringFit& fit = scratchFit();
-    FineBall& ball = part.balls[i].ball;
-    fit.open(mObject, std::vector<FineBall>{instead}, {ball}, mEffort.fit.samples);
+    ExactSphere& ball = part.balls[i].ball;
+    fit.open(mObject, std::vector<ExactSphere>{instead}, {ball}, mEffort.fit.samples);
     coverOthers(part, i, fit);
     part.change += fit.costOf({instead}) - fit.costOf({ball});
     ball = instead;
@@ -117,12 +117,12 @@ void PartFit::replace(CoverPart& part, std::size_t i, const FineBall& instead) c
 
 void PartFit::refit(CoverPart& part, std::size_t i) const
 {
-    FineBall& ball = part.balls[i].ball;
+    ExactSphere& ball = part.balls[i].ball;
     if (ball.empty()) return;
     const std::vector<Coord> points = uncoveredWithout(part, i);
     if (points.empty()) {
         part.change -= costOf(part, i);
-        ball = FineBall();
+        ball = ExactSphere();
         return;
     }
     const uint64_t hash = hashOf(points);
@@ -141,7 +141,7 @@ void PartFit::refit(CoverPart& part, std::size_t i) const
 }
 
 void PartFit::refitNear(
-    CoverPart& part, const std::vector<int32_t>& ids, const FineBall& ball) const
+    CoverPart& part, const std::vector<int32_t>& ids, const ExactSphere& ball) const
 {
     for (const int32_t id : ids) {
         if (gapBetween(mCover[id].ball, ball) <= double(kFine)) refit(part, part.indexOf(id));
@@ -153,8 +153,8 @@ bool PartFit::takeOver(CoverPart& part, std::size_t i, std::size_t successor) co
     std::vector<Coord> points;
     mGoal.collectUncovered(
         {part.balls[i], part.balls[successor]}, othersOf(part, {i, successor}), points);
-    const std::vector<FineBall> replaced{part.balls[i].ball, part.balls[successor].ball};
-    part.balls[i].ball = part.balls[successor].ball = FineBall();
+    const std::vector<ExactSphere> replaced{part.balls[i].ball, part.balls[successor].ball};
+    part.balls[i].ball = part.balls[successor].ball = ExactSphere();
     if (points.empty()) return false;
     CoveringFit& fit = scratchFit();
     fit.open(mObject, points, replaced, mEffort.fit.samples);
@@ -176,11 +176,11 @@ CoverChange PartFit::changeOf(const CoverPart& part) const
         if (isNew || part.placedFor[k] != mCover.placedFor(part.ids[k])) {
             change.placedFor.emplace_back(part.ids[k], part.placedFor[k]);
         }
-        const FineBall before = isNew ? FineBall() : mCover[part.ids[k]].ball;
+        const ExactSphere before = isNew ? ExactSphere() : mCover[part.ids[k]].ball;
         if (part.balls[k].ball == before) continue;
         change.ids.push_back(part.ids[k]);
         change.balls.push_back(part.balls[k]);
-        for (const FineBall& ball : {before, part.balls[k].ball}) {
+        for (const ExactSphere& ball : {before, part.balls[k].ball}) {
             if (!ball.empty()) change.box.expand(ball);
         }
     }

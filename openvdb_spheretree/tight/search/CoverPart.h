@@ -74,13 +74,13 @@ public:
     /// Puts a ball into the part that is not in the cover. @return its index.
     std::size_t insert(CoverPart& part, const CoverBall& ball) const;
     /// Puts another ball in the place of ball @a i, whatever it holds.
-    void replace(CoverPart& part, std::size_t i, const FineBall& instead) const;
+    void replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const;
 
     /// Places ball @a i anew for the voxels that only it holds, if that costs less. A ball that was
     /// placed for the same voxels before is left alone: of those, one in a hundred would change.
     void refit(CoverPart& part, std::size_t i) const;
     /// Does that for those of the balls that touch @a ball.
-    void refitNear(CoverPart& part, const std::vector<int32_t>& ids, const FineBall& ball) const;
+    void refitNear(CoverPart& part, const std::vector<int32_t>& ids, const ExactSphere& ball) const;
     /// Places ball @a successor for the voxels that only it and ball @a i hold, and drops ball @a i.
     /// @return whether there were such voxels, and room.
     bool takeOver(CoverPart& part, std::size_t i, std::size_t successor) const;

@@ -23,12 +23,13 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
     std::vector<FineBox> boxes;
     std::vector<int32_t> taken, left;
     for (const int32_t id : ids) {
-        const FineBall& ball = cover[id].ball;
+        const ExactSphere& ball = cover[id].ball;
         if (ball.empty()) continue;
         const FineBox box(ball, 0.5 * ball.radius() + 4 * kFine);
         const bool free = taken.size() < kMost && !box.meetsAny(boxes);
         (free ? taken : left).push_back(id);
-        if (taken.size() < kMost) boxes.push_back(box); // who waits keeps its place
+        if (taken.size() < kMost)
+            boxes.push_back(box); // also of balls that wait: they keep their turn
     }
     ids.swap(left);
     return taken;

@@ -32,7 +32,7 @@ struct SearchedCover {
 };
 
 /// @param balls  a cover in the sense of @a goal
-/// @param finer  small balls, to be put in where one is to spare: leaves, or those of a finer level.
+/// @param finer  small balls, to be put in where one is to spare: leaf balls, or a finer level.
 ///               If there are none, balls stay where they are, or go if no voxel needs them.
 SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
     const SampledObject& object, const CoverGoal& goal, const SearchEffort& effort,

@@ -16,10 +16,10 @@ namespace {
 using openvdb::Coord;
 
 /// Somewhere else, and as large as it has to be there.
-FineBall moved(const FineBall& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
+ExactSphere moved(const ExactSphere& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
 {
     const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
-    FineBall result = shifted(ball, step, flat, dice);
+    ExactSphere result = shifted(ball, step, flat, dice);
     result.radiusSq = 0;
     for (const Coord& p : points) {
         result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
@@ -38,7 +38,7 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
 {
     Dice dice(number);
     const auto id = int32_t(dice.below(cover.size()));
-    const FineBall& ball = cover[id].ball;
+    const ExactSphere& ball = cover[id].ball;
     if (ball.empty()) return {};
     std::vector<int32_t> around = cover.nearest(id, ball, kChangedNeighbours);
     std::vector<int32_t> all(around);
@@ -46,7 +46,7 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     CoverPart part = fit.around(all);
     const std::size_t i = part.indexOf(id);
     const bool grow = dice.uniform() < 0.5;
-    const FineBall disturbed = grow
+    const ExactSphere disturbed = grow
         ? grown(ball, dice)
         : moved(ball, fit.uncoveredWithout(part, i), fit.effort().flat, dice);
     if (!part.box.contains(FineBox(disturbed))) return {};

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/base/Hash.h>
-#include <openvdb_spheretree/tight/fit/FineBall.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,22 +27,22 @@ private:
 };
 
 /// @return the ball, up to 1.3 times as large, or by up to 2.3 voxels.
-inline FineBall grown(const FineBall& ball, Dice& dice)
+inline ExactSphere grown(const ExactSphere& ball, Dice& dice)
 {
     const double r = ball.radius();
     const double larger = dice.uniform() < 0.5 ? r * (1 + 0.3 * dice.uniform())
                                                : r + double(kFine) * (0.3 + 2 * dice.uniform());
-    FineBall result = ball;
+    ExactSphere result = ball;
     result.radiusSq = std::max(ball.radiusSq, int64_t(larger * larger));
     return result;
 }
 
 /// @return the ball, moved by @a step (1/16 voxel) in some direction; @a flat: not along z.
-inline FineBall shifted(const FineBall& ball, double step, bool flat, Dice& dice)
+inline ExactSphere shifted(const ExactSphere& ball, double step, bool flat, Dice& dice)
 {
     const double z = flat ? 0 : 2 * dice.uniform() - 1;
     const double angle = 2 * M_PI * dice.uniform(), xy = std::sqrt(1 - z * z);
-    FineBall result = ball;
+    ExactSphere result = ball;
     result.center[0] += std::lrint(step * xy * std::cos(angle));
     result.center[1] += std::lrint(step * xy * std::sin(angle));
     result.center[2] += std::lrint(step * z);
@@ -50,9 +50,9 @@ inline FineBall shifted(const FineBall& ball, double step, bool flat, Dice& dice
 }
 
 /// @return about half of the ball: which half, and how much of it, is random.
-inline FineBall halved(const FineBall& ball, bool flat, Dice& dice)
+inline ExactSphere halved(const ExactSphere& ball, bool flat, Dice& dice)
 {
-    FineBall half = shifted(ball, ball.radius() * (0.3 + 0.3 * dice.uniform()), flat, dice);
+    ExactSphere half = shifted(ball, ball.radius() * (0.3 + 0.3 * dice.uniform()), flat, dice);
     const double radius = ball.radius() * (0.55 + 0.3 * dice.uniform());
     half.radiusSq = int64_t(radius * radius);
     return half;

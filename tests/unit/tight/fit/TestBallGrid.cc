@@ -10,9 +10,9 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-using Balls = std::map<int32_t, FineBall>;
+using Balls = std::map<int32_t, ExactSphere>;
 
-std::vector<int32_t> linearNear(const Balls& balls, const FineBall& ball, double slack)
+std::vector<int32_t> linearNear(const Balls& balls, const ExactSphere& ball, double slack)
 {
     std::vector<int32_t> ids;
     for (const auto& [id, other] : balls) {
@@ -38,7 +38,7 @@ std::vector<int32_t> linearMeeting(const Balls& balls, const FineBox& box)
 
 std::vector<int32_t> linearNearest(const Balls& balls, int32_t id, std::size_t count)
 {
-    const FineBall& ball = balls.at(id);
+    const ExactSphere& ball = balls.at(id);
     std::vector<std::pair<double, int32_t>> found;
     for (const auto& [other, b] : balls) {
         if (other == id) continue;
@@ -54,7 +54,7 @@ void expectSame(const BallGrid& grid, const Balls& balls, Random& random)
 {
     ASSERT_EQ(grid.size(), balls.size());
     for (int i = 0; i < 6; ++i) {
-        const FineBall ball = randomBall(random, -60, 60, 1 << i);
+        const ExactSphere ball = randomBall(random, -60, 60, 1 << i);
         for (const double slack : {0.0, 100.0, -20.0}) {
             ASSERT_EQ(grid.near(ball, slack), linearNear(balls, ball, slack));
         }
@@ -92,7 +92,7 @@ TEST(BallGrid, FindsWhatALinearScanFinds)
 TEST(BallGrid, FindsTheOnlyOtherBallHoweverFar)
 {
     BallGrid grid;
-    const FineBall here = voxelBall(Coord(0, 0, 0)), there = voxelBall(Coord(1 << 25, 5, 5));
+    const ExactSphere here = voxelBall(Coord(0, 0, 0)), there = voxelBall(Coord(1 << 25, 5, 5));
     grid.add(0, here);
     EXPECT_TRUE(grid.nearest(0, here, 3).empty());
     EXPECT_EQ(grid.nearest(1, there, 3), std::vector<int32_t>{0}) << "not in the grid itself";

@@ -25,7 +25,7 @@ struct Samples {
     Samples(const CostWindow& window, const Voxels& object, const Coord& size)
         : box(Coord(0, 0, 0), size)
     {
-        const FineBall origin = window.centerOf(LocalBall());
+        const ExactSphere origin = window.centerOf(LocalBall());
         const int64_t step = int64_t(1) << window.level();
         for (const Coord& at : voxelsOfBox(box)) {
             Coord voxel;
@@ -216,7 +216,7 @@ TEST(CostWindow, CountsVoxelsOutsideTheObject)
     for (int i = 0; i < 100; ++i) {
         const RandomObject object = randomObject(uint32_t(i));
         const Coord middle = boxOf(object.voxels).min();
-        FineBall ball = randomBall(random, 0, 9, 9);
+        ExactSphere ball = randomBall(random, 0, 9, 9);
         for (int a = 0; a < 3; ++a) ball.center[a] += 16 * int64_t(middle[a]);
         int64_t expected = 0;
         for (const Coord& v : voxelsOfBox(CoordBBox(middle - Coord(10), middle + Coord(20)))) {
@@ -227,7 +227,7 @@ TEST(CostWindow, CountsVoxelsOutsideTheObject)
         box.expand(ball);
         window.reset(sampled(object.voxels), box, 0);
         ASSERT_EQ(window.count(window.toLocal(ball)), expected);
-        FineBall back = window.centerOf(window.toLocal(ball));
+        ExactSphere back = window.centerOf(window.toLocal(ball));
         back.radiusSq = ball.radiusSq;
         ASSERT_TRUE(back == ball);
         window.cover(ball);
@@ -243,14 +243,14 @@ TEST(CostWindow, RoundsBallsToItsSamples)
     for (int turn = 0; turn < 300; ++turn) {
         const int level = turn % 6;
         const double step = std::ldexp(1.0, level);
-        const FineBall ball = randomBall(random, -900, 900, 60);
+        const ExactSphere ball = randomBall(random, -900, 900, 60);
         FineBox box;
         box.expand(ball);
         CostWindow window;
         window.reset(object, box, level);
         const LocalBall local = window.toLocal(ball);
         ASSERT_EQ(local.radiusSq, std::floor(double(ball.radiusSq) / (step * step)));
-        const FineBall origin = window.centerOf(LocalBall()), back = window.centerOf(local);
+        const ExactSphere origin = window.centerOf(LocalBall()), back = window.centerOf(local);
         const float at[3] = {local.x, local.y, local.z};
         for (int a = 0; a < 3; ++a) {
             ASSERT_EQ(origin.center[a] % int64_t(16 * step), 0) << "a sample";
@@ -273,9 +273,9 @@ TEST(CostWindow, IsClearedByHugeBallsFromFar)
                 window.reset(object, box, 0);
                 const int64_t before = window.count(all);
                 const int64_t near = far - 5000 * (far >> 20);
-                window.cover(FineBall{{at, 0, 0}, (near - 400) * (near - 400)});
+                window.cover(ExactSphere{{at, 0, 0}, (near - 400) * (near - 400)});
                 ASSERT_EQ(window.count(all), before) << "it ends before the window";
-                window.cover(FineBall{{at, 0, at}, 2 * (far + 5000) * (far + 5000)});
+                window.cover(ExactSphere{{at, 0, at}, 2 * (far + 5000) * (far + 5000)});
                 ASSERT_EQ(window.count(all), 0);
                 ASSERT_GT(before, 0);
             }

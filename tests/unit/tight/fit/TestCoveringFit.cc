@@ -12,7 +12,7 @@ using namespace spheretree_test;
 
 constexpr FitEffort kNone{false, 0, 1, false, 40}, kMuch{true, 12, 1, true, 40};
 
-bool holdsVoxels(const FineBall& ball, const Voxels& voxels)
+bool holdsVoxels(const ExactSphere& ball, const Voxels& voxels)
 {
     return std::all_of(
         voxels.begin(), voxels.end(), [&](const Coord& v) { return holds(ball, v); });
@@ -23,8 +23,8 @@ TEST(CoveringFit, NeedsTheSmallestRadiusThatHoldsABall)
     Random random(2);
     for (int turn = 0; turn < 4000; ++turn) {
         const int spread = 1 << random.between(1, 24);
-        const FineBall from = randomBall(random, -spread, spread, 0);
-        const FineBall held = randomBall(random, -spread, spread, turn % 3 ? spread : 0);
+        const ExactSphere from = randomBall(random, -spread, spread, 0);
+        const ExactSphere held = randomBall(random, -spread, spread, turn % 3 ? spread : 0);
         const __int128 apart = centersApartSq(from, held);
         const int64_t needed = radiusSqToHold(from, held);
         ASSERT_TRUE(atLeastSum(needed, apart, held.radiusSq));
@@ -39,7 +39,7 @@ TEST(CoveringFit, NeedsTheSumOfWholeRadiiAndDistances)
     for (int turn = 0; turn < 1000; ++turn) {
         const int64_t far = random.between(0, 1 << random.between(0, 29));
         const int64_t radius = random.between(0, 1 << random.between(0, 29));
-        FineBall from = randomBall(random, -9, 9, 0), held = from;
+        ExactSphere from = randomBall(random, -9, 9, 0), held = from;
         held.center[turn % 3] += turn % 2 ? far : -far;
         held.radiusSq = radius * radius;
         from.radiusSq = turn; // which does not count
@@ -59,7 +59,7 @@ TEST(CoveringFit, CountsWhatBallsCostTogether)
     const SampledObject object = sampled(voxels);
     for (int turn = 0; turn < 12; ++turn) {
         const auto replaced = randomBalls(turn % 4, random, 0, 9, 6);
-        const FineBall other = randomBall(random, 0, 9, 6); // part of it is in the window
+        const ExactSphere other = randomBall(random, 0, 9, 6); // part of it is in the window
         CoveringFit fit;
         fit.open(object, Voxels{voxels[0]}, replaced, 40);
         ASSERT_EQ(fit.costOf({}), 0);
@@ -77,7 +77,7 @@ TEST(CoveringFit, CountsWhatLargeBallsCostOnSamples)
 {
     const Voxels voxels = shapes::box(Coord(3));
     const SampledObject object = sampled(voxels);
-    const FineBall large{{7, 5, -3}, 1600 * 1600};
+    const ExactSphere large{{7, 5, -3}, 1600 * 1600};
     const double volume = 4 / 3.0 * M_PI * 100 * 100 * 100;
     CoveringFit fit;
     fit.open(object, voxels, {large}, 16);
@@ -119,11 +119,11 @@ TEST(CoveringFit, TriesTheCentersOfReplacedBallsThatHoldTheTargets)
         const SampledObject object = sampled(voxels);
         const Voxels targets(voxels.end() - 3, voxels.end());
         auto replaced = randomBalls(2, random, 0, 9, 1);
-        for (FineBall& other : replaced) other.radiusSq = neededRadiusSq(other, targets);
+        for (ExactSphere& other : replaced) other.radiusSq = neededRadiusSq(other, targets);
         CoveringFit fit;
         fit.open(object, targets, replaced, 40);
         const double cost = fit.best(kNone, false).cost;
-        for (const FineBall& other : replaced) ASSERT_LE(cost, double(excess({other}, voxels)));
+        for (const ExactSphere& other : replaced) ASSERT_LE(cost, double(excess({other}, voxels)));
     }
 }
 
@@ -147,8 +147,8 @@ TEST(CoveringFit, HoldsAllTargetsExactly)
         ASSERT_TRUE(holdsVoxels(fit.best(effort, false).ball, targets));
         const auto balls = randomBalls(random.between(1, 12), random, -spread, spread, spread);
         fit.open(object, balls, replaced, samples);
-        const FineBall fitted = fit.best(effort, false).ball;
-        for (const FineBall& ball : balls) ASSERT_TRUE(contains(fitted, ball));
+        const ExactSphere fitted = fit.best(effort, false).ball;
+        for (const ExactSphere& ball : balls) ASSERT_TRUE(contains(fitted, ball));
     }
 }
 
@@ -169,7 +169,7 @@ TEST(CoveringFit, KeepsCentersOfFlatTargetsInTheirPlane)
         const SampledObject object = sampled(targets);
         CoveringFit fit;
         fit.open(object, targets, {voxelBall(targets.front())}, 16);
-        const FineBall fitted = fit.best({true, 12, 1, true, 16}, true).ball;
+        const ExactSphere fitted = fit.best({true, 12, 1, true, 16}, true).ball;
         ASSERT_EQ(fitted.center[2], 16 * z);
         ASSERT_TRUE(holdsVoxels(fitted, targets));
     }
@@ -181,7 +181,7 @@ TEST(CoveringFit, LooksForTheBallInTheObject)
     const Voxels voxels = shapes::ball(100);
     const SampledObject object = sampled(voxels);
     const Voxels targets{Coord(9, 0, 0), Coord(6, 6, 0), Coord(6, -6, 0)};
-    FineBall other;
+    ExactSphere other;
     other.radiusSq = neededRadiusSq(other, targets);
     CoveringFit fit;
     fit.open(object, targets, {}, 40);

@@ -14,7 +14,7 @@ int64_t expectMoved(const MergedLeaves& merged, int64_t children, int64_t parent
     const auto levels = merged.levels({children, parents});
     const auto regions = merged.regions(levels[0].balls);
     TightLevel finer = levels[0];
-    std::vector<FineBall> balls = levels[1].balls;
+    std::vector<ExactSphere> balls = levels[1].balls;
     moveChildren(balls, finer, regions, merged.maker);
     EXPECT_EQ(balls.size(), levels[1].balls.size());
     EXPECT_EQ(finer.balls, levels[0].balls);

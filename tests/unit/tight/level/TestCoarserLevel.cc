@@ -12,7 +12,7 @@ using namespace spheretree_test;
 
 /// Makes a level above, and the next ones above that.
 /// @return the voxels around all of these.
-int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& finest,
+int64_t expectLevels(const MergedLeaves& merged, const std::vector<ExactSphere>& finest,
     const std::vector<int64_t>& counts)
 {
     const SampleLevel& object = merged.object.level(0);
@@ -27,7 +27,7 @@ int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& fi
         EXPECT_EQ(finer.parent.size(), finer.balls.size());
         const std::set<int32_t> parents(finer.parent.begin(), finer.parent.end());
         EXPECT_EQ(parents.size(), level.balls.size()) << "each has a child";
-        for (const FineBall& ball : level.balls) EXPECT_FALSE(ball.empty());
+        for (const ExactSphere& ball : level.balls) EXPECT_FALSE(ball.empty());
         const auto held = heldBelow(level.balls, finer.parent, before);
         EXPECT_EQ(together(held), merged.voxels);
         EXPECT_EQ(voxelsOf(regions, object), held);

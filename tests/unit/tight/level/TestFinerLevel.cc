@@ -25,7 +25,7 @@ std::vector<Voxels> heldInRegions(const TightLevel& level, const std::vector<Vox
 
 /// Makes a level below, and the next ones below that.
 /// @return the voxels around all of these.
-int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& coarsest,
+int64_t expectLevels(const MergedLeaves& merged, const std::vector<ExactSphere>& coarsest,
     const std::vector<int64_t>& counts)
 {
     const SampleLevel& object = merged.object.level(0);
@@ -38,7 +38,7 @@ int64_t expectLevels(const MergedLeaves& merged, const std::vector<FineBall>& co
     for (const int64_t count : counts) {
         const TightLevel level = finerLevel(coarser, regions, leaves, count, merged.maker);
         EXPECT_LE(level.balls.size(), std::size_t(count));
-        for (const FineBall& ball : level.balls) EXPECT_FALSE(ball.empty());
+        for (const ExactSphere& ball : level.balls) EXPECT_FALSE(ball.empty());
         const auto held = heldInRegions(level, voxelsOf(regions, object));
         EXPECT_EQ(together(held), merged.voxels);
         regions = chainRegions(level, regions, merged.maker);
@@ -66,7 +66,7 @@ TEST(FinerLevel, HasALeafInEachGroupThatHasAPartOfItsCell)
 {
     MergedLeaves merged(shapes::ball(30));
     merged.leaves = {{{0, 0, 0}, 16 * 16 * 29}};
-    const std::vector<FineBall> halves{{{-64, 0, 0}, 109 * 109}, {{64, 0, 0}, 109 * 109}};
+    const std::vector<ExactSphere> halves{{{-64, 0, 0}, 109 * 109}, {{64, 0, 0}, 109 * 109}};
     expectLevels(merged, halves, {2, 2});
 }
 

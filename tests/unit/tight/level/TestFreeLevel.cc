@@ -17,7 +17,7 @@ const FitEffort kEffort{true, 12, 1, false, 40};
 struct Merged {
     Voxels voxels;
     SampledObject object;
-    std::vector<FineBall> leaves;
+    std::vector<ExactSphere> leaves;
     std::vector<ForestNode> forest;
     LevelMaker maker{object, kEffort, false, nullptr};
 
@@ -31,7 +31,7 @@ struct Merged {
 };
 
 /// What one search of the cut leads to.
-std::vector<FineBall> searchedCut(const Merged& merged, int64_t count)
+std::vector<ExactSphere> searchedCut(const Merged& merged, int64_t count)
 {
     const auto spare = ungrouped(merged.leaves);
     const auto cut = ungrouped(ballsOfCut(merged.forest, count));
@@ -61,7 +61,7 @@ TEST(FreeLevel, CoversTheObjectAndTakesTheCheapestEnd)
             ASSERT_EQ(int64_t(balls.size()), count);
             for (const Coord& v : merged.voxels) {
                 ASSERT_TRUE(std::any_of(balls.begin(), balls.end(),
-                    [&](const FineBall& ball) { return holds(ball, v); }));
+                    [&](const ExactSphere& ball) { return holds(ball, v); }));
             }
             const auto one = excess(searchedCut(merged, count), merged.voxels);
             const auto cheapest = excess(balls, merged.voxels);

@@ -59,7 +59,7 @@ bool isIn(const ForestNode& node, int64_t count)
     return node.first <= count && node.last >= count;
 }
 
-double protrusion(const FineBall& ball, const FineBall& out)
+double protrusion(const ExactSphere& ball, const ExactSphere& out)
 {
     return centerDistance(ball, out) + ball.radius() - out.radius();
 }
@@ -91,7 +91,7 @@ void expectParent(
         ASSERT_EQ(place, found - above.begin());
         return;
     }
-    const FineBall& ball = forest[id].ball;
+    const ExactSphere& ball = forest[id].ball;
     for (const int32_t other : above) {
         ASSERT_LE(
             protrusion(ball, forest[above[place]].ball), protrusion(ball, forest[other].ball));
@@ -100,7 +100,7 @@ void expectParent(
 
 TEST(TightLevels, AreStuckOutOfLeastByBallsThatAreThere)
 {
-    const FineBall none, small{{0, 0, 0}, 16 * 16}, large{{320, 0, 0}, 160 * 160};
+    const ExactSphere none, small{{0, 0, 0}, 16 * 16}, large{{320, 0, 0}, 160 * 160};
     EXPECT_EQ(leastProtruding(small, {none, none, large}), 2);
     EXPECT_EQ(leastProtruding(small, {large, none, small}), 2);
     EXPECT_EQ(leastProtruding({{200, 0, 0}, 100}, {small, large, large}), 1) << "the first";
@@ -142,7 +142,7 @@ bool isRootOrMore(double root, int64_t square)
     return mantissa * mantissa >= (__int128(square) << (-2 * exponent));
 }
 
-void expectNode(const SphereTree& tree, int32_t id, const FineBall& ball, int flatAxis)
+void expectNode(const SphereTree& tree, int32_t id, const ExactSphere& ball, int flatAxis)
 {
     const int axes[3][3] = {{2, 0, 1}, {0, 2, 1}, {0, 1, 2}}; // where x, y and z come from
     for (int a = 0; a < 3; ++a) {
@@ -165,7 +165,7 @@ std::vector<TightLevel> randomLevels(Random& random)
         const bool top = k + 1 == levels.size();
         levels[k].balls = randomBalls(top ? 1 : random.between(1, 30), random, -1, 1, 9);
         if (random.chance(0.2)) {
-            FineBall& huge = levels[k].balls[0];
+            ExactSphere& huge = levels[k].balls[0];
             huge = randomBall(random, -(1 << 24), 1 << 24, 1 << 24);
         }
     }

@@ -24,13 +24,13 @@ public:
     /// Leaves of @a count groups, by turns.
     void group(int count) { mGroups = count; }
     int32_t groupOf(int32_t leaf) const override { return leaf % mGroups; }
-    std::vector<FineBall> leafBalls() const override { return mLeaves; }
+    std::vector<ExactSphere> leafBalls() const override { return mLeaves; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override
     {
         EXPECT_LT(a, b);
         EXPECT_FALSE(mEnded[a] || mEnded[b]);
-        if (mIdle[a] && mIdle[b]) return {-1e300, a, b, FineBall(), 0};
-        FineBall ball = mBalls[a];
+        if (mIdle[a] && mIdle[b]) return {-1e300, a, b, ExactSphere(), 0};
+        ExactSphere ball = mBalls[a];
         const double reach = centerDistance(mBalls[a], mBalls[b]) + mBalls[b].radius() + 1;
         const double radius = std::max(reach, ball.radius() + 1);
         ball.radiusSq = int64_t(radius * radius) & ~kMark;
@@ -94,7 +94,7 @@ private:
 
     bool mDepends;
     int mGroups = 1;
-    std::vector<FineBall> mBalls, mLeaves;
+    std::vector<ExactSphere> mBalls, mLeaves;
     std::vector<char> mIdle, mEnded;
     std::size_t mMostAtOnce = 0;
 };
@@ -168,7 +168,7 @@ std::vector<ForestNode> naiveForest(ToyModel& model)
 {
     std::vector<ForestNode> forest;
     std::vector<int32_t> living;
-    for (const FineBall& ball : model.leafBalls()) {
+    for (const ExactSphere& ball : model.leafBalls()) {
         living.push_back(int32_t(forest.size()));
         forest.push_back({ball, -1, 1, int32_t(model.leafBalls().size())});
     }

@@ -20,7 +20,7 @@ Voxels unionOf(const Voxels& a, const Voxels& b)
     return both;
 }
 
-Voxels heldOf(const Voxels& voxels, const FineBall& ball)
+Voxels heldOf(const Voxels& voxels, const ExactSphere& ball)
 {
     Voxels held;
     for (const Coord& v : voxels) {
@@ -32,17 +32,17 @@ Voxels heldOf(const Voxels& voxels, const FineBall& ball)
 /// Merges, and keeps the regions of living nodes voxel by voxel.
 class WatchedMerging : public MergeModel {
 public:
-    WatchedMerging(const Voxels& voxels, const std::vector<FineBall>& leaves, bool flat)
+    WatchedMerging(const Voxels& voxels, const std::vector<ExactSphere>& leaves, bool flat)
         : mVoxels(voxels), mObject(sampled(voxels)),
           mModel(mObject, ungrouped(leaves), regionsOf(leaves, mObject.level(0), nullptr), kEffort,
               flat, nullptr),
           mLeafCount(int32_t(leaves.size())), mFlat(flat)
     {
-        for (const FineBall& leaf : leaves) {
+        for (const ExactSphere& leaf : leaves) {
             mLiving[int32_t(mLiving.size())] = {leaf, heldOf(voxels, leaf)};
         }
     }
-    std::vector<FineBall> leafBalls() const override { return mModel.leafBalls(); }
+    std::vector<ExactSphere> leafBalls() const override { return mModel.leafBalls(); }
     MergeCandidate evaluate(int32_t a, int32_t b) const override { return mModel.evaluate(a, b); }
     bool dependsOnOthers() const override { return mModel.dependsOnOthers(); }
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override
@@ -76,7 +76,7 @@ public:
 
 private:
     struct Living {
-        FineBall ball;
+        ExactSphere ball;
         Voxels region;
     };
     int32_t anyLiving()
@@ -112,7 +112,7 @@ private:
     {
         const MergeCandidate c = mModel.evaluate(a, b);
         if (c.ball.empty()) return;
-        std::vector<FineBall> before, after{c.ball};
+        std::vector<ExactSphere> before, after{c.ball};
         for (const auto& [id, living] : mLiving) {
             if (id < mLeafCount) continue; // which have none
             before.push_back(living.ball);
@@ -132,9 +132,9 @@ private:
     std::size_t mMostAtOnce = 0;
 };
 
-std::vector<FineBall> medialLeaves(const Voxels& voxels, int dim)
+std::vector<ExactSphere> medialLeaves(const Voxels& voxels, int dim)
 {
-    std::vector<FineBall> leaves;
+    std::vector<ExactSphere> leaves;
     for (const auto& ball : CoreStages(*maskOf(voxels), dim).balls) {
         leaves.push_back(fineBall(ball));
     }

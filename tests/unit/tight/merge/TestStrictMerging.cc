@@ -15,7 +15,7 @@ constexpr FitEffort kEffort{false, 4, 1, false, 40};
 /// Merges, and knows what each node has to hold and what it costs.
 class WatchedMerging : public MergeModel {
 public:
-    WatchedMerging(const Voxels& voxels, const std::vector<FineBall>& leaves,
+    WatchedMerging(const Voxels& voxels, const std::vector<ExactSphere>& leaves,
         const HeldByLeafBalls& held, bool flat = false, const FitEffort& effort = kEffort)
         : mVoxels(voxels), mObject(sampled(voxels)),
           mModel(mObject, leaves, held, effort, flat, nullptr), mVoxelsOnly(held.areVoxels),
@@ -23,7 +23,7 @@ public:
     {}
     /// They are not asked for: of discs they are those of balls, and of large balls estimates.
     void leaveOutCosts() { mCosts = false; }
-    std::vector<FineBall> leafBalls() const override { return mModel.leafBalls(); }
+    std::vector<ExactSphere> leafBalls() const override { return mModel.leafBalls(); }
     MergeCandidate evaluate(int32_t a, int32_t b) const override { return mModel.evaluate(a, b); }
     void complete(MergeCandidate& merge) const override { mModel.complete(merge); }
     bool dependsOnOthers() const override { return mModel.dependsOnOthers(); }
@@ -47,10 +47,10 @@ private:
     /// All of it, and in the smallest ball with that centre.
     void expectHeld(const MergeCandidate& c, const Held& held) const
     {
-        FineBall smaller = c.ball;
+        ExactSphere smaller = c.ball;
         --smaller.radiusSq;
         bool needsAll = held.empty();
-        for (const FineBall& ball : held) {
+        for (const ExactSphere& ball : held) {
             ASSERT_TRUE(contains(c.ball, ball));
             needsAll = needsAll || !contains(smaller, ball);
         }
@@ -58,7 +58,7 @@ private:
     }
     void expectCost(const MergeCandidate& c) const
     {
-        const auto own = [&](const FineBall& ball) { return double(excess({ball}, mVoxels)); };
+        const auto own = [&](const ExactSphere& ball) { return double(excess({ball}, mVoxels)); };
         const double freed = own(mBalls[c.a]) + own(mBalls[c.b]);
         // Around balls in place of voxels, a radius in floats can be too short for a last voxel.
         ASSERT_NEAR(c.cost, own(c.ball) - freed, mVoxelsOnly ? 0 : 30);
@@ -68,13 +68,13 @@ private:
     SampledObject mObject;
     StrictMerging mModel;
     bool mVoxelsOnly, mCosts = true;
-    std::vector<FineBall> mBalls;
+    std::vector<ExactSphere> mBalls;
     std::vector<Held> mHeld;
 };
 
-std::vector<FineBall> medialLeaves(const Voxels& voxels, int dim = 3)
+std::vector<ExactSphere> medialLeaves(const Voxels& voxels, int dim = 3)
 {
-    std::vector<FineBall> leaves;
+    std::vector<ExactSphere> leaves;
     for (const auto& ball : CoreStages(*maskOf(voxels), dim).balls) {
         leaves.push_back(fineBall(ball));
     }
@@ -126,7 +126,7 @@ TEST(StrictMerging, HoldsLeafBallsThatWereNotLookedAtWhileABallWasSought)
         const bool even = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
         if (!even) voxels.push_back(Coord::round(497 / u.asVec3d().length() * u.asVec3d()));
     }
-    std::vector<FineBall> leaves;
+    std::vector<ExactSphere> leaves;
     for (const Coord& v : voxels) leaves.push_back(voxelBall(v));
     sortVoxels(voxels);
     WatchedMerging model(voxels, leaves, heldBalls(leaves), false, {false, 0, 1, false, 4});
@@ -156,7 +156,7 @@ TEST(StrictMerging, CountsWhatLeavesHaveOutsideTheObject)
 TEST(StrictMerging, OfNodesWithoutCellsIsOneOfThem)
 {
     const Voxels voxels = shapes::box(Coord(3));
-    const FineBall a{{0, 0, 0}, 400}, b{{99, 0, 0}, 500};
+    const ExactSphere a{{0, 0, 0}, 400}, b{{99, 0, 0}, 500};
     HeldByLeafBalls held = heldVoxels({{}, {}});
     held.areInside = false;
     WatchedMerging model(voxels, {a, b}, held);

@@ -9,7 +9,7 @@ using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
 /// The cell of each ball, voxel by voxel.
-std::vector<Voxels> naiveCells(const std::vector<FineBall>& balls, const Voxels& voxels)
+std::vector<Voxels> naiveCells(const std::vector<ExactSphere>& balls, const Voxels& voxels)
 {
     std::vector<Voxels> cells(balls.size());
     for (const Coord& v : voxels) {
@@ -31,7 +31,7 @@ std::vector<Voxels> naiveCells(const std::vector<FineBall>& balls, const Voxels&
     return cells;
 }
 
-void expectCells(const std::vector<FineBall>& balls, const Voxels& voxels, Random& random)
+void expectCells(const std::vector<ExactSphere>& balls, const Voxels& voxels, Random& random)
 {
     const auto points = powerCellPoints(balls, sampled(voxels).level(0), nullptr);
     const auto cells = naiveCells(balls, voxels);
@@ -47,7 +47,7 @@ TEST(PowerCells, OfLeavesAreTheVoxelsTheyCoverBest)
     for (uint32_t seed = 200; seed < 244; ++seed) {
         const RandomObject object = randomObject(seed);
         if (object.voxels.size() > 600) continue;
-        std::vector<FineBall> balls;
+        std::vector<ExactSphere> balls;
         for (const auto& ball : CoreStages(*maskOf(object.voxels)).balls) {
             balls.push_back(fineBall(ball));
         }

@@ -37,8 +37,8 @@ TEST(VoxelRegion, OfABallAreTheObjectsVoxelsInIt)
         const Voxels voxels = shapes::noise(Coord(20, 19, 18), turn % 2 ? 0.02 : 0.6, random);
         const SampledObject object = sampled(voxels);
         const SampleLevel& level = object.level(0);
-        const FineBall a = randomBall(random, -5, 25, 12), b = randomBall(random, -5, 25, 12);
-        const FineBall clip = randomBall(random, 0, 20, 20);
+        const ExactSphere a = randomBall(random, -5, 25, 12), b = randomBall(random, -5, 25, 12);
+        const ExactSphere clip = randomBall(random, 0, 20, 20);
         const VoxelRegion inA = regionOf(a, level), inB = regionOf(b, level);
         ASSERT_EQ(
             regionVoxels(inA, level), those(voxels, [&](const Coord& v) { return holds(a, v); }));
@@ -51,11 +51,11 @@ TEST(VoxelRegion, OfABallAreTheObjectsVoxelsInIt)
                 those(voxels,
                     [&](const Coord& v) { return holds(a, v) && (v & ~7) == level.origin(leaf); }));
         }
-        ASSERT_EQ(regionVoxels(clippedUnion(inA, inB, clip, level), level),
+        ASSERT_EQ(regionVoxels(clipped(unionOf(inA, inB), clip, level), level),
             those(voxels,
                 [&](const Coord& v) { return (holds(a, v) || holds(b, v)) && holds(clip, v); }));
     }
-    EXPECT_TRUE(regionOf(FineBall(), sampled({Coord(0, 0, 0)}).level(0)).empty());
+    EXPECT_TRUE(regionOf(ExactSphere(), sampled({Coord(0, 0, 0)}).level(0)).empty());
 }
 
 } // namespace

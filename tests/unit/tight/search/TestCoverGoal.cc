@@ -8,7 +8,7 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-bool holdsVoxels(const FineBall& ball, const Voxels& voxels)
+bool holdsVoxels(const ExactSphere& ball, const Voxels& voxels)
 {
     return std::all_of(
         voxels.begin(), voxels.end(), [&](const Coord& v) { return holds(ball, v); });
@@ -49,7 +49,7 @@ Voxels uncovered(const std::vector<Unit>& units, const std::vector<CoverBall>& r
 std::vector<CoverBall> randomCover(int count, int groups, Random& random)
 {
     std::vector<CoverBall> balls;
-    for (const FineBall& ball : randomBalls(count, random, 0, 16, 9)) {
+    for (const ExactSphere& ball : randomBalls(count, random, 0, 16, 9)) {
         balls.push_back({ball, int32_t(random.between(0, groups - 1))});
     }
     return balls;
@@ -60,7 +60,7 @@ std::vector<Unit> regionUnits(const Voxels& voxels, const SampledObject& object,
     std::vector<VoxelRegion>& regions)
 {
     const auto clips = randomBalls(kGroups, random, 2, 14, 12);
-    for (const FineBall& clip : clips) regions.push_back(regionOf(clip, object.level(0)));
+    for (const ExactSphere& clip : clips) regions.push_back(regionOf(clip, object.level(0)));
     std::vector<Unit> units;
     for (const Coord& v : voxels) {
         units.push_back({{v}, {}});
@@ -110,7 +110,7 @@ TEST(CoverGoal, IsWhatOnlyTheLiftedBallsHold)
 
 TEST(CoverGoal, IsHeldByBallsThatHoldEveryPoint)
 {
-    EXPECT_FALSE(holdsAll(FineBall(), {}));
+    EXPECT_FALSE(holdsAll(ExactSphere(), {}));
     EXPECT_TRUE(holdsAll(voxelBall(Coord(1, 2, 3)), {}));
     EXPECT_TRUE(holdsAll({{0, 0, 0}, 256}, {Coord(0, 0, 1), Coord(-1, 0, 0)}));
     EXPECT_FALSE(holdsAll({{0, 0, 0}, 255}, {Coord(0, 0, 0), Coord(-1, 0, 0)}));

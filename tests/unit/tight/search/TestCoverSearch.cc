@@ -3,6 +3,7 @@
 
 #include "support/FineBalls.h"
 
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
@@ -14,9 +15,9 @@ using namespace spheretree_test;
 
 const FitEffort kEffort{true, 12, 1, false, 40};
 
-bool anyHolds(const std::vector<FineBall>& balls, const Voxels& voxels)
+bool anyHolds(const std::vector<ExactSphere>& balls, const Voxels& voxels)
 {
-    return std::any_of(balls.begin(), balls.end(), [&](const FineBall& ball) {
+    return std::any_of(balls.begin(), balls.end(), [&](const ExactSphere& ball) {
         return std::all_of(
             voxels.begin(), voxels.end(), [&](const Coord& v) { return holds(ball, v); });
     });
@@ -26,7 +27,7 @@ bool anyHolds(const std::vector<FineBall>& balls, const Voxels& voxels)
 struct Start {
     Voxels voxels;
     SampledObject object;
-    std::vector<FineBall> leaves, balls;
+    std::vector<ExactSphere> leaves, balls;
 
     Start(const Voxels& some, int64_t count) : voxels(some), object(sampled(voxels))
     {
@@ -45,7 +46,7 @@ void expectBetter(const Start& start, const CoverGoal& goal, const std::vector<V
         start.object, goal, {kEffort, 30, 0, false}, nullptr);
     const auto balls = ballsOf(found.balls);
     ASSERT_EQ(balls.size(), start.balls.size());
-    for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
+    for (const ExactSphere& ball : balls) ASSERT_FALSE(ball.empty());
     for (const Voxels& unit : units) ASSERT_TRUE(anyHolds(balls, unit));
     const auto before = excess(start.balls, start.voxels), after = excess(balls, start.voxels);
     ASSERT_LE(after, before);
@@ -78,7 +79,7 @@ TEST(CoverSearch, KeepsACoverOfUnitsAndIsNeverWorse)
 struct Parted {
     std::vector<Voxels> parts;
     Voxels voxels;
-    std::vector<FineBall> leaves, start;
+    std::vector<ExactSphere> leaves, start;
 
     Parted()
     {
@@ -96,7 +97,7 @@ struct Parted {
 };
 
 /// @param trials  for each ball
-void expectApart(const Parted& parted, const std::vector<FineBall>& start, int trials)
+void expectApart(const Parted& parted, const std::vector<ExactSphere>& start, int trials)
 {
     const SampledObject object = sampled(parted.voxels);
     ASSERT_GT(excess(start, parted.voxels), 0);
@@ -104,7 +105,7 @@ void expectApart(const Parted& parted, const std::vector<FineBall>& start, int t
         VoxelGoal(object.level(0)), {kEffort, trials, 0, false}, nullptr);
     const auto balls = ballsOf(found.balls);
     ASSERT_EQ(balls.size(), parted.parts.size());
-    for (const FineBall& ball : balls) ASSERT_FALSE(ball.empty());
+    for (const ExactSphere& ball : balls) ASSERT_FALSE(ball.empty());
     for (const Voxels& part : parted.parts) EXPECT_TRUE(anyHolds(balls, part));
     EXPECT_EQ(excess(balls, parted.voxels), 0);
     EXPECT_EQ(found.change, -double(excess(start, parted.voxels)));
@@ -113,7 +114,7 @@ void expectApart(const Parted& parted, const std::vector<FineBall>& start, int t
 TEST(CoverSearch, PutsABallThatNoVoxelNeedsWhereOneIsMissing)
 {
     const Parted parted;
-    std::vector<FineBall> start = parted.start;
+    std::vector<ExactSphere> start = parted.start;
     start[4] = {{16 * 14 * 5, 0, 8}, 8 * 8};
     start[5] = {{16 * 14 * 4, 0, 0}, 16 * 16};
     for (const int trials : {0, 5}) expectApart(parted, start, trials);
@@ -163,7 +164,7 @@ TEST(CoverSearch, LeavesBallsInTheirGroups)
     Random random(3);
     const Start start(shapes::noise(Coord(9, 8, 8), 0.5, random), 5);
     std::vector<CoverBall> cover;
-    for (const FineBall& ball : start.balls) cover.push_back({ball, int32_t(cover.size())});
+    for (const ExactSphere& ball : start.balls) cover.push_back({ball, int32_t(cover.size())});
     const SampleLevel& object = start.object.level(0);
     const auto cells = powerCells(start.balls, object, nullptr);
     const auto found = improveCover(
@@ -172,7 +173,8 @@ TEST(CoverSearch, LeavesBallsInTheirGroups)
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(found.balls[i].group, int32_t(i));
         for (const RegionLeaf& part : cells[i]) {
-            const LeafMask held = ballMask(found.balls[i].ball, object.origin(part.leaf));
+            const LeafMask held = openvdb_spheretree::detail::voxelsOf(
+                found.balls[i].ball, kFineShift, object.origin(part.leaf));
             for (int w = 0; w < 8; ++w) EXPECT_EQ(part.mask[w] & ~held[w], 0u);
         }
     }

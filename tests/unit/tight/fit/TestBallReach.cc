@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/fit/BallMask.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
+
+#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include "support/FineBalls.h"
 
@@ -10,9 +12,9 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-void expectMask(const FineBall& ball, const Coord& origin)
+void expectVoxels(const ExactSphere& ball, const Coord& origin)
 {
-    const LeafMask mask = ballMask(ball, origin);
+    const LeafMask mask = openvdb_spheretree::detail::voxelsOf(ball, kFineShift, origin);
     bool any = false;
     for (int i = 0; i < 512; ++i) {
         const bool held = holds(ball, origin.offsetBy(i >> 6, i >> 3 & 7, i & 7));
@@ -24,22 +26,22 @@ void expectMask(const FineBall& ball, const Coord& origin)
     }
 }
 
-TEST(BallMask, HoldsWhatTheBallHolds)
+TEST(BallReach, HoldsWhatTheBallHolds)
 {
     Random random(2);
     for (int i = 0; i < 3000; ++i) {
         const Coord origin = random.coord(-24, 24) & ~7;
-        ASSERT_NO_FATAL_FAILURE(expectMask(randomBall(random, -20, 20, 3 + i % 40), origin));
+        ASSERT_NO_FATAL_FAILURE(expectVoxels(randomBall(random, -20, 20, 3 + i % 40), origin));
     }
 }
 
 /// The surface passes through the leaf, or just by it.
-TEST(BallMask, HoldsWhatFarAndHugeBallsHold)
+TEST(BallReach, HoldsWhatFarAndHugeBallsHold)
 {
     Random random(3);
     for (int i = 0; i < 3000; ++i) {
         const Coord origin = random.coord(-(1 << 24), 1 << 24) & ~7;
-        FineBall ball;
+        ExactSphere ball;
         double sum = 0;
         const int reach = 1 << random.between(8, 28);
         for (int a = 0; a < 3; ++a) {
@@ -49,34 +51,34 @@ TEST(BallMask, HoldsWhatFarAndHugeBallsHold)
         }
         const double radius = std::sqrt(sum) + random.between(-200, 200);
         ball.radiusSq = int64_t(std::max(0.0, radius) * std::max(0.0, radius));
-        ASSERT_NO_FATAL_FAILURE(expectMask(ball, origin));
+        ASSERT_NO_FATAL_FAILURE(expectVoxels(ball, origin));
     }
 }
 
 /// One voxel on the surface, or it and what is beyond.
-TEST(BallMask, HoldsTheTipsOfHugeBalls)
+TEST(BallReach, HoldsTheTipsOfHugeBalls)
 {
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 8; ++i) {
             for (const int64_t far : {900, 1 << 20, -900, -(1 << 20)}) {
-                FineBall ball{{16 * 3, 16 * 3, 16 * 3}, 256 * (far - i) * (far - i)};
+                ExactSphere ball{{16 * 3, 16 * 3, 16 * 3}, 256 * (far - i) * (far - i)};
                 ball.center[axis] = 16 * far;
-                ASSERT_NO_FATAL_FAILURE(expectMask(ball, Coord(0, 0, 0)));
+                ASSERT_NO_FATAL_FAILURE(expectVoxels(ball, Coord(0, 0, 0)));
                 --ball.radiusSq;
-                ASSERT_NO_FATAL_FAILURE(expectMask(ball, Coord(0, 0, 0)));
+                ASSERT_NO_FATAL_FAILURE(expectVoxels(ball, Coord(0, 0, 0)));
             }
         }
     }
 }
 
 /// Balls around the sizes that 16 bits have room for, and larger ones that end in the leaf.
-TEST(BallMask, HoldsWhatBallsOfAbout300VoxelsHold)
+TEST(BallReach, HoldsWhatBallsOfAbout300VoxelsHold)
 {
     Random random(6);
     for (int i = 0; i < 6000; ++i) {
         const Coord origin = random.coord(-24, 24) & ~7;
         const int most = i % 3 ? 4900 : 300;
-        FineBall ball{{0, 0, 0}, 0};
+        ExactSphere ball{{0, 0, 0}, 0};
         double sum = 0;
         for (int a = 0; a < 3; ++a) {
             const bool far = a == i % 3 || random.chance(0.5);
@@ -87,16 +89,16 @@ TEST(BallMask, HoldsWhatBallsOfAbout300VoxelsHold)
         }
         const double radius = std::sqrt(sum) - random.between(-20, 200);
         ball.radiusSq = int64_t(radius * radius);
-        ASSERT_NO_FATAL_FAILURE(expectMask(ball, origin));
+        ASSERT_NO_FATAL_FAILURE(expectVoxels(ball, origin));
     }
 }
 
-TEST(BallMask, IsReachedByBallsAsNearAsItsBox)
+TEST(BallReach, IsReachedByBallsAsNearAsItsBox)
 {
     Random random(4);
     int reached = 0;
     for (int i = 0; i < 3000; ++i) {
-        const FineBall ball = randomBall(random, -12, 20, 8);
+        const ExactSphere ball = randomBall(random, -12, 20, 8);
         int64_t sum = 0;
         for (const int64_t c : ball.center) {
             const int64_t d = std::max<int64_t>(0, std::max(-c, c - 112));
@@ -109,11 +111,11 @@ TEST(BallMask, IsReachedByBallsAsNearAsItsBox)
     EXPECT_LT(reached, 2700);
 }
 
-TEST(BallMask, LiesInTheBoxOfItsBall)
+TEST(BallReach, LiesInTheBoxOfItsBall)
 {
     Random random(5);
     for (int i = 0; i < 500; ++i) {
-        const FineBall ball = randomBall(random, -5, 5, i % 6);
+        const ExactSphere ball = randomBall(random, -5, 5, i % 6);
         CoordBBox box;
         const bool some = ballBox(ball, box);
         for (const Coord& v : voxelsOfBox(CoordBBox(Coord(-12), Coord(12)))) {
@@ -128,7 +130,7 @@ TEST(BallMask, LiesInTheBoxOfItsBall)
         }
     }
     CoordBBox box;
-    EXPECT_FALSE(ballBox(FineBall(), box));
+    EXPECT_FALSE(ballBox(ExactSphere(), box));
     EXPECT_FALSE(ballBox({{8, 0, 0}, 49}, box)); // between two voxels
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "BallMask.h"
+#include "BallReach.h"
 
 #include <openvdb_spheretree/base/IntegerRoot.h>
-#include <openvdb_spheretree/sphere/LeafVoxels.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <algorithm>
 #include <limits>
@@ -10,16 +10,7 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-namespace {
-
-openvdb::CoordBBox leafBox(const openvdb::Coord& origin)
-{
-    return openvdb::CoordBBox::createCube(origin, kLeafDim);
-}
-
-} // namespace
-
-BoxReach::BoxReach(const FineBall& ball, const openvdb::CoordBBox& box)
+BoxReach::BoxReach(const ExactSphere& ball, const openvdb::CoordBBox& box)
 {
     for (int a = 0; a < 3; ++a) {
         const int64_t first = kFine * int64_t(box.min()[a]), last = kFine * int64_t(box.max()[a]);
@@ -31,23 +22,18 @@ BoxReach::BoxReach(const FineBall& ball, const openvdb::CoordBBox& box)
     }
 }
 
-LeafMask ballMask(const FineBall& ball, const openvdb::Coord& origin)
+bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin)
 {
-    const ExactSphere sphere{{ball.center[0], ball.center[1], ball.center[2]}, ball.radiusSq};
-    return detail::voxelsOf(sphere, /*shift=*/4, origin);
+    return BoxReach(ball, openvdb::CoordBBox::createCube(origin, kLeafDim)).meets(ball);
 }
 
-bool mayReach(const FineBall& ball, const openvdb::Coord& origin)
-{
-    return BoxReach(ball, leafBox(origin)).meets(ball);
-}
-
-bool ballBox(const FineBall& ball, openvdb::CoordBBox& box)
+bool ballBox(const ExactSphere& ball, openvdb::CoordBBox& box)
 {
     if (ball.empty()) return false;
     const int64_t reach = detail::floorSqrt(ball.radiusSq);
     for (int a = 0; a < 3; ++a) {
-        const int64_t lo = (ball.center[a] - reach + 15) >> 4, hi = (ball.center[a] + reach) >> 4;
+        const int64_t lo = (ball.center[a] - reach + kFine - 1) >> kFineShift;
+        const int64_t hi = (ball.center[a] + reach) >> kFineShift;
         constexpr int64_t kLeast = std::numeric_limits<int32_t>::min() + 8;
         constexpr int64_t kMost = std::numeric_limits<int32_t>::max() - 8;
         box.min()[a] = int32_t(std::max(kLeast, std::min(kMost, lo)));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file FineBall.h
-/// @brief The spheres of tight trees: closed balls whose centres are multiples of 1/16 voxel.
+/// @file FineSphere.h
+/// @brief The balls of tight trees: exact spheres in units of 1/16 voxel.
 ///
 /// Half a voxel is too coarse: at 512 spheres Al.100 then has 2.0 % of error in place of 1.15 %;
-/// 1/32 gains no more. Everything is an integer, so which voxels a ball holds is exact.
+/// 1/32 gains no more.
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/sphere/ExactSphere.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <openvdb/Types.h>
 
@@ -21,38 +22,24 @@ namespace tight {
 
 /// Units of length in a voxel.
 constexpr int64_t kFine = 16;
-
-/// The voxels q with |16 q - center|^2 <= radiusSq.
-struct FineBall {
-    int64_t center[3] = {0, 0, 0}; ///< 1/16 voxel
-    int64_t radiusSq = -1;         ///< of that unit, squared; negative: no ball
-
-    bool empty() const { return radiusSq < 0; }
-    /// 1/16 voxel
-    double radius() const { return std::sqrt(double(radiusSq)); }
-    bool operator==(const FineBall& o) const
-    {
-        return center[0] == o.center[0] && center[1] == o.center[1] && center[2] == o.center[2]
-            && radiusSq == o.radiusSq;
-    }
-};
+constexpr int kFineShift = 4; ///< log2 of that
 
 /// @return the ball that holds this voxel alone, radius 0.
-inline FineBall voxelBall(const openvdb::Coord& ijk)
+inline ExactSphere voxelBall(const openvdb::Coord& ijk)
 {
     return {{kFine * int64_t(ijk[0]), kFine * int64_t(ijk[1]), kFine * int64_t(ijk[2])}, 0};
 }
 
 /// @return the closed ball of the same voxels.
-inline FineBall fineBall(const MedialBall& ball)
+inline ExactSphere fineBall(const MedialBall& ball)
 {
-    FineBall fine = voxelBall(ball.center);
+    ExactSphere fine = voxelBall(ball.center);
     fine.radiusSq = kFine * kFine * (int64_t(ball.radiusSq) - 1);
     return fine;
 }
 
 /// @return the distance of two centres, 1/16 voxel.
-inline double centerDistance(const FineBall& a, const FineBall& b)
+inline double centerDistance(const ExactSphere& a, const ExactSphere& b)
 {
     const double x = double(a.center[0] - b.center[0]), y = double(a.center[1] - b.center[1]),
                  z = double(a.center[2] - b.center[2]);
@@ -60,7 +47,7 @@ inline double centerDistance(const FineBall& a, const FineBall& b)
 }
 
 /// @return what is free between two balls, 1/16 voxel; negative where they overlap.
-inline double gapBetween(const FineBall& a, const FineBall& b)
+inline double gapBetween(const ExactSphere& a, const ExactSphere& b)
 {
     return centerDistance(a, b) - a.radius() - b.radius();
 }
@@ -71,7 +58,7 @@ struct FineBox {
 
     FineBox() = default;
     /// The box of a ball whose radius is larger by @a margin, rounded up.
-    explicit FineBox(const FineBall& ball, double margin = 0)
+    explicit FineBox(const ExactSphere& ball, double margin = 0)
     {
         const auto reach = int64_t(std::ceil(ball.radius() + margin));
         for (int a = 0; a < 3; ++a) {
@@ -81,7 +68,7 @@ struct FineBox {
     }
 
     /// Takes in the box of a ball.
-    void expand(const FineBall& ball, double margin = 0)
+    void expand(const ExactSphere& ball, double margin = 0)
     {
         const FineBox box(ball, margin);
         for (int a = 0; a < 3; ++a) {
@@ -108,6 +95,18 @@ struct FineBox {
         return inside;
     }
 };
+
+/// @return a ball around a box that is not empty, whose center is that of the box, rounded.
+inline ExactSphere ballAround(const FineBox& box)
+{
+    ExactSphere ball{{}, 0};
+    for (int a = 0; a < 3; ++a) {
+        ball.center[a] = (box.lo[a] + box.hi[a]) / 2;
+        const int64_t half = (box.hi[a] - box.lo[a] + 1) / 2 + 1;
+        ball.radiusSq += half * half;
+    }
+    return ball;
+}
 
 } // namespace tight
 } // namespace openvdb_spheretree
