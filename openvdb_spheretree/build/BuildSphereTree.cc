@@ -15,6 +15,7 @@
 #include <openvdb_spheretree/tight/TightTree.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Exceptions.h>
@@ -199,9 +200,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
         appendMergedTree(tree, object, *seconds, interrupter);
         return tree;
     }
-    auto voxels = FlatAxis(tree.flatAxis)
-                      .toZ(std::make_shared<openvdb::MaskTree>(
-                          object.tree(), false, openvdb::TopologyCopy()));
+    auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
     if (settings.isInner()) detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
     else appendPyramidTree(tree, std::move(voxels), *seconds, interrupter);
     return tree;

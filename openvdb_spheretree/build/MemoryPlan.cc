@@ -5,7 +5,7 @@
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
-#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>
@@ -29,9 +29,7 @@ void planNorm(const LeafLayout& layout, MemoryPlan& plan)
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const FlatAxis flat = flatAxisOf(object, settings.dim);
-    const LeafLayout layout(*flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
+    const LeafLayout layout(*voxelsOf(object, flatAxisOf(object, settings.dim)));
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
     plan.slabs = layout.slabCount();
@@ -40,9 +38,9 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
         return plan;
     }
     slab::LabelStream stream(layout, settings.dim);
-    detail::LabelSteps steps;
+    detail::LabelOffsets offsets;
     const auto* options = settings.find<PyramidOptions>();
-    if (options && detail::needsDag(*options)) stream.keepSteps(steps);
+    if (options && detail::needsDag(*options)) stream.keepOffsets(offsets);
     stream.setMemory(settings.memory);
     const slab::StreamPlan found = stream.plan(interrupter);
     plan.needed = found.bytes;

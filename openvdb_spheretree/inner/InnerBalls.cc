@@ -3,7 +3,7 @@
 
 #include "InnerOrder.h"
 #include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 namespace openvdb_spheretree {
 
@@ -11,8 +11,7 @@ std::vector<MedialBall> innerBalls(const openvdb::BoolGrid& object, int64_t most
     openvdb::util::NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
-    const auto voxels = flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
+    const auto voxels = voxelsOf(object, flat);
     const MedialLevel level(*voxels, dim, Distance(), interrupter);
     return detail::ballsInOrder(
         level.balls, detail::innerOrder(level.layout, level.balls, dim, most, interrupter), flat);

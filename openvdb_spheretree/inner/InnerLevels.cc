@@ -138,10 +138,10 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
     openvdb::util::NullInterrupter* interrupter)
 {
     const BudgetOptions& options = tree.settings.budgeted();
-    LevelWants wants;
-    wants.memory = tree.settings.memory;
+    LevelQueries queries;
+    queries.memory = tree.settings.memory;
     const MedialLevel medial(
-        voxels, tree.settings.dim, tree.settings.dist(), interrupter, &seconds, wants);
+        voxels, tree.settings.dim, tree.settings.dist(), interrupter, &seconds, queries);
     const InnerOrder order = timed("inner balls", interrupter, &seconds.tree, [&] {
         return innerOrder(
             medial.layout, medial.balls, tree.settings.dim, mostWanted(options), interrupter);

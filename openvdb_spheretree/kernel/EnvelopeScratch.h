@@ -13,25 +13,23 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-constexpr int kBlockRows = 8; ///< rows whose reach is decided together
-
-/// The rows [first, last) of @a count; all are multiples of kBlockRows.
+/// The rows [first, last) of @a count; all three are multiples of kLeafDim.
 struct RowRange {
     int first, last, count;
 };
 
-/// One entry a block of rows.
+/// An entry for each leaf of the run: its eight rows are decided together.
 struct EnvelopeScratch {
     std::vector<int> reach;                 ///< how far away a better row can be
-    std::vector<int64_t> largest, smallest; ///< values in the block
+    std::vector<int64_t> largest, smallest; ///< values in the leaf; smallest of the object
     RowBuffer<int32_t> keys;                ///< rows in another form
     RowBuffer<int64_t> wideKeys;
 
-    void resize(std::size_t blocks)
+    void resize(std::size_t leaves)
     {
-        reach.resize(blocks);
-        largest.resize(blocks);
-        smallest.resize(blocks);
+        reach.resize(leaves);
+        largest.resize(leaves);
+        smallest.resize(leaves);
     }
 };
 

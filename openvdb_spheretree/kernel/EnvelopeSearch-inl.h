@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file EnvelopeSearch-inl.h
-/// @brief One axis of a separable transform: for every row i, the best over all rows j of
-/// value(j) "penalised by" (i - j)^2, for 64 lines side by side. Exact.
+/// @brief One axis of a separable transform: for every row i the best row j, by value(j) and the
+/// penalty (i - j)^2, for 64 lines side by side. Exact.
 ///
 /// Both transforms are this search: the distance transform takes the smallest value + (i - j)^2,
 /// the power map the largest value - (i - j)^2 (CM07, sections 2 and 3). Instead of building the
 /// envelope of parabolas line by line, which is scalar work, it uses that the best j never moves
 /// backwards as i grows (the penalty is convex), for all lanes of a vector at once:
 ///
-/// 1. `reach`   of every block of 8 rows: how far away a better row can be at all; those of none
-///              are copied;
-/// 2. `window`  blocks of short reach look at every row in reach, both ways at once;
-/// 3. `divide`  longer stretches: search the middle row, remembering where each lane found its best;
-///              the rows before need not look beyond the last of these places, the rows behind not
-///              before the first. Depth is log2(rows), so at most 31 (rows are counted in an int).
+/// 1. `reach`   of every leaf (8 rows): how far away a better row can be at all; the rows of a leaf
+///              without reach are copied;
+/// 2. `window`  leaves of short reach look at every row in reach, both ways at once;
+/// 3. `divide`  leaves of longer reach: search the middle row, remembering where each lane found its
+///              best; the rows before need not look beyond the last of these places, the rows behind
+///              not before the first. Depth is log2(rows), so at most 31 (rows fit an int).
 ///
 /// Of equally good rows the first one wins. That choice is monotone too, so it survives step 3.
 /// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
-/// Plain windows for all blocks took 2.3 times as long on solids (dragon-512, with a prototype). To
-/// go from one block to the next, finding the best of its first row outwards until no lane can gain,
+/// Plain windows for all leaves took 2.3 times as long on solids (dragon-512, with a prototype). To
+/// go from one leaf to the next, finding the best of its first row outwards until no lane can gain,
 /// was as fast on dragon-512 and 7% slower on fandisk-512.
 ///
-/// An Op supplies: Value, penalty(d), candidate(), better(), best(), bestOfThree() for one row on
-/// either side, load(), store(), blockReach(),
-/// and whether store() wants steps: kTracksStep for steps beside the values, kStepInKey where the
-/// values hold them and step() extracts them; see MinPlus.cc and MaxPlus.cc. This header is
-/// compiled once per instruction set.
+/// An Op supplies Value, penalty(d), candidate(), better(), best(), bestOfThree() for one row on
+/// either side, load(), store() and leafReach(). It says whether store() needs offsets to the best
+/// row: kTracksOffset if they are kept beside the values, kOffsetInKey if the values hold them and
+/// offsetOf() extracts them. See MinPlus.cc and MaxPlus.cc. This header is compiled once for each
+/// instruction set.
 
 #if defined(SPHERETREE_ENVELOPE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_ENVELOPE_SEARCH_INL_H
@@ -60,36 +60,36 @@ public:
 
     /// @param op    its rows -1 and rows.count must be readable; lives until run() is done
     EnvelopeSearch(const Op& op, const RowRange& rows, EnvelopeScratch& scratch)
-        : mOp(op), mRows(rows.count), mFirstBlock(rows.first / kBlockRows),
-          mEndBlock(rows.last / kBlockRows), mScratch(scratch), mReach(scratch.reach)
+        : mOp(op), mRows(rows.count), mFirstLeaf(rows.first / kLeafDim),
+          mEndLeaf(rows.last / kLeafDim), mScratch(scratch), mReach(scratch.reach)
     {
-        mScratch.resize(mRows / kBlockRows);
+        mScratch.resize(mRows / kLeafDim);
     }
 
     void run()
     {
         for (mLane = 0; mLane < kLanes; mLane += kVectors * kWidth) {
-            mOp.template blockReach<kVectors>(mLane, mScratch);
-            for (int block = mFirstBlock; block < mEndBlock;) {
-                if (mReach[block] == 0) {
-                    copy(block++);
+            mOp.template leafReach<kVectors>(mLane, mScratch);
+            for (int leaf = mFirstLeaf; leaf < mEndLeaf;) {
+                if (mReach[leaf] == 0) {
+                    copy(leaf++);
                     continue;
                 }
-                if (mReach[block] <= kWindowReach) {
-                    window(block++);
+                if (mReach[leaf] <= kWindowReach) {
+                    window(leaf++);
                     continue;
                 }
-                const int first = block;
-                while (block < mEndBlock && mReach[block] > kWindowReach) ++block;
-                divide(kBlockRows * first, kBlockRows * block - 1, -1, mRows);
+                const int first = leaf;
+                while (leaf < mEndLeaf && mReach[leaf] > kWindowReach) ++leaf;
+                divide(kLeafDim * first, kLeafDim * leaf - 1, -1, mRows);
             }
         }
     }
 
 private:
     static constexpr int kWidth = int(hn::MaxLanes(D()));
-    /// Vectors side by side that are searched together: one waits for its own last step, several
-    /// do not wait for each other's.
+    /// Vectors side by side that are searched together: one has to wait for its own last result,
+    /// several need not wait for each other.
     static constexpr int kVectors = kLanes / kWidth < 4 ? kLanes / kWidth : 4;
     /// Beyond this reach, dividing beats looking at every row (measured: 4 to 6 are alike).
     static constexpr int kWindowReach = 6;
@@ -99,10 +99,10 @@ private:
     HWY_INLINE V load(int row, int vector) const { return mOp.load(row, mLane + vector * kWidth); }
 
     /// Rows that are their own best.
-    void copy(int block)
+    void copy(int leaf)
     {
         const V none = hn::Zero(D());
-        for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+        for (int row = kLeafDim * leaf; row < kLeafDim * (leaf + 1); ++row) {
             for (int v = 0; v < kVectors; ++v) {
                 mOp.store(row, mLane + v * kWidth, load(row, v), none);
             }
@@ -110,10 +110,10 @@ private:
     }
 
     /// Rows that look at every row in reach.
-    void window(int block)
+    void window(int leaf)
     {
-        const int first = kBlockRows * block, last = first + kBlockRows - 1, reach = mReach[block];
-        if (!Op::kTracksStep && first - reach >= -1 && last + reach <= mRows) {
+        const int first = kLeafDim * leaf, last = first + kLeafDim - 1, reach = mReach[leaf];
+        if (!Op::kTracksOffset && first - reach >= -1 && last + reach <= mRows) {
             switch (reach) {
             case 1: return around<1>(first);
             case 2: return around<2>(first);
@@ -126,24 +126,24 @@ private:
         for (int row = first; row <= last; row += 4) searchRows<4>(row, -1, mRows);
     }
 
-    /// The rows of a block, each of which looks kReach rows both ways, all of them there.
+    /// The rows of a leaf, each of which looks kReach rows both ways, all of them there.
     template <int kReach>
     void around(int first)
     {
         const D d;
-        V before[kReach], behind[kReach]; // what rows pay that are before, or behind, by k + 1
+        V before[kReach], behind[kReach]; // penalties of the row k + 1 before, and behind
         for (int k = 0; k < kReach; ++k) {
             before[k] = hn::Set(d, mOp.penalty(k + 1));
             behind[k] = hn::Set(d, mOp.penalty(-k - 1));
         }
-        for (int row = first; row < first + kBlockRows; ++row) {
+        for (int row = first; row < first + kLeafDim; ++row) {
             for (int v = 0; v < kVectors; ++v) {
                 V best = load(row, v);
                 for (int k = 0; k < kReach; ++k) {
                     best = mOp.bestOfThree(
                         best, load(row - k - 1, v), before[k], load(row + k + 1, v), behind[k]);
                 }
-                mOp.store(row, mLane + v * kWidth, best, mOp.step(best));
+                mOp.store(row, mLane + v * kWidth, best, mOp.offsetOf(best));
             }
         }
     }
@@ -171,11 +171,11 @@ private:
         if (last - first == 0) searchRows<1>(first, low, high);
     }
 
-    /// N rows from `row` on, at most two blocks; candidates [low, high] within reach.
+    /// N rows from `row` on, at most two leaves; candidates [low, high] within reach.
     template <int N>
     void searchRows(int row, int low, int high)
     {
-        const int reach = std::max(mReach[row / kBlockRows], mReach[(row + N - 1) / kBlockRows]);
+        const int reach = std::max(mReach[row / kLeafDim], mReach[(row + N - 1) / kLeafDim]);
         low = std::max(low, row - reach);
         high = std::min(high, row + N - 1 + reach);
         for (int v = 0; v < kVectors; ++v) searchVector<N>(row, low, high, v);
@@ -186,12 +186,12 @@ private:
     {
         const D d;
         const V first = load(low, vector);
-        V best[N], step[N]; // where the best is, as steps from `row`
-        V penalty[N];       // of the candidate at hand; what row k pays now, k + 1 pays next
+        V best[N], offset[N]; // from `row` to the best
+        V penalty[N];         // of this candidate; row k + 1 takes over that of row k next
         for (int k = 0; k < N; ++k) {
             penalty[k] = hn::Set(d, mOp.penalty(row + k - low));
             best[k] = mOp.candidate(first, penalty[k]);
-            step[k] = hn::Set(d, Value(low - row));
+            offset[k] = hn::Set(d, Value(low - row));
         }
         for (int j = low + 1; j <= high; ++j) {
             const V value = load(j, vector);
@@ -200,16 +200,16 @@ private:
             penalty[0] = hn::Set(d, mOp.penalty(row - j));
             for (int k = 0; k < N; ++k) {
                 const V next = mOp.candidate(value, penalty[k]);
-                if (Op::kTracksStep) {
-                    step[k] = hn::IfThenElse(mOp.better(next, best[k]), here, step[k]);
+                if (Op::kTracksOffset) {
+                    offset[k] = hn::IfThenElse(mOp.better(next, best[k]), here, offset[k]);
                 }
                 best[k] = mOp.best(next, best[k]);
             }
         }
         for (int k = 0; k < N; ++k) {
-            const V tracked = hn::Sub(step[k], hn::Set(d, Value(k)));
+            const V tracked = hn::Sub(offset[k], hn::Set(d, Value(k)));
             mOp.store(row + k, mLane + vector * kWidth, best[k],
-                Op::kStepInKey ? mOp.step(best[k]) : tracked);
+                Op::kOffsetInKey ? mOp.offsetOf(best[k]) : tracked);
         }
     }
 
@@ -217,21 +217,22 @@ private:
     void searchMiddle(int row, int low, int high, int& firstBest, int& lastBest)
     {
         const D d;
-        const int reach = mReach[row / kBlockRows];
+        const int reach = mReach[row / kLeafDim];
         low = std::max(low, row - reach);
         high = std::min(high, row + reach);
-        V best[kVectors], step[kVectors]; // a row's number need not fit a lane; steps do
+        // Offsets, as the number of a row need not fit a lane.
+        V best[kVectors], offset[kVectors];
         const V firstPenalty = hn::Set(d, mOp.penalty(row - low));
         for (int v = 0; v < kVectors; ++v) {
             best[v] = mOp.candidate(load(low, v), firstPenalty);
-            step[v] = hn::Set(d, Value(low - row));
+            offset[v] = hn::Set(d, Value(low - row));
         }
         for (int j = low + 1; j <= high; ++j) {
             const V penalty = hn::Set(d, mOp.penalty(row - j)), here = hn::Set(d, Value(j - row));
             for (int v = 0; v < kVectors; ++v) {
                 const V next = mOp.candidate(load(j, v), penalty);
-                if (!Op::kStepInKey) {
-                    step[v] = hn::IfThenElse(mOp.better(next, best[v]), here, step[v]);
+                if (!Op::kOffsetInKey) {
+                    offset[v] = hn::IfThenElse(mOp.better(next, best[v]), here, offset[v]);
                 }
                 best[v] = mOp.best(next, best[v]);
             }
@@ -239,20 +240,20 @@ private:
         const hn::RebindToSigned<D> ds;
         auto least = hn::Zero(ds), most = hn::Zero(ds);
         for (int v = 0; v < kVectors; ++v) {
-            if (Op::kStepInKey) step[v] = mOp.step(best[v]);
-            mOp.store(row, mLane + v * kWidth, best[v], step[v]);
+            if (Op::kOffsetInKey) offset[v] = mOp.offsetOf(best[v]);
+            mOp.store(row, mLane + v * kWidth, best[v], offset[v]);
             // A background voxel cuts its line, so it bounds both sides by itself.
             const auto background = hn::Eq(load(row, v), hn::Zero(d));
-            const auto signedStep = hn::BitCast(ds, hn::IfThenZeroElse(background, step[v]));
-            least = v == 0 ? signedStep : hn::Min(least, signedStep);
-            most = v == 0 ? signedStep : hn::Max(most, signedStep);
+            const auto signedOffset = hn::BitCast(ds, hn::IfThenZeroElse(background, offset[v]));
+            least = v == 0 ? signedOffset : hn::Min(least, signedOffset);
+            most = v == 0 ? signedOffset : hn::Max(most, signedOffset);
         }
         firstBest = row + int(hn::GetLane(hn::MinOfLanes(ds, least)));
         lastBest = row + int(hn::GetLane(hn::MaxOfLanes(ds, most)));
     }
 
     const Op& mOp;
-    int mRows, mFirstBlock, mEndBlock, mLane = 0;
+    int mRows, mFirstLeaf, mEndLeaf, mLane = 0;
     EnvelopeScratch& mScratch;
     std::vector<int>& mReach;
 };

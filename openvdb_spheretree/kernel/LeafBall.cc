@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBall.cc
 /// @brief With S units a voxel and centre c, a voxel q is inside when
-///     |S q - c|^2 <= coverSq   <=>   S/2 |q|^2 - q.c <= floor((coverSq - |c|^2) / 2S)
+///     |S q - c|^2 <= radiusSq   <=>   S/2 |q|^2 - q.c <= floor((radiusSq - |c|^2) / 2S)
 /// as the left side is an integer: a sum of a term t(i) = i (S/2 i - c) for each axis, small and
 /// alike for all S. The 64 sums of the terms of y and z are computed once, the rest is one value
 /// for each of the 8 words: 64 comparisons of 16-bit lanes a word. (A square root a row, 64 a leaf,
@@ -10,7 +10,8 @@
 /// Both sides are shifted so that the limits of the words start at 0. They differ by no more than
 /// the terms of x do: with |S q - c| <= r, by 49/2 S if the centre is between the voxels along x,
 /// else by 7 r - 49/2 S; so limits are below 2^15 - 1 where r is at most kLeafBallReach, and
-/// saturating the left side to 16 bits then changes no comparison. Exact.
+/// saturating the left side to 16 bits then changes no comparison. In 32 bits nothing overflows:
+/// coordinates of c are at most r, as the leaf's corner voxel is that near, and 3 r^2 < 2^26. Exact.
 
 #include "LeafBall.h"
 
@@ -31,16 +32,16 @@ namespace openvdb_spheretree {
 namespace detail {
 namespace HWY_NAMESPACE {
 
-void orBall(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
+void orBall(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8])
 {
 #if HWY_TARGET == HWY_SCALAR
-    orBallIntoLeafPortable(center, coverSq, shift, words);
+    orBallIntoLeafPortable(center, radiusSq, shift, words);
 #else
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<int32_t, 8> d32;
     const hn::Rebind<int16_t, decltype(d32)> dHalf;
     const hn::CappedTag<int16_t, 32> d16;
-    const BallTerms ball(center, coverSq, shift);
+    const BallTerms ball(center, radiusSq, shift);
     HWY_ALIGN int16_t sums[64];
     for (int y = 0; y < 8; ++y) {
         const auto rest = hn::Set(d32, ball.ofY[y] - ball.least);
@@ -143,9 +144,9 @@ uint64_t atMost(const Row& row, uint64_t limits)
 
 } // namespace
 
-void orBallIntoLeafPortable(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
+void orBallIntoLeafPortable(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8])
 {
-    const BallTerms ball(center, coverSq, shift);
+    const BallTerms ball(center, radiusSq, shift);
     Row rows[8];
     for (int y = 0; y < 8; ++y) rows[y] = rowOf(ball.ofZ, ball.ofY[y] - ball.least);
     for (int x = 0; x < 8; ++x) {
@@ -154,9 +155,9 @@ void orBallIntoLeafPortable(const int64_t center[3], int64_t coverSq, int shift,
     }
 }
 
-void orBallIntoLeaf(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8])
+void orBallIntoLeaf(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8])
 {
-    HWY_DYNAMIC_DISPATCH(orBall)(center, coverSq, shift, words);
+    HWY_DYNAMIC_DISPATCH(orBall)(center, radiusSq, shift, words);
 }
 
 void orNormBallIntoLeaf(

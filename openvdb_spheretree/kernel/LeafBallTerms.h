@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBallTerms.h
-/// @brief What the vector kernel and the portable one compare: see LeafBall.cc. A header, since the
-/// kernel's file is compiled once for every instruction set.
+/// @brief What the vector kernel and the portable one compare: see LeafBall.cc, which is compiled once
+/// for every instruction set, and this header once.
 
 #pragma once
 
@@ -19,7 +19,7 @@ struct alignas(32) BallTerms {
     int32_t most;  ///< of ofX; it is at one of its ends
     int32_t least; ///< the least limit of a word
 
-    BallTerms(const int64_t center[3], int64_t coverSq, int shift)
+    BallTerms(const int64_t center[3], int64_t radiusSq, int shift)
     {
         const int32_t half = int32_t(1) << (shift - 1);
         const auto x = int32_t(center[0]), y = int32_t(center[1]), z = int32_t(center[2]);
@@ -29,7 +29,7 @@ struct alignas(32) BallTerms {
             ofZ[i] = i * (half * i - z);
         }
         most = std::max(ofX[0], ofX[7]);
-        least = ((int32_t(coverSq) - x * x - y * y - z * z) >> (shift + 1)) - most; // rounded down
+        least = ((int32_t(radiusSq) - x * x - y * y - z * z) >> (shift + 1)) - most; // rounded down
     }
 };
 

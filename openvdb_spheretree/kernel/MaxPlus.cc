@@ -18,21 +18,24 @@ namespace openvdb_spheretree {
 namespace detail {
 namespace HWY_NAMESPACE {
 
-/// Keys with room for the step, for radii up to 60 voxels: 13 bits of value, 12 of radiusSq, 7 of
-/// step. (A block of four rows looks up to 62 rows away, and 62^2 still fits the value.)
+/// Keys with room for the offset, for radii up to 60 voxels: 12 bits of value, 12 of radiusSq, 7 of
+/// offset, and the sign. 60^2 < 2^12, so keys are not negative. A better row is at most 59 rows
+/// away (59 <= sqrt(60^2 - 1)), and rows that are searched four together look 3 rows further: 62^2
+/// < 2^12 as well, so a candidate may be negative, and does not fall below -2^31.
 struct SmallKeys {
     using Key = int32_t;
     using Offset = int8_t;
-    static constexpr bool kStepInKey = true;
+    static constexpr bool kOffsetInKey = true;
     static constexpr int kSiteShift = 7, kShift = 19;
-    static constexpr Key kStepMask = 127, kStepBias = 64;
+    static constexpr Key kOffsetMask = 127, kOffsetBias = 64;
     static constexpr uint32_t kMaxRadiusSq = 60 * 60;
 };
 
-/// Keys as they come.
+/// Keys as they come. Narrow ones have 14 bits of value, as 127^2 < 2^14; candidates from up to 129
+/// rows away stay above -2^31, as 129^2 < 2^15. Wide ones have 30 bits of 63, likewise.
 template <typename Power>
 struct PlainKeys : Power {
-    static constexpr bool kStepInKey = false;
+    static constexpr bool kOffsetInKey = false;
 };
 
 template <typename Keys>
@@ -41,69 +44,69 @@ struct MaxPlusOp {
     using Offset = typename Keys::Offset;
     using D = hn::CappedTag<Value, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kStepInKey = Keys::kStepInKey;
-    static constexpr bool kTracksStep = !kStepInKey;
+    static constexpr bool kOffsetInKey = Keys::kOffsetInKey;
+    static constexpr bool kTracksOffset = !kOffsetInKey;
 
     const Value* in;
     Value* out;
-    Offset* offset;
+    Offset* offsets;
 
     /// What the key of a site loses on the way to a row `distance` rows behind it.
     static Value penalty(int distance)
     {
         const Value square = Value(Value(distance) * distance) << Keys::kShift;
-        return kStepInKey ? square - distance : square;
+        return kOffsetInKey ? square - distance : square;
     }
     HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
     static HWY_INLINE V candidate(V key, V penalty) { return hn::Sub(key, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Gt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Max(a, b); }
-    static HWY_INLINE V bestOfThree(V own, V before, V paysBefore, V behind, V paysBehind)
+    static HWY_INLINE V bestOfThree(V own, V before, V penaltyBefore, V behind, V penaltyBehind)
     {
-        return best(own, best(candidate(before, paysBefore), candidate(behind, paysBehind)));
+        return best(own, best(candidate(before, penaltyBefore), candidate(behind, penaltyBehind)));
     }
-    static HWY_INLINE V step(V key)
+    static HWY_INLINE V offsetOf(V key)
     {
-        if constexpr (kStepInKey) {
+        if constexpr (kOffsetInKey) {
             const D d;
-            const V bits = hn::And(key, hn::Set(d, Keys::kStepMask));
-            return hn::Sub(hn::Set(d, Keys::kStepBias), bits);
+            const V bits = hn::And(key, hn::Set(d, Keys::kOffsetMask));
+            return hn::Sub(hn::Set(d, Keys::kOffsetBias), bits);
         } else {
-            return key; // not asked for
+            return key; // not used
         }
     }
 
-    HWY_INLINE void store(int row, int lane, V key, V step) const
+    HWY_INLINE void store(int row, int lane, V key, V offset) const
     {
         const D d;
         const auto background = hn::Eq(load(row, lane), hn::Zero(d));
         const std::ptrdiff_t place = at(row, lane);
         if (out) hn::Store(hn::IfThenZeroElse(background, plain(key)), d, out + place);
-        storeSteps(hn::IfThenZeroElse(background, step), offset + place);
+        storeOffsets(hn::IfThenZeroElse(background, offset), offsets + place);
     }
 
-    /// A row of value m beats an own value of at least n only within sqrt(m - n): for every block,
-    /// its own smallest n and the largest m of each block near enough count.
+    /// A row of value m beats an own value of at least n only within sqrt(m - n): for every leaf,
+    /// its own smallest n and the largest m of each leaf near enough count.
     template <int kVectors>
-    void blockReach(int lane, EnvelopeScratch& scratch) const
+    void leafReach(int lane, EnvelopeScratch& scratch) const
     {
-        const int blocks = int(scratch.reach.size());
+        const int leaves = int(scratch.reach.size());
         int64_t largestOfAll = 0;
-        for (int block = 0; block < blocks; ++block) {
-            blockExtremes<kVectors>(block, lane, scratch);
-            largestOfAll = std::max(largestOfAll, scratch.largest[block]);
+        for (int leaf = 0; leaf < leaves; ++leaf) {
+            leafExtremes<kVectors>(leaf, lane, scratch);
+            largestOfAll = std::max(largestOfAll, scratch.largest[leaf]);
         }
-        for (int block = 0; block < blocks; ++block) {
-            const int64_t own = scratch.smallest[block];
+        for (int leaf = 0; leaf < leaves; ++leaf) {
+            const int64_t own = scratch.smallest[leaf];
             const int farthest = rootOrZero(largestOfAll - own);
-            int reach = own > scratch.largest[block] ? 0 : rootOrZero(scratch.largest[block] - own);
-            for (int k = 1, gap = 1; gap <= farthest; ++k, gap += kBlockRows) {
-                const int64_t before = block >= k ? scratch.largest[block - k] : 0;
-                const int64_t behind = block + k < blocks ? scratch.largest[block + k] : 0;
+            int reach = own > scratch.largest[leaf] ? 0 : rootOrZero(scratch.largest[leaf] - own);
+            for (int k = 1, gap = 1; gap <= farthest; ++k, gap += kLeafDim) {
+                const int64_t before = leaf >= k ? scratch.largest[leaf - k] : 0;
+                const int64_t behind = leaf + k < leaves ? scratch.largest[leaf + k] : 0;
                 const int root = rootOrZero(std::max(before, behind) - own);
                 if (root >= gap) reach = std::max(reach, root);
             }
-            scratch.reach[block] = reach;
+            scratch.reach[leaf] = reach;
         }
     }
 
@@ -111,7 +114,7 @@ private:
     /// The key as it came.
     static HWY_INLINE V plain(V key)
     {
-        if constexpr (kStepInKey) {
+        if constexpr (kOffsetInKey) {
             const D d;
             const V site = hn::And(hn::ShiftRight<Keys::kSiteShift>(key),
                 hn::Set(d, (1 << (Keys::kShift - Keys::kSiteShift)) - 1));
@@ -122,16 +125,16 @@ private:
         }
     }
 
-    static HWY_INLINE void storeSteps(V step, int8_t* offsets)
+    static HWY_INLINE void storeOffsets(V offset, int8_t* offsets)
     {
         const hn::Rebind<int8_t, D> narrow;
-        hn::StoreU(hn::DemoteTo(narrow, step), narrow, offsets);
+        hn::StoreU(hn::DemoteTo(narrow, offset), narrow, offsets);
     }
-    static HWY_INLINE void storeSteps(V step, int16_t* offsets)
+    static HWY_INLINE void storeOffsets(V offset, int16_t* offsets)
     {
-        HWY_ALIGN Value steps[kLanes];
-        hn::Store(step, D(), steps);
-        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(steps[i]);
+        HWY_ALIGN Value wide[kLanes];
+        hn::Store(offset, D(), wide);
+        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(wide[i]);
     }
 
     /// @param square  below 2^33
@@ -139,12 +142,12 @@ private:
 
     /// The largest value, and the smallest of an object voxel.
     template <int kVectors>
-    void blockExtremes(int block, int lane, EnvelopeScratch& scratch) const
+    void leafExtremes(int leaf, int lane, EnvelopeScratch& scratch) const
     {
         const D d;
         const V none = hn::Set(d, std::numeric_limits<Value>::max());
         V largest = hn::Zero(d), smallest = none;
-        for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+        for (int row = kLeafDim * leaf; row < kLeafDim * (leaf + 1); ++row) {
             for (int v = 0; v < kVectors; ++v) {
                 const V key = load(row, lane + v * int(hn::Lanes(d)));
                 largest = hn::Max(largest, key);
@@ -152,19 +155,19 @@ private:
                 smallest = hn::Min(smallest, hn::IfThenElse(background, none, key));
             }
         }
-        scratch.largest[block] = int64_t(hn::GetLane(hn::MaxOfLanes(d, largest))) >> Keys::kShift;
-        scratch.smallest[block] = int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Keys::kShift;
+        scratch.largest[leaf] = int64_t(hn::GetLane(hn::MaxOfLanes(d, largest))) >> Keys::kShift;
+        scratch.smallest[leaf] = int64_t(hn::GetLane(hn::MinOfLanes(d, smallest))) >> Keys::kShift;
     }
 };
 
-/// Keys with room for the step, which is none so far, from values and sites.
+/// Keys with room for the offset, which is 0 so far, from values and sites.
 template <class D>
 HWY_INLINE hn::Vec<D> SmallKey(D d, hn::Vec<D> value, hn::Vec<D> site)
 {
     const auto key =
         hn::Or(hn::ShiftLeft<SmallKeys::kShift>(value), hn::ShiftLeft<SmallKeys::kSiteShift>(site));
     const auto background = hn::Eq(value, hn::Zero(d));
-    return hn::IfThenZeroElse(background, hn::Or(key, hn::Set(d, SmallKeys::kStepBias)));
+    return hn::IfThenZeroElse(background, hn::Or(key, hn::Set(d, SmallKeys::kOffsetBias)));
 }
 
 /// @return the largest site's radiusSq; the keys are right if it is not above kMaxRadiusSq.

@@ -8,9 +8,9 @@
 /// first of equal rows wins.
 ///
 /// Where radii are small, as nearly everywhere, there is room for that place in the key as well: the
-/// step to the site, counted downwards so that the first row is the largest. A candidate then costs
-/// one subtraction and one max. The kernel turns keys into that form, and back, for each run whose
-/// radii allow it.
+/// offset to the site, counted downwards so that the first row is the largest. A candidate then
+/// costs one subtraction and one max. The kernel turns keys into that form, and back, for each run
+/// whose radii allow it. Its bits are counted at SmallKeys in MaxPlus.cc.
 
 #pragma once
 
@@ -21,7 +21,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Keys and offsets for radii up to 127 voxels.
+/// Keys and offsets for radii up to 127 voxels: offsets fit 8 bits, values 14, so keys are positive.
 struct NarrowPower {
     using Key = int32_t;
     using Offset = int8_t;
@@ -29,7 +29,7 @@ struct NarrowPower {
     static constexpr uint32_t kMaxRadiusSq = 127 * 127;
 };
 
-/// Keys and offsets for radii up to 32767 voxels.
+/// Keys and offsets for radii up to 32767 voxels: offsets fit 16 bits, values 30.
 struct WidePower {
     using Key = int64_t;
     using Offset = int16_t;
@@ -58,7 +58,7 @@ uint32_t siteSqOf(typename Power::Key key)
 /// passes before leave of them, are.
 /// @param inKey   row -1 and the row behind the last are readable and zero
 /// @param outKey  may be null when only the offsets are wanted
-/// @param rows    those wanted, of all that there are: others of outKey and offset stay as they are
+/// @param rows    results are for its range; others of outKey and offset stay as they are
 template <typename Power>
 void maxPlus(const typename Power::Key* inKey, typename Power::Key* outKey,
     typename Power::Offset* offset, const RowRange& rows, EnvelopeScratch& scratch);

@@ -19,7 +19,7 @@ struct MinPlusOp {
     using Value = T;
     using D = hn::CappedTag<T, kLanes>;
     using V = hn::Vec<D>;
-    static constexpr bool kStepInKey = false, kTracksStep = false;
+    static constexpr bool kOffsetInKey = false, kTracksOffset = false;
 
     const T* in;
     T* out;
@@ -43,32 +43,32 @@ struct MinPlusOp {
     static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
-    /// Two rows as far away on either side pay the same.
+    /// Two rows as far away on either side have the same penalty.
     static HWY_INLINE V bestOfThree(V own, V before, V penalty, V behind, V)
     {
         return hn::Min(own, add(hn::Min(before, behind), penalty));
     }
-    static HWY_INLINE V step(V value) { return value; } // values hold none
+    static HWY_INLINE V offsetOf(V value) { return value; } // values hold none
     HWY_INLINE void store(int row, int lane, V value, V) const
     {
         hn::Store(value, D(), out + at(row, lane));
     }
 
-    /// A row is better than the own value m only nearer than sqrt(m): the largest m of a block
+    /// A row is better than the own value m only nearer than sqrt(m): the largest m of a leaf
     /// counts.
     template <int kVectors>
-    void blockReach(int lane, EnvelopeScratch& scratch) const
+    void leafReach(int lane, EnvelopeScratch& scratch) const
     {
         const D d;
-        for (int block = 0; block < int(scratch.reach.size()); ++block) {
+        for (int leaf = 0; leaf < int(scratch.reach.size()); ++leaf) {
             V largest = hn::Zero(d);
-            for (int row = kBlockRows * block; row < kBlockRows * (block + 1); ++row) {
+            for (int row = kLeafDim * leaf; row < kLeafDim * (leaf + 1); ++row) {
                 for (int v = 0; v < kVectors; ++v) {
                     largest = hn::Max(largest, load(row, lane + v * int(hn::Lanes(d))));
                 }
             }
             const int64_t m = hn::GetLane(hn::MaxOfLanes(d, largest));
-            scratch.reach[block] = m <= 1 ? 0 : int(floorSqrtSmall(m - 1));
+            scratch.reach[leaf] = m <= 1 ? 0 : int(floorSqrtSmall(m - 1));
         }
     }
 };

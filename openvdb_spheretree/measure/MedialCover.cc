@@ -44,9 +44,9 @@ bool areMedialBalls(const SphereTree& tree, const SphereTreeLevel& level,
     constexpr double kRowVoxels = 4; // a row takes as long as so many voxels of the transforms
     if (!mayBeMedial(tree, level)) return false;
     if (kRowVoxels * drawnRows(tree, level) < double(voxels)) return false;
-    LevelWants wants;
-    wants.memory = tree.settings.memory;
-    const MedialLevel medial(object, 3, tree.settings.dist(), interrupter, nullptr, wants);
+    LevelQueries queries;
+    queries.memory = tree.settings.memory;
+    const MedialLevel medial(object, 3, tree.settings.dist(), interrupter, nullptr, queries);
     if (medial.balls.size() != std::size_t(level.size())) return false;
     const LevelFrame frame(0, tree.origin, tree.settings);
     std::atomic<bool> same{true};

@@ -9,15 +9,15 @@ namespace detail {
 
 BallIndex::BallIndex(const LeafLayout& layout, const std::vector<LeafMask>& centers,
     openvdb::util::NullInterrupter* interrupter)
-    : mCentres(std::size_t(layout.leafCount()) * kLeafDim), mBallOfRank(countRanks(centers))
+    : mWords(std::size_t(layout.leafCount()) * kLeafDim), mBallOfRank(countRanks(centers))
 {
     // Ranks and balls both go slab by slab, in different orders within one.
     parallelFor(layout.slabCount(), interrupter, [&](std::size_t slab) {
         const uint32_t leaf = layout.slab(uint32_t(slab)).begin;
-        const int32_t first = mCentres[wordOf(leaf, 0)].rank;
+        const int32_t first = mWords[wordOf(leaf, 0)].rank;
         visitWithPlaces(layout, uint32_t(slab), centers.data() + leaf,
-            [&](uint32_t at, uint32_t offset, std::size_t place) {
-                mBallOfRank[std::size_t(rankAt({at, offset}))] = first + int32_t(place);
+            [&](uint32_t at, uint32_t index, std::size_t place) {
+                mBallOfRank[std::size_t(rankAt({at, index}))] = first + int32_t(place);
             });
     });
 }
@@ -28,7 +28,7 @@ std::size_t BallIndex::countRanks(const std::vector<LeafMask>& centers)
     for (std::size_t leaf = 0; leaf < centers.size(); ++leaf) {
         for (uint32_t x = 0; x < kLeafDim; ++x) {
             const uint64_t mask = centers[leaf][x];
-            mCentres[leaf * kLeafDim + x] = {mask, rank};
+            mWords[leaf * kLeafDim + x] = {mask, rank};
             rank += int32_t(hwy::PopCount(mask));
         }
     }

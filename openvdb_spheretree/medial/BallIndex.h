@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallIndex.h
-/// @brief Which medial ball is centred at a voxel, without a search.
+/// @brief Which medial ball has its center at a voxel, without a search.
 ///
-/// Balls are ordered by centre, voxels by leaf. A leaf's centres are bits of a mask; the bits
-/// before a centre, counted, are its rank in the order of leaves, which is as good a name for a
-/// ball as its index and is found in one cache line. One table takes ranks to balls, for the few
-/// that are asked for. 128 bytes a leaf, 4 a ball.
+/// The centers in a leaf are the bits of a mask. The number of bits before a center is its *rank* in
+/// the order of leaves. The rank names a ball as well as its index does, and is found in one cache
+/// line. A table takes ranks to indices in the order of balls, where they are needed. 128 bytes a
+/// leaf, 4 a ball.
 
 #pragma once
 
-#include "PowerMap.h"
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 
 #include <hwy/base.h>
 #include <openvdb/util/NullInterrupter.h>
@@ -27,31 +27,31 @@ public:
     BallIndex(const LeafLayout& layout, const std::vector<LeafMask>& centers,
         openvdb::util::NullInterrupter* interrupter);
 
-    /// @return the rank of the ball that is centred at @a center; there must be one.
+    /// @return the rank of the ball with its center at @a center; there must be one.
     int32_t rankAt(VoxelRef center) const
     {
-        const Centres& centres = mCentres[wordOf(center.leaf, center.index)];
+        const Word& word = mWords[wordOf(center.leaf, center.index)];
         const uint64_t before = (uint64_t(1) << (center.index & 63)) - 1;
-        return centres.rank + int32_t(hwy::PopCount(centres.mask & before));
+        return word.rank + int32_t(hwy::PopCount(word.mask & before));
     }
-    /// @return the index of the ball of that rank in the order of balls: by centre.
+    /// @return the index of the ball of that rank in the order of balls: by center.
     int32_t ballOf(int32_t rank) const { return mBallOfRank[std::size_t(rank)]; }
 
 private:
     /// A word of a leaf's mask.
-    struct Centres {
+    struct Word {
         uint64_t mask = 0;
-        int32_t rank = 0; ///< of the word's first centre
+        int32_t rank = 0; ///< of the word's first center
     };
 
-    static std::size_t wordOf(uint32_t leaf, uint32_t offset)
+    static std::size_t wordOf(uint32_t leaf, uint32_t index)
     {
-        return std::size_t(leaf) * kLeafDim + (offset >> 6);
+        return std::size_t(leaf) * kLeafDim + (index >> 6);
     }
-    /// @return the number of centres.
+    /// @return the number of centers.
     std::size_t countRanks(const std::vector<LeafMask>& centers);
 
-    std::vector<Centres> mCentres; ///< eight a leaf
+    std::vector<Word> mWords; ///< eight a leaf
     std::vector<int32_t> mBallOfRank;
 };
 

@@ -39,7 +39,7 @@ private:
 template <typename T, typename Value>
 uint32_t transform(const LeafLayout& layout, int dim, Value* values, NullInterrupter* interrupter)
 {
-    const slab::XSteps<slab::StepOf<T>> steps(layout, interrupter);
+    const slab::XGaps<slab::GapOf<T>> gaps(layout, interrupter);
     using Slab = slab::SlabDistance<T>;
     Largest largest;
     detail::parallelForWithScratch<Slab>(
@@ -52,7 +52,7 @@ uint32_t transform(const LeafLayout& layout, int dim, Value* values, NullInterru
                     else detail::rowsToLeafAs(Axis::Y, rows, leaf);
                 }
             };
-            distances.forEachRun(layout, uint32_t(index), steps, dim, store);
+            distances.forEachRun(layout, uint32_t(index), gaps, dim, store);
             hwy::FlushStream(); // what went past the cache is there for other threads
         });
     return largest.value();

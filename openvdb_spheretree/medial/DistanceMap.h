@@ -6,13 +6,13 @@
 /// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of
 /// object voxels: no value crosses background, so no background voxel is stored or visited.
 ///
-/// 1. x: steps to the background on the voxel's own line, squared (slab/XSteps.h);
-/// 2. y, then z: min over the line of value + step^2 (kernel detail/MinPlus.h), slab by slab
+/// 1. x: the gap to the background on the voxel's own line, squared (slab/XGaps.h);
+/// 2. y, then z: min over the line of value + offset^2 (kernel/MinPlus.h), slab by slab
 ///    (slab/SlabDistance.h).
 ///
-/// Norms have sweeps of their own, detail/NormSweep.h.
+/// Norms have sweeps of their own (NormSweep.h).
 ///
-/// Values are computed in 16 bits, and again in 32 bits if one did not fit: by check, not by hope.
+/// Values are computed in 16 bits, and again in 32 bits if one of them turns out not to fit.
 /// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding
 /// box. Tests: TestDistanceTransform.cc, against all background voxels one by one.
 
@@ -29,14 +29,14 @@
 
 namespace openvdb_spheretree {
 
-/// Distances of the voxels of a level, 0 for background; 512 a leaf, in leaf order. Euclidean ones
-/// are squared, in voxels^2; those of a norm are not, and in its units (Distance::unit() a voxel).
+/// Distances of the voxels of a level, 512 a leaf in leaf order; background has 0. Euclidean ones
+/// are squared, in voxels^2. Those of a norm are not squared, and in its units (Distance::unit()).
 class DistanceMap {
 public:
     /// @return the distance at a voxel of a leaf, by leafIndex().
-    uint32_t at(uint32_t leaf, uint32_t offset) const
+    uint32_t at(uint32_t leaf, uint32_t index) const
     {
-        const std::size_t i = std::size_t(leaf) * kLeafVoxels + offset;
+        const std::size_t i = std::size_t(leaf) * kLeafVoxels + index;
         return mNarrow ? mNarrow[i] : mWide[i];
     }
     /// The largest value in the level; 0 only if the level is empty.
@@ -64,8 +64,7 @@ private:
 DistanceMap distanceTransform(const LeafLayout& layout, int dim = 3, const Distance& distance = {},
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @brief The same, Euclidean, into memory of the caller's, which may be used again from object to
-/// object: as 32 bits, and as fast as the map.
+/// @brief The same, Euclidean, into the caller's memory.
 /// @param values  512 a leaf, in leaf order; aligned to 16 bytes. All are written, those of
 ///                background with 0.
 /// @return the largest of them.

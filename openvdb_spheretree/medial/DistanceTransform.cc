@@ -3,7 +3,7 @@
 
 #include "DistanceMap.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include <array>
 #include <memory>
@@ -15,11 +15,10 @@ openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int d
     const Distance& distance, openvdb::util::NullInterrupter* interrupter)
 {
     const FlatAxis flat = flatAxisOf(object, dim);
-    const LeafLayout layout(*flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
+    const LeafLayout layout(*voxelsOf(object, flat));
     const DistanceMap map = distanceTransform(layout, dim, distance, interrupter);
 
-    std::array<uint32_t, kLeafVoxels> place; // of a voxel of the turned leaf
+    std::array<uint32_t, kLeafVoxels> place; // in the grid's leaf, of a voxel of the turned one
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
         place[k] = leafIndex(flat.fromZ(openvdb::Coord(k >> 6, k >> 3 & 7, k & 7)));
     }

@@ -19,7 +19,7 @@ constexpr int kCanvasWidth = 10, kCanvasSize = kCanvasWidth * kCanvasWidth;
 constexpr uint32_t strideOf(int axis) { return 1u << (6 - 3 * axis); }
 
 uint32_t leafOf(uint32_t site) { return site / kLeafVoxels; }
-uint32_t offsetOf(uint32_t site) { return site % kLeafVoxels; }
+uint32_t indexOf(uint32_t site) { return site % kLeafVoxels; }
 
 /// The leaves in groups of equal coordinate along an axis, which ascends.
 struct Slabs {
@@ -43,11 +43,11 @@ struct Slabs {
 } // namespace
 
 /// The axes u < v are the two beside the sweep's. A step may also change those that were swept
-/// before: `wideU` and `wideV` tell.
+/// before: `wideU` and `wideV` say so.
 struct NormSweep::PlanePair {
     uint32_t leaf;
     std::array<uint32_t, 9> before; ///< leaves of the plane before, by 3 (du + 1) + dv + 1
-    uint32_t here, there;           ///< offset in its leaf of voxel (0, 0) of this plane, of that
+    uint32_t here, there;           ///< index of voxel (0, 0) of this plane, of that
     uint32_t strideU, strideV;
     bool wideU, wideV;
 
@@ -167,8 +167,7 @@ void NormSweep::distances(uint32_t* values) const
 bool NormSweep::better(uint32_t site, uint32_t than, const uint32_t* values) const
 {
     if (values[site] != values[than]) return values[site] > values[than];
-    return mLayout.voxel(leafOf(site), offsetOf(site))
-        < mLayout.voxel(leafOf(than), offsetOf(than));
+    return mLayout.voxel(leafOf(site), indexOf(site)) < mLayout.voxel(leafOf(than), indexOf(than));
 }
 
 void NormSweep::passLabels(const PlanePair& planes, const uint32_t* values, uint32_t* sites) const

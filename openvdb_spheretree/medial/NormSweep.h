@@ -3,21 +3,21 @@
 /// @brief Distance transform and power labels for norms of the 3x3x3 neighbourhood, by sweeping
 /// planes of voxels to and fro along each axis.
 ///
-/// A cheapest way has at most three kinds of steps, all of one sign an axis, in any order. So it
-/// may take its steps along z alone first, then all others within a plane of constant x, then those
-/// that change x: and so does the transform, two sweeps an axis, in the order z, y, x:
+/// A cheapest path has at most three kinds of steps, all of one sign an axis, in any order. So it may
+/// take its steps along z alone first, then all others within a plane of constant x, then those that
+/// change x. The transform does the same, with two sweeps an axis, in the order z, y, x:
 ///     sweep along z: value of the voxel before + a;
 ///     along y: those at y - 1 with z - 1, z, z + 1;  along x: the nine at x - 1
 /// (Borgefors' chamfer masks, taken apart by axis.) All voxels of a plane are independent.
 ///
-/// *Locality.* A way to the nearest background voxel meets no other one before, so background may
-/// count as 0 wherever it is met, and nothing is stored of it. A way from a ball's centre to a
+/// *Locality.* A path to the nearest background voxel meets no other one before. So background counts
+/// as 0 wherever a path meets it, and nothing is stored of it. A path from the center of a ball to a
 /// voxel of the ball stays in the ball.
 ///
 /// *Labels.* The distance changes by at most N(p - q) between p and q, so the power
 /// distance(p) - N(p - q) of any p is at most distance(q), which q reaches itself. The label of q
 /// is therefore the largest ball, then the first, among those p with distance(p) = distance(q) +
-/// N(p - q). This holds all along a cheapest way from p to q: labels travel as distances do, to
+/// N(p - q). This holds all along a cheapest path from p to q: labels travel as distances do, to
 /// neighbours whose distance is smaller by just the step's cost.
 ///
 /// Exact, integer. Cost: 26 comparisons a voxel, whatever the weights and radii.
@@ -49,7 +49,7 @@ public:
     void distances(uint32_t* values) const;
 
     /// @param values  the distances
-    /// @param sites   receives the label of each object voxel, as 512 leaf + offset
+    /// @param sites   receives the label of each object voxel, as 512 leaf + index
     void labels(const uint32_t* values, uint32_t* sites) const;
 
 private:
@@ -69,7 +69,7 @@ private:
     const LeafLayout& mLayout;
     int mDim;
     openvdb::util::NullInterrupter* mInterrupter;
-    std::array<uint32_t, 4> mCost; ///< of a step that changes so many coordinates
+    std::array<uint32_t, 4> mCost; ///< of a step that changes this many coordinates
     LeafNeighbours mNeighbours;
 };
 

@@ -3,12 +3,9 @@
 
 #include "NormSweep.h"
 #include <openvdb_spheretree/base/Memory.h>
-#include <openvdb_spheretree/slab/LabelStream.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 
 #include <openvdb/Exceptions.h>
-
-#include <utility>
 
 namespace openvdb_spheretree {
 
@@ -16,7 +13,7 @@ namespace {
 
 using openvdb::util::NullInterrupter;
 
-/// The labels of a norm are numbers of voxels, in 32 bits.
+/// The labels of a norm are numbers of voxels, 512 leaf + index: 2^23 leaves fill 32 bits.
 void requireNumberedVoxels(const LeafLayout& layout)
 {
     constexpr uint32_t kMaxLeaves = uint32_t(1) << 23;
@@ -31,25 +28,17 @@ void requireNumberedVoxels(const LeafLayout& layout)
 
 } // namespace
 
-PowerMap powerMap(
+PowerMap normLabels(
     const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
 {
     requireDim(dim);
-    if (!distances.distance().isEuclidean()) {
-        requireNumberedVoxels(layout);
-        PowerMap map;
-        map.mLayout = &layout;
-        map.mSites =
-            detail::makeLargeArray<uint32_t>(std::size_t(layout.leafCount()) * kLeafVoxels);
-        detail::NormSweep(layout, distances.distance(), dim, interrupter)
-            .labels(distances.wide(), map.mSites.get());
-        return map;
-    }
-    detail::LabelSteps steps;
-    slab::LabelStream stream(layout, dim);
-    stream.keepSteps(steps);
-    stream.run(interrupter);
-    return PowerMap(layout, std::move(steps));
+    requireNumberedVoxels(layout);
+    PowerMap map;
+    map.mLayout = &layout;
+    map.mSites = detail::makeLargeArray<uint32_t>(std::size_t(layout.leafCount()) * kLeafVoxels);
+    detail::NormSweep(layout, distances.distance(), dim, interrupter)
+        .labels(distances.wide(), map.mSites.get());
+    return map;
 }
 
 openvdb::Coord PowerMap::label(const openvdb::Coord& ijk) const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RunLabels.h"
 
-#include <openvdb_spheretree/kernel/LabelStepBits.h>
+#include <openvdb_spheretree/kernel/OffsetBits.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "openvdb_spheretree/paper/RunLabels.cc"
@@ -38,15 +38,15 @@ HWY_EXPORT(RanksOf);
 
 namespace {
 
-/// @param before  the steps of the leaf before it in the run; null if it is the first
-template <typename Step>
-LeafMask repeatsOf(const Step* steps, const Step* before, const LeafMask& mask)
+/// @param before  the offsets of the leaf before it in the run; null if it is the first
+template <typename Offset>
+LeafMask repeatsOf(const Offset* offsets, const Offset* before, const LeafMask& mask)
 {
-    LeafMask repeats = endsAsBefore(steps, Axis::X, mask);
+    LeafMask repeats = targetsAsBefore(offsets, Axis::X, mask);
     if (!before) return repeats;
-    const Step* last = before + 7 * 64;
+    const Offset* last = before + 7 * 64;
     for (int lane = 0; lane < 64; ++lane) {
-        repeats[0] |= uint64_t(steps[lane] + 1 == last[lane]) << lane;
+        repeats[0] |= uint64_t(offsets[lane] + 1 == last[lane]) << lane;
     }
     return repeats;
 }
@@ -58,16 +58,16 @@ void RunLabels::findRanks(uint32_t x, uint64_t bits)
     HWY_DYNAMIC_DISPATCH(RanksOf)(*this, x, bits, mRanks.data() + kLaneMargin);
 }
 
-/// Steps that will be followed soon: leaves that are neighbours along x are far apart in memory.
+/// Offsets that will be followed soon: leaves that are neighbours along x are far apart in memory.
 /// (The DAG of all levels of dragon-512, on one thread: 64 ms, without this 73.)
 void RunLabels::prefetch(uint32_t i) const
 {
     constexpr int kCacheLine = 64;
     if (i >= mRun.count) return;
     for (const Axis axis : {Axis::Y, Axis::Z}) {
-        const int8_t* steps = mLabels.narrowSteps(axis, mRun.leaves[i]);
-        if (!steps) continue;
-        for (int k = 0; k < kLeafVoxels; k += kCacheLine) hwy::Prefetch(steps + k);
+        const int8_t* offsets = mLabels.narrowOffsets(axis, mRun.leaves[i]);
+        if (!offsets) continue;
+        for (int k = 0; k < kLeafVoxels; k += kCacheLine) hwy::Prefetch(offsets + k);
     }
 }
 
@@ -78,11 +78,12 @@ void RunLabels::enterLeaf(uint32_t i)
     prefetch(i + 2);
     const uint32_t here = leaf(), before = i == 0 ? 0 : mRun.leaves[i - 1];
     const LeafMask& mask = layout().mask(here);
-    mSteps = mLabels.narrowSteps(Axis::X, here);
-    if (mSteps) {
-        mRepeats = repeatsOf(mSteps, i == 0 ? nullptr : mLabels.narrowSteps(Axis::X, before), mask);
-    } else if (const int16_t* wide = mLabels.wideSteps(Axis::X, here)) {
-        mRepeats = repeatsOf(wide, i == 0 ? nullptr : mLabels.wideSteps(Axis::X, before), mask);
+    mOffsets = mLabels.narrowOffsets(Axis::X, here);
+    if (mOffsets) {
+        mRepeats =
+            repeatsOf(mOffsets, i == 0 ? nullptr : mLabels.narrowOffsets(Axis::X, before), mask);
+    } else if (const int16_t* wide = mLabels.wideOffsets(Axis::X, here)) {
+        mRepeats = repeatsOf(wide, i == 0 ? nullptr : mLabels.wideOffsets(Axis::X, before), mask);
     } else {
         mRepeats = LeafMask{}; // labels are kept in another way: every voxel is looked up
     }

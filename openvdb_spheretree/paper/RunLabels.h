@@ -3,9 +3,8 @@
 /// @brief The power labels of a run of leaves along x, as ranks of balls (BallIndex.h), 64 voxels
 /// at a time.
 ///
-/// A label is found by a step along x, and what follows depends on where that leads. Where two
-/// neighbours along x step to the same end they have one label: it is looked up once. Exact for any
-/// voxels, and however the labels are kept.
+/// Neighbours along x whose offsets along x lead to the same voxel have one label: it is looked up
+/// once. Exact for any voxels, and however the labels are kept.
 
 #pragma once
 
@@ -61,28 +60,27 @@ private:
     void prefetch(uint32_t i) const;
     VoxelRef label(uint32_t x, uint32_t lane) const
     {
-        if (!mSteps) return mLabels.label({leaf(), 64 * x + lane});
-        const int end = kLeafDim * int(mPlace) + int(x) + mSteps[64 * x + lane];
-        const VoxelRef onX{mRun.leaves[end >> 3], uint32_t(end & 7) << 6 | lane};
-        const VoxelRef onY = narrowStep(Axis::Y, onX);
-        return mLabels.usesZ() ? narrowStep(Axis::Z, onY) : onY;
+        if (!mOffsets) return mLabels.label({leaf(), 64 * x + lane});
+        const int onLine = kLeafDim * int(mPlace) + int(x) + mOffsets[64 * x + lane];
+        const VoxelRef onX{mRun.leaves[onLine >> 3], uint32_t(onLine & 7) << 6 | lane};
+        const VoxelRef onY = narrowTarget(Axis::Y, onX);
+        return mLabels.usesZ() ? narrowTarget(Axis::Z, onY) : onY;
     }
-    /// PowerMap::step() without a branch: whether a label lies in another leaf is hard to predict.
-    VoxelRef narrowStep(Axis axis, VoxelRef voxel) const
+    /// PowerMap::target() without a branch: whether it lies in another leaf is hard to predict.
+    VoxelRef narrowTarget(Axis axis, VoxelRef voxel) const
     {
-        const int shift = 6 - 3 * int(axis), here = int(voxel.index >> shift & 7);
-        const int there = here + mLabels.narrowSteps(axis, voxel.leaf)[voxel.index];
-        return {layout().neighbour(voxel.leaf, axis, there >> 3),
-            uint32_t(int(voxel.index) + (((there & 7) - here) * (1 << shift)))};
+        const int8_t* offsets = mLabels.narrowOffsets(axis, voxel.leaf);
+        const Target target = targetOf(axis, voxel.index, offsets[voxel.index]);
+        return {layout().neighbour(voxel.leaf, axis, target.leaves), target.index};
     }
 
     const PowerMap& mLabels;
     const BallIndex& mBalls;
     const LeafLayout::Run mRun;
-    uint32_t mPlace = 0;            ///< of the leaf in the run
-    const int8_t* mSteps = nullptr; ///< of the leaf, along x; null where they are wider, or none
-    LeafMask mRepeats{};            ///< ends where the voxel before ends; garbage where off
-    uint64_t mOn = 0;               ///< of the word
+    uint32_t mPlace = 0;              ///< of the leaf in the run
+    const int8_t* mOffsets = nullptr; ///< of the leaf, along x; null where they are wider, or none
+    LeafMask mRepeats{};              ///< of the target of the voxel before; undefined where off
+    uint64_t mOn = 0;                 ///< of the word
     std::array<int32_t, kLaneMargin + 64> mRanks{};
 };
 

@@ -41,7 +41,7 @@ namespace {
 /// the clip).
 std::vector<int32_t> parentsByCentre(MedialLevel& coarse)
 {
-    std::vector<int32_t> parent = std::move(coarse.wantedLabel);
+    std::vector<int32_t> parent = std::move(coarse.queriedLabel);
     if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
     if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
     OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
@@ -120,16 +120,16 @@ PyramidModel modelOf(const PyramidOptions& options, openvdb::util::NullInterrupt
 std::unique_ptr<MedialLevel> BuildContext::medialLevel(
     const openvdb::MaskTree& voxels, int level, const LevelNodes* children) const
 {
-    LevelWants wants;
-    wants.allLabels = needsDag(options);
-    wants.memory = settings.memory;
+    LevelQueries queries;
+    queries.allLabels = needsDag(options);
+    queries.memory = settings.memory;
     if (children) {
-        wants.count = children->balls.size();
-        wants.voxel = [step = stepFrom(level - 1), &balls = children->balls](
-                          std::size_t i) { return step.parentVoxel(balls[i].center); };
+        queries.count = children->balls.size();
+        queries.voxel = [step = stepFrom(level - 1), &balls = children->balls](
+                            std::size_t i) { return step.parentVoxel(balls[i].center); };
     }
     return std::make_unique<MedialLevel>(
-        voxels, settings.dim, settings.dist(), interrupter, seconds, wants);
+        voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
 }
 
 LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OrPyramid.h"
 
-#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include "LeafCoarsener.h"
 #include <openvdb_spheretree/base/FloorDiv.h>
@@ -250,8 +250,7 @@ OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
 {
     const FlatAxis flat = flatAxisOf(object, dim);
     OrPyramid pyramid;
-    pyramid.levels.push_back(
-        flat.toZ(std::make_shared<MaskTree>(object.tree(), false, openvdb::TopologyCopy())));
+    pyramid.levels.push_back(voxelsOf(object, flat));
     CoordBBox bbox;
     if (!pyramid.levels[0]->evalActiveVoxelBoundingBox(bbox)) {
         OPENVDB_THROW(openvdb::ValueError, "the object has no voxels");

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/kernel/LabelStepBits.h>
+#include <openvdb_spheretree/kernel/OffsetBits.h>
 #include <openvdb_spheretree/kernel/LeafRows.h>
 #include <openvdb_spheretree/kernel/MaxPlus.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
@@ -18,8 +18,8 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Leaves of a run along x whose keys are there, one behind the other, and which of them are to get
-/// their labels: [first, last).
+/// Leaves of a run along x with their keys, one behind the other. Those in [first, last) get their
+/// labels.
 template <typename Power>
 struct Column {
     std::vector<uint32_t> leaves;
@@ -39,16 +39,16 @@ struct Column {
     uint32_t count() const { return uint32_t(leaves.size()); }
 };
 
-/// Memory of one thread; sees column after column.
+/// Memory of one thread, for one column after the other.
 template <typename Power>
 class ColumnPower {
     using Key = typename Power::Key;
     using Offset = typename Power::Offset;
 
 public:
-    /// Finds the steps along x, marks where they lead, and calls visit(leaf, steps) for each leaf
-    /// that gets them, with its 512.
-    /// @param marks  one mask for each leaf of the layout, to be added to
+    /// Finds the offsets along x, marks their targets, and calls visit(leaf, offsets) for each leaf
+    /// that gets its labels, with its 512.
+    /// @param marks  a mask for each leaf of the layout, to be added to
     template <typename Visit>
     void run(
         const Column<Power>& column, const LeafLayout& layout, LeafMask* marks, const Visit& visit)
@@ -59,19 +59,19 @@ public:
             std::memcpy(
                 keys + std::size_t(i) * kLeafVoxels, column.keys[i], kLeafVoxels * sizeof(Key));
         }
-        Offset* steps = mSteps.rows(rows);
-        const detail::RowRange wanted{
+        Offset* offsets = mOffsets.rows(rows);
+        const detail::RowRange range{
             int(column.first) * kLeafDim, int(column.last) * kLeafDim, rows};
-        detail::maxPlus<Power>(keys, nullptr, steps, wanted, mEnvelope);
+        detail::maxPlus<Power>(keys, nullptr, offsets, range, mEnvelope);
         mOn.resize(std::size_t(rows));
         for (uint32_t i = column.first; i < column.last; ++i) {
             const LeafMask& mask = layout.mask(column.leaves[i]);
             std::copy(mask.begin(), mask.end(), mOn.begin() + std::ptrdiff_t(i) * kLeafDim);
-            visit(column.leaves[i], steps + std::size_t(i) * kLeafVoxels);
+            visit(column.leaves[i], offsets + std::size_t(i) * kLeafVoxels);
         }
         mMarks.assign(std::size_t(rows), 0);
-        detail::markRowEnds(steps + detail::at(wanted.first, 0), mOn.data() + wanted.first,
-            wanted.last - wanted.first, mMarks.data() + wanted.first);
+        detail::markRowTargets(offsets + detail::at(range.first, 0), mOn.data() + range.first,
+            range.last - range.first, mMarks.data() + range.first);
         for (uint32_t i = 0; i < column.count(); ++i) {
             LeafMask& ofLeaf = marks[column.leaves[i]];
             for (int x = 0; x < kLeafDim; ++x) ofLeaf[x] |= mMarks[std::size_t(i) * kLeafDim + x];
@@ -80,7 +80,7 @@ public:
 
 private:
     detail::RowBuffer<Key> mKeys;
-    detail::RowBuffer<Offset> mSteps;
+    detail::RowBuffer<Offset> mOffsets;
     std::vector<uint64_t> mOn, mMarks; ///< of the column, a word a row
     detail::EnvelopeScratch mEnvelope;
 };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LabelQueries.h
-/// @brief The voxels whose labels are asked for, on their way there.
+/// @brief The voxels whose labels are queried, and how far each has come on its path to its label.
 ///
-/// A voxel first waits in the list of its leaf. When the leaf's steps along x are known, it moves
-/// to where they lead, and waits in a list of that leaf for the other two. Both leaves are in one
-/// run, so threads that look at different runs have nothing to do with each other. Lists are chains
-/// of numbers: a question is in one at a time.
+/// 1. A query waits in the list of its voxel's leaf until the offsets along x are known there.
+/// 2. It moves along x, and waits in the list of the leaf that it has come to.
+/// 3. When the slab of that leaf is finished, it moves along y and z to the center of its ball.
 ///
-/// Cost: 8 bytes a leaf, if anything is asked, and 4 a question.
+/// Step 2 stays in a run along x, so threads that work on different runs do not meet. A list is a
+/// chain of numbers of queries, and a query is in one list at a time.
+///
+/// Cost: 8 bytes a leaf, if there are queries, and 4 a query.
 
 #pragma once
 
@@ -27,39 +29,39 @@ namespace slab {
 /// The leaf of a voxel that is off.
 constexpr uint32_t kNoLeaf = UINT32_MAX;
 
-class Questions {
+class LabelQueries {
 public:
     /// @param layout  kept by reference
-    /// @param asked   each becomes its label; those in kNoLeaf stay; may be null
-    Questions(const LeafLayout& layout, std::vector<VoxelRef>* asked)
-        : mLayout(layout), mAsked(asked)
+    /// @param voxels  each becomes its label; those in kNoLeaf stay; may be null
+    LabelQueries(const LeafLayout& layout, std::vector<VoxelRef>* voxels)
+        : mLayout(layout), mVoxels(voxels)
     {
-        if (!asked || asked->empty()) return;
-        assert(asked->size() < kEnd);
+        if (!voxels || voxels->empty()) return;
+        assert(voxels->size() < kEnd);
         mOfLeaf.assign(layout.leafCount(), kEnd);
         mMoved.assign(layout.leafCount(), kEnd);
-        detail::resizeLarge(mNext, asked->size());
+        detail::resizeLarge(mNext, voxels->size());
         for (uint32_t i = 0; i < mNext.size(); ++i) {
-            const uint32_t leaf = (*asked)[i].leaf;
+            const uint32_t leaf = (*voxels)[i].leaf;
             if (leaf != kNoLeaf) mNext[i] = std::exchange(mOfLeaf[leaf], i);
         }
     }
 
-    /// @param steps  along x, 512 of the leaf
+    /// @param offsets  along x, 512 of the leaf
     /// @note Thread-safe for leaves of different runs along x.
-    template <typename Step>
-    void moveAlongX(uint32_t leaf, const Step* steps)
+    template <typename Offset>
+    void moveAlongX(uint32_t leaf, const Offset* offsets)
     {
         if (mOfLeaf.empty()) return;
         for (uint32_t i = mOfLeaf[leaf], next; i != kEnd; i = next) {
             next = mNext[i];
-            VoxelRef& voxel = (*mAsked)[i];
-            voxel = moved(mLayout, Axis::X, voxel, steps[voxel.index]);
+            VoxelRef& voxel = (*mVoxels)[i];
+            voxel = moved(mLayout, Axis::X, voxel, offsets[voxel.index]);
             mNext[i] = std::exchange(mMoved[voxel.leaf], i);
         }
     }
 
-    /// Moves on the voxels that have come to a slab, after all have that will.
+    /// Moves the queries that have come to a slab to their labels. None comes later.
     /// @note Thread-safe for different slabs.
     template <typename Power>
     void moveToCenters(uint32_t slab, const SlabLabels<Power>& labels)
@@ -68,7 +70,7 @@ public:
         const LeafLayout::Slab leaves = mLayout.slab(slab);
         for (uint32_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
             for (uint32_t i = mMoved[leaf]; i != kEnd; i = mNext[i]) {
-                VoxelRef& voxel = (*mAsked)[i];
+                VoxelRef& voxel = (*mVoxels)[i];
                 voxel = labels.center(mLayout, voxel);
             }
         }
@@ -78,10 +80,10 @@ private:
     static constexpr uint32_t kEnd = UINT32_MAX; ///< of a list
 
     const LeafLayout& mLayout;
-    std::vector<VoxelRef>* mAsked;
-    std::vector<uint32_t> mOfLeaf; ///< the first one that waits for a leaf's steps along x
-    std::vector<uint32_t> mMoved;  ///< the same, for those along y and z
-    std::vector<uint32_t> mNext;   ///< in the list that a question is in
+    std::vector<VoxelRef>* mVoxels;
+    std::vector<uint32_t> mOfLeaf; ///< the first query that waits for offsets along x
+    std::vector<uint32_t> mMoved;  ///< the first one that has come to the leaf along x
+    std::vector<uint32_t> mNext;   ///< of each query, in its list
 };
 
 } // namespace slab

@@ -27,16 +27,16 @@ bool isNarrow(uint32_t largestDistSq) { return largestDistSq <= NarrowPower::kMa
 template <typename Power, typename T>
 StreamMemory LabelStream::memory() const
 {
-    constexpr int64_t kKey = sizeof(typename Power::Key), kStep = sizeof(typename Power::Offset);
+    constexpr int64_t kKey = sizeof(typename Power::Key), kOffset = sizeof(typename Power::Offset);
     const int64_t leaves = mLayout.leafCount();
-    const int64_t kept = mKeep ? kLeafVoxels * mDim * kStep : 0;
-    const int64_t asked = mAsked && !mAsked->empty() ? 2 * sizeof(uint32_t) : 0;
+    const int64_t kept = mKept ? kLeafVoxels * mDim * kOffset : 0;
+    const int64_t queries = mQueried && !mQueried->empty() ? 2 * sizeof(uint32_t) : 0;
     StreamMemory memory;
-    memory.fixed = mLayout.bytes() + leaves * (int64_t(sizeof(LeafMask)) + kept + asked);
-    memory.steps = leaves * 2 * 64 * int64_t(sizeof(StepOf<T>));
-    // Rows of SlabDistance and SlabPower; radii, of half a key, and steps of SlabBalls.
-    memory.scratch = kLeafVoxels * (int64_t(sizeof(T)) + kKey + 2 * (kKey / 2) + kStep);
-    memory.labels = kLeafVoxels * (kKey + (mKeep ? 0 : (mDim - 1) * kStep));
+    memory.fixed = mLayout.bytes() + leaves * (int64_t(sizeof(LeafMask)) + kept + queries);
+    memory.gaps = leaves * 2 * 64 * int64_t(sizeof(GapOf<T>));
+    // Rows of SlabDistance and SlabPower; radii, of half a key, and offsets of SlabBalls.
+    memory.scratch = kLeafVoxels * (int64_t(sizeof(T)) + kKey + 2 * (kKey / 2) + kOffset);
+    memory.labels = kLeafVoxels * (kKey + (mKept ? 0 : (mDim - 1) * kOffset));
     memory.keys = kLeafVoxels * kKey;
     memory.packed = kLeafVoxels * int64_t(sizeof(PackedLabel<Power>));
     return memory;
@@ -68,12 +68,12 @@ StreamPlan LabelStream::plan(NullInterrupter* interrupter) const
 template <typename Power, typename T>
 LevelBalls LabelStream::runWith(const StreamPlan& plan, NullInterrupter* interrupter)
 {
-    KeptSteps<Power> kept{};
-    for (int axis = 0; mKeep && axis < mDim; ++axis) {
-        kept[axis] = (*mKeep)[axis].template make<typename Power::Offset>(
+    KeptOffsets<Power> kept{};
+    for (int axis = 0; mKept && axis < mDim; ++axis) {
+        kept[axis] = (*mKept)[axis].template make<typename Power::Offset>(
             std::size_t(mLayout.leafCount()) * kLeafVoxels);
     }
-    StreamWork<Power, T> work(mLayout, mDim, mAsked, kept, interrupter);
+    StreamWork<Power, T> work(mLayout, mDim, mQueried, kept, interrupter);
     if (plan.packed) PackedStream<Power, T>(work, plan).run();
     else WindowStream<Power, T>(work, plan.slabs, plan.threads).run();
     return work.collected();

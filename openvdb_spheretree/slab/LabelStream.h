@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LabelStream.h
-/// @brief From voxels to power labels and medial balls, slab by slab, in as much memory as there is
-/// to be.
+/// @brief From voxels to power labels and medial balls, slab by slab, within a bound on memory.
 ///
-/// Distances and the passes of the labels along z and y stay within a slab; the pass along x needs
-/// all slabs that a ball may reach over. These are a few in most objects: a window of slabs is in
+/// Distances, and the passes of the labels along z and y, stay within a slab. The pass along x needs
+/// all slabs that a ball may reach over. In most objects these are a few: a window of slabs is in
 /// memory (WindowStream.h). Where they are too many, labels wait compressed, in memory or in a
 /// temporary file (PackedStream.h). What is done to slabs and columns is the same (StreamWork.h).
 ///
@@ -13,11 +12,11 @@
 #pragma once
 
 #include "LabelQueries.h"
-#include "LabelSteps.h"
+#include "LabelOffsets.h"
 #include "LevelBalls.h"
 #include "StreamPlan.h"
-#include <openvdb_spheretree/voxel/VoxelRef.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
@@ -35,15 +34,15 @@ public:
     LabelStream(const LeafLayout& layout, int dim) : mLayout(layout), mDim(dim) {}
 
     /// @param voxels  of the object: run() makes each of them its label; those in kNoLeaf stay
-    void ask(std::vector<VoxelRef>& voxels) { mAsked = &voxels; }
-    /// @param steps  receives the labels of all voxels
-    void keepSteps(detail::LabelSteps& steps) { mKeep = &steps; }
+    void query(std::vector<VoxelRef>& voxels) { mQueried = &voxels; }
+    /// @param offsets  receives the labels of all voxels
+    void keepOffsets(detail::LabelOffsets& offsets) { mKept = &offsets; }
     /// @param bytes  as SphereTreeSettings::memory, layout and what is kept included
     void setMemory(int64_t bytes) { mMemory = bytes; }
-    /// In place of the one that suits the memory.
+    /// @param plan  in place of the one that suits the memory
     void setPlan(const StreamPlan& plan) { mPlan = plan; }
 
-    /// @return how run() is going to work.
+    /// @return how run() will work.
     /// @throw as run()
     StreamPlan plan(openvdb::util::NullInterrupter* interrupter) const;
 
@@ -62,8 +61,8 @@ private:
 
     const LeafLayout& mLayout;
     int mDim;
-    std::vector<VoxelRef>* mAsked = nullptr;
-    detail::LabelSteps* mKeep = nullptr;
+    std::vector<VoxelRef>* mQueried = nullptr;
+    detail::LabelOffsets* mKept = nullptr;
     std::optional<StreamPlan> mPlan; ///< none: as memory allows
     int64_t mMemory = 0;
 };

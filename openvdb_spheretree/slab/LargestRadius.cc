@@ -35,20 +35,20 @@ uint64_t boundByRuns(const LeafLayout& layout, int dim)
     }
     uint64_t most = 0;
     for (const uint32_t leaves : shortest) most = std::max<uint64_t>(most, leaves);
-    const uint64_t steps = (most * kLeafDim + 1) / 2;
-    return steps * steps;
+    const uint64_t farthest = (most * kLeafDim + 1) / 2;
+    return farthest * farthest;
 }
 
 template <typename T>
 uint32_t largest(const LeafLayout& layout, int dim, uint32_t threads, NullInterrupter* interrupter)
 {
-    const XSteps<StepOf<T>> steps(layout, interrupter);
+    const XGaps<GapOf<T>> gaps(layout, interrupter);
     std::vector<uint32_t> ofSlab(layout.slabCount(), 0);
     std::vector<SlabDistance<T>> distances(threads);
     detail::parallelForWithSlots(
         layout.slabCount(), threads, interrupter, [&](std::size_t slab, std::size_t slot) {
             distances[slot].forEachRun(
-                layout, uint32_t(slab), steps, dim, [&](const LeafLayout::Run& run, const T* rows) {
+                layout, uint32_t(slab), gaps, dim, [&](const LeafLayout::Run& run, const T* rows) {
                     const std::size_t count = std::size_t(run.count) * kLeafVoxels;
                     ofSlab[slab] = std::max(ofSlab[slab], detail::largestValue(rows, count));
                 });

@@ -13,9 +13,9 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// @return a number that no squared distance of the level exceeds: from the lengths of runs, from the
-///         distances among leaves, or, where radii may be beyond what narrow labels hold, the largest
-///         distance itself (a distance transform; nothing of it is kept).
+/// @return a number that no squared distance of the level exceeds. The lengths of runs bound it, and
+///         the distances among leaves. Only where both bounds are beyond what narrow labels hold, it
+///         is the largest distance itself, by a distance transform of which nothing is kept.
 /// @param threads  at most, each with memory for the distances of a slab
 /// @throw openvdb::ValueError if a radius is 46340 voxels or more
 uint32_t largestDistSq(const LeafLayout& layout, int dim, uint32_t threads,

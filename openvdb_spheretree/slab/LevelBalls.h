@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelBalls.h
-/// @brief What comes out of a stream of labels.
+/// @brief The medial balls of a level, as a stream of labels (LabelStream.h) returns them.
 
 #pragma once
 
+#include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MedialBall.h>
-#include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <vector>
 
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Seconds that stages took; those of one phase that run together share its time.
+/// Seconds that stages took. Stages that run in turns share their time.
 struct StreamSeconds {
     double distance = 0, power = 0, medial = 0;
 };
 
 struct LevelBalls {
-    std::vector<MedialBall> balls; ///< ordered by centre
-    std::vector<LeafMask> centers; ///< of balls, one mask a leaf
+    std::vector<MedialBall> balls; ///< ordered by center
+    std::vector<LeafMask> centers; ///< of the balls, a mask for each leaf
     StreamSeconds seconds;
 };
 

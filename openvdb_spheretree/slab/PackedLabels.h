@@ -2,11 +2,11 @@
 /// @file PackedLabels.h
 /// @brief The labels of a slab in a form that compresses well, and back.
 ///
-/// A key after the passes along z and y is a sum: of the site's radiusSq, less the squares of the
-/// steps to it along y and z. So it need not be kept beside them. In the cell of a ball radiusSq is
-/// constant and steps go down by one from voxel to voxel: after a byte shuffle little is left. The
-/// step along z is the one that comes after the voxel's own step along y (SlabLabels::dzFollowsDy),
-/// so that a leaf can be unpacked without the others of its slab.
+/// After the passes along z and y, a voxel's value is the site's radiusSq less the squares of the
+/// offsets to it along y and z. So the key follows from radiusSq and offsets, and is not packed. In
+/// the power cell of a ball radiusSq is constant, and offsets fall by one from voxel to voxel, which
+/// compresses well. The offset along z is the one that follows the voxel's own offset along y
+/// (SlabLabels::dzFollowsDy), so a leaf is unpacked without the others of its slab.
 
 #pragma once
 

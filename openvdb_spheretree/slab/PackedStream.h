@@ -2,19 +2,18 @@
 /// @file PackedStream.h
 /// @brief A stream of labels that has few slabs in memory at a time, and all others compressed.
 ///
-/// For objects with balls so large that most slabs wait for others. What takes turns in a window
-/// comes one after the other here:
+/// For objects with balls so large that most slabs wait for others. It has three phases:
 ///
 /// 1. *enter*: slab by slab, the labels along z and y, which are then packed (PackedLabels.h) in
-///    blocks (StreamPlan.h) and stored (BlockStore.h);
-/// 2. *along x*: band by band, the keys of all its blocks, then the columns of its runs;
-/// 3. *finish*: slab by slab, the blocks to which a label leads, for the medial balls and answers.
+///    groups of leaves (StreamPlan.h) and stored (PackedStore.h);
+/// 2. *along x*: band by band, the keys of all its groups, then the columns of its runs;
+/// 3. *finish*: slab by slab, the groups to which a label leads, for the medial balls and the queries.
 ///
-/// So a block is unpacked twice at most.
+/// So a group of leaves is unpacked twice at most.
 
 #pragma once
 
-#include "BlockStore.h"
+#include "PackedStore.h"
 #include "PackedLabels.h"
 #include "StreamPlan.h"
 #include "StreamWork.h"
@@ -38,7 +37,7 @@ public:
     PackedStream(Work& work, const StreamPlan& plan)
         : mWork(work), mLayout(work.layout), mPlan(plan),
           mCut(mLayout, kLeafVoxels * sizeof(Key), plan.bandBytes),
-          mStore(mCut.blocks.size(), plan.storedBytes), mKeysOf(mLayout.slabCount())
+          mStore(mCut.groups.size(), plan.storedBytes), mKeysOf(mLayout.slabCount())
     {}
 
     void run()
@@ -52,14 +51,14 @@ public:
     }
 
 private:
-    /// Memory of one thread for a block.
-    struct BlockScratch {
+    /// Memory of one thread for a group.
+    struct GroupScratch {
         std::vector<Packed> labels;
-        BlockStore::Bytes bytes;
+        PackedStore::Bytes bytes;
     };
     struct SlabScratch {
         SlabMemory<Power> memory;
-        BlockScratch block;
+        GroupScratch group;
         SlabBalls<Power> balls;
     };
     struct ColumnScratch {
@@ -79,7 +78,7 @@ private:
                 mWork.enter(slab, labels, entries[slot]);
                 const detail::Stage all("", nullptr, &entries[slot].seconds);
                 const detail::Stage power("", nullptr, &entries[slot].powerSeconds);
-                pack(slab, labels, scratch.block);
+                pack(slab, labels, scratch.group);
             });
         });
         mWork.share(seconds, entries);
@@ -92,29 +91,29 @@ private:
             [&](std::size_t slab, std::size_t slot) { body(uint32_t(slab), slot); });
     }
 
-    void pack(uint32_t slab, const SlabLabels<Power>& labels, BlockScratch& scratch)
+    void pack(uint32_t slab, const SlabLabels<Power>& labels, GroupScratch& scratch)
     {
         for (const uint32_t index : mCut.ofSlab[slab]) {
-            const PackedBlock& block = mCut.blocks[index];
-            const std::size_t size = std::size_t(block.end - block.begin) * kLeafVoxels;
+            const LeafGroup& group = mCut.groups[index];
+            const std::size_t size = std::size_t(group.end - group.begin) * kLeafVoxels;
             scratch.labels.resize(size);
-            for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
-                packLeaf(mLayout, leaf, labels, placeOf(leaf, block, scratch));
+            for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
+                packLeaf(mLayout, leaf, labels, placeOf(leaf, group, scratch));
             }
             mStore.put(
                 index, scratch.labels.data(), size * sizeof(Packed), sizeof(Packed), scratch.bytes);
         }
     }
 
-    static Packed* placeOf(uint32_t leaf, const PackedBlock& block, BlockScratch& scratch)
+    static Packed* placeOf(uint32_t leaf, const LeafGroup& group, GroupScratch& scratch)
     {
-        return scratch.labels.data() + std::size_t(leaf - block.begin) * kLeafVoxels;
+        return scratch.labels.data() + std::size_t(leaf - group.begin) * kLeafVoxels;
     }
 
-    void unpack(uint32_t index, BlockScratch& scratch) const
+    void unpack(uint32_t index, GroupScratch& scratch) const
     {
-        const PackedBlock& block = mCut.blocks[index];
-        const std::size_t size = std::size_t(block.end - block.begin) * kLeafVoxels;
+        const LeafGroup& group = mCut.groups[index];
+        const std::size_t size = std::size_t(group.end - group.begin) * kLeafVoxels;
         scratch.labels.resize(size);
         mStore.get(index, scratch.labels.data(), size * sizeof(Packed), scratch.bytes);
     }
@@ -135,24 +134,24 @@ private:
         mKeys.reset();
     }
 
-    /// The keys of the blocks [first, end), one behind the other.
+    /// The keys of the groups [first, end), one behind the other.
     void unpackBand(uint32_t first, uint32_t end)
     {
         int64_t leaves = 0;
         for (uint32_t index = first; index < end; ++index) {
-            const PackedBlock& block = mCut.blocks[index];
-            mKeysOf[block.slab] = leaves - block.begin; // those of a slab are neighbours
-            leaves += block.end - block.begin;
+            const LeafGroup& group = mCut.groups[index];
+            mKeysOf[group.slab] = leaves - group.begin; // those of a slab are neighbours
+            leaves += group.end - group.begin;
         }
         makeRoom(leaves);
-        std::vector<BlockScratch> scratches(mPlan.slabs);
+        std::vector<GroupScratch> scratches(mPlan.slabs);
         detail::parallelForWithSlots(
             end - first, mPlan.slabs, mWork.interrupter, [&](std::size_t i, std::size_t slot) {
-                const PackedBlock& block = mCut.blocks[first + i];
+                const LeafGroup& group = mCut.groups[first + i];
                 unpack(first + uint32_t(i), scratches[slot]);
-                for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+                for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
                     unpackKeys<Power>(
-                        placeOf(leaf, block, scratches[slot]), keysOf(block.slab, leaf));
+                        placeOf(leaf, group, scratches[slot]), keysOf(group.slab, leaf));
                 }
             });
     }
@@ -189,37 +188,37 @@ private:
             auto labels = scratch.memory.open(mLayout.slab(slab), mWork.dim, {});
             labels.dzFollowsDy = true;
             for (const uint32_t index : mCut.ofSlab[slab]) {
-                if (!hasMarks(mCut.blocks[index])) continue;
-                unpack(index, scratch.block);
-                unpackLeaves(mCut.blocks[index], labels, scratch.block);
+                if (!hasMarks(mCut.groups[index])) continue;
+                unpack(index, scratch.group);
+                unpackLeaves(mCut.groups[index], labels, scratch.group);
             }
             mWork.finish(slab, labels, scratch.balls);
         });
     }
 
-    bool hasMarks(const PackedBlock& block) const
+    bool hasMarks(const LeafGroup& group) const
     {
-        uint32_t leaf = block.begin;
-        while (leaf < block.end && !mWork.hasMarks(leaf)) ++leaf;
-        return leaf < block.end;
+        uint32_t leaf = group.begin;
+        while (leaf < group.end && !mWork.hasMarks(leaf)) ++leaf;
+        return leaf < group.end;
     }
 
     static void unpackLeaves(
-        const PackedBlock& block, const SlabLabels<Power>& labels, BlockScratch& scratch)
+        const LeafGroup& group, const SlabLabels<Power>& labels, GroupScratch& scratch)
     {
-        for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
-            unpackLeaf<Power>(placeOf(leaf, block, scratch), leaf, labels);
+        for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
+            unpackLeaf<Power>(placeOf(leaf, group, scratch), leaf, labels);
         }
     }
 
     Work& mWork;
     const LeafLayout& mLayout;
     const StreamPlan mPlan;
-    const PackedBlocks mCut;
-    BlockStore mStore;
+    const LeafGroups mCut;
+    PackedStore mStore;
     detail::LargeArray<Key> mKeys; ///< of a band
     int64_t mRoom = 0;             ///< leaves that they are for
-    std::vector<int64_t> mKeysOf;  ///< of a slab: where they are, less the leaf's number
+    std::vector<int64_t> mKeysOf;  ///< of a slab: where the keys of leaf 0 would be
 };
 
 } // namespace slab

@@ -2,14 +2,14 @@
 /// @file SlabDistance.h
 /// @brief The exact distances of one slab, while its values are in the cache.
 ///
-/// Squares along x come straight from mask words (XSteps.h) into rows along y; the passes along y
-/// and z then work on rows of 64 lanes (detail/MinPlus.h), the voxels of each leaf transposed in
+/// Squares along x come straight from mask words (XGaps.h) into rows along y; the passes along y
+/// and z then work on rows of 64 lanes (MinPlus.h), the voxels of each leaf transposed in
 /// between.
 
 #pragma once
 
 #include "SlabRows.h"
-#include "XSteps.h"
+#include "XGaps.h"
 #include <openvdb_spheretree/kernel/EnvelopeScratch.h>
 #include <openvdb_spheretree/kernel/LeafRows.h>
 #include <openvdb_spheretree/kernel/LeafTranspose.h>
@@ -21,23 +21,23 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// The type of steps whose squares are T.
+/// The type of the gaps whose squares are T.
 template <typename T>
-using StepOf = std::conditional_t<sizeof(T) == 2, uint8_t, uint16_t>;
+using GapOf = std::conditional_t<sizeof(T) == 2, uint8_t, uint16_t>;
 
-/// Memory of one thread; sees slab after slab.
+/// Memory of one thread, for one slab after the other.
 template <typename T>
 class SlabDistance {
 public:
     /// Calls visit(run, rows) for every run of the slab along its last axis, which is z, or y where
-    /// @a dim is 2, with the squared distances as rows of that axis (detail/LeafRows.h). They are
+    /// @a dim is 2, with the squared distances as rows of that axis (LeafRows.h). They are
     /// exact as long as all stay below detail::kNarrowMax (kWideMax).
     template <typename Visit>
-    void forEachRun(const LeafLayout& layout, uint32_t slab, const XSteps<StepOf<T>>& steps,
-        int dim, const Visit& visit)
+    void forEachRun(const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, int dim,
+        const Visit& visit)
     {
         if (dim == 3) mAlongZ.open(layout, slab, Axis::Z);
-        forEachAlongY(layout, slab, steps, [&](const LeafLayout::Run& run, const T* rows) {
+        forEachAlongY(layout, slab, gaps, [&](const LeafLayout::Run& run, const T* rows) {
             if (dim == 2) {
                 visit(run, rows);
                 return;
@@ -61,7 +61,7 @@ public:
 private:
     template <typename Visit>
     void forEachAlongY(
-        const LeafLayout& layout, uint32_t slab, const XSteps<StepOf<T>>& steps, const Visit& visit)
+        const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, const Visit& visit)
     {
         const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Y, slab);
         for (uint32_t index = runs.begin; index < runs.end; ++index) {
@@ -70,7 +70,7 @@ private:
             T* in = mIn.rows(rows, 1);
             T* out = mOut.rows(rows);
             for (uint32_t i = 0; i < run.count; ++i) {
-                steps.squares(run.leaves[i], in + std::size_t(i) * kLeafVoxels);
+                gaps.squares(run.leaves[i], in + std::size_t(i) * kLeafVoxels);
             }
             detail::minPlus(in, out, rows, mEnvelope);
             visit(run, out);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlabLabels.h
-/// @brief Where the power labels of a slab are while others may still ask for them.
+/// @brief The power labels of a slab in memory, while balls of other slabs may still reach it.
 
 #pragma once
 
 #include <openvdb_spheretree/base/LargeArray.h>
-#include <openvdb_spheretree/voxel/VoxelRef.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/VoxelRef.h>
 
 #include <array>
 #include <cstddef>
@@ -15,9 +15,9 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Where the steps of all leaves along x, y and z go to stay, 512 a leaf; nulls: nowhere.
+/// Arrays that receive the offsets of all leaves along x, y and z, 512 a leaf; null if not kept.
 template <typename Power>
-using KeptSteps = std::array<typename Power::Offset*, 3>;
+using KeptOffsets = std::array<typename Power::Offset*, 3>;
 
 /// 512 entries a leaf, in leaf order.
 template <typename Power>
@@ -28,21 +28,20 @@ struct SlabLabels {
     uint32_t firstLeaf = 0;
     Key* keys = nullptr;                 ///< after the passes along z and y
     Offset *dy = nullptr, *dz = nullptr; ///< dz is null in two dimensions
-    /// Whether dz is what comes after a voxel's own dy, as in packed labels, and not the step of
-    /// the voxel that this leads to.
+    /// Whether a voxel has the dz of the voxel that its own dy leads to, as packed labels have it.
     bool dzFollowsDy = false;
 
     Key* keysOf(uint32_t leaf) const { return keys + place(leaf); }
     Offset* dyOf(uint32_t leaf) const { return dy + place(leaf); }
     Offset* dzOf(uint32_t leaf) const { return dz + place(leaf); }
 
-    /// @return the end of a voxel's way along y and z.
+    /// @return the voxel that a voxel's offsets along y and z lead to.
     VoxelRef center(const LeafLayout& layout, VoxelRef voxel) const
     {
         const VoxelRef there = moved(layout, Axis::Y, voxel, dyOf(voxel.leaf)[voxel.index]);
         return moved(layout, Axis::Z, there, dzAfter(voxel, there));
     }
-    /// @return the step along z from @a there, to where @a voxel leads along y.
+    /// @return the offset along z from @a there, the target of @a voxel along y.
     int dzAfter(VoxelRef voxel, VoxelRef there) const
     {
         if (!dz) return 0;
@@ -64,7 +63,7 @@ public:
     uint32_t leaves() const { return mLeaves; }
 
     /// @return labels, undefined so far, of the slab that has the leaves @a range.
-    SlabLabels<Power> open(LeafLayout::Slab range, int dim, const KeptSteps<Power>& kept)
+    SlabLabels<Power> open(LeafLayout::Slab range, int dim, const KeptOffsets<Power>& kept)
     {
         if (mLeaves < range.size()) makeRoom(range.size(), kept[0] ? 0 : dim - 1);
         SlabLabels<Power> labels;

@@ -17,7 +17,7 @@ namespace slab {
 template <typename Power>
 class SlabPool {
 public:
-    SlabPool(const LeafLayout& layout, int dim, const KeptSteps<Power>& kept)
+    SlabPool(const LeafLayout& layout, int dim, const KeptOffsets<Power>& kept)
         : mLayout(layout), mDim(dim), mKept(kept), mOpen(layout.slabCount()),
           mMemory(layout.slabCount())
     {}
@@ -54,15 +54,15 @@ private:
             mFree.pop_back();
             return memory;
         }
-        if (!mFree.empty()) mFree.pop_back(); // too small: its place is worth more
+        if (!mFree.empty()) mFree.pop_back(); // too small: better given back
         return {};
     }
 
     const LeafLayout& mLayout;
     const int mDim;
-    const KeptSteps<Power> mKept;
+    const KeptOffsets<Power> mKept;
     std::vector<SlabLabels<Power>> mOpen;
-    std::vector<SlabMemory<Power>> mMemory, mFree; ///< of open slabs, and of nobody
+    std::vector<SlabMemory<Power>> mMemory, mFree; ///< of open slabs, and of none
 };
 
 } // namespace slab

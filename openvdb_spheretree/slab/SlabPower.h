@@ -21,8 +21,8 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Memory of one thread; sees slab after slab: open(), alongZ() for each run along z, alongY(). In
-/// two dimensions: open(), fromY() for each run along y.
+/// Memory of one thread, for one slab after the other. Calls: open(), alongZ() for each run along z,
+/// alongY(). In two dimensions: open(), fromY() for each run along y.
 template <typename Power>
 class SlabPower {
     using Key = typename Power::Key;
@@ -42,7 +42,7 @@ public:
         const uint32_t largest = first(run, distances);
         for (uint32_t i = 0; i < run.count; ++i) {
             const std::size_t place = std::size_t(i) * kLeafVoxels;
-            detail::rowsZToLeaf(mSteps + place, labels.dzOf(run.leaves[i]));
+            detail::rowsZToLeaf(mOffsets + place, labels.dzOf(run.leaves[i]));
             detail::swapRows(mBest + place, mAlongY.ofLeaf(run.leaves[i]));
         }
         return largest;
@@ -54,7 +54,8 @@ public:
         for (uint32_t index = runs.begin; index < runs.end; ++index) {
             const LeafLayout::Run run = layout.run(Axis::Y, index);
             const int rows = open(run);
-            detail::maxPlus<Power>(mAlongY.ofRun(index), mBest, mSteps, {0, rows, rows}, mEnvelope);
+            detail::maxPlus<Power>(
+                mAlongY.ofRun(index), mBest, mOffsets, {0, rows, rows}, mEnvelope);
             store(run, labels);
         }
         hwy::FlushStream(); // what went past the cache is there for other threads
@@ -75,8 +76,8 @@ private:
     int open(const LeafLayout::Run& run)
     {
         const int rows = int(run.count) * kLeafDim;
-        mBest = mKeys.rows(rows);
-        mSteps = mOffsets.rows(rows);
+        mBest = mKeyRows.rows(rows);
+        mOffsets = mOffsetRows.rows(rows);
         return rows;
     }
 
@@ -84,7 +85,7 @@ private:
     uint32_t first(const LeafLayout::Run& run, const T* distances)
     {
         const int rows = open(run);
-        return detail::firstMaxPlus<Power>(distances, mBest, mSteps, rows, mEnvelope);
+        return detail::firstMaxPlus<Power>(distances, mBest, mOffsets, rows, mEnvelope);
     }
 
     /// The result of a run along y.
@@ -93,15 +94,15 @@ private:
         for (uint32_t i = 0; i < run.count; ++i) {
             const std::size_t place = std::size_t(i) * kLeafVoxels;
             detail::streamRowsYToLeaf(mBest + place, labels.keysOf(run.leaves[i]));
-            detail::rowsToLeaf(Axis::Y, mSteps + place, labels.dyOf(run.leaves[i]));
+            detail::rowsToLeaf(Axis::Y, mOffsets + place, labels.dyOf(run.leaves[i]));
         }
     }
 
     SlabRows<Key> mAlongY;
-    detail::RowBuffer<Key> mKeys;
-    detail::RowBuffer<Offset> mOffsets;
-    Key* mBest = nullptr;     ///< of the run at hand, as rows
-    Offset* mSteps = nullptr; ///< the same
+    detail::RowBuffer<Key> mKeyRows;
+    detail::RowBuffer<Offset> mOffsetRows;
+    Key* mBest = nullptr;       ///< of the run at hand, as rows
+    Offset* mOffsets = nullptr; ///< the same
     detail::EnvelopeScratch mEnvelope;
 };
 

@@ -39,21 +39,21 @@ uint32_t usefulWindow(const LeafLayout& layout, uint32_t threads)
     return std::min(slabs, std::max(kSlabsOfThread * threads, kLeaves / leavesOfSlab));
 }
 
-/// What a thread takes that packs a block, and its compressed form.
+/// What a thread takes that packs a group of leaves, and its compressed form.
 int64_t bufferBytes(const LeafLayout& layout, const StreamMemory& memory)
 {
-    return 2 * memory.packed * std::min<int64_t>(largestSlab(layout), kBlockLeaves);
+    return 2 * memory.packed * std::min<int64_t>(largestSlab(layout), kGroupLeaves);
 }
 
 /// Beside what each thread works on, compressed labels take what there is. When all slabs have
-/// entered, the steps along x and the threads' slabs make room for a band of keys.
+/// entered, the gaps along x and the threads' slabs make room for a band of keys.
 StreamPlan packedPlan(
     const LeafLayout& layout, const StreamMemory& memory, int64_t bytes, uint32_t threads)
 {
     const int64_t slab = largestSlab(layout) * (memory.scratch + memory.labels);
     const int64_t thread = slab + bufferBytes(layout, memory);
     const int64_t leastBand = longestRun(layout) * memory.keys;
-    const int64_t needed = memory.fixed + thread + std::max(memory.steps, leastBand);
+    const int64_t needed = memory.fixed + thread + std::max(memory.gaps, leastBand);
     detail::requireAllowed(layout.leafCount(), needed, bytes);
     StreamPlan plan;
     plan.packed = true;
@@ -63,7 +63,7 @@ StreamPlan packedPlan(
     plan.packedBytes = int64_t(layout.leafCount()) * memory.packed;
     const int64_t uncounted = bytes / 16; // rows of runs, what allocations take beside their bytes
     plan.storedBytes = std::max<int64_t>(0, bytes - needed - (plan.slabs - 1) * thread - uncounted);
-    plan.bandBytes = std::max(memory.steps, leastBand) + (plan.slabs - 1) * slab;
+    plan.bandBytes = std::max(memory.gaps, leastBand) + (plan.slabs - 1) * slab;
     plan.bytes = bytes;
     return plan;
 }
@@ -93,14 +93,14 @@ StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint
     StreamPlan plan;
     for (plan.slabs = usefulWindow(layout, threads); plan.slabs > 0; plan.slabs /= 2) {
         plan.threads = std::min(threads, plan.slabs);
-        plan.bytes = memory.fixed + memory.steps + plan.threads * scratch
+        plan.bytes = memory.fixed + memory.gaps + plan.threads * scratch
             + windowBytes(layout, memory, largestDistSq, plan.slabs);
         if (plan.bytes <= bytes) return plan;
     }
     return packedPlan(layout, memory, bytes, threads);
 }
 
-PackedBlocks::PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes)
+LeafGroups::LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes)
     : ofSlab(layout.slabCount())
 {
     std::vector<uint32_t> next(layout.slabCount()); // of a slab, the leaves in no band so far
@@ -110,9 +110,9 @@ PackedBlocks::PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t b
         for (uint32_t slab = 0; slab < layout.slabCount(); ++slab) {
             while (next[slab] < end[slab]) {
                 const uint32_t begin = next[slab];
-                next[slab] = std::min(end[slab], begin + kBlockLeaves);
-                ofSlab[slab].push_back(uint32_t(blocks.size()));
-                blocks.push_back({slab, begin, next[slab]});
+                next[slab] = std::min(end[slab], begin + kGroupLeaves);
+                ofSlab[slab].push_back(uint32_t(groups.size()));
+                groups.push_back({slab, begin, next[slab]});
             }
         }
     };
@@ -124,7 +124,7 @@ PackedBlocks::PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t b
             closeBand();
             bytes = 0;
             firstRunOfBand.push_back(i);
-            firstOfBand.push_back(uint32_t(blocks.size()));
+            firstOfBand.push_back(uint32_t(groups.size()));
         }
         bytes += ofRun;
         const uint32_t first = layout.slabOf(run.leaves[0]);
@@ -132,7 +132,7 @@ PackedBlocks::PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t b
     }
     closeBand();
     firstRunOfBand.push_back(layout.runCount(Axis::X));
-    firstOfBand.push_back(uint32_t(blocks.size()));
+    firstOfBand.push_back(uint32_t(groups.size()));
 }
 
 } // namespace slab

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file StreamPlan.h
-/// @brief How a stream of labels keeps to its memory: known before it starts.
+/// @brief How a stream of labels keeps to its bound on memory, planned before it starts.
 
 #pragma once
 
@@ -14,8 +14,8 @@ namespace slab {
 
 /// What a stream takes, in bytes.
 struct StreamMemory {
-    int64_t fixed;   ///< whatever the plan: layout, masks, questions, steps that are kept
-    int64_t steps;   ///< those along x of all leaves, while slabs enter
+    int64_t fixed;   ///< whatever the plan: layout, masks, queries, offsets that are kept
+    int64_t gaps;    ///< along x, of all leaves, while slabs enter
     int64_t scratch; ///< per leaf of a slab that a thread works on
     int64_t labels;  ///< per leaf of a slab in memory
     int64_t keys;    ///< per leaf whose keys alone are in memory
@@ -33,38 +33,39 @@ struct StreamPlan {
 };
 
 /// Packed labels are compressed so many leaves at a time, or fewer: 2 or 4 MiB.
-constexpr uint32_t kBlockLeaves = 1024;
+constexpr uint32_t kGroupLeaves = 1024;
 
 /// @param largestDistSq  no ball has a larger squared radius
-/// @return the most bytes that slabs take at a time when @a window of them enter together.
+/// @return the most bytes that slabs take at a time if @a window of them enter together.
 int64_t windowBytes(
     const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq, uint32_t window);
 
-/// @return a window of as many slabs as keep the threads busy, or the most of half as many, a
-///         quarter, ... that fit; else labels packed, on as many of @a threads as fit.
-/// @param bytes  that it may take
+/// @param bytes  that the stream may take
+/// @return a window of as many slabs as keep the threads busy. If it does not fit, half as many
+///         slabs, a quarter, and so on; if not even one slab fits, packed labels, on as many of @a
+///         threads as fit.
 /// @throw openvdb::ValueError if nothing fits
 StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq,
     int64_t bytes, uint32_t threads);
 
 /// Leaves of a slab, [begin, end), that are packed together.
-struct PackedBlock {
+struct LeafGroup {
     uint32_t slab, begin, end;
 };
 
-/// @brief How slabs are cut into blocks.
+/// @brief How slabs are cut into groups of leaves.
 ///
-/// A *band* is some of the runs along x, next to each other in the order of y, then z. Leaves of a
-/// slab have the same order, so those in a band are neighbours too: a band's runs need the blocks of
-/// the band, one or more of each slab that they pass, and no others.
-struct PackedBlocks {
+/// A *band* is a range of runs along x in the order of y, then z. Leaves of a slab have the same
+/// order, so those of a band are a range too. It is cut into groups, and the runs of a band need the
+/// groups of the band and no others.
+struct LeafGroups {
     /// @param bandBytes  of keys that a band may have; a single run may have more
-    PackedBlocks(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes);
+    LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes);
 
-    std::vector<PackedBlock> blocks;           ///< by band
-    std::vector<uint32_t> firstOfBand;         ///< and their number at the end
+    std::vector<LeafGroup> groups;             ///< by band
+    std::vector<uint32_t> firstOfBand;         ///< of the groups; their number at the end
     std::vector<uint32_t> firstRunOfBand;      ///< the same of runs along x
-    std::vector<std::vector<uint32_t>> ofSlab; ///< the blocks of each slab
+    std::vector<std::vector<uint32_t>> ofSlab; ///< the groups of each slab
 };
 
 } // namespace slab

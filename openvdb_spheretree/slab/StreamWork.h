@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file StreamWork.h
-/// @brief What is done to slabs and columns, whichever way they are kept in between.
+/// @brief The work on slabs and columns that both streams share, and its results.
 
 #pragma once
 
@@ -25,7 +25,7 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// @tparam Power  of detail/MaxPlus.h
+/// @tparam Power  of MaxPlus.h
 /// @tparam T      of squared distances
 template <typename Power, typename T>
 class StreamWork {
@@ -33,10 +33,10 @@ public:
     using Key = typename Power::Key;
     using Entry = SlabEntry<Power, T>;
 
-    StreamWork(const LeafLayout& layoutOfLevel, int dimension, std::vector<VoxelRef>* asked,
-        const KeptSteps<Power>& steps, openvdb::util::NullInterrupter* stop)
-        : layout(layoutOfLevel), dim(dimension), kept(steps), interrupter(stop),
-          mQuestions(layout, asked), mSteps(std::make_unique<Steps>(layout, stop)),
+    StreamWork(const LeafLayout& layoutOfLevel, int dimension, std::vector<VoxelRef>* queried,
+        const KeptOffsets<Power>& keptOffsets, openvdb::util::NullInterrupter* stop)
+        : layout(layoutOfLevel), dim(dimension), kept(keptOffsets), interrupter(stop),
+          mQueries(layout, queried), mGaps(std::make_unique<Gaps>(layout, stop)),
           mRadii(layout.slabCount())
     {
         mResult.centers.resize(layout.leafCount());
@@ -48,25 +48,25 @@ public:
     /// @return the slab's largest squared distance.
     uint32_t enter(uint32_t slab, const SlabLabels<Power>& labels, Entry& entry) const
     {
-        return entry.enter(layout, slab, *mSteps, dim, labels);
+        return entry.enter(layout, slab, *mGaps, dim, labels);
     }
-    /// What only enter() needs goes.
-    void allEntered() { mSteps.reset(); }
+    /// Frees what only enter() needs.
+    void allEntered() { mGaps.reset(); }
 
-    /// The labels of a column along x; its voxels that are asked for move on.
+    /// Finds the labels of a column along x, and moves its queries.
     void labelColumn(const Column<Power>& column, ColumnPower<Power>& power)
     {
-        power.run(column, layout, mResult.centers.data(), [&](uint32_t leaf, const auto* steps) {
-            constexpr std::size_t kBytes = kLeafVoxels * sizeof(*steps);
-            if (kept[0]) std::memcpy(kept[0] + std::size_t(leaf) * kLeafVoxels, steps, kBytes);
-            mQuestions.moveAlongX(leaf, steps);
+        power.run(column, layout, mResult.centers.data(), [&](uint32_t leaf, const auto* offsets) {
+            constexpr std::size_t kBytes = kLeafVoxels * sizeof(*offsets);
+            if (kept[0]) std::memcpy(kept[0] + std::size_t(leaf) * kLeafVoxels, offsets, kBytes);
+            mQueries.moveAlongX(leaf, offsets);
         });
     }
 
-    /// The balls of a slab, and answers that are in it, when all labels that lead to it are known.
+    /// Finds the balls of a slab, and moves its queries. All labels that lead to it must be known.
     void finish(uint32_t slab, const SlabLabels<Power>& labels, SlabBalls<Power>& balls)
     {
-        mQuestions.moveToCenters(slab, labels);
+        mQueries.moveToCenters(slab, labels);
         LeafMask* centers = mResult.centers.data() + layout.slab(slab).begin;
         mRadii[slab] = balls.collect(layout, slab, labels, centers);
     }
@@ -79,12 +79,13 @@ public:
     }
 
     /// @return whether a label leads to a leaf along x.
-    bool hasMarks(uint32_t leaf) const { return detail::hasMarks(mResult.centers[leaf]); }
+    bool hasMarks(uint32_t leaf) const { return !mResult.centers[leaf].none(); }
     /// @return the slab of the first leaf of a run along x.
     uint32_t firstSlab(uint32_t run) const { return mFirstSlab[run]; }
     StreamSeconds& seconds() { return mResult.seconds; }
 
-    /// Distances and power run in turns: they share the time as the threads' times say.
+    /// Distances and power labels are made in turns. They share the time that @a passed in proportion to
+    /// what the threads measured.
     template <typename Entries>
     void share(double passed, Entries& entries)
     {
@@ -100,15 +101,14 @@ public:
 
     const LeafLayout& layout;
     const int dim;
-    const KeptSteps<Power> kept;
+    const KeptOffsets<Power> kept;
     openvdb::util::NullInterrupter* const interrupter;
 
 private:
-    using Steps = XSteps<StepOf<T>>;
+    using Gaps = XGaps<GapOf<T>>;
     using Radii = std::vector<typename SlabBalls<Power>::RadiusSq>;
 
-    /// Centres and radii of all slabs become balls, one list in the order of slabs: zeros first, by
-    /// one thread, for want of a vector that begins without.
+    /// Centers and radii of all slabs become balls, one list in the order of slabs.
     void placeBalls()
     {
         std::vector<std::size_t> first{0}; // of each slab
@@ -120,17 +120,17 @@ private:
             MedialBall* balls = mResult.balls.data() + first[slab];
             assert(radii.size() == detail::countMarks(centers, layout.slab(uint32_t(slab)).size()));
             detail::visitWithPlaces(layout, uint32_t(slab), centers,
-                [&](uint32_t leaf, uint32_t offset, std::size_t place) {
-                    balls[place] = {layout.voxel(leaf, offset), int32_t(radii[place])};
+                [&](uint32_t leaf, uint32_t index, std::size_t place) {
+                    balls[place] = {layout.voxel(leaf, index), int32_t(radii[place])};
                 });
         });
     }
 
-    Questions mQuestions;
-    std::unique_ptr<Steps> mSteps;
+    LabelQueries mQueries;
+    std::unique_ptr<Gaps> mGaps;
     std::vector<uint32_t> mFirstSlab; ///< of each run along x
-    std::vector<Radii> mRadii;        ///< of the balls of each slab, whose centres are in mResult
-    LevelBalls mResult; ///< its centres are where labels lead along x, until the slab is finished
+    std::vector<Radii> mRadii;        ///< of the balls of each slab, whose centers are in mResult
+    LevelBalls mResult; ///< its centers are targets along x until the slab is finished
 };
 
 } // namespace slab

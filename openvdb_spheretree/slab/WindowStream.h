@@ -5,12 +5,12 @@
 /// Slabs go through three states:
 ///
 /// 1. *entered*: distances and the passes along z and y (SlabEntry.h), many slabs in parallel; what
-///    stays are keys and steps;
+///    stays are keys and offsets;
 /// 2. *final*: no ball of a slab that has not entered reaches it. Then its labels are found by the
-///    pass along x, run by run, over the slabs of the window (ColumnPower.h), and what it is asked
-///    moves to the slabs that they lead to (Questions.h);
-/// 3. *released*: none of its balls reaches a slab that is not final. Then its medial balls are
-///    known, and its answers; its memory goes to the next one that enters.
+///    pass along x, run by run, over the slabs of the window (ColumnPower.h), and its queries move
+///    to the slabs that the labels lead to (LabelQueries.h);
+/// 3. *released*: none of its balls reaches a slab that is not final. Then its medial balls and the
+///    labels of its queries are known, and its memory goes to the next slab that enters.
 ///
 /// Distances change by at most 1 from a voxel to the next. So if M is the largest distance in the
 /// last slab that has entered, whose voxels end at x = e, no later ball reaches x <= e - M; where

@@ -13,7 +13,7 @@
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/BallPruning.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
-#include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -136,11 +136,10 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
     const FlatAxis flat(tree.flatAxis);
-    const auto voxels = flat.toZ(
-        std::make_shared<openvdb::MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
-    LevelWants wants;
-    wants.memory = settings.memory;
-    const MedialLevel level(*voxels, settings.dim, settings.dist(), interrupter, seconds, wants);
+    const auto voxels = voxelsOf(object, flat);
+    LevelQueries queries;
+    queries.memory = settings.memory;
+    const MedialLevel level(*voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
     const SampledObject samples(level.layout);
     const LeafBalls leafBalls = timed("leaves", interrupter, &seconds->tree,
         [&] { return leafBallsOf(level, samples, options.leaves, interrupter); });

@@ -26,6 +26,7 @@
 #include "LeafParts.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/UnionFind.h>
+#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/LeafPlanes.h>
 #include <openvdb_spheretree/voxel/LeafWalk.h>
@@ -342,8 +343,7 @@ LevelTopology levelTopology(const LeafLayout& level, openvdb::util::NullInterrup
 LevelTopology levelTopology(
     const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
-    const openvdb::MaskTree mask(object.tree(), false, openvdb::TopologyCopy());
-    return levelTopology(LeafLayout(mask), interrupter);
+    return levelTopology(LeafLayout(*voxelsOf(object, FlatAxis(2))), interrupter);
 }
 
 } // namespace openvdb_spheretree

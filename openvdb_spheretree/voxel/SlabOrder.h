@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlabOrder.h
-/// @brief The order of medial balls: by centre, x first, which is not the order of leaves.
+/// @brief The order of medial balls: by center, x first. It is not the order of leaves.
 
 #pragma once
 
@@ -15,20 +15,11 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-inline bool hasMarks(const LeafMask& mask)
-{
-    uint64_t words = 0;
-    for (const uint64_t word : mask) words |= word;
-    return words != 0;
-}
-
-/// @return the voxels that some masks have on.
+/// @return the number of voxels in some masks.
 inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
 {
     std::size_t sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        for (const uint64_t word : masks[i]) sum += openvdb::util::CountOn(word);
-    }
+    for (std::size_t i = 0; i < count; ++i) sum += std::size_t(masks[i].count());
     return sum;
 }
 
@@ -54,10 +45,11 @@ inline void countBytes(uint64_t word, std::size_t* sums)
     for (int y = 0; y < 8; ++y) sums[y] += word >> 8 * y & 0xff;
 }
 
-/// Calls visit(leaf, offset, place) for the marked voxels of a slab, leaf by leaf along each row:
-/// `place` is where a voxel stands among all of them by coordinate, from 0 on. That order has x,
-/// then the rows of leaves of equal y and y in them, then the leaves of a row and z in them.
-/// @param marks  one mask for each leaf of the slab
+/// Calls visit(leaf, index, place) for the marked voxels of a slab: its leaf, its index there, and its
+/// rank among the marked voxels of the slab in the order of coordinates. Voxels are visited for each
+/// x of the leaves, row of leaves by row of leaves. (A row has one y: its voxels come before those of
+/// the next row. Within it voxels are ordered by y, then by leaf, then by z.)
+/// @param marks  a mask for each leaf of the slab
 template <typename Visit>
 void visitWithPlaces(
     const LeafLayout& layout, uint32_t slabIndex, const LeafMask* marks, const Visit& visit)

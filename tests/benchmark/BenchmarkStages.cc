@@ -21,7 +21,7 @@ void append(std::vector<BenchmarkStage>& stages, std::vector<BenchmarkStage> oth
 std::vector<BenchmarkStage> benchmarkStages(bool more)
 {
     std::vector<BenchmarkStage> stages = readingStages();
-    append(stages, transformStages(more));
+    append(stages, transformStages());
     append(stages, levelStages(more));
     append(stages, treeStages(more));
     append(stages, writingStages());

@@ -23,7 +23,7 @@ struct Levels {
             const openvdb::Coord origin = medial.empty() ? pyramid.origin : openvdb::Coord();
             steps.push_back({origin, 2, 3});
             medial.push_back(std::make_unique<st::MedialLevel>(
-                *voxels, 3, st::Distance(), nullptr, nullptr, st::LevelWants{0, {}, true}));
+                *voxels, 3, st::Distance(), nullptr, nullptr, st::LevelQueries{0, {}, true}));
         }
     }
     std::vector<std::unique_ptr<st::MedialLevel>> medial;

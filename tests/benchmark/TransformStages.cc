@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransformStages.h"
 
-#include <openvdb_spheretree/medial/DistanceTransform.h>
-#include <openvdb_spheretree/medial/MedialAxis.h>
-#include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/medial/DistanceMap.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
 #include <openvdb_spheretree/topology/LevelTopology.h>
 
@@ -60,15 +57,13 @@ Work labelStream(const InputPtr& in)
 
 Work labelsKept(const InputPtr& in)
 {
-    auto map = std::make_shared<const st::DistanceMap>(st::distanceTransform(in->layout));
-    return plain([in, map] { return st::powerMap(in->layout, *map); });
-}
-
-Work medialBallsOfLabels(const InputPtr& in)
-{
-    auto map = std::make_shared<const st::DistanceMap>(st::distanceTransform(in->layout));
-    auto labels = std::make_shared<const st::PowerMap>(st::powerMap(in->layout, *map));
-    return plain([in, map, labels] { return st::medialBalls(*labels, *map); });
+    return plain([in] {
+        st::detail::LabelOffsets offsets;
+        st::slab::LabelStream stream(in->layout, 3);
+        stream.keepOffsets(offsets);
+        stream.run(nullptr);
+        return offsets;
+    });
 }
 
 Work topology(const InputPtr& in)
@@ -78,14 +73,12 @@ Work topology(const InputPtr& in)
 
 } // namespace
 
-std::vector<BenchmarkStage> transformStages(bool more)
+std::vector<BenchmarkStage> transformStages()
 {
-    std::vector<BenchmarkStage> stages{{"object-mask", objectMask, {}}, {"layout", leafLayout, {}},
+    return {{"object-mask", objectMask, {}}, {"layout", leafLayout, {}},
         {"distance", distances, {}}, {"distance-int32", distancesInPlace, {}},
         {"distance+power+medial", labelStream, {}}, {"labels-kept", labelsKept, {}},
         {"topology", topology, {}}};
-    if (more) stages.push_back({"medial", medialBallsOfLabels, {}});
-    return stages;
 }
 
 } // namespace spheretree_benchmark

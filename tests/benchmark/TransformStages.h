@@ -8,6 +8,6 @@
 
 namespace spheretree_benchmark {
 
-std::vector<BenchmarkStage> transformStages(bool more);
+std::vector<BenchmarkStage> transformStages();
 
 } // namespace spheretree_benchmark

@@ -8,6 +8,7 @@
 #include "LineReference.h"
 #include "NaiveReference.h"
 
+#include <openvdb_spheretree/medial/DistanceMap.h>
 #include <openvdb_spheretree/medial/DistanceTransform.h>
 #include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
@@ -85,10 +86,11 @@ private:
 struct CoreStages {
     explicit CoreStages(const openvdb::MaskTree& level, int dim = 3,
         const openvdb_spheretree::Distance& distance = {})
-        : layout(level), distances(distanceTransform(layout, dim, distance)),
-          labels(powerMap(layout, distances, dim)), balls(medialBalls(labels, distances))
+        : medial(level, dim, distance, nullptr, nullptr, {0, {}, true}), layout(medial.layout),
+          distances(distanceTransform(layout, dim, distance)), labels(medial.labels),
+          balls(medial.balls)
     {}
-    CoreStages(const CoreStages&) = delete; // labels refer to the layout
+    CoreStages(const CoreStages&) = delete; // members refer to others
 
     /// @return the distance (squared if Euclidean) at any voxel, 0 outside the leaves.
     uint32_t distSq(const Coord& ijk) const
@@ -97,10 +99,12 @@ struct CoreStages {
         return leaf ? distances.at(*leaf, openvdb_spheretree::leafIndex(ijk)) : 0;
     }
 
-    openvdb_spheretree::LeafLayout layout;
-    openvdb_spheretree::DistanceMap distances;
-    openvdb_spheretree::PowerMap labels;
-    std::vector<openvdb_spheretree::MedialBall> balls;
+    const openvdb_spheretree::MedialLevel medial;
+    const openvdb_spheretree::LeafLayout& layout;
+    const openvdb_spheretree::DistanceMap distances;
+    const openvdb_spheretree::PowerMap& labels;
+    /// A copy: loops over the balls of a temporary need one.
+    const std::vector<openvdb_spheretree::MedialBall> balls;
 };
 
 /// Distance and label of every voxel of the reference, which may be one object among others.

@@ -520,8 +520,8 @@ TEST(SphereTree, StagesRefuseADimensionThatIsNone)
     EXPECT_THROW(medialBalls(*object, 7), openvdb::ValueError);
     EXPECT_THROW(buildOrPyramid(*object, 2, -1), openvdb::ValueError);
     const openvdb::MaskTree mask(object->tree(), false, openvdb::TopologyCopy());
-    const LeafLayout layout(mask);
-    EXPECT_THROW(powerMap(layout, distanceTransform(layout), 4), openvdb::ValueError);
+    EXPECT_THROW(MedialLevel(mask, 4, Distance(), nullptr), openvdb::ValueError);
+    EXPECT_THROW(MedialLevel(mask, 4, Distance::l1(), nullptr), openvdb::ValueError);
 }
 
 TEST(SphereTree, ParentsByTheDagLeaveNoEdgesBehindUnlessAsked)

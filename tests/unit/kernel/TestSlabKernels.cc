@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestSlabKernels.cc
-/// @brief What slabs are made of: steps along x, rows, transpositions, ends of steps and the order
+/// @brief What slabs are made of: gaps along x, rows, transpositions, targets of offsets and the order
 /// of balls, against plain loops.
 
 #include "support/CoreStages.h"
 #include "support/RandomObjects.h"
 
-#include <openvdb_spheretree/kernel/LabelStepEnds.h>
 #include <openvdb_spheretree/kernel/LargestValue.h>
 #include <openvdb_spheretree/kernel/LeafTranspose.h>
+#include <openvdb_spheretree/kernel/OffsetBits.h>
 #include <openvdb_spheretree/slab/SlabRows.h>
-#include <openvdb_spheretree/slab/XSteps.h>
+#include <openvdb_spheretree/slab/XGaps.h>
 #include <openvdb_spheretree/voxel/SlabOrder.h>
 
 #include <hwy/cache_control.h>
@@ -22,35 +22,35 @@ namespace {
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 
-/// Steps to the nearest voxel that is off on the line along x.
-int64_t stepsAlongX(const std::set<Coord>& voxels, const Coord& voxel)
+/// The distance to the nearest voxel that is off on the line along x.
+int64_t gapAlongX(const std::set<Coord>& voxels, const Coord& voxel)
 {
-    int64_t steps = 0;
-    while (voxels.count(voxel.offsetBy(int(steps), 0, 0))
-        && voxels.count(voxel.offsetBy(-int(steps), 0, 0))) {
-        ++steps;
+    int64_t gap = 0;
+    while (voxels.count(voxel.offsetBy(int(gap), 0, 0))
+        && voxels.count(voxel.offsetBy(-int(gap), 0, 0))) {
+        ++gap;
     }
-    return steps;
+    return gap;
 }
 
-template <typename Step, typename Square>
+template <typename Gap, typename Square>
 void expectSquares(const Voxels& voxels, int64_t most)
 {
     const std::set<Coord> all(voxels.begin(), voxels.end());
     const LeafLayout layout(*maskOf(voxels));
-    const slab::XSteps<Step> steps(layout, nullptr);
+    const slab::XGaps<Gap> gaps(layout, nullptr);
     std::array<Square, kLeafVoxels> rows, squares;
     for (uint32_t leaf = 0; leaf < layout.leafCount(); ++leaf) {
-        steps.squares(leaf, rows.data());
+        gaps.squares(leaf, rows.data());
         detail::rowsToLeaf(Axis::Y, rows.data(), squares.data());
         for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-            const int64_t expected = std::min(most, stepsAlongX(all, layout.voxel(leaf, k)));
+            const int64_t expected = std::min(most, gapAlongX(all, layout.voxel(leaf, k)));
             ASSERT_EQ(int64_t(squares[k]), expected * expected) << layout.voxel(leaf, k);
         }
     }
 }
 
-TEST(XSteps, AreThoseOfEveryLine)
+TEST(XGaps, AreThoseOfEveryLine)
 {
     for (uint32_t seed = 0; seed < 30; ++seed) {
         const Voxels voxels = randomObject(seed).voxels;
@@ -59,7 +59,7 @@ TEST(XSteps, AreThoseOfEveryLine)
     }
 }
 
-TEST(XSteps, StayAtTheLargestNumberThatFits)
+TEST(XGaps, StayAtTheLargestNumberThatFits)
 {
     Voxels line;
     for (int x = -300; x < 400; ++x) line.push_back(Coord(x, 3, 5));
@@ -157,99 +157,60 @@ TEST(SlabRows, KeepZerosAroundRunsThatDoNotOverlap)
     }
 }
 
-/// Random steps in a run of three leaves along an axis.
-template <typename Step>
-void expectEnds(Axis axis, int most, double density, Random& random)
-{
-    constexpr int kLeaves = 3;
-    const int shift = 6 - 3 * int(axis);
-    std::array<std::array<Step, kLeafVoxels>, kLeaves> steps;
-    std::array<LeafMask, kLeaves> masks{}, marks{}, expected{};
-    for (int leaf = 0; leaf < kLeaves; ++leaf) {
-        for (int k = 0; k < kLeafVoxels; ++k) {
-            const int here = 8 * leaf + (k >> shift & 7);
-            const int end = std::max(0, std::min(23, here + random.between(-most, most)));
-            steps[leaf][k] = Step(end - here);
-            if (!random.chance(density)) continue;
-            masks[leaf][k >> 6] |= uint64_t(1) << (k & 63);
-            const int there = k + ((end & 7) - (here & 7)) * (1 << shift);
-            expected[end >> 3][there >> 6] |= uint64_t(1) << (there & 63);
-        }
-    }
-    const auto marksOf = [&](uint32_t leaf) -> LeafMask& { return marks[leaf]; };
-    for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
-        detail::markEnds(axis, leaf, steps[leaf].data(), masks[leaf], marksOf);
-    }
-    ASSERT_EQ(marks, expected);
-}
-
-TEST(StepEnds, AreMarkedOfEveryVoxelThatIsOn)
-{
-    Random random(3);
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-        for (const int most : {0, 1, 2, 23}) {
-            for (const double density : {0.02, 0.5, 1.0}) {
-                ASSERT_NO_FATAL_FAILURE(expectEnds<int8_t>(axis, most, density, random));
-                ASSERT_NO_FATAL_FAILURE(expectEnds<int16_t>(axis, most, density, random));
-            }
-        }
-    }
-}
-
-/// Steps from some rows of a column, which may lead to all others.
-template <typename Step>
-void expectRowEnds(int most, double density, Random& random)
+/// Offsets from some rows of a column, which may lead to all others.
+template <typename Offset>
+void expectRowTargets(int most, double density, Random& random)
 {
     constexpr int kRows = 40, kFirst = 8, kLast = 32;
-    std::array<Step, kRows * 64> steps{};
+    std::array<Offset, kRows * 64> offsets{};
     std::array<uint64_t, kRows> on{}, marks{}, expected{};
     for (int row = kFirst; row < kLast; ++row) {
         for (int lane = 0; lane < 64; ++lane) {
-            const int end = std::max(0, std::min(kRows - 1, row + random.between(-most, most)));
-            steps[row * 64 + lane] = Step(end - row);
+            const int target = std::max(0, std::min(kRows - 1, row + random.between(-most, most)));
+            offsets[row * 64 + lane] = Offset(target - row);
             if (!random.chance(density)) continue;
             on[row] |= uint64_t(1) << lane;
-            expected[end] |= uint64_t(1) << lane;
+            expected[target] |= uint64_t(1) << lane;
         }
     }
-    detail::markRowEnds(&steps[kFirst * 64], &on[kFirst], kLast - kFirst, &marks[kFirst]);
+    detail::markRowTargets(&offsets[kFirst * 64], &on[kFirst], kLast - kFirst, &marks[kFirst]);
     ASSERT_EQ(marks, expected);
 }
 
-/// The steps that are worth following, one by one.
-template <typename Step>
-detail::FreshSteps freshOneByOne(
-    const std::array<Step, kLeafVoxels>& steps, Axis axis, LeafMask mask)
+/// The offsets that are worth following, one by one.
+template <typename Offset>
+detail::FreshOffsets freshOneByOne(
+    const std::array<Offset, kLeafVoxels>& offsets, Axis axis, LeafMask mask)
 {
     const uint32_t shift = 6 - 3 * uint32_t(axis);
-    detail::FreshSteps fresh{};
+    detail::FreshOffsets fresh{};
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
         if (!mask.isOn(k)) continue;
         const uint32_t before = k - (1u << shift);
         const bool hasBefore = (k >> shift & 7) > 0 && mask.isOn(before);
-        if (hasBefore && steps[before] == steps[k] + 1) continue;
-        (steps[k] == 0 ? fresh.stay : fresh.go)[k >> 6] |= uint64_t(1) << (k & 63);
+        if (hasBefore && offsets[before] == offsets[k] + 1) continue;
+        (offsets[k] == 0 ? fresh.stay : fresh.go)[k >> 6] |= uint64_t(1) << (k & 63);
     }
     return fresh;
 }
 
-template <typename Step>
+template <typename Offset>
 void expectFresh(Axis axis, Random& random)
 {
-    std::array<Step, kLeafVoxels> steps;
+    std::array<Offset, kLeafVoxels> offsets;
     LeafMask mask{};
     for (int k = 0; k < kLeafVoxels; ++k) {
-        steps[k] = Step(random.chance(0.1) ? random.between(-128, 127) : random.between(-1, 1));
+        offsets[k] = Offset(random.chance(0.1) ? random.between(-128, 127) : random.between(-1, 1));
         if (k >> 6 == 3 || random.chance(0.3)) continue;
         mask[k >> 6] |= uint64_t(1) << (k & 63);
     }
-    const detail::FreshSteps actual = detail::freshSteps(steps.data(), axis, mask);
-    const detail::FreshSteps expected = freshOneByOne(steps, axis, mask);
+    const detail::FreshOffsets actual = detail::freshOffsets(offsets.data(), axis, mask);
+    const detail::FreshOffsets expected = freshOneByOne(offsets, axis, mask);
     ASSERT_EQ(actual.stay, expected.stay);
     ASSERT_EQ(actual.go, expected.go);
 }
 
-TEST(StepEnds, AreFollowedOnceWhereNeighboursShareThem)
+TEST(OffsetBits, AreFollowedOnceWhereNeighboursShareTargets)
 {
     Random random(5);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
@@ -260,13 +221,13 @@ TEST(StepEnds, AreFollowedOnceWhereNeighboursShareThem)
     }
 }
 
-TEST(RowEnds, AreMarkedOfEveryLaneThatIsOn)
+TEST(OffsetBits, MarkTheTargetOfEveryLaneThatIsOn)
 {
     Random random(4);
     for (const int most : {0, 1, 3, 40}) {
         for (const double density : {0.0, 0.02, 0.5, 1.0}) {
-            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int8_t>(most, density, random));
-            ASSERT_NO_FATAL_FAILURE(expectRowEnds<int16_t>(most, density, random));
+            ASSERT_NO_FATAL_FAILURE(expectRowTargets<int8_t>(most, density, random));
+            ASSERT_NO_FATAL_FAILURE(expectRowTargets<int16_t>(most, density, random));
         }
     }
 }

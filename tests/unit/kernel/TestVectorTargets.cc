@@ -43,7 +43,7 @@ constexpr const char* kVariable = "SPHERETREE_TEST_TARGET";
 /// of tight trees that go through all targets themselves (FineBalls.h).
 constexpr const char* kTests =
     "VectorTargets.RunsWhatTheEnvironmentSays:MinPlus.*:MaxPlus.*:LargestValue.*:LeafTranspose.*:"
-    "XSteps.*:SlabRows.*:StepEnds.*:RowEnds.*:LaneBits.*:TransformsOracle.*:LargeRadiiOracle.*:"
+    "XGaps.*:SlabRows.*:OffsetBits.*:LaneBits.*:TransformsOracle.*:LargeRadiiOracle.*:"
     "DistanceTransform.*:PowerMap.*:MedialAxis.*:MedialLevel.*:LabelStream.*:LargestDistSq.*:"
     "SphereDag.*:SphereUnion.*:NormBallShape.*:VoxelShape.*:RayScene.*:NormsOracle.*";
 

@@ -106,16 +106,6 @@ TEST(MedialAxis, TheBallsAreTheLabelsInUse)
     }
 }
 
-TEST(MedialAxis, TheStagesGiveTheSameAsTheGrid)
-{
-    for (uint32_t seed = 0; seed < 44; ++seed) {
-        const RandomObject object = randomObject(seed);
-        const auto mask = maskOf(object.voxels);
-        const int dim = dimFor(object, seed);
-        ASSERT_EQ(ballsOf(*mask, dim), CoreStages(*mask, dim).balls) << object.name;
-    }
-}
-
 TEST(MedialAxis, TilesHaveTheBallsOfTheirVoxels)
 {
     struct {
@@ -143,15 +133,12 @@ TEST(MedialAxis, VoxelsFarApartAreTwoBalls)
 TEST(MedialAxis, StopsWhenInterrupted)
 {
     const auto mask = maskOf(shapes::ball(100));
-    const CoreStages stages(*mask);
     for (int after : {0, 1, 2}) {
         StopAfter interrupter(after);
-        EXPECT_THROW(medialBalls(stages.labels, stages.distances, &interrupter), Interrupted);
-        StopAfter another(after);
-        EXPECT_THROW(medialBalls(*gridOf(*mask), 3, {}, &another), Interrupted);
+        EXPECT_THROW(medialBalls(*gridOf(*mask), 3, {}, &interrupter), Interrupted);
     }
     StopAfter never(1 << 30);
-    EXPECT_EQ(medialBalls(*gridOf(*mask), 3, {}, &never), stages.balls);
+    EXPECT_EQ(medialBalls(*gridOf(*mask), 3, {}, &never), ballsOf(*mask));
 }
 
 } // namespace

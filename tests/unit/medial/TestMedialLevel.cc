@@ -47,22 +47,22 @@ TEST(MedialLevel, FindsTheLabelOfEveryVoxel)
     }
 }
 
-TEST(MedialLevel, FindsTheLabelsThatAreWanted)
+TEST(MedialLevel, FindsTheLabelsThatAreQueried)
 {
     const Voxels voxels = randomObject(20).voxels;
     for (const Distance& distance : {Distance(), Distance::linf()}) {
         const MedialLevel all(*maskOf(voxels), 3, distance, nullptr, nullptr, {0, {}, true});
-        Voxels wanted(voxels.rbegin(), voxels.rend());
-        wanted.push_back(voxels.front());
-        wanted.push_back(Coord(1000, 2, 3)); // off
-        LevelWants wants;
-        wants.count = wanted.size();
-        wants.voxel = [&wanted](std::size_t i) { return wanted[i]; };
-        const MedialLevel level(*maskOf(voxels), 3, distance, nullptr, nullptr, wants);
-        ASSERT_EQ(level.wantedLabel.size(), wanted.size());
-        EXPECT_EQ(level.wantedLabel.back(), -1);
-        for (std::size_t i = 0; i + 1 < wanted.size(); ++i) {
-            EXPECT_EQ(level.wantedLabel[i], all.labelOf(wanted[i]));
+        Voxels queried(voxels.rbegin(), voxels.rend());
+        queried.push_back(voxels.front());
+        queried.push_back(Coord(1000, 2, 3)); // off
+        LevelQueries queries;
+        queries.count = queried.size();
+        queries.voxel = [&queried](std::size_t i) { return queried[i]; };
+        const MedialLevel level(*maskOf(voxels), 3, distance, nullptr, nullptr, queries);
+        ASSERT_EQ(level.queriedLabel.size(), queried.size());
+        EXPECT_EQ(level.queriedLabel.back(), -1);
+        for (std::size_t i = 0; i + 1 < queried.size(); ++i) {
+            EXPECT_EQ(level.queriedLabel[i], all.labelOf(queried[i]));
         }
     }
 }

@@ -6,8 +6,6 @@
 #include "support/CoreStages.h"
 #include "support/RandomObjects.h"
 
-#include <openvdb_spheretree/base/Interrupted.h>
-
 namespace {
 
 using namespace openvdb_spheretree;
@@ -86,7 +84,7 @@ TEST(PowerMap, AnEmptyLayoutHasNoLabels)
     EXPECT_THROW(stages.labels.label(Coord(0, 0, 0)), openvdb::LookupError);
 }
 
-TEST(PowerMap, StepsLeadFromVoxelToLabelInsideTheObject)
+TEST(PowerMap, OffsetsLeadFromVoxelToLabelInsideTheObject)
 {
     for (uint32_t seed = 0; seed < 44; ++seed) {
         const RandomObject object = randomObject(seed);
@@ -96,13 +94,13 @@ TEST(PowerMap, StepsLeadFromVoxelToLabelInsideTheObject)
             Coord ijk = voxel;
             for (Axis axis : kAxes) {
                 ijk[int(axis)] += stages.labels.offset(axis, at);
-                at = stages.labels.step(axis, at);
-                ASSERT_EQ(stages.layout.voxel(at.leaf, at.offset), ijk) << object.name;
+                at = stages.labels.target(axis, at);
+                ASSERT_EQ(stages.layout.voxel(at.leaf, at.index), ijk) << object.name;
                 ASSERT_TRUE(stages.layout.mask(at.leaf).isOn(at.index)) << object.name;
             }
             ASSERT_EQ(stages.labels.label(voxel), ijk) << object.name;
             const VoxelRef label = stages.labels.label(VoxelRef{leaf, k});
-            ASSERT_EQ(stages.layout.voxel(label.leaf, label.offset), ijk) << object.name;
+            ASSERT_EQ(stages.layout.voxel(label.leaf, label.index), ijk) << object.name;
         });
     }
 }
@@ -116,8 +114,8 @@ TEST(PowerMap, MovedCrossesLeafBorders)
             Coord end = start;
             end[int(axis)] += steps;
             const VoxelRef from{*stages.layout.findLeaf(start), leafIndex(start)};
-            const VoxelRef to = stages.labels.moved(axis, from, steps);
-            ASSERT_EQ(stages.layout.voxel(to.leaf, to.offset), end);
+            const VoxelRef to = moved(stages.layout, axis, from, steps);
+            ASSERT_EQ(stages.layout.voxel(to.leaf, to.index), end);
         }
     }
 }
@@ -161,18 +159,6 @@ TEST(PowerMap, VoxelsFarApartLabelThemselves)
         EXPECT_EQ(stages.labels.label(Coord(far, 0, 0)), Coord(far, 0, 0));
         EXPECT_EQ(stages.labels.label(Coord(-far, 0, 0)), Coord(-far, 0, 0));
     }
-}
-
-TEST(PowerMap, StopsWhenInterrupted)
-{
-    const LeafLayout layout(*maskOf(shapes::ball(100)));
-    const DistanceMap distances = distanceTransform(layout);
-    for (int after : {0, 1, 2}) {
-        StopAfter interrupter(after);
-        EXPECT_THROW(powerMap(layout, distances, 3, &interrupter), Interrupted) << after;
-    }
-    StopAfter never(1 << 30);
-    EXPECT_NO_THROW(powerMap(layout, distances, 3, &never));
 }
 
 } // namespace

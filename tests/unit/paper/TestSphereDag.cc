@@ -15,7 +15,7 @@
 
 namespace {
 
-const openvdb_spheretree::LevelWants kAllLabels{0, {}, true};
+const openvdb_spheretree::LevelQueries kAllLabels{0, {}, true};
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
@@ -164,7 +164,7 @@ TEST(SphereDag, IsThatOfTheLabelsOfLargeBalls)
     const PyramidStep step{Coord(-8, 0, 0), 3, 3};
     const MedialLevel fine(*voxels, 3, Distance(), nullptr, nullptr, kAllLabels);
     const MedialLevel coarse(*coarsen(*voxels, step), 3, Distance(), nullptr, nullptr, kAllLabels);
-    ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
+    ASSERT_NE(fine.labels.wideOffsets(Axis::X, 0), nullptr);
     EXPECT_TRUE(sphereDag(fine, coarse, step) == edgesOfLabels(fine, coarse, step));
 }
 
@@ -183,7 +183,7 @@ TEST(SphereDag, IsThatOfTheLabelsOfLargeDisks)
         const MedialLevel fine(*maskOf(disk), 2, Distance(), nullptr, nullptr, kAllLabels);
         const MedialLevel coarse(
             *maskOf(coarsened(disk, step)), 2, Distance(), nullptr, nullptr, kAllLabels);
-        ASSERT_NE(fine.labels.wideSteps(Axis::X, 0), nullptr);
+        ASSERT_NE(fine.labels.wideOffsets(Axis::X, 0), nullptr);
         EXPECT_TRUE(sphereDag(fine, coarse, step) == edgesOfLabels(fine, coarse, step)) << factor;
     }
 }

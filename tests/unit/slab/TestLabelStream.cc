@@ -68,11 +68,11 @@ struct Labelled {
     {
         forEachVoxel(layout, [&](uint32_t leaf, uint32_t offset, const Coord& voxel) {
             voxels.push_back(voxel);
-            asked.push_back({leaf, offset});
+            queried.push_back({leaf, offset});
         });
     }
     Voxels voxels;
-    std::vector<VoxelRef> asked;
+    std::vector<VoxelRef> queried;
 };
 
 /// Balls, answers and kept labels are those of the reference.
@@ -80,20 +80,20 @@ void expectReference(const NaiveReference& naive, int dim, const StreamPlan& pla
 {
     const LeafLayout layout(*maskOf(naive.voxels()));
     Labelled labelled(layout);
-    detail::LabelSteps steps;
+    detail::LabelOffsets offsets;
     LabelStream stream(layout, dim);
-    stream.ask(labelled.asked);
-    stream.keepSteps(steps);
+    stream.query(labelled.queried);
+    stream.keepOffsets(offsets);
     stream.setPlan(plan);
     const LevelBalls found = stream.run(nullptr);
-    const PowerMap labels(layout, std::move(steps));
+    const PowerMap labels(layout, std::move(offsets));
     ASSERT_TRUE(agreeOnBalls(naive.balls(), found.balls));
     for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
         ASSERT_EQ(labels.label(naive.voxels()[i]), naive.label(i));
     }
     for (std::size_t i = 0; i < labelled.voxels.size(); ++i) {
-        const VoxelRef& answer = labelled.asked[i];
-        ASSERT_EQ(layout.voxel(answer.leaf, answer.offset), labels.label(labelled.voxels[i]));
+        const VoxelRef& answer = labelled.queried[i];
+        ASSERT_EQ(layout.voxel(answer.leaf, answer.index), labels.label(labelled.voxels[i]));
     }
     for (const MedialBall& ball : found.balls) {
         ASSERT_TRUE(found.centers[*layout.findLeaf(ball.center)].isOn(leafIndex(ball.center)));
@@ -147,7 +147,7 @@ struct Streamed {
     Streamed(const LeafLayout& layout, int dim, const StreamPlan& plan) : labelled(layout)
     {
         LabelStream stream(layout, dim);
-        stream.ask(labelled.asked);
+        stream.query(labelled.queried);
         stream.setPlan(plan);
         level = stream.run(nullptr);
     }
@@ -159,10 +159,10 @@ void expectSame(const Streamed& some, const Streamed& all)
 {
     EXPECT_EQ(some.level.balls, all.level.balls);
     EXPECT_EQ(some.level.centers, all.level.centers);
-    ASSERT_EQ(some.labelled.asked.size(), all.labelled.asked.size());
-    for (std::size_t i = 0; i < all.labelled.asked.size(); ++i) {
-        const VoxelRef &one = some.labelled.asked[i], &other = all.labelled.asked[i];
-        ASSERT_TRUE(one.leaf == other.leaf && one.offset == other.offset) << i;
+    ASSERT_EQ(some.labelled.queried.size(), all.labelled.queried.size());
+    for (std::size_t i = 0; i < all.labelled.queried.size(); ++i) {
+        const VoxelRef &one = some.labelled.queried[i], &other = all.labelled.queried[i];
+        ASSERT_TRUE(one.leaf == other.leaf && one.index == other.index) << i;
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestStreamPlan.cc
-/// @brief How many slabs enter at a time, and how packed ones are cut into blocks.
+/// @brief How many slabs enter at a time, and how packed ones are cut into groups.
 
 #include <openvdb_spheretree/slab/StreamPlan.h>
 
@@ -14,8 +14,8 @@ namespace {
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
-using slab::PackedBlock;
-using slab::PackedBlocks;
+using slab::LeafGroup;
+using slab::LeafGroups;
 using slab::planWithin;
 using slab::StreamMemory;
 using slab::StreamPlan;
@@ -72,8 +72,8 @@ TEST(StreamPlan, PacksWhatHasNoWindow)
     EXPECT_TRUE(mentions(why, "memory="));
 }
 
-/// Every leaf is in one block of its slab, and in the band of its run.
-void expectBlocks(const LeafLayout& layout, const PackedBlocks& cut)
+/// Every leaf is in one group of its slab, and in the band of its run.
+void expectGroups(const LeafLayout& layout, const LeafGroups& cut)
 {
     std::vector<uint32_t> bandOf(layout.leafCount());
     for (std::size_t band = 0; band + 1 < cut.firstRunOfBand.size(); ++band) {
@@ -84,47 +84,47 @@ void expectBlocks(const LeafLayout& layout, const PackedBlocks& cut)
     }
     ASSERT_EQ(cut.firstRunOfBand.size(), cut.firstOfBand.size());
     ASSERT_EQ(cut.firstRunOfBand.back(), layout.runCount(Axis::X));
-    ASSERT_EQ(cut.firstOfBand.back(), cut.blocks.size());
+    ASSERT_EQ(cut.firstOfBand.back(), cut.groups.size());
     std::set<uint32_t> seen;
     for (std::size_t band = 0; band + 1 < cut.firstOfBand.size(); ++band) {
         for (uint32_t index = cut.firstOfBand[band]; index < cut.firstOfBand[band + 1]; ++index) {
-            const PackedBlock& block = cut.blocks[index];
-            ASSERT_LT(block.begin, block.end);
-            ASSERT_LE(block.end - block.begin, slab::kBlockLeaves);
-            for (uint32_t leaf = block.begin; leaf < block.end; ++leaf) {
+            const LeafGroup& group = cut.groups[index];
+            ASSERT_LT(group.begin, group.end);
+            ASSERT_LE(group.end - group.begin, slab::kGroupLeaves);
+            for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
                 ASSERT_TRUE(seen.insert(leaf).second);
                 ASSERT_EQ(bandOf[leaf], band);
-                ASSERT_EQ(layout.slabOf(leaf), block.slab);
+                ASSERT_EQ(layout.slabOf(leaf), group.slab);
             }
         }
     }
     ASSERT_EQ(seen.size(), layout.leafCount());
 }
 
-TEST(PackedBlocks, ArePartsOfSlabsAndOfBands)
+TEST(LeafGroups, ArePartsOfSlabsAndOfBands)
 {
     for (uint32_t seed = 0; seed < 60; ++seed) {
         const LeafLayout layout(*maskOf(randomObject(seed).voxels));
         for (const int64_t bytes : {0, 1, 2, 5, 1 << 20}) {
-            const PackedBlocks cut(layout, 1, bytes);
+            const LeafGroups cut(layout, 1, bytes);
             SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(bytes));
-            ASSERT_NO_FATAL_FAILURE(expectBlocks(layout, cut));
+            ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut));
             const std::size_t bands = cut.firstOfBand.size() - 1;
             EXPECT_TRUE(bytes > 0 || bands == layout.runCount(Axis::X));
             EXPECT_TRUE(bytes < 1000 || bands == 1);
             std::size_t count = 0;
             for (const auto& ofSlab : cut.ofSlab) count += ofSlab.size();
-            EXPECT_EQ(count, cut.blocks.size());
+            EXPECT_EQ(count, cut.groups.size());
         }
     }
 }
 
-TEST(PackedBlocks, LargeSlabsHaveSeveral)
+TEST(LeafGroups, LargeSlabsHaveSeveral)
 {
     const LeafLayout layout(*maskOf(CoordBBox(Coord(0), Coord(15, 399, 399)))); // 2 x 2500
-    const PackedBlocks cut(layout, 1, INT64_MAX);
-    ASSERT_NO_FATAL_FAILURE(expectBlocks(layout, cut));
-    EXPECT_EQ(cut.blocks.size(), 6u);
+    const LeafGroups cut(layout, 1, INT64_MAX);
+    ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut));
+    EXPECT_EQ(cut.groups.size(), 6u);
     EXPECT_EQ(cut.ofSlab[1].size(), 3u);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file TestBlockStore.cc
+/// @file TestPackedStore.cc
 /// @brief What is put comes back, from memory and from a file; the file has no name, and says what
 /// is wrong with its folder.
 
-#include <openvdb_spheretree/slab/BlockStore.h>
+#include <openvdb_spheretree/slab/PackedStore.h>
 
 #include "support/Messages.h"
 #include "support/TemporaryFolder.h"
@@ -19,7 +19,7 @@
 namespace {
 
 using namespace spheretree_test;
-using openvdb_spheretree::slab::BlockStore;
+using openvdb_spheretree::slab::PackedStore;
 using openvdb_spheretree::slab::SpillFile;
 using Numbers = std::vector<uint32_t>;
 
@@ -32,26 +32,26 @@ Numbers numbersOf(std::size_t block, std::size_t size = 3000)
     return numbers;
 }
 
-void put(BlockStore& store, std::size_t block, const Numbers& numbers)
+void put(PackedStore& store, std::size_t block, const Numbers& numbers)
 {
-    BlockStore::Bytes scratch;
+    PackedStore::Bytes scratch;
     store.put(block, numbers.data(), numbers.size() * sizeof(uint32_t), sizeof(uint32_t), scratch);
 }
 
-Numbers got(const BlockStore& store, std::size_t block, std::size_t size)
+Numbers got(const PackedStore& store, std::size_t block, std::size_t size)
 {
-    BlockStore::Bytes scratch;
+    PackedStore::Bytes scratch;
     Numbers numbers(size);
     store.get(block, numbers.data(), size * sizeof(uint32_t), scratch);
     return numbers;
 }
 
-TEST(BlockStore, GivesBackWhatItTook)
+TEST(PackedStore, GivesBackWhatItTook)
 {
     constexpr std::size_t kBlocks = 40;
     for (const int64_t memory : {int64_t(0), int64_t(100000), INT64_MAX}) {
         const TemporaryFolder folder;
-        BlockStore store(kBlocks, memory);
+        PackedStore store(kBlocks, memory);
         tbb::parallel_for(
             std::size_t(0), kBlocks, [&](std::size_t i) { put(store, i, numbersOf(i)); });
         for (std::size_t i = 0; i < kBlocks; ++i) {
@@ -68,11 +68,11 @@ TEST(BlockStore, GivesBackWhatItTook)
     }
 }
 
-TEST(BlockStore, LeavesNoFile)
+TEST(PackedStore, LeavesNoFile)
 {
     const TemporaryFolder folder;
     {
-        BlockStore store(1, 0);
+        PackedStore store(1, 0);
         put(store, 0, numbersOf(1));
         EXPECT_EQ(folder.openFiles(), 1);
     }
@@ -80,26 +80,26 @@ TEST(BlockStore, LeavesNoFile)
     EXPECT_EQ(folder.files(), 0);
 }
 
-TEST(BlockStore, CanMakeItsFileBeforeItIsNeeded)
+TEST(PackedStore, CanMakeItsFileBeforeItIsNeeded)
 {
     const TemporaryFolder folder;
-    BlockStore store(2, 0);
+    PackedStore store(2, 0);
     store.makeFile();
     EXPECT_EQ(folder.openFiles(), 1);
     put(store, 1, numbersOf(1));
     EXPECT_EQ(folder.openFiles(), 1);
     EXPECT_EQ(got(store, 1, 3001), numbersOf(1));
     const TemporaryDirectory none(folder.path() + "/nowhere");
-    EXPECT_THROW(BlockStore(1, 0).makeFile(), openvdb::IoError);
+    EXPECT_THROW(PackedStore(1, 0).makeFile(), openvdb::IoError);
 }
 
-TEST(BlockStore, AFolderThatIsNoneIsAnError)
+TEST(PackedStore, AFolderThatIsNoneIsAnError)
 {
     const TemporaryFolder folder;
     std::ofstream(folder.path() + "/file") << "text";
     for (const std::string wrong : {"/nowhere", "/file"}) {
         const TemporaryDirectory directory(folder.path() + wrong);
-        BlockStore store(1, 0);
+        PackedStore store(1, 0);
         const std::string why = messageOf<openvdb::IoError>([&] { put(store, 0, numbersOf(1)); });
         EXPECT_TRUE(mentions(why, "'" + folder.path() + wrong + "' cannot be made: "));
         EXPECT_TRUE(mentions(why, "set TMPDIR"));
@@ -107,7 +107,7 @@ TEST(BlockStore, AFolderThatIsNoneIsAnError)
     }
 }
 
-TEST(BlockStore, AFolderThatCannotBeWrittenIsAnError)
+TEST(PackedStore, AFolderThatCannotBeWrittenIsAnError)
 {
     const TemporaryFolder folder;
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
@@ -120,12 +120,12 @@ TEST(BlockStore, AFolderThatCannotBeWrittenIsAnError)
     EXPECT_TRUE(mentions(why, "Permission denied"));
 }
 
-TEST(BlockStore, AFullDiskIsAnError)
+TEST(PackedStore, AFullDiskIsAnError)
 {
     const TemporaryFolder folder;
     {
         const FileSizeLimit limit(20000);
-        BlockStore store(3, 0);
+        PackedStore store(3, 0);
         put(store, 0, numbersOf(1));
         const std::string why = messageOf<openvdb::IoError>([&] { put(store, 1, numbersOf(3)); });
         EXPECT_TRUE(mentions(why, "'" + folder.path() + "' does not take "));

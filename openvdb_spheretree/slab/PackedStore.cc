@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "BlockStore.h"
+#include "PackedStore.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -10,8 +10,8 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-void BlockStore::put(
-    std::size_t block, const void* data, std::size_t bytes, int typeSize, Bytes& scratch)
+void PackedStore::put(
+    std::size_t array, const void* data, std::size_t bytes, int typeSize, Bytes& scratch)
 {
     // Of labels, level 5 gained 5 %, and zstd a quarter for a quarter more time of the whole
     // stream. Byte shuffle took more of both.
@@ -23,7 +23,7 @@ void BlockStore::put(
         OPENVDB_THROW(openvdb::RuntimeError,
             "Blosc does not compress " << bytes << " bytes with lz4: error " << size);
     }
-    Block& own = mBlocks[block];
+    Array& own = mArrays[array];
     own.size = uint32_t(size);
     if (takesRoom(size)) {
         own.data = std::unique_ptr<unsigned char[]>(new unsigned char[own.size]);
@@ -34,9 +34,9 @@ void BlockStore::put(
     ++mCount;
 }
 
-void BlockStore::get(std::size_t block, void* data, std::size_t bytes, Bytes& scratch) const
+void PackedStore::get(std::size_t array, void* data, std::size_t bytes, Bytes& scratch) const
 {
-    const Block& own = mBlocks[block];
+    const Array& own = mArrays[array];
     const unsigned char* from = own.data.get();
     if (!from) {
         scratch.resize(own.size);
@@ -50,24 +50,24 @@ void BlockStore::get(std::size_t block, void* data, std::size_t bytes, Bytes& sc
     }
 }
 
-/// @return whether a block may stay in memory, which then counts it.
-bool BlockStore::takesRoom(int64_t bytes)
+/// @return whether an array may stay in memory, where it is then counted.
+bool PackedStore::takesRoom(int64_t bytes)
 {
     if (mInMemory.fetch_add(bytes) + bytes <= mMemory) return true;
     mInMemory -= bytes;
     return false;
 }
 
-/// @return the file, which a block of @a size bytes goes to. When the first one does, the blocks so
-/// far tell how large it is about to become.
-SpillFile& BlockStore::file(std::size_t size)
+/// @return the file, for an array of @a size bytes. When the first one goes there, the arrays so far
+/// tell how large the file will become.
+SpillFile& PackedStore::file(std::size_t size)
 {
     const std::lock_guard<std::mutex> lock(mFileMutex);
     if (!mFile) makeFile();
     if (mHasRoom) return *mFile;
     const double average = double(mInMemory + int64_t(size)) / double(mCount + 1);
-    constexpr double kDoubt = 0.5; // blocks to come may be smaller
-    mFile->requireRoom(kDoubt * average * double(mBlocks.size() - mCount));
+    constexpr double kDoubt = 0.5; // arrays to come may be smaller
+    mFile->requireRoom(kDoubt * average * double(mArrays.size() - mCount));
     mHasRoom = true;
     return *mFile;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "BackgroundSteps.h"
+#include "BackgroundGaps.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "openvdb_spheretree/kernel/BackgroundSteps.cc"
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/kernel/BackgroundGaps.cc"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>
@@ -16,26 +16,26 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <typename Step>
-using Lanes64 = hn::CappedTag<Step, 64>;
+template <typename Gap>
+using Lanes64 = hn::CappedTag<Gap, 64>;
 
-/// The steps after one more plane of voxels, from those before it.
+/// The gaps in one more plane of voxels, from those of the plane before it.
 template <class D>
-HWY_INLINE hn::Vec<D> stepOn(D d, hn::Vec<D> steps, uint64_t plane, std::size_t lane)
+HWY_INLINE hn::Vec<D> gapsIn(D d, hn::Vec<D> before, uint64_t plane, std::size_t lane)
 {
     const uint64_t bits = plane >> lane;
     const auto on = hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
-    return hn::IfThenElseZero(on, hn::SaturatedAdd(steps, hn::Set(d, hn::TFromD<D>(1))));
+    return hn::IfThenElseZero(on, hn::SaturatedAdd(before, hn::Set(d, hn::TFromD<D>(1))));
 }
 
-template <typename Step>
-HWY_INLINE void Through(const LeafMask& mask, const Step* before, Step* last, int first, int by)
+template <typename Gap>
+HWY_INLINE void Through(const LeafMask& mask, const Gap* before, Gap* last, int first, int by)
 {
-    const Lanes64<Step> d;
+    const Lanes64<Gap> d;
     for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
-        auto steps = hn::LoadU(d, before + lane);
-        for (int k = 0, x = first; k < 8; ++k, x += by) steps = stepOn(d, steps, mask[x], lane);
-        hn::StoreU(steps, d, last + lane);
+        auto gaps = hn::LoadU(d, before + lane);
+        for (int k = 0, x = first; k < 8; ++k, x += by) gaps = gapsIn(d, gaps, mask[x], lane);
+        hn::StoreU(gaps, d, last + lane);
     }
 }
 
@@ -56,32 +56,32 @@ void BackThrough16(const LeafMask& mask, const uint16_t* behind, uint16_t* first
     Through(mask, behind, first, 7, -1);
 }
 
-template <typename Step, typename Square>
-HWY_INLINE void Squares(const LeafMask& mask, const Step* before, const Step* behind, Square* rows)
+template <typename Gap, typename Square>
+HWY_INLINE void Squares(const LeafMask& mask, const Gap* before, const Gap* behind, Square* rows)
 {
-    const Lanes64<Step> d;
-    HWY_ALIGN Step nearest[512]; // in leaf order
+    const Lanes64<Gap> d;
+    HWY_ALIGN Gap nearest[512]; // in leaf order
     for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
-        auto steps = hn::LoadU(d, before + lane);
+        auto gaps = hn::LoadU(d, before + lane);
         for (int x = 0; x < 8; ++x) {
-            steps = stepOn(d, steps, mask[x], lane);
-            hn::Store(steps, d, nearest + 64 * x + lane);
+            gaps = gapsIn(d, gaps, mask[x], lane);
+            hn::Store(gaps, d, nearest + 64 * x + lane);
         }
-        steps = hn::LoadU(d, behind + lane);
+        gaps = hn::LoadU(d, behind + lane);
         for (int x = 7; x >= 0; --x) {
-            steps = stepOn(d, steps, mask[x], lane);
-            Step* other = nearest + 64 * x + lane;
-            hn::Store(hn::Min(steps, hn::Load(d, other)), d, other);
+            gaps = gapsIn(d, gaps, mask[x], lane);
+            Gap* other = nearest + 64 * x + lane;
+            hn::Store(hn::Min(gaps, hn::Load(d, other)), d, other);
         }
     }
     const hn::CappedTag<Square, 8> wide;
-    const hn::Rebind<Step, decltype(wide)> narrow;
+    const hn::Rebind<Gap, decltype(wide)> narrow;
     for (std::size_t x = 0; x < 8; ++x) {
         for (std::size_t y = 0; y < 8; ++y) {
             for (std::size_t z = 0; z < 8; z += hn::Lanes(wide)) {
-                auto steps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
-                if (sizeof(Square) > 2) steps = hn::Min(steps, hn::Set(wide, Square(46340)));
-                hn::StoreU(hn::Mul(steps, steps), wide, rows + 64 * y + 8 * x + z);
+                auto gaps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
+                if (sizeof(Square) > 2) gaps = hn::Min(gaps, hn::Set(wide, Square(46340)));
+                hn::StoreU(hn::Mul(gaps, gaps), wide, rows + 64 * y + 8 * x + z);
             }
         }
     }
@@ -112,28 +112,28 @@ HWY_EXPORT(BackThrough16);
 HWY_EXPORT(Squares8);
 HWY_EXPORT(Squares16);
 
-void stepsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
 {
     HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last);
 }
-void stepsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
 {
     HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last);
 }
-void stepsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
+void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
 {
     HWY_DYNAMIC_DISPATCH(BackThrough8)(mask, behind, first);
 }
-void stepsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
+void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
 {
     HWY_DYNAMIC_DISPATCH(BackThrough16)(mask, behind, first);
 }
-void squaresOfSteps(
+void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
 {
     HWY_DYNAMIC_DISPATCH(Squares8)(mask, before, behind, rows);
 }
-void squaresOfSteps(
+void squaresOfGaps(
     const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows)
 {
     HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, rows);

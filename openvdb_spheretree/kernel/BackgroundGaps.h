@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BackgroundGaps.h
+/// @brief Gaps along x through one leaf, 64 lanes 8 y + z side by side.
+///
+/// The gap of a voxel is its distance to the next background voxel on its line, in one direction;
+/// background has the gap 0. A gap too large for its type stays at the largest number.
+
+#pragma once
+
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+
+#include <cstdint>
+
+namespace openvdb_spheretree {
+namespace slab {
+
+/// @param before  gaps, looking back, of the voxels just before the leaf, a lane each
+/// @param last    receives those of the leaf's last voxels
+void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last);
+void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last);
+/// The same in the other direction: from the voxels just behind the leaf to its first ones.
+void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first);
+void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first);
+
+/// @param rows  receives the square of each voxel's smaller gap as rows across y (LeafRows.h). Gaps
+///              count up to 255, or 46340: 255^2 < 2^16, and 46340^2 < 2^31.
+void squaresOfGaps(
+    const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows);
+void squaresOfGaps(
+    const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows);
+
+} // namespace slab
+} // namespace openvdb_spheretree
