@@ -12,16 +12,17 @@ namespace detail {
 /// @return bit i: a[i] == b[i], of 64 values each.
 uint64_t equalLanes(const int32_t* a, const int32_t* b);
 
-/// Values there are before the 64 of a row, for likeBefore().
+/// Values that stand before the 64 of a row, for likeBefore().
 constexpr int kLaneMargin = 8;
 
-/// Bit 8 y + z, for the values of an x of a leaf: whether it is that of the voxel before it.
+/// Bit 8 y + z, for the values of one x of a leaf: whether the voxel's value is that of the voxel
+/// before it along y, or z.
 struct LikeBefore {
     uint64_t alongY, alongZ;
 };
 
-/// @param row  64 values, with kLaneMargin before them, which are read but do not matter: the first
-///             along an axis is not like any before it
+/// @param row  64 values, and kLaneMargin before them. These are read, and do not matter: the first
+///             voxel along an axis has none before it.
 LikeBefore likeBefore(const int32_t* row);
 
 } // namespace detail

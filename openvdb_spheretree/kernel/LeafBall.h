@@ -11,21 +11,22 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Centres within so many units of all the leaf's voxels along every axis suit the kernel's 16
-/// bits: see LeafBall.cc.
+/// No voxel of the leaf may be farther than this from the center along any axis: its 16-bit terms
+/// then hold all values (LeafBall.cc).
 constexpr int64_t kLeafBallReach = 4680;
 
-/// @brief ORs the voxels q of the ball |2^shift q - center|^2 <= coverSq into the words of a leaf:
+/// @brief ORs the voxels q of the ball |2^shift q - center|^2 <= radiusSq into the words of a leaf:
 /// word x, bit 8 y + z.
-/// @param center   from the leaf's corner; |2^shift q - center| <= kLeafBallReach on each axis
-/// @param coverSq  at most kLeafBallReach^2
-/// @param shift    2^shift units are a voxel; 1 to 4
-void orBallIntoLeaf(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8]);
+/// @param center    from the leaf's corner; |2^shift q - center| <= kLeafBallReach on each axis
+/// @param radiusSq  at most kLeafBallReach^2
+/// @param shift     2^shift units are a voxel; 1 to 4
+void orBallIntoLeaf(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8]);
 
-/// @brief The same without vector instructions, for processors whose are not known.
-void orBallIntoLeafPortable(const int64_t center[3], int64_t coverSq, int shift, uint64_t words[8]);
+/// @brief The same without vector instructions, for processors that the vector code is not made for.
+void orBallIntoLeafPortable(
+    const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8]);
 
-/// Of a norm: coordinates up to this keep its values within 31 bits.
+/// Of a norm: the sum of the three weighted coordinates is at most 3 * 255 * 2^20 < 2^31.
 constexpr int64_t kLeafNormReach = int64_t(1) << 20;
 
 /// @brief The same for the ball { q : N(2^shift q - center) <= limit } of a norm.

@@ -3,11 +3,10 @@
 /// @brief The reduced discrete medial axis: the balls whose union is the object, none of them
 /// without a voxel that it covers best.
 ///
-/// The medial balls are the sites that label at least one voxel (CM07, section 4). Marks travel the
-/// way labels are stored: along x from every object voxel, along y from what that marked, along z
-/// from what that marked. Each pass writes only within its run, so runs are independent.
+/// The medial balls are the sites that label at least one voxel (D. Coeurjolly and A. Montanvert, IEEE
+/// PAMI 2007, section 4).
 ///
-/// Exact. Cost: linear in active voxels. Tests: TestMedialAxis.cc.
+/// Exact. Cost: linear in active voxels, times log of the radius. Tests: TestMedialAxis.cc.
 
 #pragma once
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FlatAxis.h
-/// @brief Objects one voxel thick, along whichever axis: they are turned so that it is z, which the
-/// stages leave out in two dimensions, and what comes out is turned back.
+/// @brief Objects one voxel thick along an axis are turned so that this axis is z, which the stages
+/// leave out in two dimensions. Their results are turned back.
 ///
-/// The two other axes keep their order, so that the order of voxels, and with it every tie, is the
-/// same on both sides.
+/// The two other axes keep their order. So the order of voxels, and with it every tie, is the same
+/// before and after.
 
 #pragma once
 
@@ -52,7 +52,7 @@ private:
 };
 
 /// @return how to turn @a object for stages that leave out z if @a dim is 2. An object that is flat
-///         along no axis stays as it is: each of its slices of equal z is one of its own.
+///         along no axis stays as it is: each of its slices of equal z is an object of its own.
 FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim);
 
 } // namespace openvdb_spheretree
