@@ -172,7 +172,8 @@ void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSec
     }
     detail::timed("stored radii", interrupter, &seconds.tree, [&] {
         detail::storeRadii(tree, interrupter);
-        if (extended || miniballs) detail::containStoredLeaves(tree, tree.spheres.radius, interrupter);
+        if (extended || miniballs)
+            detail::containStoredLeaves(tree, tree.spheres.radius, interrupter);
     });
 }
 

@@ -31,8 +31,8 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
 {
     std::vector<ExactSphere> balls;
     for (int32_t id = level.begin; id < level.end; ++id) {
-        balls.push_back(
-            ExactSphere::around(tree.ijk[id], 4 * tree.settings.dist().closedSq(tree.radiusSq[id])));
+        balls.push_back(ExactSphere::around(
+            tree.ijk[id], 4 * tree.settings.dist().closedSq(tree.radiusSq[id])));
     }
     return balls;
 }

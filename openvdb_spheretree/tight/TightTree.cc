@@ -145,7 +145,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
         [&] { return leafBallsOf(level, samples, options.leaves, interrupter); });
     const Effort effort = effortOf(options.quality, leafBalls.fine.size());
     const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
-        const auto model = modelFor(options, settings.dim == 2, samples, leafBalls.fine, effort.fit, interrupter);
+        const auto model =
+            modelFor(options, settings.dim == 2, samples, leafBalls.fine, effort.fit, interrupter);
         return mergeToRoots(*model, effort.neighbours, interrupter);
     });
     const auto cutError = [&](int64_t count) {

@@ -33,10 +33,10 @@ inline std::string describe(const SphereTreeSettings& s)
     const auto pyramid = optionsOr<PyramidOptions>(s);
     const auto extended = optionsOr<ExtendedOptions>(s);
     return std::string(toString(s.type())) + " factor=" + std::to_string(pyramid.factor)
-        + " dim=" + std::to_string(s.dim) + " parent=" + toString(pyramid.parent) + " final_fit="
-        + (extended.finalFit ? "1" : "0") + " reconstruct=" + toString(extended.reconstruct)
-        + " scale=" + toString(pyramid.scale) + " dist=" + toString(s.dist())
-        + " padding=" + std::to_string(s.padding);
+        + " dim=" + std::to_string(s.dim) + " parent=" + toString(pyramid.parent)
+        + " final_fit=" + (extended.finalFit ? "1" : "0")
+        + " reconstruct=" + toString(extended.reconstruct) + " scale=" + toString(pyramid.scale)
+        + " dist=" + toString(s.dist()) + " padding=" + std::to_string(s.padding);
 }
 
 /// Every combination of factors 2 and 3, parent rules and radius scales, and for the extended tree

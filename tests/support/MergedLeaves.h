@@ -33,13 +33,13 @@ struct MergedLeaves {
     LevelMaker maker;
 
     /// @param flat  the object, which has z = 0 alone
-    explicit MergedLeaves(const Voxels& some, bool flat = false)
-        : voxels(some), object(sampled(voxels)), maker{object, kEffort, flat, nullptr}
+    explicit MergedLeaves(const Voxels& some, bool flat = false, const FitEffort& effort = kEffort)
+        : voxels(some), object(sampled(voxels)), maker{object, effort, flat, nullptr}
     {
         using namespace openvdb_spheretree::tight;
         for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
         SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
-            kEffort, flat, nullptr);
+            effort, flat, nullptr);
         forest = mergeToRoots(model, 6, nullptr);
     }
     MergedLeaves(const MergedLeaves&) = delete; // `maker` refers to `object`

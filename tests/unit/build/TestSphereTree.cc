@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestSphereTree.cc
-/// @brief What buildSphereTree() and keepLevel() promise apart from the spheres themselves: order,
+/// @brief What buildSphereTree() promises apart from the spheres themselves: order,
 /// ids, world radii, records, errors, and that every tree ends.
 
+#include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
@@ -13,8 +14,12 @@
 #include "support/BuiltTrees.h"
 #include "support/Messages.h"
 
-#include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <tbb/global_control.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -408,67 +413,6 @@ TEST(SphereTree, CountsTopologyUnlessToldNotTo)
     }
 }
 
-TEST(KeepLevel, KeepsTheNodesOfOneLevelAsRoots)
-{
-    SphereTreeSettings settings = extendedTree();
-    settings.pyramid().dag = true;
-    const SphereTree tree = buildSphereTree(*someGrid(), settings);
-    ASSERT_GT(tree.levels.size(), 2u);
-    for (const SphereTreeLevel& level : tree.levels) {
-        const SphereTree kept = keepLevel(tree, level.level);
-        ASSERT_EQ(kept.size(), level.size());
-        for (int32_t i = 0; i < kept.size(); ++i) {
-            EXPECT_EQ(kept.spheres.center[i], tree.spheres.center[level.begin + i]);
-            EXPECT_EQ(kept.spheres.radius[i], tree.spheres.radius[level.begin + i]);
-            EXPECT_EQ(kept.spheres.coverRadiusSq[i], tree.spheres.coverRadiusSq[level.begin + i]);
-            EXPECT_EQ(kept.spheres.radiusWorld[i], tree.spheres.radiusWorld[level.begin + i]);
-            EXPECT_EQ(kept.ijk[i], tree.ijk[level.begin + i]);
-            EXPECT_EQ(kept.radiusSq[i], tree.radiusSq[level.begin + i]);
-            EXPECT_EQ(kept.spheres.parent[i], -1);
-            EXPECT_EQ(kept.levelOf(i), level.level);
-        }
-        ASSERT_EQ(kept.levels.size(), 1u);
-        EXPECT_EQ(kept.levels[0].pyramidVoxels, level.pyramidVoxels);
-        EXPECT_TRUE(kept.dag.empty());
-    }
-}
-
-TEST(KeepLevel, KeepsWhatTheTreeRecords)
-{
-    SphereTreeSettings settings = extendedTree();
-    settings.pyramid().factor = 3;
-    settings.name = "kept";
-    const auto grid = someGrid();
-    grid->setName("object");
-    SphereTree tree = buildSphereTree(*grid, settings);
-    tree.levels[1].error = LevelError{5, 4, 3, 2, 1};
-    const SphereTree kept = keepLevel(tree, 1);
-    EXPECT_EQ(kept.settings.pyramid().factor, 3);
-    EXPECT_EQ(kept.settings.name, "kept");
-    EXPECT_EQ(kept.object.name, "object");
-    EXPECT_EQ(kept.object.bbox, tree.object.bbox);
-    EXPECT_EQ(kept.object.voxels, tree.object.voxels);
-    EXPECT_EQ(kept.origin, tree.origin);
-    EXPECT_EQ(*kept.transform, *tree.transform);
-    EXPECT_NE(kept.transform, tree.transform);
-    ASSERT_TRUE(kept.levels[0].error.has_value());
-    EXPECT_EQ(kept.levels[0].error->covered, 5);
-    ASSERT_TRUE(kept.levels[0].topology.has_value());
-    EXPECT_TRUE(kept.levels[0].topology == tree.levels[1].topology);
-}
-
-TEST(KeepLevel, RejectsALevelThatIsNotThere)
-{
-    const SphereTree tree = buildSphereTree(*someGrid());
-    const int top = tree.root().level;
-    for (int level : {-1, top + 1}) {
-        const auto message = messageOf<openvdb::ValueError>([&] { keepLevel(tree, level); });
-        EXPECT_TRUE(mentions(message, "no level " + std::to_string(level)));
-        EXPECT_TRUE(mentions(message, "0 to " + std::to_string(top)));
-    }
-    EXPECT_THROW(keepLevel(keepLevel(tree, 1), 0), openvdb::ValueError);
-}
-
 TEST(SphereTree, ARadiusThatFitsNoFloatIsAnError)
 {
     const auto object = someGrid();
@@ -478,38 +422,49 @@ TEST(SphereTree, ARadiusThatFitsNoFloatIsAnError)
     EXPECT_TRUE(mentions(messageOfBuild(*object, settings), "does not fit a float"));
 }
 
+/// Hears the names of stages, and the percents that each says of itself.
+struct Listener : openvdb::util::NullInterrupter {
+    std::vector<std::string> open;
+    std::map<std::string, std::vector<int>> percents;
+    void start(const char* name = nullptr) override
+    {
+        open.push_back(name);
+        percents[name];
+    }
+    void end() override { open.pop_back(); }
+    bool wasInterrupted(int percent = -1) override
+    {
+        if (percent != -1 && !open.empty()) percents[open.back()].push_back(percent);
+        return false;
+    }
+};
+
+/// By one thread, which is told everything in order.
 TEST(SphereTree, StagesSayWhatTheyDoAndHowFarTheyAre)
 {
-    struct Listener : openvdb::util::NullInterrupter {
-        std::mutex mutex;
-        std::set<std::string> names;
-        int depth = 0, largest = -1;
-        void start(const char* name = nullptr) override
-        {
-            const std::lock_guard<std::mutex> lock(mutex);
-            names.insert(name);
-            ++depth;
-        }
-        void end() override
-        {
-            const std::lock_guard<std::mutex> lock(mutex);
-            --depth;
-        }
-        bool wasInterrupted(int percent = -1) override
-        {
-            const std::lock_guard<std::mutex> lock(mutex);
-            largest = std::max(largest, percent);
-            return false;
-        }
-    } listener;
-    buildSphereTree(*someGrid(), extendedTree(), nullptr, &listener);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    Random random(1);
+    const auto grid = gridOf(shapes::noise(Coord(50, 40, 30), 0.9, random));
+    Listener listener;
+    buildSphereTree(*grid, extendedTree(), nullptr, &listener);
+    EXPECT_TRUE(listener.open.empty());
     for (const char* name :
         {"distances and power labels", "power labels along x", "medial balls", "pyramid"}) {
-        EXPECT_TRUE(listener.names.count(name)) << name;
+        EXPECT_TRUE(listener.percents.count(name)) << name;
     }
-    EXPECT_EQ(listener.depth, 0);
-    EXPECT_GE(listener.largest, 0);
-    EXPECT_LE(listener.largest, 100);
+    for (const auto& [name, percents] : listener.percents) {
+        for (const int percent : percents) {
+            EXPECT_GE(percent, 0) << name;
+            EXPECT_LE(percent, 100) << name;
+        }
+    }
+    for (const char* name : {"power labels along x", "medial balls"}) {
+        const std::vector<int>& percents = listener.percents[name];
+        const std::set<int> different(percents.begin(), percents.end());
+        ASSERT_GE(different.size(), 2u) << name;
+        EXPECT_EQ(*different.begin(), 0) << name;
+        EXPECT_GE(*different.rbegin(), 25) << name;
+    }
 }
 
 TEST(SphereTree, StagesRefuseADimensionThatIsNone)

@@ -7,10 +7,12 @@
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include "support/BuiltTrees.h"
+#include "support/Messages.h"
 
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
 
+#include <algorithm>
 #include <map>
 
 namespace {
@@ -214,16 +216,24 @@ TEST(ExtendedTree, IsRefusedBeforeItHasMoreNodesThanIdsOrMemory)
 {
     EXPECT_NO_THROW(detail::requireRoomForNodes(1000000));
     constexpr std::size_t kIds = std::size_t(1) << 31, kNodeBytes = 64;
-    if (detail::physicalMemory() > 0 && detail::physicalMemory() < double(kIds) * kNodeBytes) {
-        EXPECT_THROW(detail::requireRoomForNodes(kIds - 1), openvdb::ValueError);
+    const auto refused = [](std::size_t nodes) {
+        return messageOf<openvdb::ValueError>([&] { detail::requireRoomForNodes(nodes); });
+    };
+    EXPECT_TRUE(mentions(refused(kIds), "the 2147483648 spheres of the tree"));
+    EXPECT_TRUE(mentions(refused(kIds), "more than the 2147483647 that it can have"));
+
+    const double there = detail::physicalMemory();
+    ASSERT_GT(there, 0) << "a machine that does not say what memory it has";
+    const std::size_t fit = std::min(kIds - 1, std::size_t(there / kNodeBytes));
+    EXPECT_NO_THROW(detail::requireRoomForNodes(fit));
+    if (fit < kIds - 1) { // below 128 GiB memory ends before ids do
+        EXPECT_TRUE(mentions(refused(fit + 1), "GiB of this machine"));
     }
-    try {
-        detail::requireRoomForNodes(kIds);
-        FAIL() << "has ids for all";
-    } catch (const openvdb::ValueError& error) {
-        const std::string what = error.what();
-        EXPECT_NE(what.find("the 2147483648 spheres of the tree"), std::string::npos) << what;
-    }
+    EXPECT_NO_THROW(detail::requireMemory(there, "spheres", "none"));
+    const std::string why = messageOf<openvdb::ValueError>(
+        [&] { detail::requireMemory(there * 1.01, "spheres", "use fewer"); });
+    EXPECT_TRUE(mentions(why, "spheres need about"));
+    EXPECT_TRUE(mentions(why, "GiB of this machine: use fewer"));
 }
 
 } // namespace

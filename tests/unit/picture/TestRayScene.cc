@@ -132,6 +132,39 @@ TEST(RayScene, TheNearestOfManyBallsIsThatOfALoopOverAll)
     }
 }
 
+/// A ball that counts how often it is held against a ray.
+struct CountedBall : BallShape {
+    double entry(const Ray& ray) const
+    {
+        ++sEntries;
+        return BallShape::entry(ray);
+    }
+    static int64_t sEntries;
+};
+int64_t CountedBall::sEntries = 0;
+
+static int64_t entriesOf(const std::vector<CountedBall>& balls, const std::vector<Ray>& rays)
+{
+    const RayScene<CountedBall> scene(balls, nullptr);
+    CountedBall::sEntries = 0;
+    for (const Ray& ray : rays) scene.nearest(ray);
+    return CountedBall::sEntries;
+}
+
+/// The cost is that of the shapes near the ray: neither of all, nor of the box around them.
+TEST(RayScene, ARayMeetsFewOfManyShapesAndFarOnesAddNothing)
+{
+    Random random(20);
+    std::vector<CountedBall> balls;
+    for (int i = 0; i < 20000; ++i) balls.push_back({{randomPoint(random, 100), 1.5}});
+    std::vector<Ray> rays;
+    for (int i = 0; i < 500; ++i) rays.push_back(randomRay(random, 130));
+    const int64_t near = entriesOf(balls, rays);
+    EXPECT_LT(near, int64_t(rays.size()) * 200) << "a hundredth of all balls";
+    balls.push_back({{Vec3d(1 << 27, 1 << 27, -(1 << 27)), 100}});
+    EXPECT_LE(entriesOf(balls, rays), near + 8 * int64_t(rays.size())) << "a leaf of the tree more";
+}
+
 TEST(RayScene, OfEqualBallsTheFirstIsHit)
 {
     const std::vector<BallShape> balls(100, {Vec3d(0.0), 2});

@@ -8,6 +8,7 @@
 #include "support/Messages.h"
 #include "support/RandomObjects.h"
 
+#include <algorithm>
 #include <set>
 
 namespace {
@@ -45,7 +46,28 @@ TEST(StreamPlan, IsTheLargestWindowThatFits)
     EXPECT_EQ(windowIn(2004), 100u); // 1000, 4 x 1 of threads and 100 x 10
     EXPECT_EQ(windowIn(2003), 50u);
     EXPECT_EQ(windowIn(1051), 1u); // a single thread
-    EXPECT_TRUE(planWithin(layout, memory, 1, 1050 + 500, 4).slabs >= 1);
+}
+
+/// Half as many, a quarter, ... with a thread for each of the first four: by hand, of slabs of one
+/// leaf, where a window opens four slabs more than enter.
+TEST(StreamPlan, HalvesTheWindowUntilItFits)
+{
+    const LeafLayout layout = hundredSlabs();
+    const StreamMemory memory{700, 300, 1, 10, 5, 3};
+    for (int bytes = 1051; bytes <= 2050; ++bytes) {
+        int window = 0, needed = 0;
+        for (const int slabs : {1, 3, 6, 12, 25, 50, 100}) {
+            const int threads = std::min(4, slabs), open = std::min(100, slabs + 4);
+            if (1000 + threads * 1 + open * 10 > bytes) break;
+            window = slabs;
+            needed = 1000 + threads * 1 + open * 10;
+        }
+        const StreamPlan plan = planWithin(layout, memory, 1, bytes, 4);
+        ASSERT_FALSE(plan.packed) << bytes;
+        ASSERT_EQ(plan.slabs, uint32_t(window)) << bytes;
+        ASSERT_EQ(plan.threads, uint32_t(std::min(4, window))) << bytes;
+        ASSERT_EQ(plan.bytes, needed) << bytes;
+    }
 }
 
 TEST(StreamPlan, PacksWhatHasNoWindow)

@@ -56,16 +56,16 @@ void expectSettings(const json& written, const SphereTree& tree)
     const auto extended = optionsOr<ExtendedOptions>(settings);
     const auto tight = optionsOr<TightOptions>(settings);
     const json expected = {{"tree", toString(settings.type())}, {"factor", pyramid.factor},
-        {"dim", settings.dim}, {"model", modelToString(pyramid)},
-        {"dist", toString(pyramid.dist)}, {"parent", toString(pyramid.parent)},
-        {"final_fit", extended.finalFit}, {"reconstruct", toString(extended.reconstruct)},
-        {"scale", toString(pyramid.scale)}, {"padding", paddingToString(settings.padding)},
-        {"dag", tree.hasDag}, {"edges", toString(pyramid.edges)}, {"topology", settings.topology},
+        {"dim", settings.dim}, {"model", modelToString(pyramid)}, {"dist", toString(pyramid.dist)},
+        {"parent", toString(pyramid.parent)}, {"final_fit", extended.finalFit},
+        {"reconstruct", toString(extended.reconstruct)}, {"scale", toString(pyramid.scale)},
+        {"padding", paddingToString(settings.padding)}, {"dag", tree.hasDag},
+        {"edges", toString(pyramid.edges)}, {"topology", settings.topology},
         {"center", toString(pyramid.center)}, {"quality", toString(tight.quality)},
         {"spheres", tight.budget.spheres}, {"branching", tight.budget.branching},
         {"error", orNull(tight.budget.error)}, {"distance", orNull(tight.budget.distance)},
-        {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)},
-        {"side", "outer"}, {"cuts", tree.hasCuts}, {"name", settings.name}};
+        {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)}, {"side", "outer"},
+        {"cuts", tree.hasCuts}, {"name", settings.name}};
     EXPECT_EQ(written, expected);
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/tight/level/FreeLevel.h>
 
-#include "support/FineBalls.h"
-
-#include <openvdb_spheretree/tight/level/TightLevels.h>
-#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+#include "support/MergedLeaves.h"
 
 namespace {
 
@@ -13,21 +10,8 @@ using namespace spheretree_test;
 
 const FitEffort kEffort{true, 12, 1, false, 40};
 
-/// A noisy object, its leaves and their merge forest.
-struct Merged {
-    Voxels voxels;
-    SampledObject object;
-    std::vector<ExactSphere> leaves;
-    std::vector<ForestNode> forest;
-    LevelMaker maker{object, kEffort, false, nullptr};
-
-    explicit Merged(const Voxels& some) : voxels(some), object(sampled(voxels))
-    {
-        for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
-        SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
-            kEffort, false, nullptr);
-        forest = mergeToRoots(model, 6, nullptr);
-    }
+struct Merged : MergedLeaves {
+    explicit Merged(const Voxels& voxels) : MergedLeaves(voxels, false, ::kEffort) {}
 };
 
 /// What one search of the cut leads to.

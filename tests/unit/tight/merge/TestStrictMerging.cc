@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 
+#include "support/ChosenObjects.h"
 #include "support/FineBalls.h"
 
 #include <openvdb_spheretree/tight/region/PowerCells.h>
@@ -93,9 +94,7 @@ void expectSound(WatchedMerging& model, const std::string& name)
 /// Of leaves below a node, the voxels of all cells are in its ball.
 TEST(StrictMerging, HoldsTheVoxelsOfAllCellsBelow)
 {
-    for (uint32_t seed = 500; seed < 540; ++seed) {
-        const RandomObject object = randomObject(seed);
-        if (boxOf(object.voxels).extents().asVec3i().lengthSqr() > 15 * 15) continue;
+    for (const RandomObject& object : objectsNoWiderThan(15, 500, 540, 9)) {
         const auto leaves = medialLeaves(object.voxels);
         const auto cells = powerCellPoints(leaves, sampled(object.voxels).level(0), nullptr);
         WatchedMerging model(object.voxels, leaves, heldVoxels(cells));
@@ -107,9 +106,7 @@ TEST(StrictMerging, HoldsTheVoxelsOfAllCellsBelow)
 TEST(StrictMerging, HoldsTheLeafBallsBelow)
 {
     std::size_t most = 0;
-    for (uint32_t seed = 540; seed < 580; ++seed) {
-        const RandomObject object = randomObject(seed);
-        if (boxOf(object.voxels).extents().asVec3i().lengthSqr() > 15 * 15) continue;
+    for (const RandomObject& object : objectsNoWiderThan(15, 540, 580, 10)) {
         const auto leaves = medialLeaves(object.voxels);
         WatchedMerging model(object.voxels, leaves, heldBalls(leaves));
         ASSERT_NO_FATAL_FAILURE(expectSound(model, object.name));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
+#include "support/ChosenObjects.h"
 #include "support/FineBalls.h"
 
 namespace {
@@ -44,9 +45,7 @@ void expectCells(const std::vector<ExactSphere>& balls, const Voxels& voxels, Ra
 TEST(PowerCells, OfLeavesAreTheVoxelsTheyCoverBest)
 {
     Random random(1);
-    for (uint32_t seed = 200; seed < 244; ++seed) {
-        const RandomObject object = randomObject(seed);
-        if (object.voxels.size() > 600) continue;
+    for (const RandomObject& object : objectsOfAtMost(600, 200, 244, 30)) {
         std::vector<ExactSphere> balls;
         for (const auto& ball : CoreStages(*maskOf(object.voxels)).balls) {
             balls.push_back(fineBall(ball));

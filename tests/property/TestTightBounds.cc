@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestTightBounds.cc
+/// @brief Tight trees within a bound of error or distance: the fewest spheres that are.
+
+#include "support/Messages.h"
+#include "support/TightObjects.h"
+
+#include <openvdb_spheretree/measure/LevelErrors.h>
+
+#include <optional>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+bool isWithin(const SphereTree& tree, const openvdb::BoolGrid& grid, const SphereBudget& budget)
+{
+    SphereTree measured = tree;
+    computeLevelErrors(measured, grid);
+    const LevelError& error = measured.levels[0].error.value();
+    return (!budget.error || error.hammingPercent <= *budget.error)
+        && (!budget.distance || error.hausdorff * tree.voxelSize() <= *budget.distance);
+}
+
+SphereTreeSettings bounded(
+    Quality quality, std::optional<double> error, std::optional<double> distance)
+{
+    SphereTreeSettings settings = tightSettings(quality);
+    settings.budgeted().budget = SphereBudget();
+    settings.budgeted().budget.error = error;
+    settings.budgeted().budget.distance = distance;
+    return settings;
+}
+
+/// Of the cuts there are, the ones with fewer spheres are further off.
+void expectFewest(const openvdb::BoolGrid& grid, const SphereTreeSettings& settings)
+{
+    const SphereTree tree = buildSphereTree(grid, settings);
+    ASSERT_EQ(tree.levels.size(), 1u);
+    ASSERT_TRUE(isWithin(tree, grid, settings.budgeted().budget)) << tree.size() << " spheres";
+    ASSERT_EQ(failuresOf(tree, grid), "");
+    SphereTreeSettings free = settings;
+    free.budgeted().budget = SphereBudget();
+    free.budgeted().cuts = true;
+    if (settings.tight().quality == Quality::Best) return; // has no cuts of what was searched
+    const SphereTree all = buildSphereTree(grid, free);
+    for (int32_t n = tree.size() - 1; n > std::max(0, tree.size() - 9); --n) {
+        ASSERT_FALSE(isWithin(cutTree(all, n), grid, settings.budgeted().budget))
+            << n << " of " << tree.size();
+    }
+}
+
+/// Voxels of 1/2.
+void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settings)
+{
+    const auto grid = gridOf(object.voxels);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+    const SphereBudget& budget = settings.budgeted().budget;
+    SCOPED_TRACE(object.name + ": " + describeTight(settings) + ", error "
+        + std::to_string(budget.error.value_or(-1)) + ", distance "
+        + std::to_string(budget.distance.value_or(-1)));
+    ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings));
+}
+
+TEST(TightBounds, HaveTheFewestSpheresWithinABound)
+{
+    int turn = 0;
+    for (const RandomObject& object : smallObjects()) {
+        if (object.name == "far apart") continue; // its errors take long to count
+        const Quality quality = ++turn % 2 ? Quality::Fast : Quality::Normal;
+        for (const double error : {0.0, 20.0, 120.0}) {
+            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, error, {})));
+        }
+        for (const double distance : {0.0, 0.5, 0.9, 2.0}) {
+            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, {}, distance)));
+        }
+        ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, 60.0, 0.9)));
+    }
+}
+
+/// A search for less excess may reach further out.
+TEST(TightBounds, StayWithinABoundWhenSearched)
+{
+    const RandomObject components = smallObjects()[3];
+    for (const double distance : {0.5, 0.9, 1.2}) {
+        ASSERT_NO_FATAL_FAILURE(expectFewestOf(components, bounded(Quality::Best, {}, distance)));
+    }
+    ASSERT_NO_FATAL_FAILURE(expectFewestOf(components, bounded(Quality::Best, 120.0, {})));
+}
+
+TEST(TightBounds, WithinABoundHaveTheLadderBelow)
+{
+    const auto grid = gridOf(smallObjects()[3].voxels);
+    SphereTreeSettings settings = bounded(Quality::Normal, 30.0, std::nullopt);
+    const int32_t fewest = buildSphereTree(*grid, settings).size();
+    settings.budgeted().budget.branching = 2;
+    const SphereTree tree = buildSphereTree(*grid, settings);
+    ASSERT_EQ(tree.levels[0].size(), fewest);
+    for (std::size_t k = tree.levels.size(); k-- > 1;) {
+        EXPECT_EQ(tree.levels[k].size(), 1 << (tree.levels.size() - 1 - k));
+    }
+    EXPECT_LE(fewest, 2 * tree.levels[1].size());
+}
+
+TEST(TightBounds, SayWhenABoundCannotBeReached)
+{
+    const auto grid = gridOf(smallObjects()[2].voxels);
+    SphereTreeSettings settings = bounded(Quality::Fast, 1.5, 0.25);
+    const int32_t fewest = buildSphereTree(*grid, settings).size();
+    ASSERT_GT(fewest, 2);
+    settings.budgeted().budget.spheres = {fewest};
+    EXPECT_EQ(buildSphereTree(*grid, settings).size(), fewest);
+    settings.budgeted().budget.spheres = {fewest - 1};
+    const std::string message =
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*grid, settings); });
+    EXPECT_TRUE(mentions(message, "error=1.5 and distance=0.25 cannot be reached with spheres="));
+    EXPECT_TRUE(mentions(message, "it takes " + std::to_string(fewest)));
+}
+
+} // namespace

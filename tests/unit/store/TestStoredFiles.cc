@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestStoredFiles.cc
+/// @brief Files that released versions wrote (tests/data/<version>/README.md) are read as they
+/// were meant, and written again as they were.
+
+#include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/store/SphereTreeCsv.h>
+#include <openvdb_spheretree/store/SphereTreeJson.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+
+#include "support/SampleTrees.h"
+
+#include <openvdb/io/File.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using nlohmann::json;
+using openvdb::points::PointDataGrid;
+using spheretree_test::expectSameTree;
+
+std::string pathOf(const std::string& name)
+{
+    return std::string(SPHERETREE_TEST_DATA) + "/0.1/" + name;
+}
+
+std::string textOf(const std::string& name)
+{
+    std::ifstream file(pathOf(name), std::ios::binary);
+    EXPECT_TRUE(file) << "no file " << pathOf(name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// The grids of a tree: its nodes, and its edges and cuts where it has them.
+struct StoredTree {
+    PointDataGrid::Ptr nodes, dag, cuts;
+
+    explicit StoredTree(const std::string& name)
+    {
+        openvdb::initialize();
+        openvdb::io::File file(pathOf(name + ".vdb"));
+        file.open();
+        const openvdb::GridPtrVec grids = *file.getGrids();
+        for (const openvdb::GridBase::Ptr& grid : grids) {
+            const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
+            if (isSphereTree(*grid)) nodes = points;
+            else if (isDagOf(*grid, name)) dag = points;
+            else if (isCutsOf(*grid, name)) cuts = points;
+            else ADD_FAILURE() << grid->getName() << " is no part of a tree";
+        }
+    }
+    SphereTree tree() const { return fromPoints(*nodes, dag.get(), cuts.get()); }
+};
+
+/// Every member of @a expected is in @a actual, the same; there may be new ones.
+void expectMembers(const json& actual, const json& expected, const std::string& path)
+{
+    if (!expected.is_object()) {
+        EXPECT_EQ(actual, expected) << path;
+        return;
+    }
+    for (const auto& [key, value] : expected.items()) {
+        ASSERT_TRUE(actual.contains(key)) << path << "/" << key;
+        expectMembers(actual.at(key), value, path + "/" + key);
+    }
+}
+
+/// Leaf nodes, attributes and metadata; but for what io::File itself adds.
+void expectSameGrid(const PointDataGrid::Ptr& actual, const PointDataGrid::Ptr& stored)
+{
+    ASSERT_EQ(bool(actual), bool(stored));
+    if (!stored) return;
+    EXPECT_EQ(actual->getName(), stored->getName());
+    EXPECT_EQ(actual->transform(), stored->transform());
+    for (auto it = stored->beginMeta(); it != stored->endMeta(); ++it) {
+        if (it->first.rfind("file_", 0) == 0 || it->first == "is_saved_as_half_float") continue;
+        const openvdb::Metadata::Ptr meta = (*actual)[it->first];
+        ASSERT_TRUE(meta) << it->first;
+        EXPECT_TRUE(*meta == *it->second) << it->first << " is " << meta->str();
+    }
+    ASSERT_EQ(actual->tree().leafCount(), stored->tree().leafCount());
+    auto other = actual->tree().cbeginLeaf();
+    for (auto leaf = stored->tree().cbeginLeaf(); leaf; ++leaf, ++other) {
+        ASSERT_EQ(leaf->origin(), other->origin());
+        ASSERT_TRUE(leaf->getValueMask() == other->getValueMask());
+        for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel) {
+            ASSERT_EQ(int(*voxel), int(other->getValue(voxel.pos())));
+        }
+        EXPECT_TRUE(leaf->attributeSet() == other->attributeSet()) << leaf->origin();
+    }
+}
+
+class StoredFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(StoredFiles, AreReadToEveryNodeLevelAndSetting)
+{
+    const std::string name = GetParam();
+    const SphereTree tree = StoredTree(name).tree();
+    std::ostringstream csv, text;
+    writeCsv(tree, csv);
+    EXPECT_EQ(csv.str(), textOf(name + ".csv"));
+    writeJson(tree, text);
+    expectMembers(json::parse(text.str()), json::parse(textOf(name + ".json")), "");
+}
+
+TEST_P(StoredFiles, AreWrittenAgainAsTheyWere)
+{
+    const StoredTree stored(GetParam());
+    const SphereTree tree = stored.tree();
+    expectSameGrid(toPoints(tree), stored.nodes);
+    expectSameGrid(dagToPoints(tree), stored.dag);
+    expectSameGrid(cutsToPoints(tree), stored.cuts);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of01, StoredFiles,
+    testing::Values("tight", "tight_balls", "inner", "flat", "extended", "miniball", "reversible",
+        "flat_reversible", "norm"),
+    [](const auto& info) { return std::string(info.param); });
+
+TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
+{
+    for (const auto& [object, name] : {std::pair{"ring", "reversible"}, std::pair{"ring", "norm"},
+             std::pair{"ring", "extended"}, std::pair{"flat", "flat_reversible"}}) {
+        SCOPED_TRACE(name);
+        const SphereTree stored = StoredTree(name).tree();
+        const auto mask = objectMask(*readVolFile(pathOf(std::string(object) + ".vol")));
+        EXPECT_EQ(int64_t(mask->activeVoxelCount()), stored.object.voxels);
+        std::ostringstream csv;
+        writeCsv(buildSphereTree(*mask, stored.settings), csv);
+        EXPECT_EQ(csv.str(), textOf(std::string(name) + ".csv"));
+    }
+}
+
+TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
+{
+    openvdb::initialize();
+    openvdb::io::File file(pathOf("levelset.vdb"));
+    file.open();
+    const auto object = objectMask(*file.readGrid("levelset"));
+    SphereTreeSettings settings;
+    settings.tree = TreeType::Reversible;
+    std::ostringstream csv;
+    writeCsv(buildSphereTree(*object, settings), csv);
+    EXPECT_EQ(csv.str(), textOf("levelset.csv"));
+}
+
+} // namespace
