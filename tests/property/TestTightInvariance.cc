@@ -76,10 +76,7 @@ TEST(TightInvariance, InTwoDimensionsStayInThePlaneHoweverWideTheObject)
 
 bool sameCuts(const SphereCuts& a, const SphereCuts& b)
 {
-    return a.spheres.center == b.spheres.center && a.spheres.radius == b.spheres.radius
-        && a.spheres.coverRadiusSq == b.spheres.coverRadiusSq
-        && a.spheres.radiusWorld == b.spheres.radiusWorld && a.spheres.parent == b.spheres.parent
-        && a.first == b.first && a.last == b.last;
+    return a.spheres == b.spheres && a.first == b.first && a.last == b.last;
 }
 
 TEST(TightInvariance, AreTheSameForAnyNumberOfThreads)
