@@ -40,6 +40,8 @@
 #include "tree/SphereCuts.h"
 #include "tree/SphereTree.h"
 #include "tree/SphereTreeSettings.h"
+#include "tree/Spheres.h"
+#include "tree/Traversal.h"
 
 // A tree's spheres as voxels, its errors, and whether it is right.
 #include "check/TreeCheck.h"

@@ -27,7 +27,7 @@ execute_process(COMMAND_ERROR_IS_FATAL ANY
     COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --config "${CONFIG}" --prefix "${prefix}")
 build_and_run("${SOURCE}" "${WORK}/build")
 
-file(GLOB headers RELATIVE "${prefix}/include" "${prefix}/include/openvdb_spheretree/*.h")
+file(GLOB_RECURSE headers RELATIVE "${prefix}/include" "${prefix}/include/openvdb_spheretree/*.h")
 if(NOT headers)
     message(FATAL_ERROR "no headers were installed in ${prefix}/include")
 endif()
