@@ -128,7 +128,7 @@ TEST(ReversibleTree, ParentsByDagAreDagParents)
         for (int32_t id = 1; id < tree.size(); ++id) {
             const DagEdge edge{tree.spheres.parent[id], id};
             ASSERT_TRUE(std::binary_search(tree.dag.begin(), tree.dag.end(), edge)) << object.name;
-            others += tree.spheres.parent[id] != byCentre.parent[id];
+            others += tree.spheres.parent[id] != byCentre.spheres.parent[id];
         }
     }
     EXPECT_GT(others, 100) << "the rules hardly differ on these objects";

@@ -148,8 +148,7 @@ TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
     openvdb::io::File file(pathOf("levelset.vdb"));
     file.open();
     const auto object = objectMask(*file.readGrid("levelset"));
-    SphereTreeSettings settings;
-    settings.tree = TreeType::Reversible;
+    const SphereTreeSettings settings = ReversibleOptions();
     std::ostringstream csv;
     writeCsv(buildSphereTree(*object, settings), csv);
     EXPECT_EQ(csv.str(), textOf("levelset.csv"));
