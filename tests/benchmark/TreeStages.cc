@@ -60,8 +60,7 @@ std::shared_ptr<const st::SphereTree> extendedTree(const BenchmarkInput& in)
     static std::shared_ptr<const st::SphereTree> tree;
     if (objectName == in.object.name) return tree;
     tree = nullptr; // before the next one needs memory
-    tree = std::make_shared<const st::SphereTree>(
-        buildTree(in, st::TreeType::Extended, st::Quality::Normal));
+    tree = std::make_shared<const st::SphereTree>(buildTree(in, st::ExtendedOptions()));
     objectName = in.object.name;
     return tree;
 }
