@@ -118,8 +118,8 @@ TreeType SphereTreeSettings::type() const
 
 void SphereTreeSettings::throwOtherKind(const char* wanted)
 {
-    OPENVDB_THROW(openvdb::ValueError,
-        "the settings are not those of a " << wanted << " tree, but of another kind");
+    OPENVDB_THROW(
+        openvdb::ValueError, "these are not the settings of the kind of tree wanted: " << wanted);
 }
 
 const Distance& SphereTreeSettings::dist() const

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h>
 
 #include <cstdint>
 

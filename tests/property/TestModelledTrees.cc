@@ -141,7 +141,9 @@ std::string whyNoTree(const PyramidModel& model)
     std::string all;
     for (SphereTreeSettings settings : bothTypes()) {
         settings.pyramid().customModel = model;
-        settings.extended().reconstruct = Reconstruction::None;
+        if (settings.type() == TreeType::Extended) {
+            settings.extended().reconstruct = Reconstruction::None;
+        }
         all += messageOf<openvdb::ValueError>([&] {
             buildSphereTree(*gridOf(shapes::ball(60)), settings);
         }) + "\n";
