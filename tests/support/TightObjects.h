@@ -135,7 +135,8 @@ inline Voxels rebuilt(const SphereTree& tree)
 
 inline void expectChains(const SphereTree& tree, const Voxels& voxels)
 {
-    ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsExactly(tree.spheres, tree.subdivision))), 0);
+    ASSERT_EQ(
+        sumOf(naiveBrokenLevels(tree, voxels, holdsExactly(tree.spheres, tree.subdivision))), 0);
     ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsStored(tree.spheres, tree))), 0);
 }
 
@@ -158,7 +159,9 @@ inline void expectCutsHold(const SphereTree& tree, const Voxels& voxels)
     for (int32_t n = 1; n <= leaves; ++n) {
         ASSERT_EQ(cutNodes(cuts, n).size(), std::size_t(n));
         if (n > 12 && n % 7 != 0 && n < leaves - 3) continue;
-        ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsExactly(cuts.spheres, tree.subdivision)), 0)
+        ASSERT_EQ(
+            naiveBrokenCut(cuts, leaves, n, voxels, holdsExactly(cuts.spheres, tree.subdivision)),
+            0)
             << n;
         ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsStored(cuts.spheres, tree)), 0) << n;
     }

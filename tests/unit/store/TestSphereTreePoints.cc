@@ -303,7 +303,7 @@ TEST(SphereTreePoints, AttributesAndMetadataHaveTheNamesAndTypesOfTheFormat)
     EXPECT_EQ(grid->getGridClass(), openvdb::GRID_UNKNOWN);
     EXPECT_EQ(text("class"), "none") << "tools that take points look for grids without a class";
     EXPECT_EQ(text("spheretree_format"), "1");
-    EXPECT_EQ(text("spheretree_tree"), "reversible");
+    EXPECT_EQ(text("spheretree_tree"), "extended");
     EXPECT_EQ(text("spheretree_factor"), "3");
     EXPECT_EQ(text("spheretree_padding"), "0.1");
     EXPECT_EQ(text("spheretree_source"), "bunny, left ear");
