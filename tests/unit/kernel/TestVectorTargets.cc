@@ -101,7 +101,9 @@ const testing::Environment* const kForcedTarget =
 TEST(VectorTargets, RunsWhatTheEnvironmentSays)
 {
     const char* name = std::getenv(kVariable);
-    if (name) EXPECT_EQ(runningTarget(), name);
+    if (name) {
+        EXPECT_EQ(runningTarget(), name);
+    }
     else EXPECT_EQ(runningTarget(), hwy::TargetName(allTargets().front()));
 }
 

@@ -332,7 +332,9 @@ TEST(OrPyramid, AnIncludingModelMayTakeMoreLevelsThanTheWidestObjectButNotForeve
             return next;
         };
         const auto build = [&] { return buildOrPyramid(*object, 2, 3, model); };
-        if (levels < 1000) EXPECT_EQ(build().levels.size(), std::size_t(levels + 1));
+        if (levels < 1000) {
+            EXPECT_EQ(build().levels.size(), std::size_t(levels + 1));
+        }
         else EXPECT_THROW(build(), ValueError);
     }
 }

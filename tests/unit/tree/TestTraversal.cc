@@ -67,7 +67,9 @@ TEST(Traversal, AVisitThatAlwaysDescendsSeesEveryNodeOnceAndParentsFirst)
             ASSERT_EQ(place[order[i]], -1);
             place[order[i]] = int32_t(i);
             const int32_t parent = tree.spheres.parent[order[i]];
-            if (parent >= 0) ASSERT_GE(place[parent], 0);
+            if (parent >= 0) {
+                ASSERT_GE(place[parent], 0);
+            }
         }
         EXPECT_EQ(order.size(), std::size_t(tree.size()));
     }

@@ -128,7 +128,9 @@ void expectBounds(const CostRuns& runs, const Samples& samples, const LocalBall&
     ASSERT_EQ(runs.count(ball), count);
     for (const int64_t bound : {int64_t(0), count / 2, count - 1, count, count + 5}) {
         const int64_t bounded = runs.count(ball, bound);
-        if (count > bound) ASSERT_GT(bounded, bound);
+        if (count > bound) {
+            ASSERT_GT(bounded, bound);
+        }
         else ASSERT_EQ(bounded, count);
     }
 }
