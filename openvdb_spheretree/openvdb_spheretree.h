@@ -18,7 +18,7 @@
 #include "voxel/MedialBall.h"
 
 // A grid to the object that it stands for.
-#include "input/ObjectMask.h"
+#include "input/Object.h"
 
 // The object to a pyramid of ever coarser ones.
 #include "pyramid/BlockModel.h"

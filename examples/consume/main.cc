@@ -18,7 +18,7 @@ int main()
     openvdb::initialize();
     const auto levelSet = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
         10.0f, openvdb::Vec3f(0.0f), /*voxelSize=*/0.5f);
-    const auto object = spheretree::objectMask(*levelSet);
+    const auto object = spheretree::objectOf(*levelSet);
     const auto tree = spheretree::buildSphereTree(*object);
     for (const auto& level : tree.levels) {
         std::cout << "level " << level.level << ": " << level.size() << " spheres\n";

@@ -2,7 +2,7 @@
 /// @file CoverageCheck.cc
 /// @brief The checks that draw spheres: rebuilding the object, and covering it.
 
-#include "TreeCheckReport.h"
+#include "CheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
@@ -39,7 +39,7 @@ std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLe
 
 /// @return whether some ball alone has more voxels than its level, which is reported. A damaged
 /// radius would otherwise have a drawing of any size made.
-bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxels)
+bool ballsTooLarge(CheckReport& check, const SphereTreeLevel& level, int64_t voxels)
 {
     const int dim = check.tree.settings.dim;
     const Distance& distance = check.tree.settings.dist();
@@ -64,7 +64,7 @@ bool ballsTooLarge(TreeCheck& check, const SphereTreeLevel& level, int64_t voxel
 
 /// @return more voxels than a level of this object can have, reconstructed without a clip as well.
 /// What a file records is not trusted with memory.
-double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
+double implausibleVoxels(const CheckReport& check, const SphereTreeLevel& level)
 {
     const auto* pyramid = check.tree.settings.find<PyramidOptions>();
     const double scale = pyramid ? std::pow(double(pyramid->factor), level.level) : 1;
@@ -75,7 +75,7 @@ double implausibleVoxels(const TreeCheck& check, const SphereTreeLevel& level)
 }
 
 /// Union of a level's digital balls; in 2-D, in their plane.
-MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& level)
+MaskTree::Ptr drawDigitalBalls(const CheckReport& check, const SphereTreeLevel& level)
 {
     const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
     const Distance& distance = check.tree.settings.dist();
@@ -87,7 +87,7 @@ MaskTree::Ptr drawDigitalBalls(const TreeCheck& check, const SphereTreeLevel& le
     return sphereUnion(balls, box, distance, check.interrupter);
 }
 
-void checkRebuiltObject(TreeCheck& check, const MaskTree& rebuilt)
+void checkRebuiltObject(CheckReport& check, const MaskTree& rebuilt)
 {
     const MaskDifference extra = maskDifference(rebuilt, check.mask, check.interrupter);
     const MaskDifference lost = maskDifference(check.mask, rebuilt, check.interrupter);
@@ -108,7 +108,7 @@ bool hasDigitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
     return std::find(begin + level.begin, begin + level.end, -1) == begin + level.end;
 }
 
-void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
+void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
 {
     if (level.pyramidVoxels != 0) {
         check.fail("level ", level.level, " records ", level.pyramidVoxels,
@@ -133,7 +133,7 @@ void checkNoVolume(TreeCheck& check, const SphereTreeLevel& level)
 
 /// Balls rebuild all voxels of their level, but for an extended tree, which above level 0 drops
 /// balls without children.
-void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t rebuilt)
+void checkPyramidVoxels(CheckReport& check, const SphereTreeLevel& level, int64_t rebuilt)
 {
     const bool all = level.level == 0 || check.tree.settings.type() != TreeType::Extended;
     if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
@@ -142,7 +142,7 @@ void checkPyramidVoxels(TreeCheck& check, const SphereTreeLevel& level, int64_t 
 }
 
 /// @return object voxels that no sphere covers. Draws only where the object is.
-MaskDifference uncovered(const TreeCheck& check, const std::vector<ExactSphere>& spheres)
+MaskDifference uncovered(const CheckReport& check, const std::vector<ExactSphere>& spheres)
 {
     const MaskTree::Ptr covered =
         rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
@@ -174,7 +174,7 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
     return true;
 }
 
-void checkDigitalBalls(TreeCheck& check)
+void checkDigitalBalls(CheckReport& check)
 {
     for (const SphereTreeLevel& level : check.tree.levels) {
         if (!hasDigitalBalls(check.tree, level)) {
@@ -195,7 +195,7 @@ void checkDigitalBalls(TreeCheck& check)
     }
 }
 
-void checkCoverage(TreeCheck& check)
+void checkCoverage(CheckReport& check)
 {
     for (const SphereTreeLevel& level : check.tree.levels) {
         const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);

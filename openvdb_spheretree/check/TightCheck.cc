@@ -4,7 +4,7 @@
 /// spheres inside the object, that they are.
 
 #include "ChainCheck.h"
-#include "TreeCheckReport.h"
+#include "CheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
 #include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
@@ -32,7 +32,7 @@ std::string voxelsOf(const ChainLoss& loss)
 /// stored ones, unless those hold as much.
 /// @return whether any does
 template <typename Report>
-bool findBroken(TreeCheck& check, ChainForest& forest, const std::vector<ExactSphere>& stored,
+bool findBroken(CheckReport& check, ChainForest& forest, const std::vector<ExactSphere>& stored,
     const Report& report)
 {
     bool anyBroken = false;
@@ -130,7 +130,7 @@ ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>&
 
 /// Spheres reaching beyond the object's box would be drawn at any size.
 /// @param firstId  of the spheres
-void checkWithin(TreeCheck& check, const std::vector<ExactSphere>& spheres, int32_t firstId,
+void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, int32_t firstId,
     const std::string& name)
 {
     Offenders outside;
@@ -152,7 +152,7 @@ void checkWithin(TreeCheck& check, const std::vector<ExactSphere>& spheres, int3
 
 } // namespace
 
-bool checkChains(TreeCheck& check)
+bool checkChains(CheckReport& check)
 {
     const SphereTree& tree = check.tree;
     const std::vector<ExactSphere> exact = allSpheres(tree, levelSpheres);
@@ -174,7 +174,7 @@ bool checkChains(TreeCheck& check)
     return !broken;
 }
 
-void checkCutChains(TreeCheck& check)
+void checkCutChains(CheckReport& check)
 {
     const SphereCuts& cuts = check.tree.cuts;
     const SphereTree nodes = asOneLevel(check.tree);
@@ -187,7 +187,7 @@ void checkCutChains(TreeCheck& check)
     findBroken(check, forest, storedSpheres(nodes, nodes.levels[0]), report);
 }
 
-void checkInside(TreeCheck& check)
+void checkInside(CheckReport& check)
 {
     for (const SphereTreeLevel& level : check.tree.levels) {
         const std::string name = "level " + std::to_string(level.level);

@@ -17,7 +17,7 @@
 
 #include "TreeCheck.h"
 
-#include "TreeCheckReport.h"
+#include "CheckReport.h"
 #include "WorldDistance.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
@@ -37,7 +37,7 @@ namespace openvdb_spheretree {
 namespace {
 
 using detail::Offenders;
-using Check = detail::TreeCheck;
+using Check = detail::CheckReport;
 
 bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }

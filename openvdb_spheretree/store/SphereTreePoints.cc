@@ -268,7 +268,7 @@ PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 
 PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, Keep()); }
 
-PointDataGrid::Ptr toPoints(SphereTree&& tree) { return writeTree(tree, Release()); }
+PointDataGrid::Ptr releaseToPoints(SphereTree& tree) { return writeTree(tree, Release()); }
 
 PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {

@@ -33,7 +33,7 @@ openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 /// one, as soon as they are in the grid. What else the tree has stays: levels, settings, edges and
 /// cuts (whose grids are to be made before, since they take positions from the nodes).
 /// @throw openvdb::ValueError as above; the tree is then unchanged
-openvdb::points::PointDataGrid::Ptr toPoints(SphereTree&& tree);
+openvdb::points::PointDataGrid::Ptr releaseToPoints(SphereTree& tree);
 
 /// @brief The tree's DAG edges as a point grid; null if it has none.
 openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);

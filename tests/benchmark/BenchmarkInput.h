@@ -6,7 +6,7 @@
 
 #include "BenchmarkObject.h"
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace spheretree_benchmark {
 
 struct BenchmarkInput {
     explicit BenchmarkInput(const BenchmarkObject& of)
-        : object(of), grid(openvdb_spheretree::objectMask(*of.makeGrid())),
+        : object(of), grid(openvdb_spheretree::objectOf(*of.makeGrid())),
           mask(grid->tree(), false, openvdb::TopologyCopy()), layout(mask)
     {}
     const BenchmarkObject object;

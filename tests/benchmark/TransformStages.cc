@@ -27,9 +27,9 @@ Work plain(Function function)
     };
 }
 
-Work objectMask(const InputPtr& in)
+Work objectOf(const InputPtr& in)
 {
-    return plain([source = in->object.makeGrid()] { return st::objectMask(*source); });
+    return plain([source = in->object.makeGrid()] { return st::objectOf(*source); });
 }
 
 Work leafLayout(const InputPtr& in)
@@ -75,10 +75,9 @@ Work topology(const InputPtr& in)
 
 std::vector<BenchmarkStage> transformStages()
 {
-    return {{"object-mask", objectMask, {}}, {"layout", leafLayout, {}},
-        {"distance", distances, {}}, {"distance-int32", distancesInPlace, {}},
-        {"distance+power+medial", labelStream, {}}, {"labels-kept", labelsKept, {}},
-        {"topology", topology, {}}};
+    return {{"object-mask", objectOf, {}}, {"layout", leafLayout, {}}, {"distance", distances, {}},
+        {"distance-int32", distancesInPlace, {}}, {"distance+power+medial", labelStream, {}},
+        {"labels-kept", labelsKept, {}}, {"topology", topology, {}}};
 }
 
 } // namespace spheretree_benchmark

@@ -5,7 +5,7 @@
 /// numbers.
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
@@ -79,7 +79,7 @@ TEST_P(GoldenTrees, HaveTheSpheresAndErrorsOfTheFile)
     if (!folder) GTEST_SKIP() << "needs SPHERETREE_DATA";
     openvdb::initialize();
     const Golden golden = readGolden(GetParam());
-    const auto object = objectMask(*readVolFile(std::string(folder) + "/vol/" + golden.object));
+    const auto object = objectOf(*readVolFile(std::string(folder) + "/vol/" + golden.object));
     SphereTree tree = buildSphereTree(*object, golden.settings);
     computeLevelErrors(tree, *object);
     ASSERT_FALSE(golden.levels.empty());

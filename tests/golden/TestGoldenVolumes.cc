@@ -6,7 +6,7 @@
 
 #include "support/CoreStages.h"
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <cctype>
@@ -49,7 +49,7 @@ protected:
         const char* folder = std::getenv("SPHERETREE_DATA");
         if (!folder) GTEST_SKIP() << "needs SPHERETREE_DATA";
         const std::string path = std::string(folder) + "/vol/" + GetParam().name + ".vol";
-        mObject = objectMask(*readVolFile(path));
+        mObject = objectOf(*readVolFile(path));
     }
 
     openvdb::BoolGrid::Ptr mObject;
@@ -88,7 +88,7 @@ TEST(GoldenBoxes, Al100HasTheBoxOfThePaper)
 {
     const char* folder = std::getenv("SPHERETREE_DATA");
     if (!folder) GTEST_SKIP() << "needs SPHERETREE_DATA";
-    const auto object = objectMask(*readVolFile(std::string(folder) + "/vol/Al.100.vol"));
+    const auto object = objectOf(*readVolFile(std::string(folder) + "/vol/Al.100.vol"));
     EXPECT_EQ(object->evalActiveVoxelBoundingBox().extents(), Coord(37, 92, 100));
 }
 

@@ -6,7 +6,7 @@
 #include "support/BuiltTrees.h"
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <tbb/global_control.h>
@@ -45,7 +45,7 @@ std::vector<Object> realObjects()
     std::vector<Object> objects;
     for (const char* name : {"Al.100", "dragon-128"}) {
         const auto path = std::string(folder) + "/vol/" + name + ".vol";
-        const auto grid = objectMask(*readVolFile(path));
+        const auto grid = objectOf(*readVolFile(path));
         openvdb::MaskTree mask(grid->tree(), false, openvdb::TopologyCopy());
         objects.push_back({name, grid, voxelsOf(mask)});
     }

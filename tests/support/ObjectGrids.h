@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ObjectGrids.h
-/// @brief What tests of objectMask() share: settings, grids of a name, and why a grid is no object.
+/// @brief What tests of objectOf() share: settings, grids of a name, and why a grid is no object.
 
 #pragma once
 
 #include "Messages.h"
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 #include <openvdb/openvdb.h>
 
@@ -19,19 +19,19 @@ using openvdb::BoolGrid;
 using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::FloatGrid;
-using openvdb_spheretree::objectMask;
-using openvdb_spheretree::ObjectMaskSettings;
+using openvdb_spheretree::objectOf;
+using openvdb_spheretree::ObjectSettings;
 
-inline ObjectMaskSettings threshold(double value)
+inline ObjectSettings threshold(double value)
 {
-    ObjectMaskSettings settings;
+    ObjectSettings settings;
     settings.threshold = value;
     return settings;
 }
 
-inline ObjectMaskSettings iso(double value)
+inline ObjectSettings iso(double value)
 {
-    ObjectMaskSettings settings;
+    ObjectSettings settings;
     settings.iso = value;
     return settings;
 }
@@ -47,9 +47,9 @@ inline std::set<Coord> voxelsOf(const BoolGrid& grid)
     return voxels;
 }
 
-inline std::string whyNot(const openvdb::GridBase& grid, const ObjectMaskSettings& settings = {})
+inline std::string whyNot(const openvdb::GridBase& grid, const ObjectSettings& settings = {})
 {
-    return messageOf<openvdb::ValueError>([&] { objectMask(grid, settings); });
+    return messageOf<openvdb::ValueError>([&] { objectOf(grid, settings); });
 }
 
 template <typename GridT>

@@ -68,7 +68,7 @@ void runMask(const ActionCall& call, Session& session)
     const Stopwatch watch;
     StackItem& item = selectObjectGrid(session, call.text("vdb"));
     requireRelevant(call, *item.grid);
-    spheretree::ObjectMaskSettings settings;
+    spheretree::ObjectSettings settings;
     settings.iso = call.real("iso");
     settings.threshold = call.real("threshold");
     settings.values = call.flag("values");
@@ -83,7 +83,7 @@ void runMask(const ActionCall& call, Session& session)
 
 bool isObjectGrid(const StackItem& item)
 {
-    return item.grid && spheretree::canBeObject(*item.grid);
+    return item.grid && spheretree::isObjectGrid(*item.grid);
 }
 
 } // namespace
@@ -100,10 +100,10 @@ StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
 }
 
 openvdb::BoolGrid::Ptr objectOf(
-    const StackItem& item, const spheretree::ObjectMaskSettings& settings, Session& session)
+    const StackItem& item, const spheretree::ObjectSettings& settings, Session& session)
 {
     try {
-        return spheretree::objectMask(*item.grid, settings, &session.progress);
+        return spheretree::objectOf(*item.grid, settings, &session.progress);
     } catch (const openvdb::ValueError&) { // these name the grid
         rethrowNamed("", kInput);
     } catch (const openvdb::TypeError&) {

@@ -7,7 +7,7 @@
 
 #include "session/Session.h"
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 namespace command {
 
@@ -15,9 +15,9 @@ namespace command {
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName);
 
 /// @brief The object of a grid of the stack, whose values may still be in its file.
-/// @throw CommandError (input) as objectMask() throws; what is wrong with the file names it
-openvdb::BoolGrid::Ptr objectOf(const StackItem& item,
-    const openvdb_spheretree::ObjectMaskSettings& settings, Session& session);
+/// @throw CommandError (input) as objectOf() throws; what is wrong with the file names it
+openvdb::BoolGrid::Ptr objectOf(
+    const StackItem& item, const openvdb_spheretree::ObjectSettings& settings, Session& session);
 
 /// @brief Fill in the errors of a tree whose object is known, and count the time.
 void computeErrors(StackItem& item, Session& session);

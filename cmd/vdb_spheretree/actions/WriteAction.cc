@@ -92,7 +92,7 @@ openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
         st::SphereTree& tree = *item->tree;
         const auto dag = st::dagToPoints(tree), cuts = st::cutsToPoints(tree);
         if (giveUp) item->object = nullptr;
-        grids.push_back(giveUp ? st::toPoints(std::move(tree)) : st::toPoints(tree));
+        grids.push_back(giveUp ? st::releaseToPoints(tree) : st::toPoints(tree));
         if (dag) grids.push_back(dag);
         if (cuts) grids.push_back(cuts);
     }

@@ -3,7 +3,7 @@
 // stay where they are.
 
 #include <openvdb_spheretree/input/LeafValues.h>
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 #include <openvdb/io/File.h>
 #include <openvdb/points/PointConversion.h>
@@ -113,11 +113,11 @@ void expectSameObject(
     const typename GridT::Ptr& whole, const typename GridT::Ptr& inFile, double threshold)
 {
     SCOPED_TRACE(whole->type());
-    ObjectMaskSettings settings;
+    ObjectSettings settings;
     settings.threshold = threshold;
     const int leaves = int(whole->tree().leafCount());
     ASSERT_EQ(leavesInAndOutOfFile(*inFile), std::make_pair(leaves, 0));
-    const auto expected = objectMask(*whole, settings), actual = objectMask(*inFile, settings);
+    const auto expected = objectOf(*whole, settings), actual = objectOf(*inFile, settings);
     EXPECT_TRUE(actual->tree().hasSameTopology(expected->tree()));
     EXPECT_GT(actual->activeVoxelCount(), 100u);
     EXPECT_EQ(leavesInAndOutOfFile(*inFile), std::make_pair(leaves, 0));
@@ -172,7 +172,7 @@ TEST_F(LeafValuesTest, DamagedValuesAreAnErrorAndLeaveTheGridAlone)
         file.write("damaged damaged", 15);
     }
     const auto damaged = openDelayed<FloatGrid>();
-    EXPECT_THROW(objectMask(*damaged), openvdb::Exception);
-    EXPECT_THROW(objectMask(*damaged), openvdb::Exception) << "again: the leaf is as it was";
+    EXPECT_THROW(objectOf(*damaged), openvdb::Exception);
+    EXPECT_THROW(objectOf(*damaged), openvdb::Exception) << "again: the leaf is as it was";
     EXPECT_EQ(leavesInAndOutOfFile(*damaged).second, 0);
 }

@@ -2,7 +2,7 @@
 /// @file TestLevelSets.cc
 /// @brief Level sets as objects: the voxels of values below the iso, tiles included.
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 #include "support/ObjectGrids.h"
 
@@ -20,7 +20,7 @@ TEST(LevelSets, TheInteriorOfALevelSetIsWhereItsValueIsBelowTheIso)
     const auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(
         20.0f, openvdb::Vec3f(0.3f, -5.2f, 7.1f), 0.5f);
     for (double value : {0.0, 0.6, -0.6}) {
-        const auto object = objectMask(*grid, iso(value));
+        const auto object = objectOf(*grid, iso(value));
         std::size_t wrong = 0;
         for (const Coord& ijk : CoordBBox(Coord(-60), Coord(60))) {
             wrong += object->tree().isValueOn(ijk) != (grid->tree().getValue(ijk) < value);
@@ -35,13 +35,13 @@ TEST(LevelSets, AVoxelOfJustTheIsoIsOutside)
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     grid->tree().setValueOn(Coord(0, 0, 0), 0.5f);
     grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 0.0f));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
 
     const auto doubles = named<openvdb::DoubleGrid>("doubles", 3.0);
     doubles->setGridClass(openvdb::GRID_LEVEL_SET);
     doubles->tree().setValueOn(Coord(0, 0, 0), 0.5);
     doubles->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5, 0.0));
-    EXPECT_EQ(voxelsOf(*objectMask(*doubles, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*doubles, iso(0.5))), (std::set<Coord>{{1, 0, 0}}));
 }
 
 TEST(LevelSets, ALevelSetMayBeOfIntegers)
@@ -50,9 +50,9 @@ TEST(LevelSets, ALevelSetMayBeOfIntegers)
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     for (int x = -2; x <= 2; ++x) grid->tree().setValueOn(Coord(x, 0, 0), x);
     using Voxels = std::set<Coord>;
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-1))), (Voxels{{-2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(-0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, iso(0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, iso(-1))), (Voxels{{-2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, iso(-0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, iso(0.5))), (Voxels{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}}));
 }
 
 TEST(LevelSets, TilesCountByTheirValueOnEveryNodeLevel)
@@ -63,7 +63,7 @@ TEST(LevelSets, TilesCountByTheirValueOnEveryNodeLevel)
         grid->tree().addTile(level, inactive, 1.0f, false);
         grid->tree().addTile(level, active, 1.0f, true);
         grid->tree().addTile(level, below, -1.0f, true);
-        const auto object = objectMask(*grid);
+        const auto object = objectOf(*grid);
         const uint64_t side = uint64_t(level == 1 ? 8 : level == 2 ? 128 : 4096);
         EXPECT_EQ(object->activeVoxelCount(), 2 * side * side * side);
         EXPECT_TRUE(object->tree().isValueOn(inactive) && object->tree().isValueOn(active));
@@ -74,7 +74,7 @@ TEST(LevelSets, TheDeepInteriorOfALevelSetStaysTiles)
 {
     const auto grid =
         openvdb::tools::createLevelSetSphere<FloatGrid>(100.0f, openvdb::Vec3f(0), 1.0f);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     EXPECT_GT(object->tree().activeTileCount(), 100u);
     EXPECT_LE(object->tree().leafCount(), grid->tree().leafCount());
     EXPECT_NEAR(double(object->activeVoxelCount()), 4.0 / 3 * M_PI * 1e6, 4e4);
@@ -88,7 +88,7 @@ TEST(LevelSets, InteriorTilesFarFromAnyLeafCount)
     grid->tree().addTile(1, Coord(8192, 0, 0), -3.0f, false);
     grid->tree().addTile(1, Coord(8200, 0, 0), 3.0f, false);
     const uint64_t upper = 4096;
-    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), upper * upper * upper + 512);
+    EXPECT_EQ(objectOf(*grid)->activeVoxelCount(), upper * upper * upper + 512);
 }
 
 TEST(LevelSets, AnIsoBeyondTheNarrowBandIsAnErrorThatNamesTheBand)
@@ -102,8 +102,8 @@ TEST(LevelSets, AnIsoBeyondTheNarrowBandIsAnErrorThatNamesTheBand)
         EXPECT_TRUE(mentions(why, "between -1.5 and 1.5"));
     }
     EXPECT_TRUE(mentions(whyNot(*grid, iso(std::nan(""))), "iso="));
-    EXPECT_NO_THROW(objectMask(*grid, iso(1.49)));
-    EXPECT_NO_THROW(objectMask(*grid, iso(-1.49)));
+    EXPECT_NO_THROW(objectOf(*grid, iso(1.49)));
+    EXPECT_NO_THROW(objectOf(*grid, iso(-1.49)));
 }
 
 TEST(LevelSets, AFogVolumeMarkedAsLevelSetIsAnErrorThatSaysSo)

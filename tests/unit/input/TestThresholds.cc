@@ -2,7 +2,7 @@
 /// @file TestThresholds.cc
 /// @brief Scalar grids as objects: the voxels of values above a threshold.
 
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 #include "support/ObjectGrids.h"
 
@@ -28,9 +28,8 @@ TEST(Thresholds, ValuesAboveTheThresholdCountAndOthersDoNot)
     grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(0.5f, 1.0f));
     grid->tree().setValueOn(Coord(-2, 0, 0), 1.0f);
     grid->tree().setValueOn(Coord(-3, 0, 0), -1.0f);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
-    EXPECT_EQ(
-        voxelsOf(*objectMask(*grid, threshold(0.5))), (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(0.5))), (std::set<Coord>{{1, 0, 0}, {-2, 0, 0}}));
 }
 
 TEST(Thresholds, InactiveValuesAboveTheThresholdCountAsWell)
@@ -38,7 +37,7 @@ TEST(Thresholds, InactiveValuesAboveTheThresholdCountAsWell)
     const auto grid = named<FloatGrid>("fog", 0.0f);
     grid->tree().setValueOff(Coord(0, 0, 0), 1.0f);
     grid->tree().addTile(1, Coord(8, 0, 0), 1.0f, false);
-    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), 513u);
+    EXPECT_EQ(objectOf(*grid)->activeVoxelCount(), 513u);
 }
 
 TEST(Thresholds, ABackgroundAboveTheThresholdIsAnUnboundedObject)
@@ -49,7 +48,7 @@ TEST(Thresholds, ABackgroundAboveTheThresholdIsAnUnboundedObject)
     EXPECT_TRUE(mentions(why, "'fog'"));
     EXPECT_TRUE(mentions(why, "0.25"));
     EXPECT_TRUE(mentions(why, "threshold=0"));
-    EXPECT_EQ(objectMask(*grid, threshold(0.25))->activeVoxelCount(), 1u);
+    EXPECT_EQ(objectOf(*grid, threshold(0.25))->activeVoxelCount(), 1u);
 }
 
 TEST(Thresholds, AThresholdThatIsNoFiniteNumberIsAnError)
@@ -67,7 +66,7 @@ TEST(Thresholds, NanIsOutsideAndInfinityIsNot)
     grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
     grid->tree().setValueOn(Coord(1, 0, 0), std::numeric_limits<float>::infinity());
     grid->tree().setValueOn(Coord(2, 0, 0), -std::numeric_limits<float>::infinity());
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{1, 0, 0}}));
 }
 
 TEST(Thresholds, DoublesKeepTheirPrecision)
@@ -75,7 +74,7 @@ TEST(Thresholds, DoublesKeepTheirPrecision)
     const auto grid = named<openvdb::DoubleGrid>("d", 0.0);
     grid->tree().setValueOn(Coord(0, 0, 0), 1.0);
     grid->tree().setValueOn(Coord(1, 0, 0), std::nextafter(1.0, 2.0));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(1.0))), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(1.0))), (std::set<Coord>{{1, 0, 0}}));
 }
 
 TEST(Thresholds, IntegersAreComparedWithoutRounding)
@@ -87,12 +86,11 @@ TEST(Thresholds, IntegersAreComparedWithoutRounding)
     grid->tree().setValueOn(Coord(2, 0, 0), std::numeric_limits<int64_t>::max());
     grid->tree().setValueOn(Coord(3, 0, 0), -5);
     using Voxels = std::set<Coord>;
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(double(big)))), (Voxels{{1, 0, 0}, {2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-5.5))),
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(double(big)))), (Voxels{{1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(-5.5))),
         (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
-    EXPECT_EQ(
-        voxelsOf(*objectMask(*grid, threshold(-5))), (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(-std::ldexp(1.0, 63)))).size(), 4u);
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(-5))), (Voxels{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(-std::ldexp(1.0, 63)))).size(), 4u);
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(std::ldexp(1.0, 63))), "threshold="));
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(-1e30)), "no bounds"));
 }
@@ -101,8 +99,8 @@ TEST(Thresholds, TakesThresholdsBeyondTheRangeOfTheGrid)
 {
     const auto grid = named<openvdb::Int32Grid>("i", 0);
     grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<int32_t>::max());
-    EXPECT_EQ(objectMask(*grid, threshold(0.5))->activeVoxelCount(), 1u);
-    EXPECT_EQ(objectMask(*grid, threshold(2147483646.5))->activeVoxelCount(), 1u);
+    EXPECT_EQ(objectOf(*grid, threshold(0.5))->activeVoxelCount(), 1u);
+    EXPECT_EQ(objectOf(*grid, threshold(2147483646.5))->activeVoxelCount(), 1u);
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(2147483647.0)), "no value above"));
     EXPECT_TRUE(mentions(whyNot(*grid, threshold(1e300)), "no value above"));
 }
@@ -120,7 +118,7 @@ TEST(Thresholds, AgreesWithAVoxelByVoxelScanOfARandomGrid)
         if (value > 0.2) expected.insert(ijk);
         else expected.erase(ijk);
     }
-    EXPECT_EQ(voxelsOf(*objectMask(*grid, threshold(0.2))), expected);
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(0.2))), expected);
 }
 
 } // namespace

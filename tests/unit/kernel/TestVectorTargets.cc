@@ -103,8 +103,7 @@ TEST(VectorTargets, RunsWhatTheEnvironmentSays)
     const char* name = std::getenv(kVariable);
     if (name) {
         EXPECT_EQ(runningTarget(), name);
-    }
-    else EXPECT_EQ(runningTarget(), hwy::TargetName(allTargets().front()));
+    } else EXPECT_EQ(runningTarget(), hwy::TargetName(allTargets().front()));
 }
 
 TEST(VectorTargets, CanBeForcedOneAfterTheOther)

@@ -334,8 +334,7 @@ TEST(OrPyramid, AnIncludingModelMayTakeMoreLevelsThanTheWidestObjectButNotForeve
         const auto build = [&] { return buildOrPyramid(*object, 2, 3, model); };
         if (levels < 1000) {
             EXPECT_EQ(build().levels.size(), std::size_t(levels + 1));
-        }
-        else EXPECT_THROW(build(), ValueError);
+        } else EXPECT_THROW(build(), ValueError);
     }
 }
 

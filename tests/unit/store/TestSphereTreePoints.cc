@@ -219,7 +219,7 @@ TEST(SphereTreePoints, ATreeThatIsGivenUpMakesTheSameGridAndIsReleased)
     for (const SphereTree& tree : {sampleTree(), tightSampleTree()}) {
         SphereTree given = tree;
         const std::string expected = bytesOf(toPoints(tree));
-        EXPECT_TRUE(bytesOf(toPoints(std::move(given))) == expected);
+        EXPECT_TRUE(bytesOf(releaseToPoints(given)) == expected);
         EXPECT_EQ(given.spheres.center.capacity() + given.spheres.radius.capacity()
                 + given.spheres.coverRadiusSq.capacity() + given.spheres.radiusWorld.capacity()
                 + given.spheres.parent.capacity() + given.ijk.capacity()
@@ -234,7 +234,7 @@ TEST(SphereTreePoints, ATreeThatCannotBeWrittenIsNotReleased)
 {
     SphereTree given = sampleTree();
     given.spheres.center[0][0] += 0.01;
-    EXPECT_THROW(toPoints(std::move(given)), openvdb::ValueError);
+    EXPECT_THROW(releaseToPoints(given), openvdb::ValueError);
     EXPECT_EQ(given.size(), sampleTree().size());
 }
 

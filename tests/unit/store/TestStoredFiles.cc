@@ -4,7 +4,7 @@
 /// were meant, and written again as they were.
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/store/SphereTreeCsv.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -134,7 +134,7 @@ TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
              std::pair{"ring", "extended"}, std::pair{"flat", "flat_reversible"}}) {
         SCOPED_TRACE(name);
         const SphereTree stored = StoredTree(name).tree();
-        const auto mask = objectMask(*readVolFile(pathOf(std::string(object) + ".vol")));
+        const auto mask = objectOf(*readVolFile(pathOf(std::string(object) + ".vol")));
         EXPECT_EQ(int64_t(mask->activeVoxelCount()), stored.object.voxels);
         std::ostringstream csv;
         writeCsv(buildSphereTree(*mask, stored.settings), csv);
@@ -147,7 +147,7 @@ TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
     openvdb::initialize();
     openvdb::io::File file(pathOf("levelset.vdb"));
     file.open();
-    const auto object = objectMask(*file.readGrid("levelset"));
+    const auto object = objectOf(*file.readGrid("levelset"));
     const SphereTreeSettings settings = ReversibleOptions();
     std::ostringstream csv;
     writeCsv(buildSphereTree(*object, settings), csv);

@@ -130,8 +130,7 @@ void expectBounds(const CostRuns& runs, const Samples& samples, const LocalBall&
         const int64_t bounded = runs.count(ball, bound);
         if (count > bound) {
             ASSERT_GT(bounded, bound);
-        }
-        else ASSERT_EQ(bounded, count);
+        } else ASSERT_EQ(bounded, count);
     }
 }
 

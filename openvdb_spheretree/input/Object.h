@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file ObjectMask.h
+/// @file Object.h
 /// @brief Any OpenVDB grid to the object it stands for: the active voxels of a BoolGrid.
 
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace openvdb_spheretree {
 
-struct ObjectMaskSettings {
+struct ObjectSettings {
     double iso = 0;       ///< level sets: the object is where the value is < iso (world units)
     double threshold = 0; ///< other scalar grids: the object is where the value is > threshold
     bool values = false;  ///< bool grids: count voxels of value true rather than active ones
@@ -26,10 +26,10 @@ struct ObjectMaskSettings {
 ///        message names the grid
 /// @throw openvdb::IoError, openvdb::RuntimeError if values are left in a file that is damaged or
 ///        has changed
-openvdb::BoolGrid::Ptr objectMask(const openvdb::GridBase& grid,
-    const ObjectMaskSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
+openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSettings& settings = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @return whether objectMask() accepts grids of this type.
-bool canBeObject(const openvdb::GridBase& grid);
+/// @return whether objectOf() accepts grids of this type.
+bool isObjectGrid(const openvdb::GridBase& grid);
 
 } // namespace openvdb_spheretree

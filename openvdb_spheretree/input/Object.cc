@@ -5,7 +5,7 @@
 /// (4096^3 voxels) and interior tiles of internal nodes that have no leaf.
 /// Values that OpenVDB has left in the file are read leaf by leaf, and not kept (LeafValues.h); of
 /// a grid whose active states are asked for, none are.
-#include "ObjectMask.h"
+#include "Object.h"
 
 #include "LeafValues.h"
 #include <openvdb_spheretree/base/Parallel.h>
@@ -219,8 +219,8 @@ void checkIso(const openvdb::GridBase& grid, double iso, double background)
 }
 
 template <typename GridT>
-MaskTree::Ptr valueMask(const GridT& grid, const ObjectMaskSettings& settings,
-    openvdb::util::NullInterrupter* interrupter)
+MaskTree::Ptr valueMask(
+    const GridT& grid, const ObjectSettings& settings, openvdb::util::NullInterrupter* interrupter)
 {
     using Test = Beyond<typename GridT::ValueType>;
     using Criterion = ValueCriterion<typename GridT::ValueType>;
@@ -244,7 +244,7 @@ MaskTree::Ptr valueMask(const GridT& grid, const ObjectMaskSettings& settings,
 
 /// Finds the criterion by the grid's type; `criterion` is its name for messages.
 struct MaskOfGrid {
-    const ObjectMaskSettings& settings;
+    const ObjectSettings& settings;
     openvdb::util::NullInterrupter* interrupter;
     MaskTree::Ptr mask;
     std::string criterion;
@@ -286,15 +286,15 @@ private:
 
 } // namespace
 
-bool canBeObject(const openvdb::GridBase& grid)
+bool isObjectGrid(const openvdb::GridBase& grid)
 {
     return grid.apply<ObjectGridTypes>([](const auto&) {});
 }
 
-openvdb::BoolGrid::Ptr objectMask(const openvdb::GridBase& grid, const ObjectMaskSettings& settings,
+openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
 {
-    if (!canBeObject(grid)) {
+    if (!isObjectGrid(grid)) {
         OPENVDB_THROW(openvdb::TypeError,
             detail::describe(grid) << " is of type '" << grid.type()
                                    << "', which bounds no object: give a bool, mask, float, "

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file TestObjectMask.cc
+/// @file TestObject.cc
 /// @brief Masks and points as objects; what is no object; what an object keeps of its grid.
 
 #include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/input/ObjectMask.h>
+#include <openvdb_spheretree/input/Object.h>
 
 #include "support/ObjectGrids.h"
 
@@ -21,9 +21,9 @@ namespace {
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 
-ObjectMaskSettings trueValues()
+ObjectSettings trueValues()
 {
-    ObjectMaskSettings settings;
+    ObjectSettings settings;
     settings.values = true;
     return settings;
 }
@@ -59,18 +59,18 @@ public:
 
 // ---- Bool and mask grids
 
-TEST(ObjectMask, TheActiveVoxelsOfABoolGridCountWhateverTheirValue)
+TEST(Object, TheActiveVoxelsOfABoolGridCountWhateverTheirValue)
 {
     const auto grid = named<BoolGrid>("g", false);
     grid->tree().setValueOn(Coord(0, 0, 0), true);
     grid->tree().setValueOn(Coord(-1, 5, 9), false);
     grid->tree().setValueOff(Coord(3, 3, 3), true);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     EXPECT_EQ(voxelsOf(*object), (std::set<Coord>{{0, 0, 0}, {-1, 5, 9}}));
     EXPECT_TRUE(object->tree().getValue(Coord(-1, 5, 9))) << "every object voxel has value true";
 }
 
-TEST(ObjectMask, WithValuesTheActiveVoxelsOfValueTrueCount)
+TEST(Object, WithValuesTheActiveVoxelsOfValueTrueCount)
 {
     const auto grid = named<BoolGrid>("g", false);
     grid->tree().setValueOn(Coord(0, 0, 0), true);
@@ -79,36 +79,36 @@ TEST(ObjectMask, WithValuesTheActiveVoxelsOfValueTrueCount)
     grid->tree().addTile(1, Coord(64, 0, 0), true, true);
     grid->tree().addTile(1, Coord(72, 0, 0), false, true);
     grid->tree().addTile(1, Coord(80, 0, 0), true, false);
-    const auto object = objectMask(*grid, trueValues());
+    const auto object = objectOf(*grid, trueValues());
     EXPECT_EQ(object->activeVoxelCount(), 513u);
     EXPECT_TRUE(object->tree().isValueOn(Coord(0, 0, 0)));
     EXPECT_TRUE(object->tree().isValueOn(Coord(71, 7, 7)));
 }
 
-TEST(ObjectMask, ABoolGridOfBackgroundTrueIsBoundedAllTheSame)
+TEST(Object, ABoolGridOfBackgroundTrueIsBoundedAllTheSame)
 {
     const auto grid = named<BoolGrid>("g", true);
     grid->tree().setValueOn(Coord(1, 1, 1), true);
-    EXPECT_EQ(objectMask(*grid)->activeVoxelCount(), 1u);
-    EXPECT_EQ(objectMask(*grid, trueValues())->activeVoxelCount(), 1u);
-    EXPECT_FALSE(objectMask(*grid)->background());
+    EXPECT_EQ(objectOf(*grid)->activeVoxelCount(), 1u);
+    EXPECT_EQ(objectOf(*grid, trueValues())->activeVoxelCount(), 1u);
+    EXPECT_FALSE(objectOf(*grid)->background());
 }
 
-TEST(ObjectMask, TheActiveVoxelsOfAMaskGridCount)
+TEST(Object, TheActiveVoxelsOfAMaskGridCount)
 {
     const auto grid = openvdb::MaskGrid::create();
     grid->tree().setValueOn(Coord(-8, -9, 10));
     grid->tree().addTile(2, Coord(128, 0, 0), true, true);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     EXPECT_EQ(object->activeVoxelCount(), 1u + 128 * 128 * 128);
     EXPECT_EQ(object->tree().leafCount(), 1u);
 }
 
-TEST(ObjectMask, LaterChangesOfTheSourceLeaveTheObjectAlone)
+TEST(Object, LaterChangesOfTheSourceLeaveTheObjectAlone)
 {
     const auto grid = named<BoolGrid>("g", false);
     grid->tree().setValueOn(Coord(0, 0, 0), true);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     grid->tree().setValueOn(Coord(1, 0, 0), true);
     grid->transform().preScale(3.0);
     grid->setName("other");
@@ -117,25 +117,25 @@ TEST(ObjectMask, LaterChangesOfTheSourceLeaveTheObjectAlone)
     EXPECT_EQ(object->getName(), "g");
 }
 
-TEST(ObjectMask, KeepsNameAndTransform)
+TEST(Object, KeepsNameAndTransform)
 {
     const auto transform = openvdb::math::Transform::createLinearTransform(0.25);
     transform->postRotate(0.7, openvdb::math::Y_AXIS);
     transform->postTranslate({1, 2, 3});
-    const auto object = objectMask(*dotWith(transform));
+    const auto object = objectOf(*dotWith(transform));
     EXPECT_EQ(object->getName(), "dot");
     EXPECT_EQ(object->transform(), *transform);
     EXPECT_EQ(object->getGridClass(), openvdb::GRID_UNKNOWN);
 }
 
-TEST(ObjectMask, TilesStayTilesOnEveryNodeLevel)
+TEST(Object, TilesStayTilesOnEveryNodeLevel)
 {
     const auto grid = named<FloatGrid>("g", 0.0f);
     grid->tree().addTile(1, Coord(0, 0, 0), 1.0f, true);
     grid->tree().addTile(2, Coord(-128, 0, 0), 1.0f, true);
     grid->tree().addTile(3, Coord(8192, 0, 0), 1.0f, false);
     grid->tree().addTile(1, Coord(16, 0, 0), -1.0f, true);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     const int64_t lower = 128, upper = 4096;
     EXPECT_EQ(
         object->activeVoxelCount(), uint64_t(512 + lower * lower * lower + upper * upper * upper));
@@ -146,29 +146,29 @@ TEST(ObjectMask, TilesStayTilesOnEveryNodeLevel)
 
 // ---- Points
 
-TEST(ObjectMask, AVoxelOfAPointGridCountsWhenItHoldsAPoint)
+TEST(Object, AVoxelOfAPointGridCountsWhenItHoldsAPoint)
 {
     const auto grid = pointsAt({{0.2, 0, 0}, {0.1, 0.1, 0}, {-7, 3, 100}, {7, 7, 7}});
     auto& tree = grid->tree();
     tree.setActiveState(Coord(0, 0, 3), true); // active, without a point of its own
     tree.addTile(1, Coord(64, 64, 64), 0, true);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}, {7, 7, 7}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}, {7, 7, 7}}));
     tree.setActiveState(Coord(0, 0, 0), false);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{-7, 3, 100}, {7, 7, 7}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{-7, 3, 100}, {7, 7, 7}}));
 }
 
-TEST(ObjectMask, AVoxelOfAPointIndexGridCountsWhenItHoldsAPoint)
+TEST(Object, AVoxelOfAPointIndexGridCountsWhenItHoldsAPoint)
 {
     const std::vector<openvdb::Vec3d> positions{{0.2, 0, 0}, {0.1, 0.1, 0}, {-7, 3, 100}};
     const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
     const auto grid = openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(
         openvdb::points::PointAttributeVector<openvdb::Vec3d>(positions), *transform);
-    EXPECT_EQ(voxelsOf(*objectMask(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}}));
 }
 
 // ---- What is no object
 
-TEST(ObjectMask, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
+TEST(Object, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
 {
     openvdb::initialize();
     int bounded = 0;
@@ -177,9 +177,9 @@ TEST(ObjectMask, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
         const typename GridT::Ptr grid = GridT::create();
         grid->setName("empty");
         const bool isVector = openvdb::VecTraits<typename GridT::ValueType>::IsVec;
-        EXPECT_EQ(canBeObject(*grid), !isVector) << grid->type();
+        EXPECT_EQ(isObjectGrid(*grid), !isVector) << grid->type();
         if (isVector) {
-            const std::string why = messageOf<openvdb::TypeError>([&] { objectMask(*grid); });
+            const std::string why = messageOf<openvdb::TypeError>([&] { objectOf(*grid); });
             EXPECT_TRUE(mentions(why, "'empty'"));
             EXPECT_TRUE(mentions(why, grid->type()));
         } else {
@@ -190,7 +190,7 @@ TEST(ObjectMask, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
     EXPECT_EQ(bounded, 8);
 }
 
-TEST(ObjectMask, AnEmptyObjectIsAnErrorThatNamesGridAndCriterion)
+TEST(Object, AnEmptyObjectIsAnErrorThatNamesGridAndCriterion)
 {
     const auto fog = named<FloatGrid>("smoke", 0.0f);
     fog->tree().setValueOn(Coord(0, 0, 0), 0.5f);
@@ -207,25 +207,25 @@ TEST(ObjectMask, AnEmptyObjectIsAnErrorThatNamesGridAndCriterion)
     EXPECT_TRUE(mentions(whyNot(*openvdb::points::PointDataGrid::create()), "holds a point"));
 }
 
-TEST(ObjectMask, LeavesWithoutObjectVoxelsAreDropped)
+TEST(Object, LeavesWithoutObjectVoxelsAreDropped)
 {
     const auto grid = named<FloatGrid>("g", 0.0f);
     grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
     grid->tree().setValueOn(Coord(100, 0, 0), -1.0f);
     grid->tree().setValueOn(Coord(9000, 0, 0), -1.0f);
-    const auto object = objectMask(*grid);
+    const auto object = objectOf(*grid);
     EXPECT_EQ(object->tree().leafCount(), 1u);
     EXPECT_EQ(object->tree().root().getTableSize(), 1u);
 }
 
-TEST(ObjectMask, AnInterrupterStopsTheWork)
+TEST(Object, AnInterrupterStopsTheWork)
 {
     AlwaysInterrupted interrupter;
     const auto grid = dotWith(openvdb::math::Transform::createLinearTransform(1.0));
-    EXPECT_THROW(objectMask(*grid, {}, &interrupter), Interrupted);
+    EXPECT_THROW(objectOf(*grid, {}, &interrupter), Interrupted);
 }
 
-TEST(ObjectMask, VoxelsMustBeCubesAndTheTransformIsKept)
+TEST(Object, VoxelsMustBeCubesAndTheTransformIsKept)
 {
     using openvdb::math::MapBase;
     EXPECT_TRUE(
@@ -233,12 +233,12 @@ TEST(ObjectMask, VoxelsMustBeCubesAndTheTransformIsKept)
             "resample"));
     const auto rotated = openvdb::math::Transform::createLinearTransform(2e-5);
     rotated->postRotate(0.4, openvdb::math::Z_AXIS);
-    EXPECT_EQ(objectMask(*dotWith(rotated))->transform(), *rotated);
+    EXPECT_EQ(objectOf(*dotWith(rotated))->transform(), *rotated);
 }
 
 // ---- Files as people have them
 
-TEST(ObjectMask, TakesTheGridsOfOtherPrograms)
+TEST(Object, TakesTheGridsOfOtherPrograms)
 {
     const char* data = std::getenv("SPHERETREE_DATA");
     if (!data) GTEST_SKIP() << "needs SPHERETREE_DATA";
@@ -249,9 +249,9 @@ TEST(ObjectMask, TakesTheGridsOfOtherPrograms)
         const openvdb::GridPtrVec grids = *file.getGrids();
         bool any = false;
         for (const openvdb::GridBase::Ptr& grid : grids) {
-            if (!canBeObject(*grid)) continue;
+            if (!isObjectGrid(*grid)) continue;
             any = true;
-            EXPECT_GT(objectMask(*grid)->activeVoxelCount(), 0u) << name;
+            EXPECT_GT(objectOf(*grid)->activeVoxelCount(), 0u) << name;
         }
         EXPECT_TRUE(any) << name;
     }

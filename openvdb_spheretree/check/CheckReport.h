@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file TreeCheckReport.h
+/// @file CheckReport.h
 /// @brief What the checks of a sphere-tree share: what is checked, and the sentences for what
 /// failed.
 
@@ -20,7 +20,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-struct TreeCheck {
+struct CheckReport {
     const SphereTree& tree;
     const openvdb::BoolGrid& object;
     const openvdb::MaskTree& mask; ///< the object's topology
@@ -46,23 +46,23 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
 
 /// Level 0's digital balls are the object; those of other levels have the recorded volume. Levels
 /// of spheres that are none record no volume.
-void checkDigitalBalls(TreeCheck& check);
+void checkDigitalBalls(CheckReport& check);
 
 /// No level misses a voxel of the object, in exact radii nor in stored ones.
-void checkCoverage(TreeCheck& check);
+void checkCoverage(CheckReport& check);
 
 /// Every voxel of the object has a chain of nodes, one a level, each the child of the one above,
 /// that all hold it, in exact radii and in stored ones: so no level misses a voxel. Parents must be
 /// in order.
 /// @return whether it has
-bool checkChains(TreeCheck& check);
+bool checkChains(CheckReport& check);
 
 /// The same for chains from the leaves of the cuts up to the cuts of 1, 2, 4, ... and all spheres.
 /// The arrays must be in order (CutsLayout.h).
-void checkCutChains(TreeCheck& check);
+void checkCutChains(CheckReport& check);
 
 /// No sphere of a level or a cut holds a voxel that the object has not.
-void checkInside(TreeCheck& check);
+void checkInside(CheckReport& check);
 
 } // namespace detail
 } // namespace openvdb_spheretree
