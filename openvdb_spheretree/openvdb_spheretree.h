@@ -15,6 +15,7 @@
 // Voxels: what distances and balls are measured in.
 #include "voxel/Dimension.h"
 #include "voxel/Distance.h"
+#include "voxel/MaskTree.h"
 #include "voxel/MedialBall.h"
 
 // A grid to the object that it stands for.

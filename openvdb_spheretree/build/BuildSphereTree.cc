@@ -18,6 +18,7 @@
 #include <openvdb_spheretree/voxel/ObjectVoxels.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
+#include <openvdb/Grid.h>
 #include <openvdb/Exceptions.h>
 
 #include <tbb/parallel_invoke.h>

@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
+#include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
 #include <tbb/blocked_range.h>

@@ -8,7 +8,6 @@
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -29,6 +29,8 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
+#include <openvdb/Grid.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>

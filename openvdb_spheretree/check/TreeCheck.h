@@ -6,8 +6,7 @@
 #pragma once
 
 #include <openvdb_spheretree/tree/SphereTree.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <string>
 #include <vector>

@@ -18,8 +18,6 @@
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
-#include <openvdb/openvdb.h>
-
 #include <cstdint>
 #include <vector>
 

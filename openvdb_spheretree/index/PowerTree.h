@@ -10,8 +10,7 @@
 #pragma once
 
 #include <openvdb_spheretree/medial/MedialAxis.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstdint>
 #include <vector>

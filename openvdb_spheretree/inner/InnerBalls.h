@@ -10,8 +10,8 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/MedialBall.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -11,8 +11,8 @@
 
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {

@@ -10,7 +10,7 @@
 #include "LeafValues.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/DescribeGrid.h>
-#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/points/PointDataGrid.h>

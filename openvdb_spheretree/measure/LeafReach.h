@@ -15,8 +15,7 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstdint>
 #include <vector>

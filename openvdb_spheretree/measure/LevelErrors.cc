@@ -19,6 +19,8 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
+#include <openvdb/Grid.h>
+
 #include <cmath>
 
 namespace openvdb_spheretree {

@@ -5,8 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/tree/SphereTree.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 namespace openvdb_spheretree {
 

@@ -11,8 +11,8 @@
 #pragma once
 
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include "DistanceMap.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 #include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include <array>
@@ -35,7 +36,7 @@ openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int d
         }
         leaves[i]->setValueMask(on);
     });
-    auto grid = openvdb::Int32Grid::create(0);
+    auto grid = detail::makeGrid<openvdb::Int32Grid>();
     for (auto& leaf : leaves) grid->tree().addLeaf(leaf.release());
     grid->setTransform(object.transform().copy());
     return grid;

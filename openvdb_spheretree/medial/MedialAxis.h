@@ -12,8 +12,8 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/MedialBall.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <vector>

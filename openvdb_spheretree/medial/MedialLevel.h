@@ -10,8 +10,7 @@
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MedialBall.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstddef>
 #include <cstdint>

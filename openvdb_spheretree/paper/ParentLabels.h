@@ -12,8 +12,8 @@
 #include <openvdb_spheretree/medial/BallIndex.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/pyramid/PyramidModel.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <array>

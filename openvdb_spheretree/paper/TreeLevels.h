@@ -10,8 +10,7 @@
 #include <openvdb_spheretree/pyramid/PyramidModel.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstddef>
 #include <memory>

@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
+#include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>

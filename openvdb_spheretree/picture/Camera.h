@@ -4,8 +4,7 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
-#include <openvdb/math/Transform.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 namespace openvdb_spheretree {
 

@@ -3,6 +3,8 @@
 
 #include "PictureColors.h"
 
+#include <openvdb/math/Transform.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -12,10 +12,10 @@
 #include <openvdb_spheretree/index/BoundingTree.h>
 #include <openvdb_spheretree/index/Ray.h>
 #include <openvdb_spheretree/voxel/Distance.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/math/DDA.h>
 #include <openvdb/math/Ray.h>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

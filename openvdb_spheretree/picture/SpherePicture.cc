@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
+#include <openvdb/Grid.h>
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>

@@ -22,8 +22,8 @@
 #include "Camera.h"
 #include "Picture.h"
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {

@@ -23,8 +23,8 @@
 #pragma once
 
 #include "PyramidModel.h"
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {

@@ -14,8 +14,7 @@
 
 #include "PyramidModel.h"
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <array>
 #include <cstdint>

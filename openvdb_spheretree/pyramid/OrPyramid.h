@@ -21,8 +21,8 @@
 #pragma once
 
 #include "PyramidModel.h"
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <vector>

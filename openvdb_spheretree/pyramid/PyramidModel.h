@@ -13,7 +13,7 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <functional>
 

@@ -5,9 +5,9 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/kernel/LargestValue.h>
 #include <openvdb_spheretree/kernel/MaxPlus.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/Exceptions.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/tree/ValueAccessor.h>
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 
 #include "ClippedSphere.h"
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "ExactSphere.h"
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

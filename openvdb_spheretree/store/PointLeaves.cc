@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <tbb/parallel_sort.h>
 
@@ -87,9 +88,8 @@ int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
 }
 
 PointWriter::PointWriter(const std::vector<Vec3d>& positions)
-    : mTree(std::make_shared<points::PointDataTree>())
+    : mGrid(makeGrid<points::PointDataGrid>())
 {
-    openvdb::initialize(); // attribute types are made by name, from OpenVDB's registry
     checkRange(positions);
     mScale = chooseScale(positions);
     const std::vector<Place> sorted = places(positions);
@@ -132,7 +132,7 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
 
 void PointWriter::buildLeaves(const std::vector<Place>& places)
 {
-    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(*mTree);
+    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(mGrid->tree());
     mOrder.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const Coord origin = leafOrigin(places[i].voxel);
@@ -177,11 +177,10 @@ void PointWriter::setGroups(
 points::PointDataGrid::Ptr PointWriter::finish(const openvdb::math::Transform& source) const
 {
     // The class stays unknown: tools that take points look for that.
-    auto grid = points::PointDataGrid::create(mTree);
     const openvdb::math::Transform::Ptr transform = source.copy();
     if (mScale != 1) transform->preScale(double(mScale));
-    grid->setTransform(transform);
-    return grid;
+    mGrid->setTransform(transform);
+    return mGrid;
 }
 
 PointReader::PointReader(const points::PointDataGrid& grid)

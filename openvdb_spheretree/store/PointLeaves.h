@@ -67,7 +67,7 @@ private:
         const std::vector<int>& groups) const;
 
     int mScale;
-    openvdb::points::PointDataTree::Ptr mTree;
+    openvdb::points::PointDataGrid::Ptr mGrid;
     std::vector<PointLeaf*> mLeaves;
     std::vector<uint32_t> mBegin; ///< leaf i holds the points mOrder[mBegin[i]...mBegin[i + 1])
     std::vector<uint32_t> mOrder; ///< input indices
@@ -101,7 +101,7 @@ private:
 template <typename T, typename Value>
 void PointWriter::addAttribute(const std::string& name, const Value& value)
 {
-    openvdb::points::appendAttribute<T>(*mTree, name);
+    openvdb::points::appendAttribute<T>(mGrid->tree(), name);
     parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
         const std::size_t pos = mLeaves[i]->attributeSet().find(name);
         openvdb::points::AttributeWriteHandle<T> handle(mLeaves[i]->attributeArray(pos));
@@ -113,7 +113,7 @@ void PointWriter::addAttribute(const std::string& name, const Value& value)
 template <typename Group>
 void PointWriter::addGroups(const std::vector<std::string>& names, const Group& groupOf)
 {
-    openvdb::points::appendGroups(*mTree, names);
+    openvdb::points::appendGroups(mGrid->tree(), names);
     parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
         std::vector<int> groups(countOf(i));
         for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);

@@ -5,6 +5,7 @@
 #include "SphereTreeCsv.h"
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
+#include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
 #include <cstddef>

@@ -10,7 +10,8 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
+
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 
 #include "SphereTree.h"
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <vector>

@@ -4,6 +4,8 @@
 #include "CutsLayout.h"
 #include "SphereTree.h"
 
+#include <openvdb/math/Transform.h>
+
 #include <algorithm>
 
 namespace openvdb_spheretree {

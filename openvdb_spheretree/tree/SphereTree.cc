@@ -2,10 +2,18 @@
 #include "SphereTree.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <algorithm>
 
 namespace openvdb_spheretree {
+
+openvdb::Vec3d SphereTree::centerWorld(int32_t id) const
+{
+    return transform->indexToWorld(spheres.center[id]);
+}
+
+double SphereTree::voxelSize() const { return transform->voxelSize()[0]; }
 
 int SphereTree::levelOf(int32_t id) const
 {

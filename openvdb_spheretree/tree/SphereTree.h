@@ -18,11 +18,10 @@
 #include "SphereTreeSettings.h"
 #include "Spheres.h"
 #include <openvdb_spheretree/topology/LevelTopology.h>
-
-#include <openvdb/openvdb.h>
-#include <openvdb/math/Transform.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,8 +90,9 @@ struct SphereTree {
 
     SphereTreeSettings settings; ///< what was asked for
     ObjectInfo object;
-    openvdb::Coord origin;                   ///< level-grid (0,0,0) in index space; multiples of 8
-    openvdb::math::Transform::Ptr transform; ///< of the source grid: index space to world
+    openvdb::Coord origin; ///< level-grid (0,0,0) in index space; multiples of 8
+    openvdb::SharedPtr<openvdb::math::Transform>
+        transform; ///< of the source grid: index space to world
 
     int32_t size() const { return spheres.size(); }
     /// @return the top level; the tree must have one, as every tree built or read has.
@@ -105,11 +105,8 @@ struct SphereTree {
     /// @return the number of the level of node @a id; O(levels).
     /// @throw openvdb::LookupError if there is no such node
     int levelOf(int32_t id) const;
-    openvdb::Vec3d centerWorld(int32_t id) const
-    {
-        return transform->indexToWorld(spheres.center[id]);
-    }
-    double voxelSize() const { return transform->voxelSize()[0]; }
+    openvdb::Vec3d centerWorld(int32_t id) const;
+    double voxelSize() const;
 
     /// @brief What functions that take a tree rely on: arrays of one length, levels that divide
     /// them, numbers that spheres have, parents and edges to the next level, cuts of every number of

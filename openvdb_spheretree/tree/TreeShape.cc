@@ -3,6 +3,7 @@
 
 #include "CutsLayout.h"
 
+#include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlatAxis.h"
 
+#include <openvdb/Grid.h>
+
 namespace openvdb_spheretree {
 
 namespace {

@@ -10,8 +10,6 @@
 
 #include "Masks.h"
 
-#include <openvdb/openvdb.h>
-
 namespace openvdb_spheretree {
 
 /// @return the axis along which a box is one voxel thick: z if it is, or else y or x; -1 if none

@@ -20,8 +20,6 @@
 #include "LeafMask.h"
 #include "Masks.h"
 
-#include <openvdb/openvdb.h>
-
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -7,7 +7,6 @@
 #include "LeafMask.h"
 #include "Masks.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstddef>

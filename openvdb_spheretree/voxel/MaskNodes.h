@@ -6,8 +6,6 @@
 
 #include "Masks.h"
 
-#include <openvdb/openvdb.h>
-
 namespace openvdb_spheretree {
 namespace detail {
 

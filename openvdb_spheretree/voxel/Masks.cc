@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
 #define SPHERETREE_MASK_TEMPLATE template
 
-#include "Masks.h"
+#include "MaskGrids.h"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Masks.h
-/// @brief The trees and grids of voxel sets, compiled once (Masks.cc) rather than in every file that
-/// uses them.
+/// @brief The trees of voxel sets, compiled once (Masks.cc) rather than in every file that uses them.
 ///
 /// OpenVDB's library holds the code of its grids of numbers, but not that of masks. Each file that
-/// makes or copies a mask then compiles all virtual functions of its tree: ten seconds.
+/// makes or copies a mask would compile all virtual functions of its tree: ten seconds.
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "MaskTree.h"
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -32,9 +31,7 @@ SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb::MaskTree::Le
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::MaskLower,
     5>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::Tree<openvdb_spheretree::detail::MaskRoot>;
-SPHERETREE_MASK_TEMPLATE class openvdb::Grid<openvdb::MaskTree>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb::BoolTree::LeafNodeType, 4>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::BoolLower,
     5>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::Tree<openvdb_spheretree::detail::BoolRoot>;
-SPHERETREE_MASK_TEMPLATE class openvdb::Grid<openvdb::BoolTree>;

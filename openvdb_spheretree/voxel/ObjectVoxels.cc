@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ObjectVoxels.h"
 
+#include <openvdb/Grid.h>
+
 #include <memory>
 
 namespace openvdb_spheretree {

@@ -5,8 +5,7 @@
 #pragma once
 
 #include "FlatAxis.h"
-
-#include <openvdb/openvdb.h>
+#include "MaskTree.h"
 
 namespace openvdb_spheretree {
 

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "MaskTree.h"
 
 namespace openvdb_spheretree {
 

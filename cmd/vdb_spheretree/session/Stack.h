@@ -8,10 +8,9 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
-#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <functional>
 #include <memory>
@@ -22,14 +21,15 @@ namespace command {
 
 /// One of `grid`, `tree` and `mesh` is set.
 struct StackItem {
-    openvdb::GridBase::Ptr grid = {};
+    openvdb::SharedPtr<openvdb::GridBase> grid = {};
     std::shared_ptr<openvdb_spheretree::SphereTree> tree = {};
     std::shared_ptr<openvdb_spheretree::TriangleMesh> mesh = {};
 
-    openvdb::BoolGrid::ConstPtr object = {}; ///< with a tree: what it was built from, where known
-    std::string source = {};                 ///< the file or action that it comes from
-    int batch = 0;                           ///< items of one action have one number
-    bool written = false;                    ///< to be dropped when the next item arrives
+    openvdb::SharedPtr<const openvdb::BoolGrid> object =
+        {};                  ///< with a tree: what it was built from, where known
+    std::string source = {}; ///< the file or action that it comes from
+    int batch = 0;           ///< items of one action have one number
+    bool written = false;    ///< to be dropped when the next item arrives
 
     std::string name() const;
     /// As in `grid 'density' (float, fog volume, from smoke.vdb)`.

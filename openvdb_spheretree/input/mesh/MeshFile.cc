@@ -17,6 +17,7 @@
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <assimp/Importer.hpp>
@@ -223,22 +224,50 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
 
 // Level set
 
-/// The mesh in index space, in double precision: far from the origin a float would shift it.
-std::vector<Vec3d> indexSpacePoints(const TriangleMesh& mesh, double voxelSize)
+/// The points of the mesh in index space, moved by -@a shift.
+std::vector<Vec3s> indexSpacePoints(
+    const TriangleMesh& mesh, double voxelSize, const openvdb::Coord& shift)
 {
-    std::vector<Vec3d> points;
+    std::vector<Vec3s> points;
     points.reserve(mesh.points.size());
     for (const Vec3s& world : mesh.points) {
-        points.push_back(Vec3d(world) / voxelSize);
+        points.emplace_back(Vec3d(world) / voxelSize - shift.asVec3d());
+    }
+    return points;
+}
+
+/// @return the centre of the mesh's box in index space, rounded to a leaf's corner. Around it,
+/// points of 24 bits are as exact as those of the file are.
+openvdb::Coord middleLeaf(const TriangleMesh& mesh, double voxelSize)
+{
+    openvdb::BBoxd box;
+    for (const Vec3s& world : mesh.points) {
+        const Vec3d point = Vec3d(world) / voxelSize;
+        box.expand(point);
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(points.back()[axis]) <= kMaxIndex) continue; // false for NaN as well
+            if (std::abs(point[axis]) <= kMaxIndex) continue; // false for NaN as well
             OPENVDB_THROW(openvdb::ValueError,
                 "mesh '" << mesh.name << "' reaches coordinate " << world[axis]
                          << ", too far for voxel size " << voxelSize
                          << " (indices must stay within 2^30); use larger voxels");
         }
     }
-    return points;
+    return openvdb::Coord::floor(box.getCenter())
+        & ~int32_t(openvdb::FloatTree::LeafNodeType::DIM - 1);
+}
+
+/// Moves the narrow band by @a shift, a multiple of leaves, and fills its inside again.
+void moveBand(openvdb::FloatGrid& grid, const openvdb::Coord& shift)
+{
+    if (shift == openvdb::Coord()) return;
+    std::vector<openvdb::FloatTree::LeafNodeType*> leaves;
+    grid.tree().stealNodes(leaves);
+    grid.tree().clear();
+    for (auto* leaf : leaves) {
+        leaf->setOrigin(leaf->origin() + shift);
+        grid.tree().addLeaf(leaf);
+    }
+    openvdb::tools::signedFloodFill(grid.tree());
 }
 
 void checkMesh(const TriangleMesh& mesh)
@@ -334,14 +363,17 @@ openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSiz
                           << " voxels");
     }
     checkMesh(mesh);
-    const std::vector<Vec3d> points = indexSpacePoints(mesh, voxelSize);
-    const openvdb::tools::QuadAndTriangleDataAdapter<Vec3d, Vec3I> adapter(points, mesh.triangles);
+    const openvdb::Coord shift = middleLeaf(mesh, voxelSize);
+    const std::vector<Vec3s> points = indexSpacePoints(mesh, voxelSize, shift);
+    // The types for which the code is in OpenVDB's library.
+    const openvdb::tools::QuadAndTriangleDataAdapter<Vec3s, Vec3I> adapter(points, mesh.triangles);
     openvdb::util::NullInterrupter silent;
     openvdb::util::NullInterrupter& boss = interrupter ? *interrupter : silent;
     const auto band = static_cast<float>(halfWidth);
     auto grid =
         openvdb::tools::meshToVolume<openvdb::FloatGrid>(boss, adapter, *transform, band, band);
     if (openvdb::util::wasInterrupted(&boss)) throw Interrupted();
+    moveBand(*grid, shift);
     grid->setName(mesh.name);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     return grid;

@@ -7,7 +7,9 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
+
+#include <openvdb/math/Vec3.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <string>
@@ -47,7 +49,7 @@ int64_t openEdges(const TriangleMesh& mesh);
 /// @throw openvdb::ValueError if an argument is out of range, or the mesh empty, damaged, or too
 ///        large for the voxel size
 /// @throw Interrupted if the interrupter said so
-openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize,
+openvdb::SharedPtr<openvdb::FloatGrid> meshToLevelSet(const TriangleMesh& mesh, double voxelSize,
     double halfWidth = 3, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return the voxel size for which the longest side of the mesh's box is @a dim voxels.

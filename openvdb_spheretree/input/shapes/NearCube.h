@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <algorithm>
 #include <cstdint>

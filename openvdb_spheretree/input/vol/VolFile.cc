@@ -18,7 +18,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <tbb/parallel_invoke.h>
 #include <zlib.h>
@@ -264,7 +264,7 @@ typename GridT::Ptr readValues(VolStream& stream, const VolHeader& header, Progr
         if (z < nz) stream.read(out, header.sliceBytes() * std::min(kLeafSide, nz - z));
     };
 
-    auto grid = GridT::create(0);
+    auto grid = detail::makeGrid<GridT>();
     readSlab(slab.get(), 0);
     for (std::uint64_t z = 0; z < nz; z += kLeafSide) {
         progress.at(z, nz);

@@ -13,8 +13,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-
-#include <openvdb/openvdb.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstdint>
 #include <vector>
