@@ -50,6 +50,7 @@
 #include "sphere/ExactSphere.h"
 #include "sphere/SphereUnion.h"
 #include "tree/LevelSpheres.h"
+#include "tree/SphereLevelSet.h"
 
 // To files and back.
 #include "store/SphereTreeCsv.h"

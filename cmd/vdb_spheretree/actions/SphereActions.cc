@@ -8,9 +8,12 @@
 #include "line/Actions.h"
 #include "session/Session.h"
 
-#include <openvdb/tools/ParticlesToLevelSet.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
+#include <openvdb_spheretree/tree/SphereLevelSet.h>
+#include <openvdb_spheretree/voxel/MaskGrids.h>
+
+#include <optional>
 
 namespace command {
 
@@ -20,31 +23,12 @@ using spheretree::SphereTreeLevel;
 
 namespace {
 
-/// The stored spheres of a level, as OpenVDB's rasterizer wants them.
-struct StoredSpheres {
-    using PosType = openvdb::Vec3R;
-    const SphereTree& tree;
-    const SphereTreeLevel& level;
-
-    size_t size() const { return size_t(level.size()); }
-    void getPos(size_t n, openvdb::Vec3R& xyz) const
-    {
-        xyz = tree.centerWorld(level.begin + int32_t(n));
-    }
-    void getPosRad(size_t n, openvdb::Vec3R& xyz, openvdb::Real& radius) const
-    {
-        getPos(n, xyz);
-        radius = tree.spheres.radiusWorld[size_t(level.begin) + n];
-    }
-};
-
-/// The level asked for; without one the finest there is.
+/// The level of the call; without one the finest there is.
 const SphereTreeLevel& levelOf(const ActionCall& call, const SphereTree& tree)
 {
     if (!call.given("level")) return tree.levels.front();
-    for (const SphereTreeLevel& level : tree.levels) {
-        if (level.level == call.integer("level")) return level;
-    }
+    const int number = call.integer("level");
+    if (tree.hasLevel(number)) return tree.level(number);
     throwInput("the tree has no level " + call.text("level") + ": it has levels "
         + std::to_string(tree.levels.front().level) + " to " + std::to_string(tree.root().level));
 }
@@ -66,16 +50,11 @@ openvdb::GridBase::Ptr levelSetOf(
         throwInput("-spheres2ls draws spheres, and the balls of dist="
             + spheretree::toString(tree.settings.dist()) + " are none: use -spheres2mask");
     }
-    const double voxel = call.given("voxel") ? call.real("voxel") : tree.voxelSize();
-    auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, call.real("width"));
-    if (!call.given("voxel")) grid->setTransform(tree.transform->copy());
-    openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid, void, openvdb::util::NullInterrupter>
-        raster(*grid, &session.progress);
-    raster.setRmax(1e15); // by default it leaves out small and large spheres
-    raster.setRmin(0);
-    raster.rasterizeSpheres(StoredSpheres{tree, level});
+    const auto voxel =
+        call.given("voxel") ? std::optional<double>(call.real("voxel")) : std::nullopt;
+    const auto grid =
+        spheretree::levelSetOfSpheres(tree, level, voxel, call.real("width"), &session.progress);
     throwIfStopped();
-    raster.finalize(/*prune=*/true);
     return grid;
 }
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SphereLevelSet.h
+/// @brief The spheres of a level of a tree to a level set (by OpenVDB's tools::ParticlesToLevelSet).
+
+#pragma once
+
+#include "SphereTree.h"
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <optional>
+
+namespace openvdb_spheretree {
+
+/// @brief The union of a level's spheres as stored, padding included, as a narrow-band level set.
+/// @param voxelSize  of the result, in world units, > 0; without one the result has the transform of
+///                   the tree's source grid
+/// @param halfWidth  of the narrow band, in voxels of the result, >= 1
+/// @throw openvdb::ValueError if an argument is out of range, or the tree's balls are no spheres:
+///        its distance is a norm
+/// @throw Interrupted if the interrupter said so
+/// Cost: the voxels of the spheres' surfaces, sphere by sphere, on all threads.
+openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
+    const SphereTreeLevel& level, std::optional<double> voxelSize = {}, double halfWidth = 3,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

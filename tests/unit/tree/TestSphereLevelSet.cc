@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestSphereLevelSet.cc
+/// @brief Level sets of a level's spheres against distances to each of the spheres.
+
+#include "support/BuiltTrees.h"
+#include "support/CoreStages.h"
+#include "support/Messages.h"
+#include "support/RandomObjects.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/tree/SphereLevelSet.h>
+
+#include <openvdb/openvdb.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+/// The distance to the nearest of a level's stored spheres, negative inside one.
+double distanceTo(const SphereTree& tree, const SphereTreeLevel& level, const openvdb::Vec3d& point)
+{
+    double nearest = std::numeric_limits<double>::max();
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        nearest = std::min(nearest,
+            (tree.centerWorld(id) - point).length() - double(tree.spheres.radiusWorld[id]));
+    }
+    return nearest;
+}
+
+SphereTree treeOf(uint32_t seed)
+{
+    return buildSphereTree(*gridOf(randomObject(seed).voxels), settingsFor(TreeType::Extended));
+}
+
+} // namespace
+
+TEST(SphereLevelSet, HoldsTheDistanceToTheNearestSphereInItsNarrowBand)
+{
+    for (uint32_t seed = 1; seed < 5; ++seed) {
+        const SphereTree tree = treeOf(seed);
+        for (const SphereTreeLevel& level : tree.levels) {
+            for (const double voxel : {tree.voxelSize(), 0.4 * tree.voxelSize()}) {
+                const auto grid = levelSetOfSpheres(tree, level, voxel, 3);
+                ASSERT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+                int64_t outside = 0; // inside spheres that overlap, the band is of each of them
+                for (auto value = grid->cbeginValueOn(); value; ++value) {
+                    const double distance =
+                        distanceTo(tree, level, grid->indexToWorld(value.getCoord()));
+                    if (distance < 0) continue;
+                    ++outside;
+                    ASSERT_NEAR(*value, distance, 1e-4 * voxel) << seed << ' ' << level.level;
+                }
+                EXPECT_GT(outside, 0);
+            }
+        }
+    }
+}
+
+TEST(SphereLevelSet, EveryVoxelOfTheObjectIsInside)
+{
+    const RandomObject object = randomObject(3);
+    const SphereTree tree =
+        buildSphereTree(*gridOf(object.voxels), settingsFor(TreeType::Extended));
+    for (const SphereTreeLevel& level : tree.levels) {
+        const auto grid = levelSetOfSpheres(tree, level);
+        EXPECT_EQ(grid->transform(), *tree.transform);
+        for (const openvdb::Coord& voxel : object.voxels) {
+            ASSERT_LE(grid->tree().getValue(voxel), 0) << voxel;
+        }
+    }
+}
+
+TEST(SphereLevelSet, WhatCannotBeDrawnIsAnError)
+{
+    const SphereTree tree = treeOf(1);
+    const SphereTreeLevel& level = tree.levels.front();
+    for (const double voxel : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(levelSetOfSpheres(tree, level, voxel), openvdb::ValueError);
+    }
+    EXPECT_THROW(levelSetOfSpheres(tree, level, 1.0, 0.5), openvdb::ValueError);
+    for (const SphereTreeSettings& settings : normSettings(TreeType::Extended, 3)) {
+        const SphereTree other = buildSphereTree(*gridOf(randomObject(1).voxels), settings);
+        EXPECT_TRUE(mentions(
+            messageOf<openvdb::ValueError>([&] { levelSetOfSpheres(other, other.levels.front()); }),
+            "no spheres"));
+    }
+    StopAfter stop(0);
+    EXPECT_THROW(levelSetOfSpheres(tree, level, {}, 3, &stop), Interrupted);
+}
