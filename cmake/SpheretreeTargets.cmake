@@ -25,3 +25,12 @@ function(spheretree_precompile target)
     # So that ccache sees through the precompiled header (it names this flag in its manual).
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
+
+# The same for a target that is compiled like another one: it takes that one's.
+function(spheretree_precompile_as target other)
+    if(NOT SPHERETREE_PRECOMPILE)
+        return()
+    endif()
+    target_precompile_headers(${target} REUSE_FROM ${other})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
