@@ -20,8 +20,8 @@ namespace detail {
 
 namespace {
 
-/// A level's balls by their places in the order, themselves ordered by centre.
-std::vector<int32_t> byCentre(const std::vector<MedialBall>& balls, int64_t count)
+/// A level's balls by their places in the order, themselves ordered by center.
+std::vector<int32_t> byCenter(const std::vector<MedialBall>& balls, int64_t count)
 {
     std::vector<int32_t> places(count);
     for (int64_t i = 0; i < count; ++i) places[i] = int32_t(i);
@@ -72,7 +72,7 @@ public:
 
     void append(SphereTreeLevel& level, int64_t count)
     {
-        const std::vector<int32_t> places = byCentre(mBalls, count);
+        const std::vector<int32_t> places = byCenter(mBalls, count);
         const std::vector<int32_t> parents = parentsOf(places);
         level.begin = mTree.size();
         mIdAt.resize(count);
@@ -105,7 +105,7 @@ private:
     SphereTree& mTree;
     const std::vector<MedialBall>& mBalls;
     openvdb::util::NullInterrupter* mInterrupter;
-    std::vector<int32_t> mAbove; ///< of the level above: places, by centre
+    std::vector<int32_t> mAbove; ///< of the level above: places, by center
     std::vector<int32_t> mIdAt;  ///< of the same: id by place
 };
 

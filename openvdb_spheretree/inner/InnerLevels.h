@@ -5,7 +5,7 @@
 ///
 /// A ball of a coarser level is in all finer ones, where it hangs below itself; any other hangs
 /// below the ball of the next coarser level nearest by power distance, of equals the first by
-/// centre. Radii are stored rounded down, and nothing is added to them.
+/// center. Radii are stored rounded down, and nothing is added to them.
 
 #pragma once
 

@@ -53,11 +53,11 @@ void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) co
 {
     const Coord& c = ball.center;
     const int64_t limit = int64_t(ball.radiusSq) - 1;
-    const uint32_t centre = *mLayout.findLeaf(c);
+    const uint32_t center = *mLayout.findLeaf(c);
     const Steps alongX(c[0], floorSqrt(limit));
     for (int i = alongX.first; i <= alongX.last; ++i) {
         const Gap x(c[0], i);
-        const uint32_t column = mLayout.neighbour(centre, Axis::X, i);
+        const uint32_t column = mLayout.neighbour(center, Axis::X, i);
         const int64_t restX = limit - x.least * x.least;
         const Steps alongY(c[1], floorSqrt(restX));
         for (int j = alongY.first; j <= alongY.last; ++j) {

@@ -4,7 +4,7 @@
 /// further ball would cover.
 ///
 /// A medial ball lies inside the object, so the leaves it reaches into are there and hang together:
-/// from the leaf of its centre they are found along x, then along y, then along z, where they stand
+/// from the leaf of its center they are found along x, then along y, then along z, where they stand
 /// next to one another in the layout. No tree is searched. A leaf wholly inside the ball counts as
 /// a number; the others as eight mask words (LeafBall.h).
 ///

@@ -2,7 +2,7 @@
 /// @file TightTree.h
 /// @brief Tight trees: few spheres for a small error, with the object covered for certain.
 ///
-/// In the trees of the paper a sphere contains whole leaf balls, around a centre that is given. A
+/// In the trees of the paper a sphere contains whole leaf balls, around a center that is given. A
 /// tight tree promises less, and so needs smaller spheres: every object voxel has a chain of nodes,
 /// one a level, each the child of the one above, that all hold the voxel (docs/tight-trees.md).
 /// 1. The leaf balls are the object's medial balls, less those whose voxels lie in others

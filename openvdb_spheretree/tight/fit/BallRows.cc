@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file BallRows.cc
-/// @brief A ball of squared radius r (in 1/16 sample) meets row (x, y) in the samples z with
-/// (16 z - cz)^2 <= r - dx^2 - dy^2: floor of a square root, exact in floats since r <= 2^20.
-
 #include "BallRows.h"
 
 #include "CostWindow.h"
@@ -76,16 +72,15 @@ void sliceOf(const LocalBall& ball, int32_t x, int32_t sizeY, Slice& slice)
     const float reach = std::sqrt(rest);
     slice.y0 = std::max(0, firstSample(ball.y, reach));
     slice.y1 = std::min(sizeY - 1, lastSample(ball.y, reach));
-    const int lanes = int(hn::Lanes(di));
     auto first = hn::Zero(di), last = first;
-    for (int32_t y = slice.y0; y <= slice.y1; y += lanes) {
+    for (int32_t y = slice.y0; y <= slice.y1; y += int32_t(hn::Lanes(di))) {
         chordsOf(di, ball, rest, y, first, last);
         hn::StoreU(first, di, slice.z0 + (y - slice.y0));
         hn::StoreU(last, di, slice.z1 + (y - slice.y0));
     }
 }
 
-/// @return the bits first to last of word @a word of a row, which must meet it.
+/// @return the bits first to last of a row, as far as they are in word @a word of it; some are.
 HWY_INLINE uint64_t wordMask(int32_t word, int32_t first, int32_t last)
 {
     uint64_t mask = ~uint64_t(0);

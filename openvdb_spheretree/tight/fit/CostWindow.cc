@@ -52,7 +52,9 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
 
 LocalBall CostWindow::toLocal(const ExactSphere& ball) const
 {
-    const auto rounded = [&](int axis) { return std::rint(local(ball.center[axis], axis)); };
+    const auto rounded = [&](int axis) {
+        return std::rint(float(double(ball.center[axis] - mFineOrigin[axis]) * mToLocal));
+    };
     const double radiusSq = std::floor(double(ball.radiusSq) * mToLocal * mToLocal);
     return {rounded(0), rounded(1), rounded(2), float(radiusSq)};
 }

@@ -30,7 +30,7 @@ ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
             around.center[a] += std::lrint(part * double(child.center[a] - ball.center[a]));
         }
     }
-    const auto reach = int64_t(std::ceil(radius)) + 2; // centres are rounded
+    const auto reach = int64_t(std::ceil(radius)) + 2; // centers are rounded
     around.radiusSq = reach * reach;
     return around;
 }

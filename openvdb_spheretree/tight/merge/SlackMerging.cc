@@ -45,7 +45,7 @@ void SlackMerging::collectUncovered(int32_t a, int32_t b, ExtremePoints& points)
         mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
             const LeafMask both = inA & inB;
             const LeafMask uncovered =
-                (mCounts.once(leaf) & ((inA | inB) - both)) | (mCounts.twice(leaf) & both);
+                (mCounts.heldBy(leaf, 1) & ((inA | inB) - both)) | (mCounts.heldBy(leaf, 2) & both);
             if (!uncovered.none()) points.add(mVoxels.origin(leaf), uncovered);
         });
 }

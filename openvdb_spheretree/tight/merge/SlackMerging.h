@@ -31,7 +31,7 @@ class SlackMerging : public MergeModel {
 public:
     /// @param leafBalls  inside the object
     /// @param regions    voxels of each leaf ball; together the object
-    /// @param flat       centres keep their z
+    /// @param flat       centers keep their z
     SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);

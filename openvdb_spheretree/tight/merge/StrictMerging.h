@@ -35,7 +35,7 @@ struct HeldByLeafBalls {
 class StrictMerging : public MergeModel {
 public:
     /// @param leafBalls  whose union is the object
-    /// @param flat       centres keep their z
+    /// @param flat       centers keep their z
     StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
         HeldByLeafBalls held, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);

@@ -12,7 +12,7 @@ namespace tight {
 
 namespace {
 
-/// Some leaves, and the balls that may matter in the region that these are part of.
+/// Some leaves, and the balls that may matter in a region that holds these.
 struct LeafRegion {
     uint32_t *begin, *end;
     std::shared_ptr<const std::vector<int32_t>> balls;

@@ -22,21 +22,6 @@ struct CellPart {
     LeafMask mask;
 };
 
-/// The power of a ball at every voxel of a leaf is a sum of three terms, one for each axis.
-struct PowerTerms {
-    std::array<int64_t, 8> axis[3];
-
-    PowerTerms(const ExactSphere& ball, const openvdb::Coord& origin)
-    {
-        for (int a = 0; a < 3; ++a) {
-            for (int i = 0; i < 8; ++i) {
-                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
-                axis[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
-            }
-        }
-    }
-};
-
 /// @return the power of a ball in the middle of a box.
 double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
 {
@@ -49,8 +34,8 @@ double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
     return power;
 }
 
-/// @return whether the power of @a ball is larger than that of @a other in all of the box: the
-/// difference is linear, so it is smallest at an end of each axis.
+/// @return whether the power of @a ball is larger than that of @a other in all of the box. The
+/// difference is linear, so along each axis it is smallest at one of the ends.
 bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
 {
     int64_t least = ball.radiusSq - other.radiusSq;
@@ -64,7 +49,8 @@ bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb:
     return least > 0;
 }
 
-/// Leaves out the balls that are weaker everywhere than the one that is strongest in the middle.
+/// @return a filter that drops the balls with less power, in all of a box, than the one with the most
+/// power in its middle.
 BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
@@ -84,7 +70,7 @@ BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
     };
 }
 
-/// A ball that may have a part of a leaf, and the voxels that count.
+/// A ball that may have voxels of a leaf in its power cell, and those of them that may be in it.
 struct Claim {
     int32_t ball;
     const LeafMask* within;
@@ -102,10 +88,15 @@ std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Cl
     for (std::size_t k = 0; k < claims.size(); ++k) {
         const ExactSphere& ball = balls[claims[k].ball];
         const LeafMask& within = *claims[k].within;
-        const PowerTerms terms(ball, origin);
+        int64_t terms[3][8]; // the power at a voxel is a sum of three, one for each axis
+        for (int a = 0; a < 3; ++a) {
+            for (int i = 0; i < 8; ++i) {
+                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
+                terms[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
+            }
+        }
         for (int i = 0; i < kLeafVoxels; ++i) {
-            const int64_t power =
-                terms.axis[0][i >> 6] + terms.axis[1][i >> 3 & 7] + terms.axis[2][i & 7];
+            const int64_t power = terms[0][i >> 6] + terms[1][i >> 3 & 7] + terms[2][i & 7];
             const bool more = power > best[i]
                 || (power == best[i] && power >= 0
                     && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
@@ -125,7 +116,7 @@ std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Cl
     return parts;
 }
 
-/// @param parts  of each leaf; they are taken apart
+/// @param parts  of each leaf; they are freed on the way
 std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellPart>>& parts, std::size_t balls)
 {
     std::vector<VoxelRegion> cells(balls);

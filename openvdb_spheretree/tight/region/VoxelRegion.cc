@@ -22,9 +22,7 @@ void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
     VoxelRegion region;
-    openvdb::CoordBBox box;
-    if (!ballBox(ball, box)) return region;
-    object.forEachLeaf(box, [&](std::size_t leaf) {
+    object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
         append(region, leaf,
             detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf));
     });
@@ -65,11 +63,8 @@ void joinLeaves(VoxelRegion& parts)
         [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
     std::size_t size = 0;
     for (const RegionLeaf& part : parts) {
-        if (size == 0 || parts[size - 1].leaf != part.leaf) {
-            parts[size++] = part;
-            continue;
-        }
-        parts[size - 1].mask |= part.mask;
+        if (size > 0 && parts[size - 1].leaf == part.leaf) parts[size - 1].mask |= part.mask;
+        else parts[size++] = part;
     }
     parts.resize(size);
 }

@@ -20,7 +20,7 @@ struct RegionLeaf {
     uint32_t leaf;
     LeafMask mask;
 };
-/// In the order of leaves, none without voxels.
+/// In the order of leaves; no part is empty.
 using VoxelRegion = std::vector<RegionLeaf>;
 
 /// @return the object voxels in @a ball.
@@ -51,7 +51,7 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 /// @return the voxels of a region that lie in @a ball.
 VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object);
 
-/// Makes a region of parts in any order, of which several may lie in the same leaf.
+/// Makes a region of parts that come in any order, and of which several may lie in one leaf.
 void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);

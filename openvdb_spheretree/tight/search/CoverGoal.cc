@@ -26,26 +26,22 @@ void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
 {
     thread_local ExtremePoints extreme;
     extreme.clear();
-    openvdb::CoordBBox box, one;
-    for (const CoverBall& ball : removed) {
-        if (ballBox(ball.ball, one)) box.expand(one);
-    }
-    if (!box.empty()) {
-        mObject.forEachLeaf(box, [&](std::size_t leaf) {
-            const Coord& origin = mObject.origin(leaf);
-            LeafMask uncovered{};
-            for (const CoverBall& ball : removed) {
-                if (!ball.empty() && mayReach(ball.ball, origin)) uncovered |= heldIn(leaf, ball);
-            }
+    openvdb::CoordBBox box;
+    for (const CoverBall& ball : removed) box.expand(ballBox(ball.ball));
+    mObject.forEachLeaf(box, [&](std::size_t leaf) {
+        const Coord& origin = mObject.origin(leaf);
+        LeafMask uncovered{};
+        for (const CoverBall& ball : removed) {
+            if (!ball.empty() && mayReach(ball.ball, origin)) uncovered |= heldIn(leaf, ball);
+        }
+        if (uncovered.none()) return;
+        for (const CoverBall& ball : others) {
+            if (ball.empty() || !mayReach(ball.ball, origin)) continue;
+            uncovered -= heldIn(leaf, ball);
             if (uncovered.none()) return;
-            for (const CoverBall& ball : others) {
-                if (ball.empty() || !mayReach(ball.ball, origin)) continue;
-                uncovered -= heldIn(leaf, ball);
-                if (uncovered.none()) return;
-            }
-            extreme.add(origin, uncovered);
-        });
-    }
+        }
+        extreme.add(origin, uncovered);
+    });
     points = extreme.finish();
 }
 
