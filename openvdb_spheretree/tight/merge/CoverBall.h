@@ -2,9 +2,9 @@
 /// @file CoverBall.h
 /// @brief A ball of a level that is being made, and the group it is in.
 ///
-/// A level below a finished one has a group for each ball of that: its children. What a ball holds
-/// counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls of other
-/// levels are in group 0.
+/// A level below a finished one has a group for each ball of the finished level: its children. A voxel
+/// in a ball counts only if the ancestors of the ball's group hold it, too (FinerLevel.h). All balls of
+/// other levels are in group 0.
 
 #pragma once
 
@@ -32,7 +32,7 @@ inline std::vector<CoverBall> ungrouped(const std::vector<ExactSphere>& balls)
     return cover;
 }
 
-/// @return the balls, each in a group of its own: those of its number.
+/// @return the balls, each in the group of its number.
 inline std::vector<CoverBall> eachInItsGroup(const std::vector<ExactSphere>& balls)
 {
     std::vector<CoverBall> cover;

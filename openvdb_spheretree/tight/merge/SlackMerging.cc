@@ -38,9 +38,11 @@ SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverB
     }
 }
 
-void SlackMerging::collectUncovered(int32_t a, int32_t b, ExtremePoints& points) const
+MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
 {
-    points.clear();
+    thread_local CoveringFit fit;
+    thread_local ExtremePoints points;
+    points.clear(); // of the voxels that are in no region but those of the two nodes
     forEachLeafOfBoth(
         mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
             const LeafMask both = inA & inB;
@@ -48,13 +50,6 @@ void SlackMerging::collectUncovered(int32_t a, int32_t b, ExtremePoints& points)
                 (mCounts.heldBy(leaf, 1) & ((inA | inB) - both)) | (mCounts.heldBy(leaf, 2) & both);
             if (!uncovered.none()) points.add(mVoxels.origin(leaf), uncovered);
         });
-}
-
-MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
-{
-    thread_local CoveringFit fit;
-    thread_local ExtremePoints points;
-    collectUncovered(a, b, points);
     const std::vector<openvdb::Coord>& targets = points.finish();
     if (targets.empty()) return {-1e300, a, b, ExactSphere(), 0}; // nothing is better than this
 

@@ -22,11 +22,11 @@ public:
     {}
 
     std::size_t size() const { return mBalls.size(); }
-    /// @return the ball of a number, empty where one was dropped.
+    /// @return the ball of a number; an empty one if it was dropped.
     const CoverBall& operator[](int32_t id) const { return mBalls[id]; }
     const std::vector<CoverBall>& balls() const { return mBalls; }
 
-    /// @return a hash of the uncovered voxels for which a ball was placed last, 0 if it never was.
+    /// @return a hash of the voxels for which a ball was placed last; 0 if it never was.
     uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
 
     /// @return as BallGrid::nearest.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverGoal.h
-/// @brief What a cover has to hold: which voxels would be uncovered without some of its balls?
+/// @brief What a cover has to hold, and so which voxels would be uncovered without some of its balls.
 ///
 /// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a whole:
-/// the power cell of a ball of the next finer level, which then is a child of that ball.
+/// the power cell of a ball of the next finer level, which becomes a child of the ball that holds it.
 
 #pragma once
 
@@ -25,8 +25,8 @@ public:
     virtual ~CoverGoal() = default;
     /// @param removed  balls taken out of the cover
     /// @param others   at least all other balls that meet one of them; empty balls hold nothing
-    /// @param points   receives extreme points of all that only the removed balls hold: a ball that
-    ///                 holds these points holds it all
+    /// @param points   receives extreme points of the voxels that only the removed balls hold: a ball
+    ///                 that holds the points holds these voxels
     virtual void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const = 0;
 };
@@ -35,7 +35,7 @@ class VoxelGoal : public CoverGoal {
 public:
     /// Every object voxel that a ball holds counts.
     explicit VoxelGoal(const SampleLevel& object) : mObject(object) {}
-    /// @param regions  of the groups: what a ball holds counts in its group's only
+    /// @param regions  of the groups: a ball holds voxels of its group's region only
     VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
         : mObject(object), mRegions(std::move(regions))
     {}
@@ -50,7 +50,7 @@ private:
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
 
     const SampleLevel& mObject;
-    std::vector<const VoxelRegion*> mRegions; ///< none: the object
+    std::vector<const VoxelRegion*> mRegions; ///< empty: every region is the object
 };
 
 class UnitGoal : public CoverGoal {

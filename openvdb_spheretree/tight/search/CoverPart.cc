@@ -13,24 +13,7 @@ namespace {
 
 using openvdb::Coord;
 
-/// The windows and lists of one thread.
-CoveringFit& scratchFit()
-{
-    thread_local CoveringFit fit;
-    return fit;
-}
-
-/// What the other balls of the part hold costs nothing.
-void coverOthers(const CoverPart& part, std::size_t i, CoveringFit& fit)
-{
-    for (std::size_t k = 0; k < part.balls.size(); ++k) {
-        const CoverBall& other = part.balls[k];
-        if (k == i || other.empty()) continue;
-        if (FineBox(other.ball).meets(fit.box())) fit.cover(other.ball);
-    }
-}
-
-/// @return the balls that share a voxel with one of @a removed, less these, the largest first: it is
+/// @return the other balls that may share a voxel with one of @a removed. The largest is first: it is
 /// the likeliest to hold all that would be uncovered.
 std::vector<CoverBall> othersOf(const CoverPart& part, const std::vector<std::size_t>& removed)
 {
@@ -86,13 +69,25 @@ std::vector<Coord> PartFit::uncoveredWithout(const CoverPart& part, std::size_t 
     return points;
 }
 
+/// The window is open around the targets. What the other balls of the part hold costs nothing.
+template <typename Targets>
+CoveringFit& PartFit::fitFor(const CoverPart& part, std::size_t i, const Targets& targets,
+    const std::vector<ExactSphere>& replaced) const
+{
+    thread_local CoveringFit fit;
+    fit.open(mObject, targets, replaced, mEffort.fit.samples);
+    for (std::size_t k = 0; k < part.balls.size(); ++k) {
+        const CoverBall& other = part.balls[k];
+        if (k == i || other.empty()) continue;
+        if (FineBox(other.ball).meets(fit.box())) fit.cover(other.ball);
+    }
+    return fit;
+}
+
 double PartFit::costOf(const CoverPart& part, std::size_t i) const
 {
-    CoveringFit& fit = scratchFit();
-    const ExactSphere& ball = part.balls[i].ball;
-    fit.open(mObject, ball, mEffort.fit.samples);
-    coverOthers(part, i, fit);
-    return fit.costOf({ball});
+    const std::vector<ExactSphere> ball{part.balls[i].ball};
+    return fitFor(part, i, ball, {}).costOf(ball);
 }
 
 std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
@@ -106,10 +101,8 @@ std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
 
 void PartFit::replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const
 {
-    CoveringFit& fit = scratchFit();
     ExactSphere& ball = part.balls[i].ball;
-    fit.open(mObject, std::vector<ExactSphere>{instead}, {ball}, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, std::vector<ExactSphere>{instead}, {ball});
     part.change += fit.costOf({instead}) - fit.costOf({ball});
     ball = instead;
     part.placedFor[i] = 0;
@@ -128,9 +121,7 @@ void PartFit::refit(CoverPart& part, std::size_t i) const
     const uint64_t hash = hashOf(points);
     if (part.placedFor[i] == hash) return;
     part.placedFor[i] = hash;
-    CoveringFit& fit = scratchFit();
-    fit.open(mObject, points, {ball}, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, points, {ball});
     const double before = fit.costOf({ball});
     const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
     const bool better =
@@ -156,9 +147,7 @@ bool PartFit::takeOver(CoverPart& part, std::size_t i, std::size_t successor) co
     const std::vector<ExactSphere> replaced{part.balls[i].ball, part.balls[successor].ball};
     part.balls[i].ball = part.balls[successor].ball = ExactSphere();
     if (points.empty()) return false;
-    CoveringFit& fit = scratchFit();
-    fit.open(mObject, points, replaced, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, points, replaced);
     const double before = fit.costOf(replaced);
     const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
     part.balls[successor].ball = fitted.ball;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kRelocations = 6;
 
-/// Takes the first of the balls whose surroundings do not meet off the list.
+/// Takes balls off the list whose surroundings do not meet, the first ones.
 std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover)
 {
     constexpr std::size_t kMost = 64;
@@ -28,8 +28,7 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
         const FineBox box(ball, 0.5 * ball.radius() + 4 * kFine);
         const bool free = taken.size() < kMost && !box.meetsAny(boxes);
         (free ? taken : left).push_back(id);
-        if (taken.size() < kMost)
-            boxes.push_back(box); // also of balls that wait: they keep their turn
+        if (taken.size() < kMost) boxes.push_back(box); // those that wait keep their turn
     }
     ids.swap(left);
     return taken;
@@ -94,27 +93,21 @@ private:
             });
             std::vector<int32_t> left(order);
             bool any = false;
-            while (!left.empty()) any |= refit(takeApart(left, mCover));
+            while (!left.empty()) {
+                const std::vector<int32_t> ids = takeApart(left, mCover);
+                std::vector<CoverChange> changes(ids.size());
+                detail::parallelFor(ids.size(), mInterrupter, [&](std::size_t k) {
+                    CoverPart part = mFit.around({ids[k]});
+                    mFit.refit(part, part.indexOf(ids[k]));
+                    changes[k] = mFit.changeOf(part);
+                });
+                for (const CoverChange& change : changes) {
+                    any = any || !change.ids.empty();
+                    apply(change);
+                }
+            }
             if (!any) return;
         }
-    }
-
-    /// @param ids  of balls whose surroundings do not meet
-    /// @return whether any of them changed.
-    bool refit(const std::vector<int32_t>& ids)
-    {
-        std::vector<CoverChange> changes(ids.size());
-        detail::parallelFor(ids.size(), mInterrupter, [&](std::size_t k) {
-            CoverPart part = mFit.around({ids[k]});
-            mFit.refit(part, part.indexOf(ids[k]));
-            changes[k] = mFit.changeOf(part);
-        });
-        bool any = false;
-        for (const CoverChange& change : changes) {
-            any = any || !change.ids.empty();
-            apply(change);
-        }
-        return any;
     }
 
     BallCover mCover;

@@ -15,7 +15,7 @@ namespace {
 
 using openvdb::Coord;
 
-/// Somewhere else, and as large as it has to be there.
+/// @return a ball near the given one, as large as it must be to hold the points.
 ExactSphere moved(const ExactSphere& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
 {
     const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
@@ -25,11 +25,6 @@ ExactSphere moved(const ExactSphere& ball, const std::vector<Coord>& points, boo
         result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
     }
     return result;
-}
-
-void shuffle(std::vector<int32_t>& ids, Dice& dice)
-{
-    for (std::size_t k = ids.size(); k > 1; --k) std::swap(ids[k - 1], ids[dice.below(k)]);
 }
 
 } // namespace
@@ -51,7 +46,11 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
         : moved(ball, fit.uncoveredWithout(part, i), fit.effort().flat, dice);
     if (!part.box.contains(FineBox(disturbed))) return {};
     fit.replace(part, i, disturbed);
-    if (dice.uniform() < 0.5) shuffle(around, dice);
+    if (dice.uniform() < 0.5) {
+        for (std::size_t k = around.size(); k > 1; --k) {
+            std::swap(around[k - 1], around[dice.below(k)]);
+        }
+    }
     fit.refitNear(part, around, disturbed);
     fit.refit(part, i);
     return fit.changeOf(part);

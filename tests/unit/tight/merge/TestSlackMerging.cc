@@ -97,7 +97,7 @@ private:
         }
         return uncovered;
     }
-    /// The ball holds what is uncovered, and is no larger than that around its centre.
+    /// The ball holds what is uncovered, and is no larger than that around its center.
     void expectFitted(const MergeCandidate& c) const
     {
         const Voxels uncovered = uncoveredWithout(c.a, c.b);
