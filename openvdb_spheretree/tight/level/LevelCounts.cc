@@ -59,7 +59,7 @@ std::vector<int64_t> levelCounts(
     }
     if (budget.branching == 0) return {count};
     std::vector<int64_t> counts{count};
-    SphereBudget ladder;
+    SphereBudget ladder; // of the branching alone
     ladder.branching = budget.branching;
     for (const int64_t n : ladder.counts(leafBalls)) {
         if (n < count) counts.push_back(n);

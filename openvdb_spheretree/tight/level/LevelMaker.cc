@@ -10,18 +10,6 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-namespace {
-
-/// More trials of one search gain little. But searches of few balls end in different places, and take
-/// little time: so there are several.
-int searchesFor(std::size_t count)
-{
-    constexpr std::size_t kBalls = 128, kMost = 6;
-    return int(std::max<std::size_t>(1, std::min(kMost, kBalls / count)));
-}
-
-} // namespace
-
 int LevelMaker::trialsFor(std::size_t count)
 {
     constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
@@ -38,9 +26,13 @@ SearchedCover LevelMaker::search(const std::vector<CoverBall>& start,
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::vector<CoverBall>& finer, const CoverGoal& goal) const
 {
+    // More trials of one search gain little. But searches of few balls end in different places, and
+    // take little time: so there are several.
+    constexpr std::size_t kBalls = 128, kMost = 6;
+    const std::size_t searches = std::max<std::size_t>(1, std::min(kMost, kBalls / start.size()));
     SearchedCover best;
     best.balls = start;
-    for (int number = 0; number < searchesFor(start.size()); ++number) {
+    for (int number = 0; number < int(searches); ++number) {
         SearchedCover found = search(start, finer, goal, trialsFor(start.size()), number);
         if (found.change < best.change) best = std::move(found);
     }
