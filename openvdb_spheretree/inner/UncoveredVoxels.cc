@@ -2,7 +2,6 @@
 #include "UncoveredVoxels.h"
 
 #include <openvdb_spheretree/base/IntegerRoot.h>
-#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include <algorithm>
 

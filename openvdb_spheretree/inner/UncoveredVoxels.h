@@ -13,9 +13,9 @@
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <cstdint>
 #include <vector>

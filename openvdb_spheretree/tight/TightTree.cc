@@ -2,7 +2,6 @@
 #include "TightTree.h"
 
 #include <openvdb_spheretree/base/Stage.h>
-#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
@@ -20,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace openvdb_spheretree {

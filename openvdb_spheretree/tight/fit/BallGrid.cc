@@ -4,7 +4,6 @@
 #include <openvdb_spheretree/base/Hash.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace openvdb_spheretree {

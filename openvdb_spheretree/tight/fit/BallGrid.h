@@ -13,7 +13,6 @@
 
 #pragma once
 
-#include "CostWindow.h"
 #include "FineSphere.h"
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cmath>
 
 #ifndef OPENVDB_SPHERETREE_TIGHT_COST_RUNS_ONCE

@@ -3,7 +3,6 @@
 
 #include "BallRows.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace openvdb_spheretree {

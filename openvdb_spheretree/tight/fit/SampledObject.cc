@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampledObject.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace openvdb_spheretree {

@@ -5,7 +5,6 @@
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 

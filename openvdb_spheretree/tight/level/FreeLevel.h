@@ -10,7 +10,6 @@
 
 #include "LevelMaker.h"
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
-#include <openvdb_spheretree/tight/merge/CoverBall.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include <openvdb/Exceptions.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace openvdb_spheretree {

@@ -6,8 +6,6 @@
 #include "FreeLevel.h"
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
-#include <utility>
-
 namespace openvdb_spheretree {
 namespace tight {
 

@@ -10,21 +10,13 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-namespace {
-
-void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
-{
-    if (!mask.none()) region.push_back({uint32_t(leaf), mask});
-}
-
-} // namespace
-
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
     VoxelRegion region;
     object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
-        append(region, leaf,
-            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf));
+        const LeafMask mask =
+            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf);
+        if (!mask.none()) region.push_back({uint32_t(leaf), mask});
     });
     return region;
 }
@@ -52,7 +44,8 @@ VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const Sa
     for (const RegionLeaf& part : region) {
         const openvdb::Coord& origin = object.origin(part.leaf);
         if (!mayReach(ball, origin)) continue;
-        append(inside, part.leaf, detail::voxelsOf(ball, kFineShift, origin) & part.mask);
+        const LeafMask mask = detail::voxelsOf(ball, kFineShift, origin) & part.mask;
+        if (!mask.none()) inside.push_back({part.leaf, mask});
     }
     return inside;
 }

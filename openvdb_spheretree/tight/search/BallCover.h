@@ -5,7 +5,6 @@
 #pragma once
 
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
-#include <openvdb_spheretree/tight/fit/CostWindow.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace openvdb_spheretree {
 namespace tight {
@@ -56,11 +55,6 @@ UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units, std::vector<int
     }
 }
 
-bool UnitGoal::holds(const CoverBall& ball, int32_t unit) const
-{
-    return ball.group == mGroups[unit] && holdsAll(ball.ball, mUnits[unit]);
-}
-
 void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
     const std::vector<CoverBall>& others, std::vector<Coord>& points) const
 {
@@ -68,8 +62,10 @@ void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
     for (const CoverBall& ball : removed) {
         if (ball.empty()) continue;
         for (const int32_t unit : mGrid.near(ball.ball)) {
-            const auto holdsUnit = [&](const CoverBall& other) { return holds(other, unit); };
-            if (!holdsUnit(ball) || std::any_of(others.begin(), others.end(), holdsUnit)) continue;
+            const auto holds = [&](const CoverBall& other) {
+                return other.group == mGroups[unit] && holdsAll(other.ball, mUnits[unit]);
+            };
+            if (!holds(ball) || std::any_of(others.begin(), others.end(), holds)) continue;
             points.insert(points.end(), mUnits[unit].begin(), mUnits[unit].end());
         }
     }

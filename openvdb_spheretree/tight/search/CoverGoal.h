@@ -63,8 +63,6 @@ public:
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
 private:
-    bool holds(const CoverBall& ball, int32_t unit) const;
-
     const std::vector<std::vector<openvdb::Coord>>& mUnits;
     std::vector<int32_t> mGroups;
     BallGrid mGrid; ///< of balls around units
