@@ -10,8 +10,6 @@ namespace detail {
 
 namespace {
 
-using openvdb::Coord;
-
 /// The leaves along an axis that hold the coordinates from c - reach to c + reach, counted from the
 /// leaf of c.
 struct LeafRange {
@@ -50,7 +48,7 @@ UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
 template <typename Visit>
 void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) const
 {
-    const Coord& c = ball.center;
+    const openvdb::Coord& c = ball.center;
     const int64_t limit = int64_t(ball.radiusSq) - 1;
     const uint32_t center = *mLayout.findLeaf(c);
     const LeafRange alongX(c[0], floorSqrt(limit));

@@ -26,8 +26,6 @@ namespace tight {
 
 namespace {
 
-using detail::timed;
-
 FitEffort effortOf(Quality quality, std::size_t leafBalls)
 {
     if (quality == Quality::Fast) return {false, 4, 1, false, 16};
@@ -110,7 +108,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     queries.memory = settings.memory;
     const MedialLevel level(*voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
     const SampledObject samples(level.layout);
-    const auto leafBalls = timed("leaves", interrupter, &seconds->tree, [&] {
+    const auto leafBalls = detail::timed("leaves", interrupter, &seconds->tree, [&] {
         if (options.leaves != Leaves::Pruned) return level.balls;
         std::vector<MedialBall> kept;
         for (const int32_t i : prunedBalls(level.balls, samples.level(0), interrupter)) {
@@ -120,7 +118,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     });
     const LevelMaker maker{
         samples, effortOf(options.quality, leafBalls.size()), settings.dim == 2, interrupter};
-    const auto forest = timed("merging", interrupter, &seconds->tree, [&] {
+    const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
         std::vector<ExactSphere> balls;
         for (const MedialBall& ball : leafBalls) balls.push_back(fineBall(ball));
         const auto model = modelFor(options, balls, maker);
@@ -134,7 +132,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
     // A bound is on the finest level, which then is searched first and by itself.
     const std::size_t middle = options.budget.hasBound() ? 0 : counts.size() / 2;
-    const auto levels = timed("levels", interrupter, &seconds->tree, [&] {
+    const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
         const auto cuts = levelsOf(forest, counts, leafBalls);
         if (!search) return cuts;
         const auto searched = searchedLevels(forest, counts, leafBalls, middle, maker);

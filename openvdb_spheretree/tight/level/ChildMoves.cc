@@ -51,7 +51,7 @@ public:
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
             if (mCover[from].empty()) continue; // no voxel needs it
-            for (const int32_t to : mCover.nearest(kNewBall, mFiner.balls[c], kParents)) {
+            for (const int32_t to : mCover.grid().nearest(kNewBall, mFiner.balls[c], kParents)) {
                 if (to != from) moves.push_back({int32_t(c), from, to});
             }
         }
@@ -98,7 +98,7 @@ private:
         fit.refit(part, part.indexOf(move.from));
         fit.refit(part, to);
         fit.refitNear(
-            part, mCover.nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
+            part, mCover.grid().nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
         fit.refit(part, to);
         CoverChange change = fit.changeOf(part);
         // Their regions change, also where these balls do not.

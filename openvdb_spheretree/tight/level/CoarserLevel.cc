@@ -15,10 +15,8 @@ namespace tight {
 
 namespace {
 
-using openvdb::Coord;
-
 /// Extreme points of each unit.
-using Units = std::vector<std::vector<Coord>>;
+using Units = std::vector<std::vector<openvdb::Coord>>;
 
 /// @return for each unit the ball it is deepest in; for an empty one, any that is near.
 std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere>& finer,
@@ -34,7 +32,7 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
         int64_t best = -1;
         for (const int32_t b : grid.near(voxelBall(units[i].front()), 1)) {
             int64_t farthest = 0;
-            for (const Coord& p : units[i]) {
+            for (const openvdb::Coord& p : units[i]) {
                 farthest = std::max(farthest, radiusSqToHold(balls[b], voxelBall(p)));
             }
             const int64_t depth = balls[b].radiusSq - farthest;

@@ -13,13 +13,6 @@ namespace tight {
 
 namespace {
 
-int64_t voxelsIn(const VoxelRegion& region)
-{
-    int64_t count = 0;
-    for (const RegionLeaf& part : region) count += part.mask.count();
-    return count;
-}
-
 /// @return the voxels of @a cell in @a region, or those outside of it.
 VoxelRegion partOf(const VoxelRegion& cell, const VoxelRegion& region, bool inside)
 {
@@ -41,7 +34,10 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
         int64_t most = 0;
         int32_t best = -1;
         for (const int32_t group : candidates) {
-            const int64_t held = voxelsIn(partOf(cell, regions[group], true));
+            int64_t held = 0;
+            for (const RegionLeaf& part : partOf(cell, regions[group], true)) {
+                held += part.mask.count();
+            }
             if (held <= most) continue;
             most = held;
             best = group;

@@ -10,15 +10,6 @@ namespace tight {
 
 namespace {
 
-std::string boundsOf(const SphereBudget& budget)
-{
-    std::ostringstream text;
-    if (budget.error) text << "error=" << *budget.error;
-    if (budget.error && budget.distance) text << " and ";
-    if (budget.distance) text << "distance=" << *budget.distance;
-    return text.str();
-}
-
 /// @return the fewest balls within the bounds; all leaf balls are the object itself, without any error.
 template <typename Within>
 int64_t fewest(int64_t leafBalls, const Within& within)
@@ -51,10 +42,14 @@ std::vector<int64_t> levelCounts(
     const int64_t count =
         fewest(leafBalls, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
     if (!budget.spheres.empty() && count > budget.spheres.front()) {
+        std::ostringstream bounds;
+        if (budget.error) bounds << "error=" << *budget.error;
+        if (budget.error && budget.distance) bounds << " and ";
+        if (budget.distance) bounds << "distance=" << *budget.distance;
         OPENVDB_THROW(openvdb::ValueError,
-            boundsOf(budget)
-                << " cannot be reached with spheres=" << budget.spheres.front() << ": it takes "
-                << count << " spheres (before any search); allow more of them, or a looser bound");
+            bounds.str() << " cannot be reached with spheres=" << budget.spheres.front()
+                         << ": it takes " << count
+                         << " spheres (before any search); allow more of them, or a looser bound");
     }
     if (budget.branching == 0) return {count};
     std::vector<int64_t> counts{count};

@@ -66,13 +66,6 @@ MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
     return {fitted.cost - freed, a, b, fitted.ball, 0};
 }
 
-void SlackMerging::forget(int32_t node)
-{
-    for (const RegionLeaf& part : mRegions[node]) mCounts.remove(part.leaf, part.mask);
-    VoxelRegion().swap(mRegions[node]);
-    if (!isLeafBall(node)) mMerged.remove(node, mBalls[node]);
-}
-
 void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)
 {
     std::vector<VoxelRegion> regions(merges.size());
@@ -83,8 +76,11 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     });
     for (std::size_t i = 0; i < merges.size(); ++i) {
         const MergeCandidate& c = merges[i];
-        forget(c.a);
-        forget(c.b);
+        for (const int32_t child : {c.a, c.b}) {
+            for (const RegionLeaf& part : mRegions[child]) mCounts.remove(part.leaf, part.mask);
+            VoxelRegion().swap(mRegions[child]);
+            if (!isLeafBall(child)) mMerged.remove(child, mBalls[child]);
+        }
         if (c.ball.empty()) continue;
         for (const RegionLeaf& part : regions[i]) mCounts.add(part.leaf, part.mask);
         mRegions.push_back(std::move(regions[i]));

@@ -48,7 +48,6 @@ public:
 private:
     /// Leaf balls hold nothing outside the object.
     bool isLeafBall(int32_t node) const { return node < mLeafBalls; }
-    void forget(int32_t node);
 
     const SampledObject& mObject;
     const SampleLevel& mVoxels;

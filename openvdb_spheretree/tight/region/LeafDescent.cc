@@ -10,21 +10,16 @@
 namespace openvdb_spheretree {
 namespace tight {
 
-namespace {
-
-/// Some leaves, and the balls that may matter in a region that holds these.
-struct LeafRegion {
-    uint32_t *begin, *end;
-    std::shared_ptr<const std::vector<int32_t>> balls;
-};
-
-} // namespace
-
 void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     const BallFilter& filter, const LeafBallsBody& body,
     openvdb::util::NullInterrupter* interrupter)
 {
     if (object.leafCount() == 0) return;
+    /// Some leaves, and the balls that may matter in a region around them.
+    struct LeafRegion {
+        uint32_t *begin, *end;
+        std::shared_ptr<const std::vector<int32_t>> balls;
+    };
     std::vector<uint32_t> leaves(object.leafCount());
     std::iota(leaves.begin(), leaves.end(), 0);
     const auto originOf = [&](uint32_t leaf) { return object.origin(leaf); };

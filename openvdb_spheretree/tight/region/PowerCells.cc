@@ -105,14 +105,14 @@ std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Cl
             label[i] = wins ? int32_t(k) : label[i];
         }
     }
-    std::vector<CellPart> parts;
-    for (const Claim& claim : claims) parts.push_back({claim.ball, {}});
+    std::vector<LeafMask> masks(claims.size(), LeafMask{});
     for (int i = 0; i < kLeafVoxels; ++i) {
-        if (best[i] >= 0) parts[label[i]].mask.setOn(uint32_t(i));
+        if (best[i] >= 0) masks[label[i]].setOn(uint32_t(i));
     }
-    parts.erase(std::remove_if(parts.begin(), parts.end(),
-                    [](const CellPart& part) { return part.mask.none(); }),
-        parts.end());
+    std::vector<CellPart> parts;
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+        if (!masks[k].none()) parts.push_back({claims[k].ball, masks[k]});
+    }
     return parts;
 }
 

@@ -28,13 +28,8 @@ public:
     /// @return a hash of the voxels for which a ball was placed last; 0 if it never was.
     uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
 
-    /// @return as BallGrid::nearest.
-    std::vector<int32_t> nearest(int32_t id, const ExactSphere& ball, std::size_t count) const
-    {
-        return mGrid.nearest(id, ball, count);
-    }
-    /// @return as BallGrid::meeting.
-    std::vector<int32_t> meeting(const FineBox& box) const { return mGrid.meeting(box); }
+    /// @return the balls that are not empty, by place.
+    const BallGrid& grid() const { return mGrid; }
 
     void put(int32_t id, const CoverBall& ball)
     {

@@ -54,7 +54,7 @@ CoverPart PartFit::around(const std::vector<int32_t>& ids) const
         const ExactSphere& ball = mCover[id].ball;
         part.box.expand(ball, 0.5 * ball.radius() + 4 * kFine);
     }
-    part.ids = mCover.meeting(part.box);
+    part.ids = mCover.grid().meeting(part.box);
     for (const int32_t id : part.ids) {
         part.balls.push_back(mCover[id]);
         part.placedFor.push_back(mCover.placedFor(id));

@@ -16,7 +16,7 @@ CoverChange CoverRelocation::removal(int32_t id) const
     constexpr std::size_t kSuccessors = 3;
     const CoverBall& ball = mCover[id];
     if (ball.empty()) return {};
-    const std::vector<int32_t> around = mCover.nearest(id, ball.ball, kChangedNeighbours);
+    const std::vector<int32_t> around = mCover.grid().nearest(id, ball.ball, kChangedNeighbours);
     std::vector<int32_t> all(around);
     all.push_back(id);
     const CoverPart before = mFit.around(all);
@@ -40,7 +40,8 @@ CoverChange CoverRelocation::insertion(uint64_t number) const
     CoverBall small = mCover[int32_t(dice.below(mCover.size()))];
     if (dice.uniform() < 0.5 || small.empty()) small = mFiner[dice.below(mFiner.size())];
     else small.ball = halved(small.ball, mFit.effort().flat, dice);
-    const std::vector<int32_t> around = mCover.nearest(kNewBall, small.ball, kChangedNeighbours);
+    const std::vector<int32_t> around =
+        mCover.grid().nearest(kNewBall, small.ball, kChangedNeighbours);
     CoverPart part = mFit.around(around);
     const std::size_t last = mFit.insert(part, small);
     mFit.refitNear(part, around, small.ball);

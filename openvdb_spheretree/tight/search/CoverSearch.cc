@@ -60,12 +60,6 @@ public:
     }
 
 private:
-    void apply(const CoverChange& change)
-    {
-        tight::apply(change, mCover);
-        mChange += change.change;
-    }
-
     /// Makes the changes that lower the cost, as far as they do not meet.
     void tryBatch(std::size_t first, std::size_t count)
     {
@@ -76,7 +70,8 @@ private:
         std::vector<FineBox> taken;
         for (const CoverChange& change : changes) {
             if (!change.improves() || change.box.meetsAny(taken)) continue;
-            apply(change);
+            apply(change, mCover);
+            mChange += change.change;
             taken.push_back(change.box);
         }
     }
@@ -103,7 +98,8 @@ private:
                 });
                 for (const CoverChange& change : changes) {
                     any = any || !change.ids.empty();
-                    apply(change);
+                    apply(change, mCover);
+                    mChange += change.change;
                 }
             }
             if (!any) return;

@@ -13,15 +13,14 @@ namespace tight {
 
 namespace {
 
-using openvdb::Coord;
-
 /// @return a ball near the given one, as large as it must be to hold the points.
-ExactSphere moved(const ExactSphere& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
+ExactSphere moved(
+    const ExactSphere& ball, const std::vector<openvdb::Coord>& points, bool flat, Dice& dice)
 {
     const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
     ExactSphere result = shifted(ball, step, flat, dice);
     result.radiusSq = 0;
-    for (const Coord& p : points) {
+    for (const openvdb::Coord& p : points) {
         result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
     }
     return result;
@@ -35,7 +34,7 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     const auto id = int32_t(dice.below(cover.size()));
     const ExactSphere& ball = cover[id].ball;
     if (ball.empty()) return {};
-    std::vector<int32_t> around = cover.nearest(id, ball, kChangedNeighbours);
+    std::vector<int32_t> around = cover.grid().nearest(id, ball, kChangedNeighbours);
     std::vector<int32_t> all(around);
     all.push_back(id);
     CoverPart part = fit.around(all);
