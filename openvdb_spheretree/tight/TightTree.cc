@@ -21,8 +21,7 @@
 #include <memory>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -142,5 +141,4 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -22,8 +22,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @brief Appends all nodes and levels, and the cuts if the settings say so, to a tree that has its
 /// settings, object and transform. Stored radii are left to the caller.
@@ -33,5 +32,4 @@ namespace tight {
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -156,5 +155,4 @@ BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostR
     return best;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

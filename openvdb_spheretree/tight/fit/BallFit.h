@@ -14,8 +14,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct BallFit {
     LocalBall ball;
@@ -49,5 +48,4 @@ BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostR
 /// smallest one by about one unit or one percent.
 LocalBall smallestBall(const PointCloud& points, bool flat = false);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

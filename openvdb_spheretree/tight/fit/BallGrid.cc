@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -168,5 +167,4 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
     return ids;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -20,8 +20,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class BallGrid {
 public:
@@ -68,5 +67,4 @@ private:
     std::size_t mSize = 0;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 BoxReach::BoxReach(const ExactSphere& ball, const openvdb::CoordBBox& box)
 {
@@ -44,5 +43,4 @@ openvdb::CoordBBox ballBox(const ExactSphere& ball)
     return box;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 
 #include <openvdb/Types.h>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// How far the nearest and the farthest point of a box of voxels are from a ball's center.
 struct BoxReach {
@@ -27,5 +26,4 @@ bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin);
 /// @return the smallest box of voxels that holds all voxels of @a ball; CoordBBox() if it has none.
 openvdb::CoordBBox ballBox(const ExactSphere& ball);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -13,8 +13,7 @@
 #include <cmath>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -201,14 +200,12 @@ void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const Local
 }
 
 } // namespace HWY_NAMESPACE
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 HWY_EXPORT(countBits);
 HWY_EXPORT(collectBits);
@@ -229,7 +226,6 @@ void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const Local
     HWY_DYNAMIC_DISPATCH(clearBits)(bits, size, words, ball);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 
 #endif // HWY_ONCE

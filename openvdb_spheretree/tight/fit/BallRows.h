@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct LocalBall;
 struct CostRun;
@@ -33,5 +32,4 @@ void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<CostRun
 /// Clears the bits in the ball. The bits are as in BitRows.
 void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CostRuns {
 public:
@@ -47,5 +46,4 @@ private:
     std::vector<CostRun> mFound;                   ///< before they are sorted
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 int CostWindow::levelFor(double radius, int samples)
 {
@@ -80,5 +79,4 @@ void CostWindow::collect(const LocalBall& ball, std::vector<CostRun>& found) con
 
 void CostWindow::cover(const LocalBall& ball) { clearBits(mBits.data(), mSize, mWords, ball); }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

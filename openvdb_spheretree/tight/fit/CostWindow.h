@@ -22,8 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// A ball in a window's coordinates: integers, stored as floats for the vector units.
 struct LocalBall {
@@ -73,5 +72,4 @@ private:
     std::vector<uint64_t> mBits;  ///< row after row, y fastest
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

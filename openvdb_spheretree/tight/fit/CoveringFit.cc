@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -102,5 +101,4 @@ FittedBall CoveringFit::best(const FitEffort& effort, bool flat)
     return fitted;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -13,8 +13,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct FittedBall {
     ExactSphere ball;
@@ -63,5 +62,4 @@ private:
     std::vector<LocalBall> mStarts;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -167,5 +166,4 @@ void dropInnerPoints(std::vector<Coord>& points)
     points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -17,8 +17,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Takes voxels leaf by leaf.
 class ExtremePoints {
@@ -45,5 +44,4 @@ private:
 /// Keeps the corners of the hulls of slices across x, y and z, and across diagonals if many are left.
 void dropInnerPoints(std::vector<openvdb::Coord>& points);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 constexpr int kFineShift = 4;                       ///< log2 of kFine
 constexpr int64_t kFine = int64_t(1) << kFineShift; ///< units of length in a voxel
@@ -107,5 +106,4 @@ inline ExactSphere ballAround(const FineBox& box)
     return ball;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Points in a window's coordinates. Arrays are padded with copies of the first point.
 class PointCloud {
@@ -40,5 +39,4 @@ private:
     bool mHasRadii = false;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

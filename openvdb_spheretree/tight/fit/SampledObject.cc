@@ -3,8 +3,7 @@
 
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -93,5 +92,4 @@ SampledObject::SampledObject(const LeafLayout& object)
     }
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -20,8 +20,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Leaves of 8^3 samples, ordered by origin, x first.
 class SampleLevel {
@@ -82,5 +81,4 @@ private:
     std::vector<SampleLevel> mLevels; ///< the last one is empty
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

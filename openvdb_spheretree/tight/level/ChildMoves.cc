@@ -9,8 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -138,5 +137,4 @@ void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     balls = moves.balls();
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @return for each of @a count parents the union of its children's regions.
 std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
@@ -30,5 +29,4 @@ std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
 void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

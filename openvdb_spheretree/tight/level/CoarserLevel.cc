@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -82,5 +81,4 @@ TightLevel coarserLevel(
     return level;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

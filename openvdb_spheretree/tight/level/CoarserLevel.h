@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param finer    without parents; receives them
 /// @param regions  of its balls: the voxels with a chain of balls from them down; receives those of
@@ -26,5 +25,4 @@ namespace tight {
 TightLevel coarserLevel(
     TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

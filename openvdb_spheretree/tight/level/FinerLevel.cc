@@ -8,8 +8,7 @@
 #include <cassert>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -118,5 +117,4 @@ TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>&
     return level;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

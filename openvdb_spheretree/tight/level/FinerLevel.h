@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The leaf balls and their power cells.
 struct BallCells {
@@ -37,5 +36,4 @@ std::vector<VoxelRegion> chainRegions(
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
     const BallCells& leafBalls, int64_t count, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

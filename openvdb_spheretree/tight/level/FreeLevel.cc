@@ -12,8 +12,7 @@
 #include <limits>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 std::vector<ExactSphere> freeLevel(const std::vector<ForestNode>& forest, int64_t count,
     const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker)
@@ -68,5 +67,4 @@ double costOfCover(
     return cost;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -15,8 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param forest  of the leaf balls
 /// @return a level of at most @a count balls that cover the object.
@@ -27,5 +26,4 @@ std::vector<ExactSphere> freeLevel(const std::vector<ForestNode>& forest, int64_
 double costOfCover(
     const std::vector<ExactSphere>& balls, const SampledObject& object, const FitEffort& effort);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -5,8 +5,7 @@
 
 #include <sstream>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -61,5 +60,4 @@ std::vector<int64_t> levelCounts(
     return counts;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,8 +11,7 @@
 #include <functional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Returns the exact error of the cut with so many balls.
 using ErrorOfCut = std::function<LevelError(int64_t count)>;
@@ -29,5 +28,4 @@ bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& er
 std::vector<int64_t> levelCounts(
     const SphereBudget& budget, int64_t leafBalls, double voxelSize, const ErrorOfCut& errorOf);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 int LevelMaker::trialsFor(std::size_t count)
 {
@@ -63,5 +62,4 @@ std::vector<CoverBall> filledUp(
     return filled;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

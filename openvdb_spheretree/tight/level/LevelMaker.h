@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct LevelMaker {
     const SampledObject& object;
@@ -49,5 +48,4 @@ struct LevelMaker {
 std::vector<CoverBall> filledUp(
     const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

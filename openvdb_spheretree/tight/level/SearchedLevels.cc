@@ -6,8 +6,7 @@
 #include "FreeLevel.h"
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
@@ -40,5 +39,4 @@ std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     return levels;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

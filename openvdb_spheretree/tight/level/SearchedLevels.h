@@ -18,8 +18,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param forest  of the leaf balls, for the start of the middle level
 /// @param counts  of balls, finest first, falling
@@ -29,5 +28,4 @@ std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
     const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

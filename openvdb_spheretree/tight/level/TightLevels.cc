@@ -10,8 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -173,5 +172,4 @@ SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis)
     return cuts;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,8 +11,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The balls of one level.
 struct TightLevel {
@@ -48,5 +47,4 @@ void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
 /// @return the forest as cuts of a SphereTree, without stored radii.
 SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct CoverBall {
     ExactSphere ball;
@@ -54,5 +53,4 @@ inline std::vector<int32_t> groupsOf(const std::vector<CoverBall>& cover)
     return groups;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -270,5 +269,4 @@ std::vector<ForestNode> mergeToRoots(
     return Forest(model, neighbours, interrupter).run();
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

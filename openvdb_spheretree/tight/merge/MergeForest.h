@@ -23,8 +23,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// What merging two nodes would give.
 struct MergeCandidate {
@@ -71,5 +70,4 @@ struct ForestNode {
 std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

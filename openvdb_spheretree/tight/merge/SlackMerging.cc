@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -89,5 +88,4 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     }
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

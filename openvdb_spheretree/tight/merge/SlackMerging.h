@@ -24,8 +24,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class SlackMerging : public MergeModel {
 public:
@@ -62,5 +61,4 @@ private:
     BallGrid mMerged;                  ///< living nodes that are no leaf balls
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

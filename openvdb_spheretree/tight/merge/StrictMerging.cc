@@ -9,8 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -146,5 +145,4 @@ HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls)
     return {std::move(held), false, true};
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -19,8 +19,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// What a node holds: balls; a voxel is a ball of radius 0.
 using Held = std::vector<ExactSphere>;
@@ -62,5 +61,4 @@ HeldByLeafBalls heldVoxels(const std::vector<std::vector<openvdb::Coord>>& point
 /// @return each leaf ball itself.
 HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

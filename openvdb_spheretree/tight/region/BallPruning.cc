@@ -10,8 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -96,5 +95,4 @@ std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const Sa
     return kept;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -25,13 +25,11 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param balls  whose union is @a object
 /// @return the indices of the balls to keep, ascending.
 std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CoverCounts.h"
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 CoverCounts::CoverCounts(std::size_t leaves, uint32_t most) : mWhole(leaves, 0)
 {
@@ -49,5 +48,4 @@ LeafMask CoverCounts::heldBy(std::size_t leaf, uint32_t count) const
     return LeafMask::full() - differs;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -19,8 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CoverCounts {
 public:
@@ -45,5 +44,4 @@ private:
     std::vector<uint32_t> mWhole;  ///< balls that hold all of a leaf, not in its planes
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,8 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     const BallFilter& filter, const LeafBallsBody& body,
@@ -42,5 +41,4 @@ void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     detail::divideRegions(whole, char(0), divide, interrupter);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -16,8 +16,7 @@
 #include <functional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Appends to @a to those balls of @a from that matter in a box of voxels, in order. Called by several
 /// threads.
@@ -32,5 +31,4 @@ void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     const BallFilter& filter, const LeafBallsBody& body,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,8 +11,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -183,5 +182,4 @@ std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<Exact
     return extremePoints(powerCells(balls, object, interrupter), object, interrupter);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

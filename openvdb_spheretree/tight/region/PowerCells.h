@@ -20,8 +20,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param balls    that cover @a object
 /// @param regions  of each ball: the voxels that may be in its cell; together the object
@@ -43,5 +42,4 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
 std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
@@ -71,5 +70,4 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
     return region;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The voxels of a region in one leaf of the object.
 struct RegionLeaf {
@@ -56,5 +55,4 @@ void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

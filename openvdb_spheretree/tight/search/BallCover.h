@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class BallCover {
 public:
@@ -45,5 +44,4 @@ private:
     BallGrid mGrid;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 using openvdb::Coord;
 
@@ -79,5 +78,4 @@ bool holdsAll(const ExactSphere& ball, const std::vector<Coord>& points)
     });
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

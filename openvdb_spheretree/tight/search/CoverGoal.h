@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CoverGoal {
 public:
@@ -71,5 +70,4 @@ private:
 /// @return whether @a ball holds all the points.
 bool holdsAll(const ExactSphere& ball, const std::vector<openvdb::Coord>& points);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

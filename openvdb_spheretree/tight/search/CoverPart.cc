@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -185,5 +184,4 @@ void apply(const CoverChange& change, BallCover& cover, int32_t slot)
     for (const auto& [id, hash] : change.placedFor) cover.setPlacedFor(number(id), hash);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

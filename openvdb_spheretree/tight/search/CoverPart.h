@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct SearchEffort {
     FitEffort fit;
@@ -104,5 +103,4 @@ private:
 /// @param slot  the number that a new ball gets
 void apply(const CoverChange& change, BallCover& cover, int32_t slot = -1);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 CoverChange CoverRelocation::removal(int32_t id) const
 {
@@ -105,5 +104,4 @@ void CoverRelocation::fill()
     }
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CoverRelocation {
 public:
@@ -48,5 +47,4 @@ private:
     double mChange = 0;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -9,8 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -122,5 +121,4 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
     return Search(std::move(balls), finer, object, goal, effort, interrupter).run();
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -23,8 +23,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct SearchedCover {
     std::vector<CoverBall> balls; ///< a dropped ball for which none was inserted is empty
@@ -38,5 +37,4 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
     const SampledObject& object, const CoverGoal& goal, const SearchEffort& effort,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -55,5 +54,4 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     return fit.changeOf(part);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -9,12 +9,10 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param number  of the trial: it decides which ball, and what is done to it
 /// @return the change of the cover, which may raise the cost.
 CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t number);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Random numbers of one trial.
 class Dice {
@@ -58,5 +57,4 @@ inline ExactSphere halved(const ExactSphere& ball, bool flat, Dice& dice)
     return half;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
