@@ -8,14 +8,10 @@
 
 namespace openvdb_spheretree::tight {
 
-namespace {
-
 /// A ball may reach further from the middle of the targets than the smallest ball around them: by
 /// this part of its radius, and by this much more (1/16 sample).
 constexpr float kRoom = 0.35f;
 constexpr float kMoreRoom = 2 * float(kFine);
-
-} // namespace
 
 int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held)
 {

@@ -70,9 +70,7 @@ namespace openvdb_spheretree::tight {
 HWY_EXPORT(farthestOf);
 HWY_EXPORT(farthestSqOf);
 
-namespace {
 constexpr std::size_t kPadding = 16;
-}
 
 void PointCloud::add(float x, float y, float z, float radius)
 {

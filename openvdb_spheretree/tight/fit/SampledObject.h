@@ -37,7 +37,7 @@ public:
     void forEachLeaf(const openvdb::CoordBBox& box, const Body& body) const
     {
         const openvdb::Coord lo = box.min() & ~7;
-        for (std::size_t c = firstColumn(lo[0], lo[1]); c < columns();) {
+        for (std::size_t c = firstColumn(lo[0], lo[1]); c + 1 < mColumnBegin.size();) {
             const openvdb::Coord& at = mOrigins[mColumnBegin[c]];
             if (at[0] > box.max()[0]) return;
             if (at[1] < lo[1]) {
@@ -55,7 +55,6 @@ public:
     }
 
 private:
-    std::size_t columns() const { return mColumnBegin.size() - 1; }
     /// @return the first column at or after (x, y).
     std::size_t firstColumn(int32_t x, int32_t y) const;
     /// @return the first leaf of a column at or above z.

@@ -158,18 +158,14 @@ private:
         const std::size_t batch = std::max<std::size_t>(8, 2 * count);
         for (bool staleAhead = true; staleAhead;) {
             std::vector<MergeCandidate> top;
-            std::vector<std::size_t> stale; // places in it
-            MergeCandidate candidate;
-            while (top.size() < (stale.empty() ? count : batch) && pop(candidate)) {
-                if (isStale(candidate)) stale.push_back(top.size());
-                top.push_back(candidate);
+            std::vector<Pair> stale;
+            MergeCandidate c;
+            while (top.size() + stale.size() < (stale.empty() ? count : batch) && pop(c)) {
+                if (isStale(c)) stale.emplace_back(c.a, c.b);
+                else top.push_back(c);
             }
-            detail::parallelFor(stale.size(), mInterrupter, [&](std::size_t i) {
-                MergeCandidate& c = top[stale[i]];
-                c = mModel.evaluate(c.a, c.b);
-                c.round = mRound;
-            });
-            for (const MergeCandidate& c : top) push(c);
+            for (const MergeCandidate& candidate : top) push(candidate);
+            for (const MergeCandidate& candidate : evaluateAll(stale)) push(candidate);
             staleAhead = !stale.empty();
         }
     }

@@ -21,18 +21,6 @@ struct CellPart {
     LeafMask mask;
 };
 
-/// @return the power of a ball in the middle of a box.
-double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
-{
-    double power = double(ball.radiusSq);
-    for (int a = 0; a < 3; ++a) {
-        const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
-        const double d = 0.5 * double(twice) - double(ball.center[a]);
-        power -= d * d;
-    }
-    return power;
-}
-
 /// @return whether the power of @a ball is larger than that of @a other in all of the box. The
 /// difference is linear, so along each axis it is smallest at one of the ends.
 bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
@@ -57,7 +45,12 @@ BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
         int32_t strongest = -1;
         double most = 0;
         for (const int32_t ball : from) {
-            const double power = powerInMiddle(balls[ball], box);
+            double power = double(balls[ball].radiusSq); // in the middle of the box
+            for (int a = 0; a < 3; ++a) {
+                const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+                const double d = 0.5 * double(twice) - double(balls[ball].center[a]);
+                power -= d * d;
+            }
             if (strongest >= 0 && power <= most) continue;
             strongest = ball;
             most = power;

@@ -32,10 +32,9 @@ public:
 
 class VoxelGoal : public CoverGoal {
 public:
-    /// Every object voxel that a ball holds counts.
-    explicit VoxelGoal(const SampleLevel& object) : mObject(object) {}
-    /// @param regions  of the groups: a ball holds voxels of its group's region only
-    VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
+    /// @param regions  of the groups: a ball holds voxels of its group's region only; none: a ball
+    ///                 holds all object voxels in it
+    explicit VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions = {})
         : mObject(object), mRegions(std::move(regions))
     {}
     VoxelGoal(const SampleLevel& object, const std::vector<VoxelRegion>& regions) : mObject(object)
@@ -49,7 +48,7 @@ private:
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
 
     const SampleLevel& mObject;
-    std::vector<const VoxelRegion*> mRegions; ///< empty: every region is the object
+    std::vector<const VoxelRegion*> mRegions;
 };
 
 class UnitGoal : public CoverGoal {

@@ -10,23 +10,6 @@
 
 namespace openvdb_spheretree::tight {
 
-namespace {
-
-/// @return a ball near the given one, as large as it must be to hold the points.
-ExactSphere moved(
-    const ExactSphere& ball, const std::vector<openvdb::Coord>& points, bool flat, Dice& dice)
-{
-    const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
-    ExactSphere result = shifted(ball, step, flat, dice);
-    result.radiusSq = 0;
-    for (const openvdb::Coord& p : points) {
-        result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
-    }
-    return result;
-}
-
-} // namespace
-
 CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t number)
 {
     Dice dice(number);
@@ -38,10 +21,18 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     all.push_back(id);
     CoverPart part = fit.around(all);
     const std::size_t i = part.indexOf(id);
-    const bool grow = dice.uniform() < 0.5;
-    const ExactSphere disturbed = grow
-        ? grown(ball, dice)
-        : moved(ball, fit.uncoveredWithout(part, i), fit.effort().flat, dice);
+    ExactSphere disturbed;
+    if (dice.uniform() < 0.5) {
+        disturbed = grown(ball, dice);
+    } else { // somewhere else, and as large as it must be there
+        const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
+        disturbed = shifted(ball, step, fit.effort().flat, dice);
+        disturbed.radiusSq = 0;
+        for (const openvdb::Coord& p : fit.uncoveredWithout(part, i)) {
+            disturbed.radiusSq =
+                std::max(disturbed.radiusSq, radiusSqToHold(disturbed, voxelBall(p)));
+        }
+    }
     if (!part.box.contains(FineBox(disturbed))) return {};
     fit.replace(part, i, disturbed);
     if (dice.uniform() < 0.5) {
