@@ -44,8 +44,8 @@ struct FitEffort {
 BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat = false);
 
-/// @return a ball around all points with a center of integers. Its radius is larger than that of the
-/// smallest one by about one unit or one percent.
+/// @return a ball around all points with a center of integers. Its radius is that of the smallest one,
+/// up to about one unit or one percent.
 LocalBall smallestBall(const PointCloud& points, bool flat = false);
 
 } // namespace openvdb_spheretree::tight

@@ -32,8 +32,8 @@ public:
     /// @param ball  as it was added
     void remove(int32_t id, const ExactSphere& ball);
 
-    /// @return the balls no further than @a slack (1/16 voxel) from @a ball, ascending; with a negative
-    /// slack those that overlap it so far.
+    /// @return the balls no further than @a slack (1/16 voxel) from @a ball, ascending. If that is
+    /// negative, they overlap by as much.
     std::vector<int32_t> near(const ExactSphere& ball, double slack = 0) const;
     /// @return the balls whose boxes meet the box, ascending.
     std::vector<int32_t> meeting(const FineBox& box) const;
@@ -54,8 +54,8 @@ private:
     };
     struct Grid {
         std::unordered_map<openvdb::Coord, std::vector<Entry>, CellHash> cells; ///< none is empty
-        std::unordered_map<openvdb::Coord, uint64_t, CellHash>
-            clusters; ///< mask of its cells that are not empty
+        /// For each cluster the mask of its cells that are not empty.
+        std::unordered_map<openvdb::Coord, uint64_t, CellHash> clusters;
         std::size_t size = 0;
     };
 

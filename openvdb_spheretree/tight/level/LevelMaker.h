@@ -43,8 +43,8 @@ struct LevelMaker {
         const std::vector<std::vector<openvdb::Coord>>& points, int64_t count) const;
 };
 
-/// @return the cover with leaf balls that are not in it yet in place of its empty balls, as far as there
-/// are any. Leaf balls cost nothing.
+/// @return the cover without its empty balls, and in their place leaf balls that are not in it yet, as
+/// far as there are any. Leaf balls cost nothing.
 std::vector<CoverBall> filledUp(
     const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls);
 

@@ -17,14 +17,14 @@ namespace openvdb_spheretree::tight {
 struct TightLevel {
     std::vector<ExactSphere> balls;
     std::vector<int32_t> parent; ///< in the next coarser level; empty for the coarsest
-    /// Of each ball, the digital ball that it is; empty if the balls are none.
+    /// The same as digital balls if they are all leaf balls; else empty.
     std::vector<MedialBall> digital;
 };
 
 /// @return the nodes of the cut with @a count balls, ascending.
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
 
-/// @return the balls of these nodes.
+/// @return the balls of the nodes of that cut.
 std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
 
 /// Drops the balls of @a level that have no child in @a finer: no chain needs them.

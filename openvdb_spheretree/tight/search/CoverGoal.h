@@ -32,8 +32,8 @@ public:
 
 class VoxelGoal : public CoverGoal {
 public:
-    /// @param regions  of the groups: a ball holds voxels of its group's region only; none: a ball
-    ///                 holds all object voxels in it
+    /// @param regions  of the groups: a ball counts in its group's region only; without regions it
+    ///                 counts in all of the object
     explicit VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions = {})
         : mObject(object), mRegions(std::move(regions))
     {}

@@ -68,7 +68,6 @@ std::vector<Coord> PartFit::uncoveredWithout(const CoverPart& part, std::size_t 
     return points;
 }
 
-/// The window is open around the targets. What the other balls of the part hold costs nothing.
 template <typename Targets>
 CoveringFit& PartFit::fitFor(const CoverPart& part, std::size_t i, const Targets& targets,
     const std::vector<ExactSphere>& replaced) const

@@ -23,9 +23,9 @@ struct SearchEffort {
     bool flat = false;
 };
 
-/// The number of a ball in a part that is not yet in the cover.
+/// The number of a ball that is in a part, but not yet in the cover.
 constexpr int32_t kNewBall = std::numeric_limits<int32_t>::max();
-/// When a ball changes, so many of its neighbours are placed anew.
+/// When a ball changes, at most so many of its neighbours are placed anew.
 constexpr std::size_t kChangedNeighbours = 10;
 
 struct CoverPart {
@@ -70,7 +70,7 @@ public:
     std::vector<openvdb::Coord> uncoveredWithout(const CoverPart& part, std::size_t i) const;
     /// @return what ball @a i costs beside the others.
     double costOf(const CoverPart& part, std::size_t i) const;
-    /// Adds a ball to the part that is not in the cover. @return its index.
+    /// Adds a new ball to the part. @return its index.
     std::size_t insert(CoverPart& part, const CoverBall& ball) const;
     /// Puts another ball in the place of ball @a i, whether it holds the voxels or not.
     void replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const;
@@ -89,6 +89,8 @@ public:
     CoverChange changeOf(const CoverPart& part) const;
 
 private:
+    /// @return a fit for ball @a i: targets and replaced balls are as of CoveringFit::open(), and what
+    /// the other balls of the part hold costs nothing.
     template <typename Targets>
     class CoveringFit& fitFor(const CoverPart& part, std::size_t i, const Targets& targets,
         const std::vector<ExactSphere>& replaced) const;
