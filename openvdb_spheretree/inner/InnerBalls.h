@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file InnerBalls.h
 /// @brief Spheres inside an object: for every number N, N of its medial balls that cover as much of
-/// it as a greedy choice can. What robotics calls a conservative approximation from within.
+/// it as a greedy choice can. Robotics calls that a conservative approximation from within.
 ///
-/// *Inside* is meant of voxels: a ball's closed sphere, of radius sqrt(radiusSq - 1) around a voxel
-/// center, holds the centers of object voxels only. At the surface it may stick out of their cubes,
-/// by a part of a voxel.
+/// A ball is inside if its closed sphere, of radius sqrt(radiusSq - 1) around a voxel center, holds
+/// the centers of object voxels only. At the surface, the sphere may reach out of their cubes by a
+/// part of a voxel.
 
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace openvdb_spheretree {
 
 /// @param object  its active voxels
-/// @param most    no more balls than this; all of them together are the object
+/// @param most    how many balls at most; if there are fewer, their union is the object
 /// @param dim     2 if the object is one voxel thick along some axis
 /// @return balls in the order in which they are chosen: each adds the most voxels to those before
 ///         it. Centers are in the index space of @a object.

@@ -14,30 +14,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace detail {
 
 namespace {
 
-/// A level's balls by their places in the order, themselves ordered by centre.
-std::vector<int32_t> byCentre(const std::vector<MedialBall>& balls, int64_t count)
-{
-    std::vector<int32_t> places(count);
-    for (int64_t i = 0; i < count; ++i) places[i] = int32_t(i);
-    std::sort(places.begin(), places.end(),
-        [&](int32_t a, int32_t b) { return balls[a].center < balls[b].center; });
-    return places;
-}
-
-/// The closed sphere of a ball's voxels.
-struct Sphere {
-    double radius;
-    int64_t coverSq;
-    float radiusWorld;
-};
-
-Sphere sphereOf(const MedialBall& ball, const SphereTree& tree)
+/// Appends the closed sphere of a ball's voxels to the spheres of @a tree, or of its cuts.
+void appendSphere(Spheres& spheres, const MedialBall& ball, int32_t parent, const SphereTree& tree)
 {
     const int64_t closedSq = int64_t(ball.radiusSq) - 1;
     const double radius = sqrtDown(double(closedSq));
@@ -47,22 +33,14 @@ Sphere sphereOf(const MedialBall& ball, const SphereTree& tree)
             "a radius of " << radius << " voxels of " << tree.voxelSize()
                            << " does not fit a float: use another unit of length");
     }
-    return {radius, closedSq * tree.subdivision * tree.subdivision, world};
+    spheres.center.push_back(ball.center.asVec3d());
+    spheres.radius.push_back(radius);
+    spheres.coverRadiusSq.push_back(closedSq * tree.subdivision * tree.subdivision);
+    spheres.radiusWorld.push_back(world);
+    spheres.parent.push_back(parent);
 }
 
-void appendNode(SphereTree& tree, const MedialBall& ball, int32_t parent)
-{
-    const Sphere sphere = sphereOf(ball, tree);
-    tree.spheres.center.push_back(ball.center.asVec3d());
-    tree.spheres.radius.push_back(sphere.radius);
-    tree.spheres.coverRadiusSq.push_back(sphere.coverSq);
-    tree.spheres.radiusWorld.push_back(sphere.radiusWorld);
-    tree.spheres.parent.push_back(parent);
-    tree.ijk.push_back(ball.center);
-    tree.radiusSq.push_back(ball.radiusSq);
-}
-
-/// The nodes of one level, below those of the level that was appended last.
+/// Appends levels, the coarsest first. Balls go by their places in the greedy order.
 class LevelAppender {
 public:
     LevelAppender(SphereTree& tree, const std::vector<MedialBall>& balls,
@@ -70,22 +48,29 @@ public:
         : mTree(tree), mBalls(balls), mInterrupter(interrupter)
     {}
 
+    /// The level of the first @a count balls.
     void append(SphereTreeLevel& level, int64_t count)
     {
-        const std::vector<int32_t> places = byCentre(mBalls, count);
+        std::vector<int32_t> places(count);
+        std::iota(places.begin(), places.end(), 0);
+        std::sort(places.begin(), places.end(),
+            [&](int32_t a, int32_t b) { return mBalls[a].center < mBalls[b].center; });
         const std::vector<int32_t> parents = parentsOf(places);
         level.begin = mTree.size();
         mIdAt.resize(count);
         for (std::size_t i = 0; i < places.size(); ++i) {
+            const MedialBall& ball = mBalls[places[i]];
             mIdAt[places[i]] = mTree.size();
-            appendNode(mTree, mBalls[places[i]], parents[i]);
+            appendSphere(mTree.spheres, ball, parents[i], mTree);
+            mTree.ijk.push_back(ball.center);
+            mTree.radiusSq.push_back(ball.radiusSq);
         }
         level.end = mTree.size();
-        mAbove = places;
+        mAbove = std::move(places);
     }
 
 private:
-    /// The ids of the parents, given where the level's balls are in the order.
+    /// @return the ids of the parents of the balls at these places.
     std::vector<int32_t> parentsOf(const std::vector<int32_t>& places) const
     {
         std::vector<int32_t> parents(places.size(), -1);
@@ -105,32 +90,9 @@ private:
     SphereTree& mTree;
     const std::vector<MedialBall>& mBalls;
     openvdb::util::NullInterrupter* mInterrupter;
-    std::vector<int32_t> mAbove; ///< of the level above: places, by centre
+    std::vector<int32_t> mAbove; ///< of the level above: places, by center
     std::vector<int32_t> mIdAt;  ///< of the same: id by place
 };
-
-void appendCuts(SphereTree& tree, const std::vector<MedialBall>& balls)
-{
-    const int32_t total = int32_t(balls.size());
-    for (int32_t i = 0; i < total; ++i) {
-        const Sphere sphere = sphereOf(balls[i], tree);
-        tree.cuts.spheres.center.push_back(balls[i].center.asVec3d());
-        tree.cuts.spheres.radius.push_back(sphere.radius);
-        tree.cuts.spheres.coverRadiusSq.push_back(sphere.coverSq);
-        tree.cuts.spheres.radiusWorld.push_back(sphere.radiusWorld);
-        tree.cuts.spheres.parent.push_back(-1);
-        tree.cuts.first.push_back(i + 1);
-        tree.cuts.last.push_back(total);
-    }
-}
-
-/// The largest number of balls that anybody asks for.
-int64_t mostWanted(const BudgetOptions& options)
-{
-    const std::vector<int64_t>& spheres = options.budget.spheres;
-    if (options.cuts || spheres.empty()) return INT64_MAX;
-    return *std::max_element(spheres.begin(), spheres.end());
-}
 
 } // namespace
 
@@ -142,9 +104,12 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
     queries.memory = tree.settings.memory;
     const MedialLevel medial(
         voxels, tree.settings.dim, tree.settings.dist(), interrupter, &seconds, queries);
+    const std::vector<int64_t>& spheres = options.budget.spheres;
+    const int64_t most = options.cuts || spheres.empty()
+        ? INT64_MAX
+        : *std::max_element(spheres.begin(), spheres.end());
     const InnerOrder order = timed("inner balls", interrupter, &seconds.tree, [&] {
-        return innerOrder(
-            medial.layout, medial.balls, tree.settings.dim, mostWanted(options), interrupter);
+        return innerOrder(medial.layout, medial.balls, tree.settings.dim, most, interrupter);
     });
     const std::vector<MedialBall> balls =
         ballsInOrder(medial.balls, order, FlatAxis(tree.flatAxis));
@@ -162,7 +127,12 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
         tree.levels[0].topology = timed("topology", interrupter, &seconds.topology,
             [&] { return levelTopology(medial.layout, interrupter); });
     }
-    if (options.cuts) appendCuts(tree, balls);
+    if (!options.cuts) return;
+    for (int32_t i = 0; i < int32_t(balls.size()); ++i) {
+        appendSphere(tree.cuts.spheres, balls[i], -1, tree);
+        tree.cuts.first.push_back(i + 1);
+        tree.cuts.last.push_back(int32_t(balls.size()));
+    }
 }
 
 } // namespace detail

@@ -3,9 +3,10 @@
 /// @brief The levels of an inner tree: the first N balls of one greedy order (InnerOrder.h), for
 /// each N that the budget asks for.
 ///
-/// A ball of a coarser level is in all finer ones, where it hangs below itself; any other hangs
-/// below the ball of the next coarser level nearest by power distance, of equals the first by
-/// centre. Radii are stored rounded down, and nothing is added to them.
+/// A ball of a coarser level is in all finer levels, too. The parent of such a ball is itself in the
+/// next coarser level. The parent of any other ball is the ball of that level nearest by power
+/// distance, of equals the first by center. Radii are stored rounded down, and nothing is added to
+/// them.
 
 #pragma once
 
@@ -18,10 +19,9 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @param tree    with settings, object, origin and transform, and no nodes; with
-///                flatAxis, if dim is 2
-/// @param voxels  of the object, flat along z if dim is 2
-/// @param seconds  receives the time that the stages take
+/// @param tree     with settings, object, origin and transform, and no nodes; with flatAxis if dim is 2
+/// @param voxels   of the object, flat along z if dim is 2
+/// @param seconds  the time of the stages is added to it
 /// @throw openvdb::ValueError as MedialLevel, or if a radius does not fit a float
 void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
     openvdb::util::NullInterrupter* interrupter);

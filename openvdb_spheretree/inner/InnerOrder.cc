@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    /// What a ball would add, counted when so many balls were taken; it adds no more than that.
+    /// What a ball would add, counted when so many balls were taken. It never adds more later.
     struct Candidate {
         int64_t gain;
         int32_t ball;
@@ -42,19 +42,18 @@ private:
     /// So many are counted at a time; 8 and 256 take as long.
     static constexpr std::size_t kBatch = 64;
 
-    /// Whether @a a comes after @a b. A total order: the greedy choice is unique.
-    bool isAfter(const Candidate& a, const Candidate& b) const
-    {
-        if (a.gain != b.gain) return a.gain < b.gain;
-        const int32_t x = mBalls[a.ball].radiusSq, y = mBalls[b.ball].radiusSq;
-        return x != y ? x < y : a.ball > b.ball;
-    }
+    /// @return whether a comes after b. A total order: the greedy choice is unique.
     auto order() const
     {
-        return [this](const Candidate& a, const Candidate& b) { return isAfter(a, b); };
+        return [this](const Candidate& a, const Candidate& b) {
+            if (a.gain != b.gain) return a.gain < b.gain;
+            const int32_t x = mBalls[a.ball].radiusSq, y = mBalls[b.ball].radiusSq;
+            return x != y ? x < y : a.ball > b.ball;
+        };
     }
 
     int64_t taken() const { return int64_t(mOrder.ball.size()); }
+    int64_t covered() const { return mOrder.covered.empty() ? 0 : mOrder.covered.back(); }
 
     /// At first a ball adds all its voxels: as many as any other ball of its radius.
     void countAll()
@@ -97,10 +96,9 @@ private:
     void take()
     {
         const MedialBall& ball = mBalls[mOrder.ball.emplace_back(pop().ball)];
-        const int64_t before = mUncovered.left();
+        const int64_t all = covered() + mUncovered.left();
         mUncovered.cover(ball, uint32_t(taken()));
-        const int64_t covered = mOrder.covered.empty() ? 0 : mOrder.covered.back();
-        mOrder.covered.push_back(covered + before - mUncovered.left());
+        mOrder.covered.push_back(all - mUncovered.left());
     }
 
     /// Counts the top of the queue again, and with it what is next and not current.
@@ -110,7 +108,8 @@ private:
         while (mBatch.size() < kBatch && !mQueue.empty() && !isCurrent(mQueue.front())) {
             mBatch.push_back(pop());
         }
-        checkInterrupt(mInterrupter, percent());
+        const double all = double(covered() + mUncovered.left());
+        checkInterrupt(mInterrupter, int(100.0 * double(covered()) / all));
         parallelFor(mBatch.size(), nullptr, [&](std::size_t i) {
             mBatch[i].gain = mUncovered.countIn(mBalls[mBatch[i].ball]);
             mBatch[i].taken = uint32_t(taken());
@@ -120,12 +119,6 @@ private:
             mQueue.push_back(candidate);
             std::push_heap(mQueue.begin(), mQueue.end(), order());
         }
-    }
-
-    int percent() const
-    {
-        const int64_t covered = mOrder.covered.empty() ? 0 : mOrder.covered.back();
-        return int(100.0 * double(covered) / double(covered + mUncovered.left()));
     }
 
     const std::vector<MedialBall>& mBalls;

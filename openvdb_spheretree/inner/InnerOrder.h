@@ -2,11 +2,11 @@
 /// @file InnerOrder.h
 /// @brief An object's medial balls in a greedy order: the first N of it are the inner balls for N.
 ///
-/// 1. Candidates are the medial balls of the object (MedialAxis.h): every ball inside the object
-///    that is not held by another one, or nearly so.
+/// 1. Candidates are the medial balls of the object (MedialAxis.h): nearly all balls inside the
+///    object that no other such ball holds.
 /// 2. Each step takes the ball that holds the most uncovered voxels; of equals the larger, then the
-///    one whose center is first in the order of Coord. So the first N balls of one order serve
-///    every N, and cover at least 1 - 1/e of what the best N of the candidates do (G. L.
+///    one whose center is first in the order of Coord. One order serves every N: its first N balls
+///    cover at least 1 - 1/e of what the best N candidates cover (G. L.
 ///    Nemhauser, L. A. Wolsey, M. L. Fisher, "An analysis of approximations for maximizing
 ///    submodular set functions", 1978).
 /// 3. It ends when all is covered: with a sixth of the medial balls of dragon-512, and five sixths
@@ -14,8 +14,8 @@
 ///
 /// What a ball adds only falls as others are taken. So it is counted again only when it comes to
 /// the top of a queue (M. Minoux, "Accelerated greedy algorithms for maximizing submodular set
-/// functions", 1978), and then only if a leaf it reaches into has changed. The next ones in the
-/// queue are counted with it, in parallel: that changes no choice.
+/// functions", 1978), and then only if a leaf that it reaches into has changed. The next balls in the
+/// queue are counted with it, in parallel. That changes no choice.
 ///
 /// Exact: strictly the greedy order, for any number of threads. Cost: see innerOrder(). Tests:
 /// TestInnerTree.cc, against a greedy search that counts everything anew.
@@ -38,7 +38,7 @@ namespace detail {
 
 struct InnerOrder {
     std::vector<int32_t> ball;    ///< indices of the balls, in the order they are taken
-    std::vector<int64_t> covered; ///< voxels that the balls up to and with this one cover
+    std::vector<int64_t> covered; ///< of each: voxels that it and those before it cover together
 };
 
 /// @param layout  the object's voxels
@@ -46,7 +46,7 @@ struct InnerOrder {
 /// @param dim     2 if the object is one voxel thick along z
 /// @param most    ends after so many balls
 /// @throw Interrupted if @a interrupter (which may be null) said so
-/// @note Every ball is counted some times, each time at a cost linear in the leaves (8x8x8) it
+/// @note A ball is counted several times, each time at a cost linear in the leaves (8x8x8) that it
 ///       reaches into. Of dragon-512 (7.4 million voxels, 138,157 balls) 878,000 counts take 4.5 s
 ///       of processor time, of hairball-256 (898,764 balls) 4.4 s.
 InnerOrder innerOrder(const LeafLayout& layout, const std::vector<MedialBall>& balls, int dim = 3,

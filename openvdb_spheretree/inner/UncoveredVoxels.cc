@@ -2,7 +2,6 @@
 #include "UncoveredVoxels.h"
 
 #include <openvdb_spheretree/base/IntegerRoot.h>
-#include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include <algorithm>
 
@@ -11,25 +10,23 @@ namespace detail {
 
 namespace {
 
-using openvdb::Coord;
-
-/// The leaves along an axis that hold the coordinates from c - reach to c + reach, as steps from
-/// the leaf of c.
-struct Steps {
+/// The leaves along an axis that hold the coordinates from c - reach to c + reach, counted from the
+/// leaf of c.
+struct LeafRange {
     int first, last;
 
-    Steps(int32_t c, int64_t reach)
+    LeafRange(int32_t c, int64_t reach)
         : first(int(((c - reach) >> 3) - (c >> 3))), last(int(((c + reach) >> 3) - (c >> 3)))
     {}
 };
 
-/// How far a coordinate is from the nearest and the farthest one of a leaf so many steps away.
+/// How far c is from the nearest and the farthest coordinate of such a leaf.
 struct Gap {
     int64_t least, most;
 
-    Gap(int32_t c, int step)
+    Gap(int32_t c, int leaf)
     {
-        const int64_t below = int64_t(c & 7) - int64_t(kLeafDim) * step; // from the leaf's first
+        const int64_t below = int64_t(c & 7) - int64_t(kLeafDim) * leaf; // from the leaf's first
         const int64_t above = kLeafDim - 1 - below;                      // to its last
         least = std::max<int64_t>(0, std::max(-below, -above));
         most = std::max(below, above);
@@ -51,20 +48,20 @@ UncoveredVoxels::UncoveredVoxels(const LeafLayout& layout, int dim)
 template <typename Visit>
 void UncoveredVoxels::visitLeaves(const MedialBall& ball, const Visit& visit) const
 {
-    const Coord& c = ball.center;
+    const openvdb::Coord& c = ball.center;
     const int64_t limit = int64_t(ball.radiusSq) - 1;
-    const uint32_t centre = *mLayout.findLeaf(c);
-    const Steps alongX(c[0], floorSqrt(limit));
+    const uint32_t center = *mLayout.findLeaf(c);
+    const LeafRange alongX(c[0], floorSqrt(limit));
     for (int i = alongX.first; i <= alongX.last; ++i) {
         const Gap x(c[0], i);
-        const uint32_t column = mLayout.neighbour(centre, Axis::X, i);
+        const uint32_t column = mLayout.neighbour(center, Axis::X, i);
         const int64_t restX = limit - x.least * x.least;
-        const Steps alongY(c[1], floorSqrt(restX));
+        const LeafRange alongY(c[1], floorSqrt(restX));
         for (int j = alongY.first; j <= alongY.last; ++j) {
             const Gap y(c[1], j);
             const uint32_t row = mLayout.neighbour(column, Axis::Y, j);
             const int64_t restY = restX - y.least * y.least;
-            const Steps alongZ(c[2], mDim == 2 ? 0 : floorSqrt(restY));
+            const LeafRange alongZ(c[2], mDim == 2 ? 0 : floorSqrt(restY));
             for (int k = alongZ.first; k <= alongZ.last; ++k) {
                 const Gap z(c[2], k);
                 const int64_t far = x.most * x.most + y.most * y.most + z.most * z.most;
@@ -78,11 +75,8 @@ int64_t UncoveredVoxels::countIn(const MedialBall& ball) const
 {
     int64_t count = 0;
     visitLeaves(ball, [&](uint32_t leaf, bool whole) {
-        if (whole || mCounts[leaf] == 0) {
-            count += mCounts[leaf];
-            return true;
-        }
-        count += (partInside(ball, leaf) & mMasks[leaf]).count();
+        if (whole || mCounts[leaf] == 0) count += mCounts[leaf];
+        else count += (partInside(ball, leaf) & mMasks[leaf]).count();
         return true;
     });
     return count;

@@ -2,13 +2,13 @@
 /// @file TightTree.h
 /// @brief Tight trees: few spheres for a small error, with the object covered for certain.
 ///
-/// In the trees of the paper a sphere contains whole leaf balls, around a centre that is given. A
-/// tight tree promises less, and so needs smaller spheres: every object voxel has a chain of nodes,
-/// one a level, each the child of the one above, that all hold the voxel (docs/tight-trees.md).
-/// 1. The leaf balls are the object's medial balls, less those whose voxels lie in others
+/// In the trees of the paper, a sphere contains whole leaf balls, and its center is given. A tight tree
+/// promises less, and so needs smaller spheres. Every object voxel has a chain of nodes, one a level,
+/// each the child of the one above, that all hold the voxel (docs/tight-trees.md).
+/// 1. The leaf balls are the object's medial balls, without those whose voxels all lie in others
 ///    (BallPruning.h).
-/// 2. Pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h). That is a
-///    binary forest, and the balls of each of its cuts cover the object.
+/// 2. Pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h). The merges are
+///    a binary forest, and the balls of each of its cuts cover the object.
 /// 3. Levels are cuts of the forest, by count or by the error allowed; quality=best searches for
 ///    better ones (SearchedLevels.h).
 ///
@@ -22,16 +22,14 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// @brief Append all nodes and levels, and the cuts if asked for, to a tree that has its settings,
-/// object and transform; stored radii are left to the caller.
-/// @param object   what the tree is of
+/// @brief Appends all nodes and levels, and the cuts if the settings say so, to a tree that has its
+/// settings, object and transform. Stored radii are left to the caller.
+/// @param object   that the tree is of
 /// @param seconds  must not be null
 /// @throw openvdb::ValueError if a bound on the error cannot be reached within the count allowed
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -141,11 +141,12 @@ openvdb_spheretree::LevelError naiveError(
 
 void expectErrorsAgree(int dim, uint32_t firstSeed)
 {
-    int levels = 0;
+    int objects = 0, levels = 0;
     for (const RandomObject& object : someObjects(firstSeed, 11)) {
         Voxels voxels = dim == 2 ? flattened(object.voxels) : object.voxels;
         sortVoxels(voxels);
         if (voxels.size() > 400) continue; // all pairs
+        ++objects;
         const auto grid = gridOf(voxels);
         for (const Weights& weights : kWeights) {
             for (SphereTreeSettings settings : bothTypes()) {
@@ -169,6 +170,7 @@ void expectErrorsAgree(int dim, uint32_t firstSeed)
             }
         }
     }
+    EXPECT_GE(objects, dim == 2 ? 10 : 3);
     EXPECT_GT(levels, 50);
 }
 

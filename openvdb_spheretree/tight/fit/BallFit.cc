@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -18,10 +17,18 @@ constexpr Step kDiagonals[20] = {{1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0},
     {1, 0, -1}, {-1, 0, 1}, {-1, 0, -1}, {0, 1, 1}, {0, 1, -1}, {0, -1, 1}, {0, -1, -1}, {1, 1, 1},
     {1, 1, -1}, {1, -1, 1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};
 
-/// The ball around a centre that holds the points.
-LocalBall ballAround(const PointCloud& points, float x, float y, float z)
+/// @return the ball around the center of another one that holds the points.
+LocalBall ballAround(const PointCloud& points, const LocalBall& at)
 {
-    return {x, y, z, points.farthestSq(x, y, z)};
+    return {at.x, at.y, at.z, points.farthestSq(at.x, at.y, at.z)};
+}
+
+/// The same after a step of the center.
+LocalBall ballAfter(const PointCloud& points, const LocalBall& from, const Step& step, int size)
+{
+    const auto s = float(size);
+    return ballAround(points,
+        {from.x + s * float(step.x), from.y + s * float(step.y), from.z + s * float(step.z)});
 }
 
 /// One descent, with the best ball so far.
@@ -31,14 +38,13 @@ public:
         : mPoints(points), mCosts(costs), mFlat(flat)
     {}
 
-    bool attempt(float x, float y, float z)
+    bool attempt(const LocalBall& ball)
     {
-        const LocalBall ball = ballAround(mPoints, x, y, z);
         if (containsBest(ball) || !mCosts.fits(ball)) return false;
         const BallFit fit{ball, mCosts.count(ball, mBest.cost)};
-        const bool better = fit.isBetterThan(mBest);
-        if (better) mBest = fit;
-        return better;
+        if (!fit.isBetterThan(mBest)) return false;
+        mBest = fit;
+        return true;
     }
 
     void run(const FitEffort& effort)
@@ -76,12 +82,7 @@ private:
         bool any = false;
         for (const Step& step : steps) {
             if (mFlat && step.z != 0) continue;
-            const LocalBall& from = mBest.ball;
-            const auto s = float(size);
-            if (!attempt(from.x + s * float(step.x), from.y + s * float(step.y),
-                    from.z + s * float(step.z))) {
-                continue;
-            }
+            if (!attempt(ballAfter(mPoints, mBest.ball, step, size))) continue;
             any = true;
             if (firstOnly) return true;
         }
@@ -117,17 +118,14 @@ LocalBall smallestBall(const PointCloud& points, bool flat)
             center[a] += part * (points.coordinate(a, far.point) - center[a]);
         }
     }
-    LocalBall best = ballAround(
-        points, std::rint(center[0]), std::rint(center[1]), flat ? 0 : std::rint(center[2]));
-    if (flat) best = ballAround(points, best.x, best.y, points.coordinate(2, 0));
+    const float z = flat ? points.coordinate(2, 0) : std::rint(center[2]);
+    LocalBall best = ballAround(points, {std::rint(center[0]), std::rint(center[1]), z});
     for (int size = 16; size > 0; size /= 2) {
         for (bool moved = true; moved;) {
             moved = false;
             for (const Step& step : kAxes) {
                 if (flat && step.z != 0) continue;
-                const auto s = float(size);
-                const LocalBall ball = ballAround(points, best.x + s * float(step.x),
-                    best.y + s * float(step.y), best.z + s * float(step.z));
+                const LocalBall ball = ballAfter(points, best, step, size);
                 if (!(ball.radiusSq < best.radiusSq)) continue;
                 best = ball;
                 moved = true;
@@ -140,23 +138,21 @@ LocalBall smallestBall(const PointCloud& points, bool flat)
 BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat)
 {
-    Descent descent(points, costs, flat);
-    descent.attempt(smallest.x, smallest.y, smallest.z);
+    Descent first(points, costs, flat);
+    first.attempt(ballAround(points, smallest));
     if (!effort.restarts) {
-        for (const LocalBall& start : starts) descent.attempt(start.x, start.y, start.z);
-        descent.run(effort);
-        return descent.best();
+        for (const LocalBall& start : starts) first.attempt(ballAround(points, start));
     }
-    descent.run(effort);
-    BallFit best = descent.best();
+    first.run(effort);
+    BallFit best = first.best();
+    if (!effort.restarts) return best;
     for (const LocalBall& start : starts) {
         Descent again(points, costs, flat);
-        again.attempt(start.x, start.y, start.z);
+        again.attempt(ballAround(points, start));
         again.run(effort);
         if (again.best().isBetterThan(best)) best = again.best();
     }
     return best;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

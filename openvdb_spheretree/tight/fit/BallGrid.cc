@@ -4,15 +4,14 @@
 #include <openvdb_spheretree/base/Hash.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
-using openvdb::Vec3i;
+using openvdb::Coord;
+using openvdb::CoordBBox;
 
 /// @return log2 of the width of the cells that a ball is put in; at least four voxels.
 int log2CellOf(const ExactSphere& ball)
@@ -22,28 +21,38 @@ int log2CellOf(const ExactSphere& ball)
     return log2;
 }
 
-Vec3i cellOf(const int64_t center[3], int log2)
+Coord cellOf(const int64_t center[3], int log2)
 {
     return {int32_t(center[0] >> log2), int32_t(center[1] >> log2), int32_t(center[2] >> log2)};
 }
 
-Vec3i clusterOf(const Vec3i& cell) { return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}; }
+Coord clusterOf(const Coord& cell) { return cell >> 2; }
 
-uint64_t bitOf(const Vec3i& cell)
+uint64_t bitOf(const Coord& cell)
 {
     return uint64_t(1) << ((cell[0] & 3) << 4 | (cell[1] & 3) << 2 | (cell[2] & 3));
 }
 
-bool contains(const Vec3i& lo, const Vec3i& hi, const Vec3i& at)
+/// Calls body(cluster, cells) for the clusters in a box.
+template <typename Clusters, typename Body>
+void forEachCluster(const Clusters& clusters, const CoordBBox& box, const Body& body)
 {
-    bool inside = true;
-    for (int a = 0; a < 3; ++a) inside = inside && at[a] >= lo[a] && at[a] <= hi[a];
-    return inside;
+    const Coord size = box.dim();
+    if (double(size[0]) * size[1] * size[2] > double(clusters.size())) {
+        for (const auto& [cluster, cells] : clusters) {
+            if (box.isInside(cluster)) body(cluster, cells);
+        }
+        return;
+    }
+    for (const Coord& at : box) {
+        const auto cluster = clusters.find(at);
+        if (cluster != clusters.end()) body(cluster->first, cluster->second);
+    }
 }
 
 } // namespace
 
-std::size_t BallGrid::CellHash::operator()(const Vec3i& cell) const
+std::size_t BallGrid::CellHash::operator()(const Coord& cell) const
 {
     const uint64_t xy = uint64_t(uint32_t(cell[0])) << 32 | uint32_t(cell[1]);
     return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(cell[2])));
@@ -59,7 +68,7 @@ BallGrid::BallGrid(const std::vector<ExactSphere>& balls)
 void BallGrid::add(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
-    const Vec3i at = cellOf(ball.center, log2);
+    const Coord at = cellOf(ball.center, log2);
     Grid& grid = mGrids[log2];
     grid.cells[at].push_back({id, ball, ball.radius()});
     grid.clusters[clusterOf(at)] |= bitOf(at);
@@ -70,7 +79,7 @@ void BallGrid::add(int32_t id, const ExactSphere& ball)
 void BallGrid::remove(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
-    const Vec3i at = cellOf(ball.center, log2);
+    const Coord at = cellOf(ball.center, log2);
     const auto grid = mGrids.find(log2);
     const auto cell = grid->second.cells.find(at);
     auto& entries = cell->second;
@@ -87,55 +96,32 @@ void BallGrid::remove(int32_t id, const ExactSphere& ball)
 }
 
 template <typename Body>
-void BallGrid::forEachCluster(const Grid& grid, const Vec3i& lo, const Vec3i& hi, const Body& body)
-{
-    double clusters = 1;
-    for (int a = 0; a < 3; ++a) clusters *= double(hi[a]) - lo[a] + 1;
-    if (clusters > double(grid.clusters.size())) {
-        for (const auto& [cluster, cells] : grid.clusters) {
-            if (contains(lo, hi, cluster)) body(cluster, cells);
-        }
-        return;
-    }
-    for (int32_t x = lo[0]; x <= hi[0]; ++x) {
-        for (int32_t y = lo[1]; y <= hi[1]; ++y) {
-            for (int32_t z = lo[2]; z <= hi[2]; ++z) {
-                const auto cluster = grid.clusters.find({x, y, z});
-                if (cluster != grid.clusters.end()) body(cluster->first, cluster->second);
-            }
-        }
-    }
-}
-
-template <typename Body>
 void BallGrid::forEachNear(const FineBox& box, const Body& body) const
 {
     for (const auto& [log2, grid] : mGrids) {
         const int64_t width = int64_t(1) << log2; // no ball of this grid has a larger radius
-        Vec3i lo, hi;
+        CoordBBox near;
         for (int a = 0; a < 3; ++a) {
-            lo[a] = int32_t((box.lo[a] - width) >> log2);
-            hi[a] = int32_t((box.hi[a] + width) >> log2);
+            near.min()[a] = int32_t((box.lo[a] - width) >> log2);
+            near.max()[a] = int32_t((box.hi[a] + width) >> log2);
         }
         const auto& cells = grid.cells;
-        forEachCluster(
-            grid, clusterOf(lo), clusterOf(hi), [&](const Vec3i& cluster, uint64_t bits) {
-                for (; bits; bits &= bits - 1) {
-                    const int bit = __builtin_ctzll(bits);
-                    const Vec3i at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
-                        4 * cluster[2] + (bit & 3));
-                    if (!contains(lo, hi, at)) continue;
-                    for (const Entry& entry : cells.find(at)->second) body(entry);
-                }
-            });
+        forEachCluster(grid.clusters, near >> 2, [&](const Coord& cluster, uint64_t bits) {
+            for (; bits; bits &= bits - 1) {
+                const int bit = __builtin_ctzll(bits);
+                const Coord at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
+                    4 * cluster[2] + (bit & 3));
+                if (!near.isInside(at)) continue;
+                for (const Entry& entry : cells.find(at)->second) body(entry);
+            }
+        });
     }
 }
 
 std::vector<int32_t> BallGrid::near(const ExactSphere& ball, double slack) const
 {
-    const FineBox box(ball, std::max(0.0, slack));
     std::vector<int32_t> found;
-    forEachNear(box, [&](const Entry& entry) {
+    forEachNear(FineBox(ball, std::max(0.0, slack)), [&](const Entry& entry) {
         if (gapBetween(entry.ball, ball) <= slack) found.push_back(entry.id);
     });
     std::sort(found.begin(), found.end());
@@ -160,9 +146,8 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
     const double radius = ball.radius();
     std::vector<std::pair<double, int32_t>> found;
     for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
-        const FineBox box(ball, slack);
         found.clear();
-        forEachNear(box, [&](const Entry& entry) {
+        forEachNear(FineBox(ball, slack), [&](const Entry& entry) {
             const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;
             if (entry.id == id) others = mSize - 1;
             if (entry.id == id || gap > slack) return;
@@ -182,5 +167,4 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
     return ids;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,12 +8,11 @@
 
 #include <openvdb/Types.h>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// How far the nearest and the farthest voxel of a box are from a ball's center.
+/// How far the nearest and the farthest point of a box of voxels are from a ball's center.
 struct BoxReach {
-    int64_t nearestSq = 0, farthestSq = 0; ///< 1/16 voxel, squared; the nearest along each axis
+    int64_t nearestSq = 0, farthestSq = 0; ///< 1/16 voxel, squared
 
     BoxReach(const ExactSphere& ball, const openvdb::CoordBBox& box);
     bool meets(const ExactSphere& ball) const { return nearestSq <= ball.radiusSq; }
@@ -24,8 +23,7 @@ struct BoxReach {
 /// @return whether @a ball reaches the box of the leaf at @a origin, and so may hold a voxel of it.
 bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin);
 
-/// @return the smallest box of voxels that holds all voxels of @a ball; false if it has none.
-bool ballBox(const ExactSphere& ball, openvdb::CoordBBox& box);
+/// @return the smallest box of voxels that holds all voxels of @a ball; CoordBBox() if it has none.
+openvdb::CoordBBox ballBox(const ExactSphere& ball);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

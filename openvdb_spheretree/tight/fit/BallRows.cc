@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file BallRows.cc
-/// @brief A ball of squared radius r (in 1/16 sample) meets row (x, y) in the samples z with
-/// (16 z - cz)^2 <= r - dx^2 - dy^2: floor of a square root, exact in floats since r <= 2^20.
-
 #include "BallRows.h"
 
 #include "CostWindow.h"
@@ -17,8 +13,7 @@
 #include <cmath>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -35,17 +30,18 @@ struct Slice {
 /// No window is as large; keeps the chords of far and huge balls in range.
 constexpr float kFar = float(1 << 26);
 
-float clamped(float value) { return std::max(-kFar, std::min(kFar, value)); }
+/// The samples in the ball along an axis, of those in [0, size); none where first > last.
+struct Range {
+    int32_t first, last;
 
-/// @return the first and the last sample in the ball along an axis, where its half chord is @a half.
-int32_t firstSample(float center, float half)
-{
-    return (int32_t(clamped(center - std::floor(half))) + 15) >> 4;
-}
-int32_t lastSample(float center, float half)
-{
-    return int32_t(clamped(center + std::floor(half))) >> 4;
-}
+    /// @param half  the half chord of the ball along the axis
+    Range(float center, float half, int32_t size)
+    {
+        const auto clamped = [](float at) { return int32_t(std::max(-kFar, std::min(kFar, at))); };
+        first = std::max(0, (clamped(center - std::floor(half)) + 15) >> 4);
+        last = std::min(size - 1, clamped(center + std::floor(half)) >> 4);
+    }
+};
 
 /// Where rows of a slice enter and leave the ball: one for each lane, the first of them row y.
 /// @param rest  what is left of the squared radius in the slice
@@ -73,19 +69,18 @@ void sliceOf(const LocalBall& ball, int32_t x, int32_t sizeY, Slice& slice)
     slice.y0 = 0;
     slice.y1 = -1;
     if (rest < 0) return;
-    const float reach = std::sqrt(rest);
-    slice.y0 = std::max(0, firstSample(ball.y, reach));
-    slice.y1 = std::min(sizeY - 1, lastSample(ball.y, reach));
-    const int lanes = int(hn::Lanes(di));
+    const Range rows(ball.y, std::sqrt(rest), sizeY);
+    slice.y0 = rows.first;
+    slice.y1 = rows.last;
     auto first = hn::Zero(di), last = first;
-    for (int32_t y = slice.y0; y <= slice.y1; y += lanes) {
+    for (int32_t y = slice.y0; y <= slice.y1; y += int32_t(hn::Lanes(di))) {
         chordsOf(di, ball, rest, y, first, last);
         hn::StoreU(first, di, slice.z0 + (y - slice.y0));
         hn::StoreU(last, di, slice.z1 + (y - slice.y0));
     }
 }
 
-/// @return the bits first to last of word @a word of a row, which must meet it.
+/// @return the bits first to last of a row, as far as they are in word @a word of it; some are.
 HWY_INLINE uint64_t wordMask(int32_t word, int32_t first, int32_t last)
 {
     uint64_t mask = ~uint64_t(0);
@@ -100,10 +95,8 @@ HWY_INLINE void forEachRow(const BitRows& rows, const LocalBall& ball, const Bod
 {
     if (ball.radiusSq < 0) return;
     Slice slice;
-    const float reach = std::sqrt(ball.radiusSq);
-    const int32_t x0 = std::max(0, firstSample(ball.x, reach));
-    const int32_t x1 = std::min(rows.size[0] - 1, lastSample(ball.x, reach));
-    for (int32_t x = x0; x <= x1; ++x) {
+    const Range slices(ball.x, std::sqrt(ball.radiusSq), rows.size[0]);
+    for (int32_t x = slices.first; x <= slices.last; ++x) {
         sliceOf(ball, x, rows.size[1], slice);
         std::size_t row = std::size_t(x) * std::size_t(rows.size[1]) + std::size_t(slice.y0);
         for (int32_t y = slice.y0; y <= slice.y1; ++y, ++row) {
@@ -195,29 +188,24 @@ void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const Local
 {
     if (ball.radiusSq < 0) return;
     const float reach = std::sqrt(ball.radiusSq);
-    const int32_t x0 = std::max(0, firstSample(ball.x, reach));
-    const int32_t x1 = std::min(size[0] - 1, lastSample(ball.x, reach));
-    const int32_t w0 = std::max(0, firstSample(ball.z, reach) >> 6);
-    const int32_t w1 = std::min(words - 1, lastSample(ball.z, reach) >> 6);
-    for (int32_t x = x0; x <= x1; ++x) {
+    const Range slices(ball.x, reach, size[0]), samples(ball.z, reach, 64 * words);
+    for (int32_t x = slices.first; x <= slices.last; ++x) {
         const float dx = float(16 * x) - ball.x, rest = ball.radiusSq - dx * dx;
         if (rest < 0) continue;
-        const float chord = std::sqrt(rest);
-        const int32_t y0 = std::max(0, firstSample(ball.y, chord));
-        const int32_t y1 = std::min(size[1] - 1, lastSample(ball.y, chord));
-        for (int32_t w = w0; w <= w1; ++w) clearWords(bits, size, words, ball, x, y0, y1, w);
+        const Range rows(ball.y, std::sqrt(rest), size[1]);
+        for (int32_t w = samples.first >> 6; w <= samples.last >> 6; ++w) {
+            clearWords(bits, size, words, ball, x, rows.first, rows.last, w);
+        }
     }
 }
 
 } // namespace HWY_NAMESPACE
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 HWY_EXPORT(countBits);
 HWY_EXPORT(collectBits);
@@ -238,7 +226,6 @@ void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const Local
     HWY_DYNAMIC_DISPATCH(clearBits)(bits, size, words, ball);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 
 #endif // HWY_ONCE

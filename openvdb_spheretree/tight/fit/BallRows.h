@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallRows.h
-/// @brief Counts, lists and clears the bits of a window that lie in a ball, row by row along z. Where
-/// rows enter and leave the ball is found for several rows at once.
+/// @brief Counts, lists and clears the bits of a window that lie in a ball, row by row along z. The ends
+/// of the ball are found for several rows at once.
+///
+/// A ball of squared radius r (in 1/16 sample) meets row (x, y) in the samples z with
+/// (16 z - cz)^2 <= r - dx^2 - dy^2: floor of a square root, exact in floats since r <= 2^20.
 
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct LocalBall;
 struct CostRun;
@@ -24,10 +26,10 @@ struct BitRows {
 /// @return the bits in the ball, which may reach out of the window.
 int64_t countBits(const BitRows& rows, const LocalBall& ball);
 
-/// Appends these bits, run by run; distances are to the ball's centre.
+/// Appends the bits in the ball, run by run; distances are to its center.
 void collectBits(const BitRows& rows, const LocalBall& ball, std::vector<CostRun>& found);
 
+/// Clears the bits in the ball. The bits are as in BitRows.
 void clearBits(uint64_t* bits, const int32_t size[3], int32_t words, const LocalBall& ball);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

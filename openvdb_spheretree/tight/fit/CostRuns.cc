@@ -7,13 +7,11 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cmath>
 
 #ifndef OPENVDB_SPHERETREE_TIGHT_COST_RUNS_ONCE
 #define OPENVDB_SPHERETREE_TIGHT_COST_RUNS_ONCE
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 constexpr std::size_t kRunsAtOnce = 32; // a multiple of the lanes of every target
 
@@ -22,13 +20,11 @@ struct RunArrays {
     const int32_t *first, *last;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -65,14 +61,12 @@ int64_t countInBall(const RunArrays& runs, std::size_t count, const LocalBall& b
 }
 
 } // namespace HWY_NAMESPACE
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 HWY_EXPORT(countInBall);
 
@@ -119,7 +113,6 @@ int64_t CostRuns::count(const LocalBall& ball, int64_t bound) const
     return HWY_DYNAMIC_DISPATCH(countInBall)(runs, within, ball, bound);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 
 #endif // HWY_ONCE

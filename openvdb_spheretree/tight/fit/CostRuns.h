@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CostRuns.h
-/// @brief The samples that cost around one place, as a list of runs: how many of them does a ball hold?
+/// @brief Counts the samples that cost in balls near one place, from a list of runs.
 ///
-/// A run is consecutive samples along z. The samples of a run in a ball follow from one square root,
-/// for several runs at once. The runs nearest to the place come first, since a ball is likely to hold
-/// these: so a ball that is worse than the best one so far is given up early. (Counting rows of bits,
-/// BallRows.h, takes a square root for each row of the ball, though most rows have nothing to count:
-/// a tight tree took three times as long.)
+/// A run is consecutive samples along z. How many of its samples are in a ball follows from one square
+/// root, for several runs at once. The runs nearest to the place come first: a ball is likely to hold
+/// these, so one that is worse than the best so far is given up early. (Counting rows of bits,
+/// BallRows.h, takes a square root for each row of the ball, though most rows have nothing to count.
+/// A tight tree took three times as long.)
 
 #pragma once
 
@@ -17,17 +17,16 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CostRuns {
 public:
-    /// Takes the samples of @a window that lie in @a place, which may reach out of it.
+    /// Takes the samples of @a window that lie in @a place, a ball that may reach out of it.
     void collect(const CostWindow& window, const LocalBall& place);
 
     /// @return whether the ball lies in the place, so that it can be counted.
     bool fits(const LocalBall& ball) const { return reachSq(ball) <= mPlace.radiusSq; }
-    /// @return the samples in a ball that fits; any number above @a bound if there are more.
+    /// @return the samples in a ball that fits. If they are more than @a bound: any number above it.
     int64_t count(const LocalBall& ball, int64_t bound = INT64_MAX) const;
 
 private:
@@ -47,5 +46,4 @@ private:
     std::vector<CostRun> mFound;                   ///< before they are sorted
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

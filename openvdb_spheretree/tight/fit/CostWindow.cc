@@ -3,11 +3,9 @@
 
 #include "BallRows.h"
 
-#include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 int CostWindow::levelFor(double radius, int samples)
 {
@@ -52,7 +50,9 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
 
 LocalBall CostWindow::toLocal(const ExactSphere& ball) const
 {
-    const auto rounded = [&](int axis) { return std::rint(local(ball.center[axis], axis)); };
+    const auto rounded = [&](int axis) {
+        return std::rint(float(double(ball.center[axis] - mFineOrigin[axis]) * mToLocal));
+    };
     const double radiusSq = std::floor(double(ball.radiusSq) * mToLocal * mToLocal);
     return {rounded(0), rounded(1), rounded(2), float(radiusSq)};
 }
@@ -79,5 +79,4 @@ void CostWindow::collect(const LocalBall& ball, std::vector<CostRun>& found) con
 
 void CostWindow::cover(const LocalBall& ball) { clearBits(mBits.data(), mSize, mWords, ball); }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

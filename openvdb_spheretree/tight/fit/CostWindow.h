@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CostWindow.h
-/// @brief A small box of samples with a bit for each that costs: that is outside the object, and in no
-/// other ball of the cover. The cost of a ball is the number of bits in it.
+/// @brief A small box of samples, with a bit for each sample that costs. These are outside the object
+/// and in no other ball of the cover. The cost of a ball is the number of bits in it.
 ///
 /// A window is made for one decision, and only reads the object and the cover. So many decisions can
-/// be made in parallel. (A count for each voxel outside, kept up to date, would take memory with the
+/// be made in parallel. (Counts for all voxels outside, kept up to date, would take memory with the
 /// volume of the largest ball.)
 ///
-/// Numbers are local: relative to the window's origin, in 1/16 of a sample. At sample level 0 they are
+/// Coordinates are relative to the window's origin, in 1/16 of a sample. At sample level 0 they are
 /// exact for balls that fit in the window. Above it, centers and radii are rounded, and a bit stands
 /// for 8^level voxels.
-/// Cost: filling, a byte for 8 samples; counting, a square root for each row and a word for 64
+/// Cost: to fill, a byte for 8 samples; to count, a square root for each row and a word for 64
 /// samples.
 
 #pragma once
@@ -22,17 +22,16 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// A ball in a window's own coordinates: integers, floats for the sake of the kernels.
+/// A ball in a window's coordinates: integers, stored as floats for the vector units.
 struct LocalBall {
     float x = 0, y = 0, z = 0, radiusSq = -1;
 };
 
 /// Consecutive samples along z that cost.
 struct CostRun {
-    float x, y;          ///< in a window's own coordinates
+    float x, y;          ///< in the window's coordinates
     int32_t first, last; ///< samples of the window
     float distanceSq;    ///< of the nearest one, to the place around which they were collected
 
@@ -47,37 +46,30 @@ public:
     /// @return the finest level of samples that has no more than @a samples in @a radius.
     static int levelFor(double radius, int samples);
 
-    /// Every sample of the box that is outside the object costs.
+    /// Starts anew: every sample of the box that is outside the object costs.
     void reset(const SampledObject& object, const FineBox& box, int level);
     /// Clears the bits in @a ball: another ball of the cover.
     void cover(const ExactSphere& ball) { cover(toLocal(ball)); }
     void cover(const LocalBall& ball);
 
-    /// @return the samples of a ball that cost; the window reaches over all of it.
+    /// @return how many samples of a ball cost. The ball must lie in the window.
     int64_t count(const LocalBall& ball) const;
-    /// Appends the runs of such samples, of a ball that may reach out of the window.
+    /// Appends the runs of such samples. The ball may reach out of the window.
     void collect(const LocalBall& ball, std::vector<CostRun>& found) const;
 
     LocalBall toLocal(const ExactSphere& ball) const;
-    /// @return the centre of a local ball, its radius left empty.
+    /// @return an empty ball with the center of a local one.
     ExactSphere centerOf(const LocalBall& ball) const;
-    /// Voxels a sample stands for, as a power of two.
-    int level() const { return mLevel; }
+    int level() const { return mLevel; } ///< a sample stands for 2^level voxels along each axis
     int64_t voxelsPerSample() const { return int64_t(1) << std::min(3 * mLevel, 60); }
-    /// A coordinate of a point in 1/16 voxel, in 1/16 sample.
-    float local(int64_t fine, int axis) const
-    {
-        return float(double(fine - mFineOrigin[axis]) * mToLocal);
-    }
 
 private:
     int mLevel = 0;
     double mToLocal = 1; ///< 2^-level
     int64_t mFineOrigin[3] = {0, 0, 0};
     int32_t mSize[3] = {0, 0, 0}; ///< samples
-    int32_t mWords = 0;           ///< a row along z
-    std::vector<uint64_t> mBits;  ///< rows, y fastest
+    int32_t mWords = 0;           ///< of a row along z
+    std::vector<uint64_t> mBits;  ///< row after row, y fastest
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -6,17 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-namespace {
-
-/// How much further than the smallest ball around the targets a ball may reach: this part of its
-/// radius, and this much more.
+/// A ball may reach further from the middle of the targets than the smallest ball around them: by
+/// this part of its radius, and by this much more (1/16 sample).
 constexpr float kRoom = 0.35f;
 constexpr float kMoreRoom = 2 * float(kFine);
-
-} // namespace
 
 int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held)
 {
@@ -63,7 +58,7 @@ void CoveringFit::openWindow(const SampledObject& object, int samples)
 double CoveringFit::costOf(const std::vector<ExactSphere>& balls)
 {
     int64_t samples = 0;
-    if (balls.size() > 1) mLeft = mWindow;
+    if (balls.size() > 1) mLeft = mWindow; // a copy, from which each ball takes what it holds
     CostWindow& left = balls.size() > 1 ? mLeft : mWindow;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         samples += left.count(left.toLocal(balls[i]));
@@ -81,11 +76,10 @@ FittedBall CoveringFit::best(const FitEffort& effort, bool flat)
     }
     mPoints.finish();
     mStarts.clear();
-    for (const ExactSphere& other : mReplaced) mStarts.push_back(mWindow.toLocal(other));
     const LocalBall smallest = smallestBall(mPoints, flat);
     float reach = std::sqrt(smallest.radiusSq) * (1 + kRoom);
     for (const ExactSphere& other : mReplaced) {
-        const LocalBall ball = mWindow.toLocal(other);
+        const LocalBall& ball = mStarts.emplace_back(mWindow.toLocal(other));
         const float x = ball.x - smallest.x, y = ball.y - smallest.y, z = ball.z - smallest.z;
         reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + std::sqrt(ball.radiusSq));
     }
@@ -103,5 +97,4 @@ FittedBall CoveringFit::best(const FitEffort& effort, bool flat)
     return fitted;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -13,24 +13,22 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct FittedBall {
     ExactSphere ball;
     double cost = 0; ///< voxels, counted on samples
 };
 
-/// @return the smallest squared radius around the centre of @a ball that holds @a held, a ball.
+/// @return the smallest squared radius around the center of @a ball that holds @a held, a ball.
 int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held);
 
-/// Owns the window of what costs, and all lists. Reused for many fits, it allocates once.
+/// Owns the window of what costs, and all lists: reused for many fits, it allocates once.
 class CoveringFit {
 public:
-    /// Opens the window around @a targets and the balls @a replaced: there, everything outside the
-    /// object costs.
-    /// @param targets   voxels, or balls, to be held; not empty
-    /// @param replaced  balls in whose place the new one comes
+    /// Opens the window around @a targets and @a replaced. All that is outside the object costs there.
+    /// @param targets   voxels or balls that the new ball must hold; not empty
+    /// @param replaced  balls whose place it takes
     /// @param samples   of a radius, at most: FitEffort
     void open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,
         const std::vector<ExactSphere>& replaced, int samples);
@@ -42,15 +40,15 @@ public:
         open(object, std::vector<ExactSphere>{ball}, {}, samples);
     }
 
-    /// What the window reaches over.
+    /// @return what the window covers.
     const FineBox& box() const { return mBox; }
     /// Voxels in @a ball, another one of the cover, cost nothing.
     void cover(const ExactSphere& ball) { mWindow.cover(ball); }
 
     /// @return what the balls cost together, voxels.
     double costOf(const std::vector<ExactSphere>& balls);
-    /// @return the best ball found. It holds all targets, exactly. The centres of the replaced balls
-    /// are among those tried.
+    /// @return the best ball found. It holds all targets, exactly. The centers of the replaced balls
+    /// are tried, too.
     FittedBall best(const FitEffort& effort, bool flat);
 
 private:
@@ -64,5 +62,4 @@ private:
     std::vector<LocalBall> mStarts;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -3,19 +3,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
 using openvdb::Coord;
 
-/// A point of a slice, with where it stands in the list.
+/// A point, and where it is in which slice.
 struct SlicePoint {
-    int64_t slice;
-    int64_t u, v;
+    int64_t slice, u, v;
     Coord at;
 };
 
@@ -48,10 +45,10 @@ void appendHull(const SlicePoint* begin, const SlicePoint* end, std::vector<Coor
     for (const SlicePoint& p : chain) corners.push_back(p.at);
 }
 
-/// Parallel slices: the number of a point's slice is a sum of its coordinates, and two of them are its
-/// place in there.
+/// Parallel slices. The number of a point's slice is a sum of its coordinates with these factors, and
+/// its place there are the coordinates along two axes.
 struct Slicing {
-    int x, y, z; ///< factors of the sum
+    int x, y, z; ///< factors
     int u, v;    ///< axes
 };
 
@@ -59,7 +56,7 @@ constexpr Slicing kAlongAxes[3] = {{0, 0, 1, 0, 1}, {0, 1, 0, 0, 2}, {1, 0, 0, 1
 constexpr Slicing kDiagonal[6] = {{1, 1, 0, 0, 2}, {1, -1, 0, 0, 2}, {1, 0, 1, 0, 1},
     {1, 0, -1, 0, 1}, {0, 1, 1, 1, 0}, {0, 1, -1, 1, 0}};
 
-/// Cuts each slice down to the corners of its hull.
+/// Keeps the corners of each slice's hull.
 void keepSliceHulls(std::vector<Coord>& points, const Slicing& by)
 {
     thread_local std::vector<SlicePoint> order, chain;
@@ -169,5 +166,4 @@ void dropInnerPoints(std::vector<Coord>& points)
     points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

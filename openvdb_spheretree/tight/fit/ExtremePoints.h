@@ -2,12 +2,12 @@
 /// @file ExtremePoints.h
 /// @brief The few voxels of a set that a ball must hold to hold them all.
 ///
-/// A ball is convex, so it holds a set of voxels if it holds the corners of the set's convex hull. Cut
-/// the set into parallel slices, in any direction: each of these corners is also a corner of the 2-D
-/// hull of its slice. So each slice is reduced to the corners of its hull, by a monotone chain (A. M.
-/// Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979) in integers. That
-/// is done for several directions, one after the other. All corners of the hull are left, and a few
-/// points more. Flat and thin sets and single voxels are no special cases.
+/// A ball is convex, so it holds a set of voxels if it holds the corners of the set's convex hull. If
+/// the set is cut into parallel slices, each of these corners is also a corner of the 2-D hull of its
+/// slice. So each slice is reduced to the corners of its hull, by a monotone chain (A. M. Andrew,
+/// "Another efficient algorithm for convex hulls in two dimensions", 1979) in integers. That is done
+/// for slices in several directions, one after the other. What is left are all corners of the hull and
+/// a few points more. Flat sets, thin sets and single voxels are no special cases.
 
 #pragma once
 
@@ -17,8 +17,7 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Takes voxels leaf by leaf.
 class ExtremePoints {
@@ -42,9 +41,7 @@ private:
     std::vector<openvdb::Coord> mPoints;
 };
 
-/// @brief Drops points that are no corners of the hull of a slice along x, y or z and, where many are
-/// left, along diagonals.
+/// Keeps the corners of the hulls of slices across x, y and z, and across diagonals if many are left.
 void dropInnerPoints(std::vector<openvdb::Coord>& points);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

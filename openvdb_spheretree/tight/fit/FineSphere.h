@@ -2,8 +2,8 @@
 /// @file FineSphere.h
 /// @brief The balls of tight trees: exact spheres in units of 1/16 voxel.
 ///
-/// Half a voxel is too coarse: at 512 spheres Al.100 then has 2.0 % of error in place of 1.15 %;
-/// 1/32 gains no more.
+/// Units of half a voxel are too coarse: with 512 spheres, Al.100 has 2.0 % of error in place of
+/// 1.15 %. Units of 1/32 gain nothing more.
 
 #pragma once
 
@@ -17,12 +17,10 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// Units of length in a voxel.
-constexpr int64_t kFine = 16;
-constexpr int kFineShift = 4; ///< log2 of that
+constexpr int kFineShift = 4;                       ///< log2 of kFine
+constexpr int64_t kFine = int64_t(1) << kFineShift; ///< units of length in a voxel
 
 /// @return the ball that holds this voxel alone, radius 0.
 inline ExactSphere voxelBall(const openvdb::Coord& ijk)
@@ -38,7 +36,7 @@ inline ExactSphere fineBall(const MedialBall& ball)
     return fine;
 }
 
-/// @return the distance of two centres, 1/16 voxel.
+/// @return the distance of two centers, 1/16 voxel.
 inline double centerDistance(const ExactSphere& a, const ExactSphere& b)
 {
     const double x = double(a.center[0] - b.center[0]), y = double(a.center[1] - b.center[1]),
@@ -46,7 +44,7 @@ inline double centerDistance(const ExactSphere& a, const ExactSphere& b)
     return std::sqrt(x * x + y * y + z * z);
 }
 
-/// @return what is free between two balls, 1/16 voxel; negative where they overlap.
+/// @return the gap between two balls, 1/16 voxel; negative where they overlap.
 inline double gapBetween(const ExactSphere& a, const ExactSphere& b)
 {
     return centerDistance(a, b) - a.radius() - b.radius();
@@ -67,7 +65,7 @@ struct FineBox {
         }
     }
 
-    /// Takes in the box of a ball.
+    /// Grows to hold the box of a ball.
     void expand(const ExactSphere& ball, double margin = 0)
     {
         const FineBox box(ball, margin);
@@ -96,7 +94,7 @@ struct FineBox {
     }
 };
 
-/// @return a ball around a box that is not empty, whose center is that of the box, rounded.
+/// @return a ball around a box, which must not be empty. Its center is that of the box, rounded.
 inline ExactSphere ballAround(const FineBox& box)
 {
     ExactSphere ball{{}, 0};
@@ -108,5 +106,4 @@ inline ExactSphere ballAround(const FineBox& box)
     return ball;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,8 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -61,21 +60,17 @@ float farthestSqOf(const float* const axes[4], std::size_t count, const float at
 }
 
 } // namespace HWY_NAMESPACE
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 HWY_EXPORT(farthestOf);
 HWY_EXPORT(farthestSqOf);
 
-namespace {
 constexpr std::size_t kPadding = 16;
-}
 
 void PointCloud::add(float x, float y, float z, float radius)
 {
@@ -115,7 +110,6 @@ std::array<const float*, 4> PointCloud::axes() const
         mAxis[0].data(), mAxis[1].data(), mAxis[2].data(), mHasRadii ? mAxis[3].data() : nullptr};
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight
 
 #endif // HWY_ONCE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PointCloud.h
-/// @brief What a ball has to hold, in arrays for vector units: points, or balls around them.
+/// @brief The points that a ball has to hold, or balls around them, in arrays for vector units.
 
 #pragma once
 
@@ -8,14 +8,12 @@
 #include <cstddef>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// Points in some local frame; sizes are padded with copies of the first point.
+/// Points in a window's coordinates. Arrays are padded with copies of the first point.
 class PointCloud {
 public:
     void clear() { mCount = 0; }
-    bool empty() const { return mCount == 0; }
     std::size_t size() const { return mCount; }
     /// @param radius  of a ball around the point that has to be held with it
     void add(float x, float y, float z, float radius = 0);
@@ -24,7 +22,7 @@ public:
 
     struct Farthest {
         std::size_t point;
-        float distanceSq; ///< the squared radius that a ball needs: exact for integers below 2^12
+        float distanceSq; ///< squared radius that a ball needs; exact for integers below 2^12
     };
     /// @return the first of the points that are farthest.
     Farthest farthest(float x, float y, float z) const;
@@ -32,7 +30,6 @@ public:
     float farthestSq(float x, float y, float z) const;
 
     float coordinate(int axis, std::size_t point) const { return mAxis[axis][point]; }
-    float radius(std::size_t point) const { return mHasRadii ? mAxis[3][point] : 0; }
 
 private:
     std::array<const float*, 4> axes() const;
@@ -42,5 +39,4 @@ private:
     bool mHasRadii = false;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

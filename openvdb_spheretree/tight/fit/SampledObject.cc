@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampledObject.h"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -23,24 +20,11 @@ uint64_t everySecond(uint64_t word)
     return bits;
 }
 
-/// The leaf of the next level that takes the samples of a leaf at @a origin.
-Coord parentOrigin(const Coord& origin)
-{
-    return Coord((origin[0] >> 1) & ~7, (origin[1] >> 1) & ~7, (origin[2] >> 1) & ~7);
-}
-
-/// Adds every second sample of a child to one of the eight corners of its parent.
-void addSamples(const LeafMask& child, const Coord& origin, LeafMask& parent)
-{
-    const int x = (origin[0] >> 1) & 4, y = (origin[1] >> 1) & 4, z = (origin[2] >> 1) & 4;
-    for (int i = 0; i < 4; ++i) parent[x + i] |= everySecond(child[2 * i]) << (8 * y + z);
-}
-
 SampleLevel coarser(const SampleLevel& fine)
 {
-    std::vector<std::pair<Coord, uint32_t>> order;
+    std::vector<std::pair<Coord, uint32_t>> order; // leaves by the one that takes their samples
     for (uint32_t leaf = 0; leaf < fine.leafCount(); ++leaf) {
-        order.emplace_back(parentOrigin(fine.origin(leaf)), leaf);
+        order.emplace_back((fine.origin(leaf) >> 1) & ~7, leaf);
     }
     std::sort(order.begin(), order.end());
     std::vector<Coord> origins;
@@ -49,9 +33,13 @@ SampleLevel coarser(const SampleLevel& fine)
         const Coord origin = order[i].first;
         LeafMask mask{};
         for (; i < order.size() && order[i].first == origin; ++i) {
-            addSamples(fine.mask(order[i].second), fine.origin(order[i].second), mask);
+            const LeafMask& child = fine.mask(order[i].second);
+            const Coord corner = (fine.origin(order[i].second) >> 1) & 4;
+            for (int x = 0; x < 4; ++x) {
+                mask[corner[0] + x] |= everySecond(child[2 * x]) << (8 * corner[1] + corner[2]);
+            }
         }
-        if (mask == LeafMask{}) continue;
+        if (mask.none()) continue;
         origins.push_back(origin);
         masks.push_back(mask);
     }
@@ -63,7 +51,6 @@ SampleLevel coarser(const SampleLevel& fine)
 SampleLevel::SampleLevel(std::vector<Coord> origins, std::vector<LeafMask> masks)
     : mOrigins(std::move(origins)), mMasks(std::move(masks))
 {
-    mColumnBegin.clear();
     for (uint32_t leaf = 0; leaf < mOrigins.size(); ++leaf) {
         const bool first = leaf == 0 || mOrigins[leaf][0] != mOrigins[leaf - 1][0]
             || mOrigins[leaf][1] != mOrigins[leaf - 1][1];
@@ -105,10 +92,4 @@ SampledObject::SampledObject(const LeafLayout& object)
     }
 }
 
-const SampleLevel& SampledObject::level(int k) const
-{
-    return mLevels[std::min(std::size_t(k), mLevels.size() - 1)];
-}
-
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

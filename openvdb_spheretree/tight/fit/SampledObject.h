@@ -2,10 +2,10 @@
 /// @file SampledObject.h
 /// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis.
 ///
-/// Balls are compared by how much they hold outside the object. Counting voxels takes time with the
-/// volume of a ball. Counting samples takes no more than for a ball of radius 16 to 40 (FitEffort), so
-/// the time for a ball is bounded. Samples only decide which ball is chosen: what it has to cover
-/// is always every voxel.
+/// Balls are compared by how much they hold outside the object. The time to count voxels grows with
+/// the volume of a ball. Samples are chosen so that a radius has at most 16 to 40 of them (FitEffort):
+/// that bounds the time for a ball. They only decide which ball is chosen. What a ball has to cover is
+/// always every voxel.
 ///
 /// These are samples and not an OR-pyramid, in which a thin sheet would be as thick as a coarse voxel.
 /// Memory: 72 bytes for each leaf of each level; solids have 1.15 times the object's leaves.
@@ -15,16 +15,15 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Leaves of 8^3 samples, ordered by origin, x first.
 class SampleLevel {
 public:
-    SampleLevel() = default;
     /// @param origins  ascending
     SampleLevel(std::vector<openvdb::Coord> origins, std::vector<LeafMask> masks);
 
@@ -36,8 +35,8 @@ public:
     template <typename Body>
     void forEachLeaf(const openvdb::CoordBBox& box, const Body& body) const
     {
-        const openvdb::Coord lo(box.min()[0] & ~7, box.min()[1] & ~7, box.min()[2] & ~7);
-        for (std::size_t c = firstColumn(lo[0], lo[1]); c < columns();) {
+        const openvdb::Coord lo = box.min() & ~7;
+        for (std::size_t c = firstColumn(lo[0], lo[1]); c + 1 < mColumnBegin.size();) {
             const openvdb::Coord& at = mOrigins[mColumnBegin[c]];
             if (at[0] > box.max()[0]) return;
             if (at[1] < lo[1]) {
@@ -55,7 +54,6 @@ public:
     }
 
 private:
-    std::size_t columns() const { return mColumnBegin.size() - 1; }
     /// @return the first column at or after (x, y).
     std::size_t firstColumn(int32_t x, int32_t y) const;
     /// @return the first leaf of a column at or above z.
@@ -63,7 +61,7 @@ private:
 
     std::vector<openvdb::Coord> mOrigins;
     std::vector<LeafMask> mMasks;
-    std::vector<uint32_t> mColumnBegin{0}; ///< leaves with the same x and y, and the end
+    std::vector<uint32_t> mColumnBegin; ///< of leaves with the same x and y, and the end
 };
 
 class SampledObject {
@@ -71,12 +69,14 @@ public:
     explicit SampledObject(const LeafLayout& object);
 
     /// @param k  0 or more; levels beyond the last one have no samples
-    const SampleLevel& level(int k) const;
+    const SampleLevel& level(int k) const
+    {
+        return mLevels[std::min(std::size_t(k), mLevels.size() - 1)];
+    }
     int levels() const { return int(mLevels.size()); }
 
 private:
     std::vector<SampleLevel> mLevels; ///< the last one is empty
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

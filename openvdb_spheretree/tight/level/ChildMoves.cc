@@ -9,8 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -30,7 +29,7 @@ ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
             around.center[a] += std::lrint(part * double(child.center[a] - ball.center[a]));
         }
     }
-    const auto reach = int64_t(std::ceil(radius)) + 2; // centres are rounded
+    const auto reach = int64_t(std::ceil(radius)) + 2; // centers are rounded
     around.radiusSq = reach * reach;
     return around;
 }
@@ -46,7 +45,15 @@ public:
     bool round()
     {
         mBelow = regionsBelow(mRegions, mFiner.parent, mCover.size(), mMaker.interrupter);
-        const std::vector<Move> moves = candidates();
+        constexpr std::size_t kParents = 3;
+        std::vector<Move> moves;
+        for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
+            const int32_t from = mFiner.parent[c];
+            if (mCover[from].empty()) continue; // no voxel needs it
+            for (const int32_t to : mCover.grid().nearest(kNewBall, mFiner.balls[c], kParents)) {
+                if (to != from) moves.push_back({int32_t(c), from, to});
+            }
+        }
         std::vector<std::pair<CoverChange, std::size_t>> changes(moves.size());
         detail::parallelFor(moves.size(), mMaker.interrupter, [&](std::size_t i) {
             changes[i] = {tryMove(moves[i]), i};
@@ -66,35 +73,14 @@ public:
     std::vector<ExactSphere> balls() const { return ballsOf(mCover.balls()); }
 
 private:
-    std::vector<Move> candidates() const
-    {
-        constexpr std::size_t kParents = 3;
-        std::vector<Move> moves;
-        for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
-            const int32_t from = mFiner.parent[c];
-            if (mCover[from].empty()) continue; // no voxel needs it
-            for (const int32_t to : mCover.nearest(kNewBall, mFiner.balls[c], kParents)) {
-                if (to != from) moves.push_back({int32_t(c), from, to});
-            }
-        }
-        return moves;
-    }
-
-    /// @return the union of the regions of a parent's children, less one child.
-    VoxelRegion regionWithout(int32_t parent, int32_t child) const
-    {
-        VoxelRegion region;
-        for (std::size_t c = 0; c < mRegions.size(); ++c) {
-            if (mFiner.parent[c] != parent || int32_t(c) == child) continue;
-            region.insert(region.end(), mRegions[c].begin(), mRegions[c].end());
-        }
-        joinLeaves(region);
-        return region;
-    }
-
     CoverChange tryMove(const Move& move) const
     {
-        const VoxelRegion less = regionWithout(move.from, move.child);
+        VoxelRegion less; // of the old parent's other children
+        for (std::size_t c = 0; c < mRegions.size(); ++c) {
+            if (mFiner.parent[c] != move.from || int32_t(c) == move.child) continue;
+            less.insert(less.end(), mRegions[c].begin(), mRegions[c].end());
+        }
+        joinLeaves(less);
         const VoxelRegion more = unionOf(mBelow[move.to], mRegions[move.child]);
         std::vector<const VoxelRegion*> regions;
         for (const VoxelRegion& region : mBelow) regions.push_back(&region);
@@ -111,7 +97,7 @@ private:
         fit.refit(part, part.indexOf(move.from));
         fit.refit(part, to);
         fit.refitNear(
-            part, mCover.nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
+            part, mCover.grid().nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
         fit.refit(part, to);
         CoverChange change = fit.changeOf(part);
         // Their regions change, also where these balls do not.
@@ -124,7 +110,7 @@ private:
     TightLevel& mFiner;
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
-    std::vector<VoxelRegion> mBelow;
+    std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls, before the round
 };
 
 } // namespace
@@ -151,5 +137,4 @@ void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     balls = moves.balls();
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

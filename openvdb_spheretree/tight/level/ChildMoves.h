@@ -2,10 +2,10 @@
 /// @file ChildMoves.h
 /// @brief Children of a level move to other parents, as long as that lowers the cost.
 ///
-/// In a trial, the new parent grows around the child. Then both parents and their neighbours are
-/// placed anew, each for those voxels of its children's regions that no other parent holds for
-/// children of its own. A round tries every child with the parents next to it, all from the same
-/// state and in parallel. It makes the best moves whose surroundings do not meet.
+/// In a trial, the new parent grows around the child. Then both parents and their neighbours are placed
+/// anew. Each must hold those voxels of its children's regions that no other parent holds for children
+/// of its own. A round tries every child with the parents next to it, all from the same state and in
+/// parallel. Then it makes the best moves whose surroundings do not meet.
 
 #pragma once
 
@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @return for each of @a count parents the union of its children's regions.
 std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
@@ -30,5 +29,4 @@ std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
 void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -9,29 +9,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
-using openvdb::Coord;
-
-constexpr int kTurns = 2;
-
 /// Extreme points of each unit.
-using Units = std::vector<std::vector<Coord>>;
-
-/// @return how far inside a ball a unit is, 1/256 voxel^2; negative where it is not.
-int64_t depthIn(const ExactSphere& ball, const std::vector<Coord>& unit)
-{
-    int64_t farthest = 0;
-    for (const Coord& p : unit) {
-        farthest = std::max(farthest, radiusSqToHold(ball, voxelBall(p)));
-    }
-    return ball.radiusSq - farthest;
-}
+using Units = std::vector<std::vector<openvdb::Coord>>;
 
 /// @return for each unit the ball it is deepest in; for an empty one, any that is near.
 std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere>& finer,
@@ -46,7 +30,11 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
         }
         int64_t best = -1;
         for (const int32_t b : grid.near(voxelBall(units[i].front()), 1)) {
-            const int64_t depth = depthIn(balls[b], units[i]);
+            int64_t farthest = 0;
+            for (const openvdb::Coord& p : units[i]) {
+                farthest = std::max(farthest, radiusSqToHold(balls[b], voxelBall(p)));
+            }
+            const int64_t depth = balls[b].radiusSq - farthest;
             if (depth <= best) continue;
             best = depth;
             parents[i] = b;
@@ -54,24 +42,6 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
         assert(parents[i] >= 0); // some ball holds each unit
     });
     return parents;
-}
-
-/// Balls that went because they uncovered nothing leave their children to others. No voxel needs these
-/// children for its chain.
-void adopt(const TightLevel& level, TightLevel& finer)
-{
-    for (std::size_t i = 0; i < finer.balls.size(); ++i) {
-        if (!level.balls[finer.parent[i]].empty()) continue;
-        finer.parent[i] = leastProtruding(finer.balls[i], level.balls);
-    }
-}
-
-/// The balls, each for itself, while what they hold counts in their own regions only.
-std::vector<ExactSphere> settled(const std::vector<ExactSphere>& balls,
-    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
-{
-    const VoxelGoal goal(maker.object.level(0), regions);
-    return ballsOf(maker.improve(eachInItsGroup(balls), {}, goal));
 }
 
 } // namespace
@@ -90,12 +60,18 @@ TightLevel coarserLevel(
     }
     finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
     dropChildless(level, finer);
+    constexpr int kTurns = 2;
     for (int turn = 0; turn < kTurns; ++turn) {
         moveChildren(level.balls, finer, regions, maker);
         const auto below =
             regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
-        level.balls = settled(level.balls, below, maker);
-        adopt(level, finer);
+        level.balls =
+            ballsOf(maker.improve(eachInItsGroup(level.balls), {}, VoxelGoal(object, below)));
+        // A ball that was dropped leaves its children to others. No voxel needs them for its chain.
+        for (std::size_t i = 0; i < finer.balls.size(); ++i) {
+            if (!level.balls[finer.parent[i]].empty()) continue;
+            finer.parent[i] = leastProtruding(finer.balls[i], level.balls);
+        }
         dropChildless(level, finer);
     }
     regions = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
@@ -105,5 +81,4 @@ TightLevel coarserLevel(
     return level;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -2,10 +2,10 @@
 /// @file CoarserLevel.h
 /// @brief A level above a finished one (quality=best).
 ///
-/// First its balls have to hold the power cells of the finer balls, each as a whole. A search is free
-/// to choose which ball holds which cell, and that makes the finer balls its children. Then parents
-/// are fixed, and a ball must hold only those voxels of its children's regions that no other ball
-/// holds for children of its own.
+/// First its balls have to hold the power cells of the finer balls, each cell as a whole. A search is
+/// free to choose which ball holds which cell. The ball that holds a cell becomes the parent of the
+/// finer ball. Then parents are fixed. Now a ball must hold only those voxels of its children's regions
+/// that no other ball holds for children of its own.
 
 #pragma once
 
@@ -16,15 +16,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param finer    without parents; receives them
-/// @param regions  of its balls: the voxels that have a chain of balls from them down; those of the
-///                 new level in the end
+/// @param regions  of its balls: the voxels with a chain of balls from them down; receives those of
+///                 the new level
 /// @param count    of balls, at most
 TightLevel coarserLevel(
     TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -5,21 +5,12 @@
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
-
-int64_t voxelsIn(const VoxelRegion& region)
-{
-    int64_t count = 0;
-    for (const RegionLeaf& part : region) count += part.mask.count();
-    return count;
-}
 
 /// @return the voxels of @a cell in @a region, or those outside of it.
 VoxelRegion partOf(const VoxelRegion& cell, const VoxelRegion& region, bool inside)
@@ -33,7 +24,7 @@ VoxelRegion partOf(const VoxelRegion& cell, const VoxelRegion& region, bool insi
     return result;
 }
 
-/// @return the groups that share a cell, those with the largest parts first.
+/// @return the groups that have parts of a cell, the one with the largest part first.
 std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& candidates,
     const std::vector<VoxelRegion>& regions)
 {
@@ -42,7 +33,10 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
         int64_t most = 0;
         int32_t best = -1;
         for (const int32_t group : candidates) {
-            const int64_t held = voxelsIn(partOf(cell, regions[group], true));
+            int64_t held = 0;
+            for (const RegionLeaf& part : partOf(cell, regions[group], true)) {
+                held += part.mask.count();
+            }
             if (held <= most) continue;
             most = held;
             best = group;
@@ -55,12 +49,11 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
     return groups;
 }
 
-/// @return the leafBalls in their groups, some in more than one.
+/// @return the leaf balls with their groups; a ball in several groups comes several times.
 std::vector<CoverBall> dealtOut(const BallCells& leafBalls, const TightLevel& coarser,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
-    BallGrid grid;
-    for (std::size_t i = 0; i < coarser.balls.size(); ++i) grid.add(int32_t(i), coarser.balls[i]);
+    const BallGrid grid(coarser.balls);
     std::vector<std::vector<int32_t>> groups(leafBalls.balls.size());
     detail::parallelFor(groups.size(), maker.interrupter, [&](std::size_t i) {
         groups[i] = groupsFor(leafBalls.cells[i], grid.near(leafBalls.balls[i], 1), regions);
@@ -72,7 +65,7 @@ std::vector<CoverBall> dealtOut(const BallCells& leafBalls, const TightLevel& co
     return dealt;
 }
 
-/// The balls of a level before the search: leafBalls merged within their groups.
+/// @return the balls of a level before the search: leaf balls merged within their groups.
 std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leafBalls,
     const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
 {
@@ -124,5 +117,4 @@ TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>&
     return level;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FinerLevel.h
-/// @brief A level below a finished one (quality=best): what a ball holds counts where all of its
-/// ancestors hold it, too.
+/// @brief A level below a finished one (quality=best). A voxel in a ball counts only if all ancestors of
+/// the ball hold it, too.
 ///
 /// There is a group of balls for each ball of the coarser level: its children. First the leaf balls are
-/// dealt out: a leaf ball goes to the group whose region has the most of its power cell. If a part of
+/// dealt out. A leaf ball goes to the group whose region has the most of its power cell. If a part of
 /// the cell is left, another group gets the leaf ball as well. Then each group is merged by itself,
-/// with slack (SlackMerging.h). What costs in one group costs nothing in another that holds it, too.
+/// with slack (SlackMerging.h). An outside voxel in balls of several groups costs only once.
 
 #pragma once
 
@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The leaf balls and their power cells.
 struct BallCells {
@@ -37,5 +36,4 @@ std::vector<VoxelRegion> chainRegions(
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
     const BallCells& leafBalls, int64_t count, const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -3,22 +3,11 @@
 
 #include <openvdb/Exceptions.h>
 
-#include <algorithm>
 #include <sstream>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
-
-std::string boundsOf(const SphereBudget& budget)
-{
-    std::ostringstream text;
-    if (budget.error) text << "error=" << *budget.error;
-    if (budget.error && budget.distance) text << " and ";
-    if (budget.distance) text << "distance=" << *budget.distance;
-    return text.str();
-}
 
 /// @return the fewest balls within the bounds; all leaf balls are the object itself, without any error.
 template <typename Within>
@@ -52,14 +41,18 @@ std::vector<int64_t> levelCounts(
     const int64_t count =
         fewest(leafBalls, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
     if (!budget.spheres.empty() && count > budget.spheres.front()) {
+        std::ostringstream bounds;
+        if (budget.error) bounds << "error=" << *budget.error;
+        if (budget.error && budget.distance) bounds << " and ";
+        if (budget.distance) bounds << "distance=" << *budget.distance;
         OPENVDB_THROW(openvdb::ValueError,
-            boundsOf(budget)
-                << " cannot be reached with spheres=" << budget.spheres.front() << ": it takes "
-                << count << " spheres (before any search); allow more of them, or a looser bound");
+            bounds.str() << " cannot be reached with spheres=" << budget.spheres.front()
+                         << ": it takes " << count
+                         << " spheres (before any search); allow more of them, or a looser bound");
     }
     if (budget.branching == 0) return {count};
     std::vector<int64_t> counts{count};
-    SphereBudget ladder;
+    SphereBudget ladder; // of the branching alone
     ladder.branching = budget.branching;
     for (const int64_t n : ladder.counts(leafBalls)) {
         if (n < count) counts.push_back(n);
@@ -67,5 +60,4 @@ std::vector<int64_t> levelCounts(
     return counts;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

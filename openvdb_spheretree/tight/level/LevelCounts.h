@@ -11,23 +11,21 @@
 #include <functional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// @return the exact error of the cut with so many balls.
+/// Returns the exact error of the cut with so many balls.
 using ErrorOfCut = std::function<LevelError(int64_t count)>;
 
-/// @return whether an error is within what the budget bounds of it; @a voxelSize is in world units.
+/// @return whether an error is within the bounds of the budget; @a voxelSize is in world units.
 bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error);
 
-/// @param leafBalls  balls there are at most
+/// @param leafBalls  how many there are
 /// @param voxelSize  world units
-/// @return counts, finest first, falling. With a bound on the error, the first one is the smallest
-/// for which it was found to hold: by bisection, then by trying some more below, as the error of a
-/// cut may fall where its count does.
+/// @return counts, finest first, falling. With a bound on the error, the first one is the smallest for
+/// which the bound was found to hold: by bisection, and then by a few tries below, since a cut of fewer
+/// balls may have a smaller error.
 /// @throw openvdb::ValueError if the bound needs more balls than the budget allows
 std::vector<int64_t> levelCounts(
     const SphereBudget& budget, int64_t leafBalls, double voxelSize, const ErrorOfCut& errorOf);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,20 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
-
-namespace {
-
-/// More trials of one search gain little. But searches of few balls end in different places, and take
-/// little time: so there are several.
-int searchesFor(std::size_t count)
-{
-    constexpr std::size_t kBalls = 128, kMost = 6;
-    return int(std::max<std::size_t>(1, std::min(kMost, kBalls / count)));
-}
-
-} // namespace
+namespace openvdb_spheretree::tight {
 
 int LevelMaker::trialsFor(std::size_t count)
 {
@@ -38,9 +25,13 @@ SearchedCover LevelMaker::search(const std::vector<CoverBall>& start,
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::vector<CoverBall>& finer, const CoverGoal& goal) const
 {
+    // More trials of one search gain little. But searches of few balls end in different places, and
+    // take little time: so there are several.
+    constexpr std::size_t kBalls = 128, kMost = 6;
+    const std::size_t searches = std::max<std::size_t>(1, std::min(kMost, kBalls / start.size()));
     SearchedCover best;
     best.balls = start;
-    for (int number = 0; number < searchesFor(start.size()); ++number) {
+    for (int number = 0; number < int(searches); ++number) {
         SearchedCover found = search(start, finer, goal, trialsFor(start.size()), number);
         if (found.change < best.change) best = std::move(found);
     }
@@ -71,5 +62,4 @@ std::vector<CoverBall> filledUp(
     return filled;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelMaker.h
-/// @brief What the levels of quality=best have in common: searches, merges, and what these need.
+/// @brief The searches and merges that make the levels of quality=best.
 
 #pragma once
 
@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct LevelMaker {
     const SampledObject& object;
@@ -25,7 +24,8 @@ struct LevelMaker {
     bool flat;
     openvdb::util::NullInterrupter* interrupter;
 
-    /// @return the trials for each ball of a level: fewer for many balls, to bound the time.
+    /// @return how many trials a ball of a level of @a count balls gets: fewer of many, to bound the
+    /// time.
     static int trialsFor(std::size_t count);
 
     /// @return the level after one search: CoverSearch.h.
@@ -33,20 +33,19 @@ struct LevelMaker {
     SearchedCover search(const std::vector<CoverBall>& start, const std::vector<CoverBall>& finer,
         const CoverGoal& goal, int trialsPerBall, int number = 0) const;
 
-    /// @return the level after the best of some searches.
+    /// @return the level after the best of several searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
-    /// @param balls   which may have voxels outside the object
-    /// @param points  extreme points of the voxels that each of them has to hold
-    /// @return the balls merged to @a count that hold these voxels.
+    /// @param balls   may hold voxels outside the object
+    /// @param points  extreme points of the voxels that each ball has to hold
+    /// @return the balls merged to @a count, which hold these voxels.
     std::vector<ExactSphere> merged(const std::vector<ExactSphere>& balls,
         const std::vector<std::vector<openvdb::Coord>>& points, int64_t count) const;
 };
 
-/// @return the cover, where leaf balls that are not in it yet stand in for empty balls, as far as there
-/// are any. Leaf balls cost nothing.
+/// @return the cover without its empty balls, and in their place leaf balls that are not in it yet, as
+/// far as there are any. Leaf balls cost nothing.
 std::vector<CoverBall> filledUp(
     const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

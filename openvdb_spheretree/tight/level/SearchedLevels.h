@@ -7,22 +7,18 @@
 /// 3. Finer levels come from the leaf balls, and are bound to the levels above them: what a ball
 ///    holds counts only where its ancestors hold it (FinerLevel.h).
 ///
-/// If the finest level has to be all leaf balls, the others come from it by step 2.
+/// If the finest level is to be all leaf balls, the others come from it by step 2.
 
 #pragma once
 
+#include "LevelMaker.h"
 #include "TightLevels.h"
 #include <openvdb_spheretree/voxel/MedialBall.h>
-#include <openvdb_spheretree/tight/fit/BallFit.h>
-#include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
-
-#include <openvdb/util/NullInterrupter.h>
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param forest  of the leaf balls, for the start of the middle level
 /// @param counts  of balls, finest first, falling
@@ -30,8 +26,6 @@ namespace tight {
 /// @param middle  index of the level to begin with
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
-    const SampledObject& object, const FitEffort& effort, bool flat,
-    openvdb::util::NullInterrupter* interrupter);
+    const LevelMaker& maker);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

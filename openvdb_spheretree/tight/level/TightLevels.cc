@@ -8,11 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -30,19 +28,17 @@ Vec3d centerOf(const ExactSphere& ball)
     return unit * Vec3d(double(ball.center[0]), double(ball.center[1]), double(ball.center[2]));
 }
 
-/// In voxels, rounded up.
-double radiusOf(const ExactSphere& ball)
+/// Appends a ball to spheres, without its stored radius.
+void append(Spheres& spheres, const ExactSphere& ball, const Vec3d& center, int32_t parent)
 {
-    return detail::sqrtUp(detail::toDoubleUp(ball.radiusSq)) / double(kFine); // 16 is exact
+    spheres.center.push_back(center);
+    // In voxels, rounded up; division by 16 is exact.
+    spheres.radius.push_back(detail::sqrtUp(detail::toDoubleUp(ball.radiusSq)) / double(kFine));
+    spheres.coverRadiusSq.push_back(ball.radiusSq);
+    spheres.parent.push_back(parent);
 }
 
-Coord nearestVoxel(const Vec3d& center)
-{
-    const auto axis = [&](int a) { return int32_t(std::floor(center[a] + 0.5)); };
-    return Coord(axis(0), axis(1), axis(2));
-}
-
-/// The parents of the nodes of a cut in a coarser one.
+/// @return the parents of the nodes of a cut in a coarser one.
 std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
     const std::vector<int32_t>& nodes, int64_t coarser,
     const std::vector<ExactSphere>& coarserBalls)
@@ -51,9 +47,8 @@ std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
     std::vector<int32_t> parents;
     for (const int32_t node : nodes) {
         int32_t ancestor = node;
-        while (ancestor >= 0 && !isIn(forest[ancestor], coarser)) {
+        while (ancestor >= 0 && !isIn(forest[ancestor], coarser))
             ancestor = forest[ancestor].parent;
-        }
         parents.push_back(ancestor < 0
                 ? leastProtruding(forest[node].ball, coarserBalls)
                 : int32_t(std::lower_bound(cut.begin(), cut.end(), ancestor) - cut.begin()));
@@ -61,17 +56,8 @@ std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
     return parents;
 }
 
-/// @return the order in which a level's balls get their ids: by voxel, x first.
-std::vector<int32_t> idOrder(const std::vector<Coord>& ijk)
-{
-    std::vector<int32_t> order(ijk.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(
-        order.begin(), order.end(), [&](int32_t a, int32_t b) { return ijk[a] < ijk[b]; });
-    return order;
-}
-
-/// Appends one level, and @return the id of each of its balls.
+/// Appends one level. Its balls get their ids by voxel, x first.
+/// @return the id of each ball.
 std::vector<int32_t> appendLevel(
     const TightLevel& from, int level, const std::vector<int32_t>& idsAbove, SphereTree& tree)
 {
@@ -80,19 +66,22 @@ std::vector<int32_t> appendLevel(
     std::vector<Vec3d> centers;
     for (std::size_t i = 0; i < from.balls.size(); ++i) {
         centers.push_back(flat.fromZ(centerOf(from.balls[i])));
-        ijk.push_back(nearestVoxel(centers.back()));
+        Coord& voxel = ijk.emplace_back(); // the nearest one
+        for (int a = 0; a < 3; ++a) voxel[a] = int32_t(std::floor(centers.back()[a] + 0.5));
     }
+    std::vector<int32_t> order(ijk.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(
+        order.begin(), order.end(), [&](int32_t a, int32_t b) { return ijk[a] < ijk[b]; });
     SphereTreeLevel& range = tree.levels[level];
     range.level = level;
     range.begin = tree.size();
     range.pyramidVoxels = from.digital.empty() ? 0 : tree.object.voxels;
     std::vector<int32_t> ids(from.balls.size());
-    for (const int32_t i : idOrder(ijk)) {
+    for (const int32_t i : order) {
         ids[i] = tree.size();
-        tree.spheres.center.push_back(centers[i]);
-        tree.spheres.radius.push_back(radiusOf(from.balls[i]));
-        tree.spheres.coverRadiusSq.push_back(from.balls[i].radiusSq);
-        tree.spheres.parent.push_back(from.parent.empty() ? -1 : idsAbove[from.parent[i]]);
+        append(tree.spheres, from.balls[i], centers[i],
+            from.parent.empty() ? -1 : idsAbove[from.parent[i]]);
         tree.ijk.push_back(ijk[i]);
         tree.radiusSq.push_back(from.digital.empty() ? -1 : from.digital[i].radiusSq);
     }
@@ -176,15 +165,11 @@ SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis)
     const FlatAxis flat(flatAxis);
     SphereCuts cuts;
     for (const ForestNode& node : forest) {
-        cuts.spheres.center.push_back(flat.fromZ(centerOf(node.ball)));
-        cuts.spheres.radius.push_back(radiusOf(node.ball));
-        cuts.spheres.coverRadiusSq.push_back(node.ball.radiusSq);
-        cuts.spheres.parent.push_back(node.parent);
+        append(cuts.spheres, node.ball, flat.fromZ(centerOf(node.ball)), node.parent);
         cuts.first.push_back(node.first);
         cuts.last.push_back(node.last);
     }
     return cuts;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,42 +11,40 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The balls of one level.
 struct TightLevel {
     std::vector<ExactSphere> balls;
     std::vector<int32_t> parent; ///< in the next coarser level; empty for the coarsest
-    /// Per ball, the digital ball that it is; empty where they are none.
+    /// The same as digital balls if they are all leaf balls; else empty.
     std::vector<MedialBall> digital;
 };
 
 /// @return the nodes of the cut with @a count balls, ascending.
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
 
-/// @return the balls of the cut with @a count balls.
+/// @return the balls of the nodes of that cut.
 std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64_t count);
 
-/// Drops balls of @a level that are the parent of none of @a finer: no chain needs them.
+/// Drops the balls of @a level that have no child in @a finer: no chain needs them.
 void dropChildless(TightLevel& level, TightLevel& finer);
 
-/// @return the ball of @a level that @a ball protrudes from least; empty ones do not count.
+/// @return the ball of @a level out of which @a ball reaches least; empty ones do not count.
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
 
-/// @param counts  finest first, falling, none above the number of leaf balls
+/// @param counts     finest first, falling, none above the number of leaf balls
 /// @param leafBalls  the first nodes of the forest, as medial balls
-/// @return a level for each count. A node's parent is its ancestor in the coarser cut. A ball without
-/// one, which no voxel needs there, goes to the ball that it protrudes from least.
+/// @return a level for each count. A node's parent is its ancestor in the coarser cut. A node without
+/// one, which no voxel needs there, gets the ball out of which it reaches least.
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& leafBalls);
 
-/// @brief Make the levels those of @a tree, which has none: all but its stored radii.
+/// @brief Appends the levels to @a tree, which has none, without stored radii.
 /// @param levels  finest first; flat objects are flat along z
 void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
 
-/// @return the forest in the form of SphereTree, without stored radii.
+/// @return the forest as cuts of a SphereTree, without stored radii.
 SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -2,9 +2,9 @@
 /// @file CoverBall.h
 /// @brief A ball of a level that is being made, and the group it is in.
 ///
-/// A level below a finished one has a group for each ball of that: its children. What a ball holds
-/// counts only where the ancestors of its group hold it, too (FinerLevel.h). All balls of other
-/// levels are in group 0.
+/// A level below a finished one has a group for each ball of the finished level: its children. A voxel
+/// in a ball counts only if the ancestors of the ball's group hold it, too (FinerLevel.h). All balls of
+/// other levels are in group 0.
 
 #pragma once
 
@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct CoverBall {
     ExactSphere ball;
@@ -32,7 +31,7 @@ inline std::vector<CoverBall> ungrouped(const std::vector<ExactSphere>& balls)
     return cover;
 }
 
-/// @return the balls, each in a group of its own: those of its number.
+/// @return the balls, each in the group of its number.
 inline std::vector<CoverBall> eachInItsGroup(const std::vector<ExactSphere>& balls)
 {
     std::vector<CoverBall> cover;
@@ -54,5 +53,4 @@ inline std::vector<int32_t> groupsOf(const std::vector<CoverBall>& cover)
     return groups;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

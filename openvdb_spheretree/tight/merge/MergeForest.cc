@@ -8,15 +8,14 @@
 #include <tuple>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
 using Pair = std::pair<int32_t, int32_t>;
 
-/// All pairs are evaluated anew when the count has shrunk to this part: sooner where costs depend on
-/// other balls.
+/// The queue is rebuilt when the count has shrunk to this part: sooner where costs depend on other
+/// balls.
 constexpr double kRebuild = 0.7, kRebuildDependent = 0.85;
 constexpr int32_t kShare = 64; // a round merges one pair for so many balls
 constexpr double kLock = 1;    // balls may share a voxel where they touch, and gaps are rounded
@@ -28,16 +27,11 @@ public:
         : mModel(model), mNeighbours(std::size_t(neighbours)), mInterrupter(interrupter)
     {
         const std::vector<ExactSphere> leafBalls = model.leafBalls();
+        mLeafBalls = mLive = int32_t(leafBalls.size());
         int32_t groups = 1;
-        for (std::size_t i = 0; i < leafBalls.size(); ++i) {
-            groups = std::max(groups, model.groupOf(int32_t(i)) + 1);
-        }
+        for (int32_t i = 0; i < mLive; ++i) groups = std::max(groups, model.groupOf(i) + 1);
         mGrids.resize(std::size_t(groups));
-        for (const ExactSphere& ball : leafBalls) {
-            addNode(ball, model.groupOf(int32_t(mNodes.size())));
-        }
-        mLeafBalls = mLive = int32_t(mNodes.size());
-        for (ForestNode& node : mNodes) node.last = mLive;
+        for (int32_t i = 0; i < mLive; ++i) addNode(leafBalls[i], model.groupOf(i));
     }
 
     std::vector<ForestNode> run()
@@ -48,8 +42,8 @@ public:
             if (mLive <= rebuildAt || mQueue.empty()) {
                 rebuildQueue();
                 if (mQueue.empty()) break; // each group is one ball
-                const bool dependent = mModel.dependsOnOthers();
-                rebuildAt = int32_t(mLive * (dependent ? kRebuildDependent : kRebuild));
+                rebuildAt =
+                    int32_t(mLive * (mModel.dependsOnOthers() ? kRebuildDependent : kRebuild));
             }
             refreshTop();
             doMerges(takeMerges());
@@ -61,12 +55,13 @@ private:
     bool alive(int32_t node) const { return !mGone[node]; }
     int32_t perRound() const { return std::max(1, mLive / kShare); }
 
+    /// The node is in the cuts of mLive balls and less.
     void addNode(const ExactSphere& ball, int32_t group)
     {
         mGrids[group].add(int32_t(mNodes.size()), ball);
         if (mGrids.size() > 1) mAllGroups.add(int32_t(mNodes.size()), ball);
         mGroup.push_back(group);
-        mNodes.push_back({ball, -1, 1, 0});
+        mNodes.push_back({ball, -1, 1, mLive});
         mGone.push_back(0);
         mTouched.push_back(mRound);
         mLocked.push_back(-1);
@@ -97,20 +92,6 @@ private:
     bool isStale(const MergeCandidate& c) const
     {
         return mModel.dependsOnOthers() && std::max(mTouched[c.a], mTouched[c.b]) > c.round;
-    }
-
-    /// Evaluates those of the candidates that are stale.
-    void refresh(std::vector<MergeCandidate>& candidates)
-    {
-        std::vector<std::size_t> stale;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (isStale(candidates[i])) stale.push_back(i);
-        }
-        detail::parallelFor(stale.size(), mInterrupter, [&](std::size_t i) {
-            MergeCandidate& c = candidates[stale[i]];
-            c = mModel.evaluate(c.a, c.b);
-            c.round = mRound;
-        });
     }
 
     std::vector<MergeCandidate> evaluateAll(const std::vector<Pair>& pairs)
@@ -160,11 +141,9 @@ private:
             MergeCandidate key;
             std::tie(key.a, key.b) = pair;
             const auto known = std::lower_bound(fresh.begin(), fresh.end(), key, byPair);
-            if (known != fresh.end() && known->a == key.a && known->b == key.b) {
-                mQueue.push_back(*known);
-            } else {
-                unknown.push_back(pair);
-            }
+            const bool found = known != fresh.end() && known->a == key.a && known->b == key.b;
+            if (found) mQueue.push_back(*known);
+            else unknown.push_back(pair);
         }
         const auto evaluated = evaluateAll(unknown);
         mQueue.insert(mQueue.end(), evaluated.begin(), evaluated.end());
@@ -177,17 +156,17 @@ private:
         if (!mModel.dependsOnOthers()) return;
         const auto count = std::size_t(perRound());
         const std::size_t batch = std::max<std::size_t>(8, 2 * count);
-        for (bool fresh = false; !fresh;) {
+        for (bool staleAhead = true; staleAhead;) {
             std::vector<MergeCandidate> top;
-            MergeCandidate candidate;
-            bool staleAhead = false;
-            while (top.size() < (staleAhead ? batch : count) && pop(candidate)) {
-                staleAhead = staleAhead || isStale(candidate);
-                top.push_back(candidate);
+            std::vector<Pair> stale;
+            MergeCandidate c;
+            while (top.size() + stale.size() < (stale.empty() ? count : batch) && pop(c)) {
+                if (isStale(c)) stale.emplace_back(c.a, c.b);
+                else top.push_back(c);
             }
-            fresh = !staleAhead;
-            if (staleAhead) refresh(top);
-            for (const MergeCandidate& c : top) push(c);
+            for (const MergeCandidate& candidate : top) push(candidate);
+            for (const MergeCandidate& candidate : evaluateAll(stale)) push(candidate);
+            staleAhead = !stale.empty();
         }
     }
 
@@ -240,10 +219,10 @@ private:
         const auto firstNode = int32_t(mNodes.size());
         for (const MergeCandidate& c : taken) {
             if (c.ball.empty()) {
-                retire(c.a, -1);
-                --mLive;
-                retire(c.b, -1);
-                --mLive;
+                for (const int32_t node : {c.a, c.b}) {
+                    retire(node, -1);
+                    --mLive;
+                }
                 dropped.push_back(c);
                 continue;
             }
@@ -252,7 +231,6 @@ private:
             retire(c.b, node);
             --mLive;
             addNode(c.ball, mGroup[c.a]);
-            mNodes[node].last = mLive;
             born.push_back(node);
             merges.push_back(c);
         }
@@ -287,5 +265,4 @@ std::vector<ForestNode> mergeToRoots(
     return Forest(model, neighbours, interrupter).run();
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MergeForest.h
-/// @brief From leaf balls to one root (one for each group) by merging the cheapest pairs of
-/// neighbours, many pairs at a time.
+/// @brief Merges leaf balls to one root, or to one for each group: the cheapest pairs of neighbours
+/// first, many pairs at a time.
 ///
-/// A model knows what a merge costs (StrictMerging.h, SlackMerging.h); here is the order of merges.
+/// A model knows what a merge costs (StrictMerging.h, SlackMerging.h). Here is the order of merges.
 /// 1. Pairs of near balls wait in a queue, the cheapest first.
 /// 2. A round takes the cheapest pairs, at most one for every 64 balls, and merges them in parallel.
-///    No pair is near another one of the same round: so the cover stays valid.
-/// 3. A pair near a merge is evaluated again before it is taken. Its cost may also have fallen
-///    unnoticed, so all pairs are evaluated anew whenever the count has shrunk by 15 %, or by 30 %
-///    where costs do not depend on other balls.
+///    No pair is near another one of the same round, so the cover stays valid.
+/// 3. A pair near a merge is evaluated again before it is taken. A cost may also fall unnoticed. So the
+///    queue is filled anew whenever the count has shrunk by 15 %, or by 30 % where costs do not depend
+///    on other balls.
 ///
-/// The result does not depend on threads: counts alone bound a round, and equal costs go by node.
+/// The result does not depend on threads: counts alone bound a round, and of equal costs the pair with
+/// the smaller node numbers is first.
 
 #pragma once
 
@@ -22,12 +23,11 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// What merging two nodes would give.
 struct MergeCandidate {
-    double cost = 0; ///< what the cover gains in outside voxels; negative where it loses some
+    double cost = 0; ///< by how many outside voxels the cover grows; negative where it shrinks
     int32_t a = 0, b = 0;
     ExactSphere ball;  ///< empty: no voxel needs either node, both can go
     int32_t round = 0; ///< in which it was evaluated
@@ -39,7 +39,7 @@ struct MergeCandidate {
     }
 };
 
-/// What the order of merges has to know of a kind of merging. The first nodes are the leaf balls.
+/// A kind of merging. The first nodes are the leaf balls.
 class MergeModel {
 public:
     virtual ~MergeModel() = default;
@@ -48,10 +48,10 @@ public:
     virtual int32_t groupOf(int32_t /*leafBall*/) const { return 0; }
     /// @return the merge of two nodes; thread-safe, changes nothing.
     virtual MergeCandidate evaluate(int32_t a, int32_t b) const = 0;
-    /// Called once for a merge that is going to be done: completes its ball.
+    /// Enlarges the ball of a merge, just before that is done, if evaluate() made it too small.
     virtual void complete(MergeCandidate&) const {}
-    /// Does merges, none of which is near another: the i-th becomes node `node + i`. Pairs without a
-    /// ball come in a call of their own: they become no nodes.
+    /// Does merges, none of which is near another one: the i-th becomes node `node + i`. Pairs without
+    /// a ball come in a call of their own and become no nodes.
     virtual void merge(const std::vector<MergeCandidate>& merges, int32_t node) = 0;
     /// @return whether what a merge costs depends on the balls around it.
     virtual bool dependsOnOthers() const = 0;
@@ -61,14 +61,13 @@ public:
 struct ForestNode {
     ExactSphere ball;
     int32_t parent = -1;
-    int32_t first = 1, last = 0; ///< it is in the cuts of so many balls: SphereCuts.h
+    int32_t first = 1, last = 0; ///< it is in the cuts of first to last balls: SphereCuts.h
 };
 
 /// Merges until each group is one ball.
 /// @return the leaf balls, then every merged node in order.
-/// @param neighbours  a ball may merge with: 6 where time counts; more than 8 gain nothing
+/// @param neighbours  that a ball may merge with: 6 where time counts; more than 8 gain nothing
 std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

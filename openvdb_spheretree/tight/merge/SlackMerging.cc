@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -38,23 +37,18 @@ SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverB
     }
 }
 
-void SlackMerging::collectUncovered(int32_t a, int32_t b, ExtremePoints& points) const
-{
-    points.clear();
-    forEachLeafOfBoth(
-        mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-            const LeafMask both = inA & inB;
-            const LeafMask uncovered =
-                (mCounts.once(leaf) & ((inA | inB) - both)) | (mCounts.twice(leaf) & both);
-            if (!uncovered.none()) points.add(mVoxels.origin(leaf), uncovered);
-        });
-}
-
 MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
 {
     thread_local CoveringFit fit;
     thread_local ExtremePoints points;
-    collectUncovered(a, b, points);
+    points.clear(); // of the voxels that are in no region but those of the two nodes
+    forEachLeafOfBoth(
+        mRegions[a], mRegions[b], [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
+            const LeafMask both = inA & inB;
+            const LeafMask uncovered =
+                (mCounts.heldBy(leaf, 1) & ((inA | inB) - both)) | (mCounts.heldBy(leaf, 2) & both);
+            if (!uncovered.none()) points.add(mVoxels.origin(leaf), uncovered);
+        });
     const std::vector<openvdb::Coord>& targets = points.finish();
     if (targets.empty()) return {-1e300, a, b, ExactSphere(), 0}; // nothing is better than this
 
@@ -71,13 +65,6 @@ MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
     return {fitted.cost - freed, a, b, fitted.ball, 0};
 }
 
-void SlackMerging::forget(int32_t node)
-{
-    for (const RegionLeaf& part : mRegions[node]) mCounts.remove(part.leaf, part.mask);
-    VoxelRegion().swap(mRegions[node]);
-    if (!isLeafBall(node)) mMerged.remove(node, mBalls[node]);
-}
-
 void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)
 {
     std::vector<VoxelRegion> regions(merges.size());
@@ -88,8 +75,11 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     });
     for (std::size_t i = 0; i < merges.size(); ++i) {
         const MergeCandidate& c = merges[i];
-        forget(c.a);
-        forget(c.b);
+        for (const int32_t child : {c.a, c.b}) {
+            for (const RegionLeaf& part : mRegions[child]) mCounts.remove(part.leaf, part.mask);
+            VoxelRegion().swap(mRegions[child]);
+            if (!isLeafBall(child)) mMerged.remove(child, mBalls[child]);
+        }
         if (c.ball.empty()) continue;
         for (const RegionLeaf& part : regions[i]) mCounts.add(part.leaf, part.mask);
         mRegions.push_back(std::move(regions[i]));
@@ -98,5 +88,4 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     }
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlackMerging.h
-/// @brief Merging with slack (quality=normal and best): a ball must hold only what no other ball of
-/// the cover holds, and costs only outside voxels that no other ball has.
+/// @brief Merging with slack (quality=normal and best). A ball must hold only what no other ball of the
+/// cover holds. It costs the outside voxels in it that are in no other ball.
 ///
-/// Each node has a region of object voxels. That of a leaf ball are the voxels in it; that of a merged
-/// node are those voxels of its children's regions that its own ball holds. A new node must hold the
-/// voxels that are in its children's regions alone. These are often few: where balls overlap, other
-/// regions have them.
+/// Each node has a region of object voxels. The region of a leaf ball are the voxels in it. The region
+/// of a merged node are those voxels of its children's regions that its own ball holds. A new node must
+/// hold the voxels that are in its children's regions alone. These are often few: where balls overlap,
+/// voxels are in other regions, too.
 ///
 /// Every cut is valid: the regions of its nodes cover the object, since a merge leaves no voxel
-/// without a region, and a node never changes later. And each voxel of a node's region is in that of
-/// one of its children, so a chain of balls that hold it leads down to a leaf ball.
+/// without a region, and a node never changes later. Each voxel of a node's region is in the region of
+/// one of its children. So a chain of balls that hold it leads down to a leaf ball.
 
 #pragma once
 
@@ -24,14 +24,13 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class SlackMerging : public MergeModel {
 public:
     /// @param leafBalls  inside the object
     /// @param regions    voxels of each leaf ball; together the object
-    /// @param flat       centres keep their z
+    /// @param flat       centers keep their z
     SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
@@ -46,11 +45,8 @@ public:
     bool dependsOnOthers() const override { return true; }
 
 private:
-    /// These hold nothing outside the object.
+    /// Leaf balls hold nothing outside the object.
     bool isLeafBall(int32_t node) const { return node < mLeafBalls; }
-    /// Collects the voxels that are in no region but those of the two nodes.
-    void collectUncovered(int32_t a, int32_t b, class ExtremePoints& points) const;
-    void forget(int32_t node);
 
     const SampledObject& mObject;
     const SampleLevel& mVoxels;
@@ -65,5 +61,4 @@ private:
     BallGrid mMerged;                  ///< living nodes that are no leaf balls
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -23,23 +22,25 @@ Held joined(const Held& a, const Held& b)
     return held;
 }
 
-Coord voxelOf(const ExactSphere& ball)
+Held voxelBalls(const std::vector<Coord>& points)
 {
-    const auto axis = [&](int a) { return int32_t(ball.center[a] / kFine); };
-    return Coord(axis(0), axis(1), axis(2));
+    Held balls;
+    for (const Coord& p : points) balls.push_back(voxelBall(p));
+    return balls;
 }
 
 Held extremeVoxels(const Held& held)
 {
     std::vector<Coord> points;
-    for (const ExactSphere& voxel : held) points.push_back(voxelOf(voxel));
+    for (const ExactSphere& voxel : held) {
+        Coord& ijk = points.emplace_back();
+        for (int a = 0; a < 3; ++a) ijk[a] = int32_t(voxel.center[a] / kFine);
+    }
     dropInnerPoints(points);
-    Held extreme;
-    for (const Coord& p : points) extreme.push_back(voxelBall(p));
-    return extreme;
+    return voxelBalls(points);
 }
 
-/// The balls that reach furthest along each of 98 directions: those with components up to 2. A
+/// @return the balls that reach furthest along 98 directions, which have components from -2 to 2. A
 /// ball that holds these nearly holds all.
 Held extremeBalls(const Held& held)
 {
@@ -48,8 +49,8 @@ Held extremeBalls(const Held& held)
     std::vector<std::size_t> chosen;
     for (int direction = 0; direction < 125; ++direction) {
         const int u[3] = {direction / 25 - 2, direction / 5 % 5 - 2, direction % 5 - 2};
-        const bool twice = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
-        if (twice) continue; // none at all, or a direction that comes without the factor, too
+        const bool even = u[0] % 2 == 0 && u[1] % 2 == 0 && u[2] % 2 == 0;
+        if (even) continue; // no direction, or twice another one
         const double length = std::sqrt(double(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
         const auto reach = [&](const ExactSphere& ball) {
             double along = 0;
@@ -132,10 +133,8 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
 
 HeldByLeafBalls heldVoxels(const std::vector<std::vector<Coord>>& points)
 {
-    std::vector<Held> held(points.size());
-    for (std::size_t i = 0; i < held.size(); ++i) {
-        for (const Coord& p : points[i]) held[i].push_back(voxelBall(p));
-    }
+    std::vector<Held> held;
+    for (const std::vector<Coord>& some : points) held.push_back(voxelBalls(some));
     return {std::move(held), true, true};
 }
 
@@ -146,5 +145,4 @@ HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls)
     return {std::move(held), false, true};
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file StrictMerging.h
-/// @brief Plain merging: a ball holds everything that is held below it, and costs the outside voxels
-/// in it, also where other balls have them.
+/// @brief Plain merging. A ball holds all that the nodes below it hold. It costs the outside voxels in
+/// it, also those that are in other balls.
 ///
-/// Held are the voxels of the leaf balls' power cells (PowerCells.h), for quality=fast: a voxel's chain
-/// are the balls above the leaf ball whose power cell it is in. Or, for cover=balls, the leaf balls
-/// themselves are held.
+/// With quality=fast, a leaf ball holds the voxels of its power cell (PowerCells.h). The chain of a
+/// voxel is the leaf ball whose cell it is in, and the balls above that. With cover=balls, a leaf ball
+/// holds itself.
 ///
 /// What a merge costs depends on its two nodes alone, and is evaluated once.
 
@@ -19,23 +19,22 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// What a node holds: balls; a voxel is one of radius 0.
+/// What a node holds: balls; a voxel is a ball of radius 0.
 using Held = std::vector<ExactSphere>;
 
-/// What leaf balls hold.
+/// What each leaf ball holds.
 struct HeldByLeafBalls {
     std::vector<Held> held;
-    bool areVoxels;        ///< then only the corners of their hull count
+    bool areVoxels;        ///< then only the corners of their hull matter
     bool areInside = true; ///< the leaf balls have no voxel outside the object
 };
 
 class StrictMerging : public MergeModel {
 public:
     /// @param leafBalls  whose union is the object
-    /// @param flat       centres keep their z
+    /// @param flat       centers keep their z
     StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
         HeldByLeafBalls held, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
@@ -62,5 +61,4 @@ HeldByLeafBalls heldVoxels(const std::vector<std::vector<openvdb::Coord>>& point
 /// @return each leaf ball itself.
 HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -10,8 +10,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -21,105 +20,38 @@ struct LastHeld {
     LeafMask mask;
 };
 
-/// The part of a ball in a leaf: the i-th in the list of that leaf.
-struct Part {
-    uint32_t leaf, i;
-};
-
-/// Balls are numbered in the order in which they are tested.
-class Pruning {
-public:
-    Pruning(std::vector<ExactSphere> balls, const SampleLevel& object,
-        openvdb::util::NullInterrupter* interrupter)
-        : mBalls(std::move(balls)), mObject(object), mLastHeld(object.leafCount()),
-          mKeptHold(object.leafCount(), LeafMask{})
-    {
-        std::vector<int32_t> lastFirst(mBalls.size());
-        std::iota(lastFirst.rbegin(), lastFirst.rend(), 0);
-        const auto filter = [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
-                                std::vector<int32_t>& to) { filterLast(box, from, to); };
-        const auto body = [&](std::size_t leaf, const std::vector<int32_t>& lasts) {
-            mLastHeld[leaf] = lastHeld(leaf, lasts);
-        };
-        forEachLeafWithBalls(mObject, std::move(lastFirst), filter, body, interrupter);
-    }
-
-    /// @return the balls to keep, ascending.
-    std::vector<int32_t> run(openvdb::util::NullInterrupter* interrupter)
-    {
-        std::vector<int32_t> kept;
-        const auto parts = partsOfBalls();
-        for (std::size_t ball = 0; ball < parts.size(); ++ball) {
-            if (ball % 1024 == 0) detail::checkInterrupt(interrupter);
-            if (!isNeeded(parts[ball])) continue;
-            kept.push_back(int32_t(ball));
-            keep(int32_t(ball));
-        }
-        return kept;
-    }
-
-private:
-    /// Keeps the balls up to the first that holds all of the box: those after it are no voxel's last.
-    void filterLast(const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
-        std::vector<int32_t>& to) const
-    {
+/// @param balls  in the order in which they are tested
+/// @return for each leaf the last balls of its voxels, the last one first.
+std::vector<std::vector<LastHeld>> lastHeldOf(const std::vector<ExactSphere>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<int32_t> lastFirst(balls.size());
+    std::iota(lastFirst.rbegin(), lastFirst.rend(), 0);
+    // Up to the first that holds all of the box: those after it are no voxel's last.
+    const auto filter = [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
+                            std::vector<int32_t>& to) {
         for (const int32_t ball : from) {
-            const BoxReach reach(mBalls[ball], box);
-            if (!reach.meets(mBalls[ball])) continue;
+            const BoxReach reach(balls[ball], box);
+            if (!reach.meets(balls[ball])) continue;
             to.push_back(ball);
-            if (reach.isHeldBy(mBalls[ball])) return;
+            if (reach.isHeldBy(balls[ball])) return;
         }
-    }
-
-    std::vector<LastHeld> lastHeld(std::size_t leaf, const std::vector<int32_t>& lastFirst) const
-    {
-        std::vector<LastHeld> parts;
-        LeafMask left = mObject.mask(leaf);
-        for (const int32_t ball : lastFirst) {
+    };
+    std::vector<std::vector<LastHeld>> lastHeld(object.leafCount());
+    const auto body = [&](std::size_t leaf, const std::vector<int32_t>& near) {
+        LeafMask left = object.mask(leaf);
+        for (const int32_t ball : near) {
             const LeafMask mask =
-                detail::voxelsOf(mBalls[ball], kFineShift, mObject.origin(leaf)) & left;
+                detail::voxelsOf(balls[ball], kFineShift, object.origin(leaf)) & left;
             if (mask.none()) continue;
-            parts.push_back({ball, mask});
+            lastHeld[leaf].push_back({ball, mask});
             left -= mask;
             if (left.none()) break;
         }
-        return parts;
-    }
-
-    std::vector<std::vector<Part>> partsOfBalls() const
-    {
-        std::vector<std::vector<Part>> parts(mBalls.size());
-        for (uint32_t leaf = 0; leaf < mLastHeld.size(); ++leaf) {
-            for (uint32_t i = 0; i < mLastHeld[leaf].size(); ++i) {
-                parts[mLastHeld[leaf][i].ball].push_back({leaf, i});
-            }
-        }
-        return parts;
-    }
-
-    bool isNeeded(const std::vector<Part>& parts) const
-    {
-        return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
-            return !(mLastHeld[part.leaf][part.i].mask - mKeptHold[part.leaf]).none();
-        });
-    }
-
-    void keep(int32_t ball)
-    {
-        openvdb::CoordBBox box;
-        if (!ballBox(mBalls[ball], box)) return;
-        mObject.forEachLeaf(box, [&](std::size_t leaf) {
-            const auto& last = mLastHeld[leaf];
-            if (last.empty() || last.front().ball <= ball) return; // is not read again
-            mKeptHold[leaf] |= detail::voxelsOf(mBalls[ball], kFineShift, mObject.origin(leaf));
-        });
-    }
-
-    std::vector<ExactSphere> mBalls;
-    const SampleLevel& mObject;
-    std::vector<std::vector<LastHeld>> mLastHeld; ///< of a leaf, the last ball first
-    std::vector<LeafMask> mKeptHold;              ///< voxels in balls that stay
-};
+    };
+    forEachLeafWithBalls(object, std::move(lastFirst), filter, body, interrupter);
+    return lastHeld;
+}
 
 } // namespace
 
@@ -132,14 +64,35 @@ std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const Sa
         [&](int32_t a, int32_t b) { return medial[a].radiusSq < medial[b].radiusSq; });
     std::vector<ExactSphere> balls;
     for (const int32_t i : order) balls.push_back(fineBall(medial[i]));
+    const auto lastHeld = lastHeldOf(balls, object, interrupter);
 
+    struct Part {
+        uint32_t leaf, i; // the i-th of lastHeld[leaf]
+    };
+    std::vector<std::vector<Part>> parts(balls.size());
+    for (uint32_t leaf = 0; leaf < lastHeld.size(); ++leaf) {
+        for (uint32_t i = 0; i < lastHeld[leaf].size(); ++i) {
+            parts[lastHeld[leaf][i].ball].push_back({leaf, i});
+        }
+    }
     std::vector<int32_t> kept;
-    for (const int32_t i : Pruning(std::move(balls), object, interrupter).run(interrupter)) {
-        kept.push_back(order[i]);
+    std::vector<LeafMask> inKept(object.leafCount(), LeafMask{}); // voxels of balls that stay
+    for (std::size_t ball = 0; ball < balls.size(); ++ball) {
+        if (ball % 1024 == 0) detail::checkInterrupt(interrupter);
+        const bool needed =
+            std::any_of(parts[ball].begin(), parts[ball].end(), [&](const Part& part) {
+                return !(lastHeld[part.leaf][part.i].mask - inKept[part.leaf]).none();
+            });
+        if (!needed) continue;
+        kept.push_back(order[ball]);
+        object.forEachLeaf(ballBox(balls[ball]), [&](std::size_t leaf) {
+            const auto& last = lastHeld[leaf];
+            if (last.empty() || last.front().ball <= int32_t(ball)) return; // is not read again
+            inKept[leaf] |= detail::voxelsOf(balls[ball], kFineShift, object.origin(leaf));
+        });
     }
     std::sort(kept.begin(), kept.end());
     return kept;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

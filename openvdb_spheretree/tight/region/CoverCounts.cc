@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CoverCounts.h"
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-namespace {
-
-std::size_t bitsOf(uint32_t value)
+CoverCounts::CoverCounts(std::size_t leaves, uint32_t most) : mWhole(leaves, 0)
 {
-    std::size_t bits = 1;
-    while (value >>= 1) ++bits;
-    return bits;
+    while (most >>= 1) ++mPerLeaf;
+    mPlanes.resize(leaves * mPerLeaf, LeafMask{});
 }
-
-} // namespace
-
-CoverCounts::CoverCounts(std::size_t leaves, uint32_t most)
-    : mPerLeaf(bitsOf(most)), mPlanes(leaves * mPerLeaf, LeafMask{}), mWhole(leaves, 0)
-{}
 
 void CoverCounts::add(std::size_t leaf, const LeafMask& mask)
 {
@@ -33,7 +23,7 @@ void CoverCounts::remove(std::size_t leaf, const LeafMask& mask)
 
 void CoverCounts::ripple(std::size_t leaf, LeafMask carry, uint64_t inverted)
 {
-    LeafMask* plane = planes(leaf);
+    LeafMask* plane = &mPlanes[leaf * mPerLeaf];
     for (uint64_t any = 1; any; ++plane) {
         any = 0;
         for (int word = 0; word < 8; ++word) {
@@ -45,25 +35,17 @@ void CoverCounts::ripple(std::size_t leaf, LeafMask carry, uint64_t inverted)
     }
 }
 
-LeafMask CoverCounts::countedAs(std::size_t leaf, uint32_t count) const
+LeafMask CoverCounts::heldBy(std::size_t leaf, uint32_t count) const
 {
+    if (mWhole[leaf] > count) return LeafMask{};
+    const uint32_t inPlanes = count - mWhole[leaf];
+    if (inPlanes >> mPerLeaf) return LeafMask{};
     LeafMask differs{};
     for (std::size_t bit = 0; bit < mPerLeaf; ++bit) {
-        const uint64_t expected = count >> bit & 1 ? ~uint64_t(0) : 0;
-        for (int word = 0; word < 8; ++word) differs[word] |= planes(leaf)[bit][word] ^ expected;
+        const LeafMask& plane = mPlanes[leaf * mPerLeaf + bit];
+        differs |= inPlanes >> bit & 1 ? LeafMask::full() - plane : plane;
     }
-    return count >> mPerLeaf ? LeafMask{} : LeafMask::full() - differs;
+    return LeafMask::full() - differs;
 }
 
-LeafMask CoverCounts::once(std::size_t leaf) const
-{
-    return mWhole[leaf] > 1 ? LeafMask{} : countedAs(leaf, 1 - mWhole[leaf]);
-}
-
-LeafMask CoverCounts::twice(std::size_t leaf) const
-{
-    return mWhole[leaf] > 2 ? LeafMask{} : countedAs(leaf, 2 - mWhole[leaf]);
-}
-
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,24 +7,18 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
-
-namespace {
-
-/// Some leaves, and the balls that may matter in the region that these are part of.
-struct LeafRegion {
-    uint32_t *begin, *end;
-    std::shared_ptr<const std::vector<int32_t>> balls;
-};
-
-} // namespace
+namespace openvdb_spheretree::tight {
 
 void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     const BallFilter& filter, const LeafBallsBody& body,
     openvdb::util::NullInterrupter* interrupter)
 {
     if (object.leafCount() == 0) return;
+    /// Some leaves, and the balls that may matter in a region around them.
+    struct LeafRegion {
+        uint32_t *begin, *end;
+        std::shared_ptr<const std::vector<int32_t>> balls;
+    };
     std::vector<uint32_t> leaves(object.leafCount());
     std::iota(leaves.begin(), leaves.end(), 0);
     const auto originOf = [&](uint32_t leaf) { return object.origin(leaf); };
@@ -47,5 +41,4 @@ void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     detail::divideRegions(whole, char(0), divide, interrupter);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafDescent.h
-/// @brief Which balls matter in which leaf of the object, found from the whole of it downwards:
+/// @brief Finds the balls that matter in each leaf of the object, from the whole object downwards:
 /// RegionHalving.h.
 ///
-/// Cost: the balls in the lists that the filter leaves; those of the leaves are most of them.
+/// Cost: linear in the lists that the filter leaves. Most of that are the lists of the leaves.
 
 #pragma once
 
@@ -16,21 +16,19 @@
 #include <functional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// Appends those of @a from that matter in a box of voxels to @a to, in order; called by several
+/// Appends to @a to those balls of @a from that matter in a box of voxels, in order. Called by several
 /// threads.
 using BallFilter = std::function<void(
     const openvdb::CoordBBox& box, const std::vector<int32_t>& from, std::vector<int32_t>& to)>;
 
-/// Takes what is left for a leaf: called once for each leaf, for several at the same time.
+/// Takes the balls of a leaf: called once for each leaf, for several at the same time.
 using LeafBallsBody = std::function<void(std::size_t leaf, const std::vector<int32_t>& balls)>;
 
-/// @param balls  the numbers of all balls, in the order in which lists have them
+/// @param balls  the numbers of all balls; every list has them in this order
 void forEachLeafWithBalls(const SampleLevel& object, std::vector<int32_t> balls,
     const BallFilter& filter, const LeafBallsBody& body,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -11,8 +11,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
@@ -22,35 +21,8 @@ struct CellPart {
     LeafMask mask;
 };
 
-/// The power of a ball at every voxel of a leaf is a sum of three terms, one for each axis.
-struct PowerTerms {
-    std::array<int64_t, 8> axis[3];
-
-    PowerTerms(const ExactSphere& ball, const openvdb::Coord& origin)
-    {
-        for (int a = 0; a < 3; ++a) {
-            for (int i = 0; i < 8; ++i) {
-                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
-                axis[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
-            }
-        }
-    }
-};
-
-/// @return the power of a ball in the middle of a box.
-double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
-{
-    double power = double(ball.radiusSq);
-    for (int a = 0; a < 3; ++a) {
-        const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
-        const double d = 0.5 * double(twice) - double(ball.center[a]);
-        power -= d * d;
-    }
-    return power;
-}
-
-/// @return whether the power of @a ball is larger than that of @a other in all of the box: the
-/// difference is linear, so it is smallest at an end of each axis.
+/// @return whether the power of @a ball is larger than that of @a other in all of the box. The
+/// difference is linear, so along each axis it is smallest at one of the ends.
 bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
 {
     int64_t least = ball.radiusSq - other.radiusSq;
@@ -64,7 +36,8 @@ bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb:
     return least > 0;
 }
 
-/// Leaves out the balls that are weaker everywhere than the one that is strongest in the middle.
+/// @return a filter that drops the balls with less power, in all of a box, than the one with the most
+/// power in its middle.
 BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
@@ -72,7 +45,12 @@ BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
         int32_t strongest = -1;
         double most = 0;
         for (const int32_t ball : from) {
-            const double power = powerInMiddle(balls[ball], box);
+            double power = double(balls[ball].radiusSq); // in the middle of the box
+            for (int a = 0; a < 3; ++a) {
+                const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
+                const double d = 0.5 * double(twice) - double(balls[ball].center[a]);
+                power -= d * d;
+            }
             if (strongest >= 0 && power <= most) continue;
             strongest = ball;
             most = power;
@@ -84,7 +62,7 @@ BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
     };
 }
 
-/// A ball that may have a part of a leaf, and the voxels that count.
+/// A ball that may have voxels of a leaf in its power cell, and those of them that may be in it.
 struct Claim {
     int32_t ball;
     const LeafMask* within;
@@ -102,10 +80,15 @@ std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Cl
     for (std::size_t k = 0; k < claims.size(); ++k) {
         const ExactSphere& ball = balls[claims[k].ball];
         const LeafMask& within = *claims[k].within;
-        const PowerTerms terms(ball, origin);
+        int64_t terms[3][8]; // the power at a voxel is a sum of three, one for each axis
+        for (int a = 0; a < 3; ++a) {
+            for (int i = 0; i < 8; ++i) {
+                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
+                terms[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
+            }
+        }
         for (int i = 0; i < kLeafVoxels; ++i) {
-            const int64_t power =
-                terms.axis[0][i >> 6] + terms.axis[1][i >> 3 & 7] + terms.axis[2][i & 7];
+            const int64_t power = terms[0][i >> 6] + terms[1][i >> 3 & 7] + terms[2][i & 7];
             const bool more = power > best[i]
                 || (power == best[i] && power >= 0
                     && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
@@ -114,18 +97,18 @@ std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Cl
             label[i] = wins ? int32_t(k) : label[i];
         }
     }
-    std::vector<CellPart> parts;
-    for (const Claim& claim : claims) parts.push_back({claim.ball, {}});
+    std::vector<LeafMask> masks(claims.size(), LeafMask{});
     for (int i = 0; i < kLeafVoxels; ++i) {
-        if (best[i] >= 0) parts[label[i]].mask.setOn(uint32_t(i));
+        if (best[i] >= 0) masks[label[i]].setOn(uint32_t(i));
     }
-    parts.erase(std::remove_if(parts.begin(), parts.end(),
-                    [](const CellPart& part) { return part.mask.none(); }),
-        parts.end());
+    std::vector<CellPart> parts;
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+        if (!masks[k].none()) parts.push_back({claims[k].ball, masks[k]});
+    }
     return parts;
 }
 
-/// @param parts  of each leaf; they are taken apart
+/// @param parts  of each leaf; they are freed on the way
 std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellPart>>& parts, std::size_t balls)
 {
     std::vector<VoxelRegion> cells(balls);
@@ -192,5 +175,4 @@ std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<Exact
     return extremePoints(powerCells(balls, object, interrupter), object, interrupter);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

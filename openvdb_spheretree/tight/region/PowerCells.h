@@ -3,10 +3,11 @@
 /// @brief The object cut into the power cells of given balls.
 ///
 /// A voxel is in the power cell of the ball with the largest power there, radiusSq - distance^2; of
-/// equals, the larger ball, then the first. (PowerMap.h labels by all medial balls, these are fewer.)
+/// equals, of the larger ball, then of the first. (PowerMap.h finds such labels among all medial
+/// balls, here they are few.)
 ///
-/// The difference of two powers is linear: a ball with less power than another one at all corners of a
-/// box has less in all of the box, and is left out there and in its parts (RegionHalving.h). With
+/// The difference of two powers is linear. So a ball with less power than another one at all corners of
+/// a box has less in all of the box, and is left out there and in its parts (RegionHalving.h). With
 /// dragon-512 that takes 0.6 s in place of 2.7 s.
 
 #pragma once
@@ -19,28 +20,26 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// @param balls    that cover @a object
-/// @param regions  where each of them counts; together the object
+/// @param regions  of each ball: the voxels that may be in its cell; together the object
 /// @return the power cell of each ball.
 std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const std::vector<VoxelRegion>& regions, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @return the power cell of each ball, if every one counts everywhere.
+/// @return the power cell of each ball, if any voxel may be in it.
 std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
-/// @return for each region its extreme points: ExtremePoints.h; none for an empty one.
+/// @return the extreme points of each region: ExtremePoints.h; none of an empty one.
 std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
 /// @param balls  that cover @a object
-/// @return for each ball the extreme points of its power cell: ExtremePoints.h; none for an empty one.
+/// @return the extreme points of each ball's power cell.
 std::vector<std::vector<openvdb::Coord>> powerCellPoints(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

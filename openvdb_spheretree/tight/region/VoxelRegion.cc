@@ -7,26 +7,15 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace tight {
-
-namespace {
-
-void append(VoxelRegion& region, std::size_t leaf, const LeafMask& mask)
-{
-    if (!mask.none()) region.push_back({uint32_t(leaf), mask});
-}
-
-} // namespace
+namespace openvdb_spheretree::tight {
 
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
     VoxelRegion region;
-    openvdb::CoordBBox box;
-    if (!ballBox(ball, box)) return region;
-    object.forEachLeaf(box, [&](std::size_t leaf) {
-        append(region, leaf,
-            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf));
+    object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
+        const LeafMask mask =
+            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf);
+        if (!mask.none()) region.push_back({uint32_t(leaf), mask});
     });
     return region;
 }
@@ -54,7 +43,8 @@ VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const Sa
     for (const RegionLeaf& part : region) {
         const openvdb::Coord& origin = object.origin(part.leaf);
         if (!mayReach(ball, origin)) continue;
-        append(inside, part.leaf, detail::voxelsOf(ball, kFineShift, origin) & part.mask);
+        const LeafMask mask = detail::voxelsOf(ball, kFineShift, origin) & part.mask;
+        if (!mask.none()) inside.push_back({part.leaf, mask});
     }
     return inside;
 }
@@ -65,11 +55,8 @@ void joinLeaves(VoxelRegion& parts)
         [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
     std::size_t size = 0;
     for (const RegionLeaf& part : parts) {
-        if (size == 0 || parts[size - 1].leaf != part.leaf) {
-            parts[size++] = part;
-            continue;
-        }
-        parts[size - 1].mask |= part.mask;
+        if (size > 0 && parts[size - 1].leaf == part.leaf) parts[size - 1].mask |= part.mask;
+        else parts[size++] = part;
     }
     parts.resize(size);
 }
@@ -83,5 +70,4 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
     return region;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

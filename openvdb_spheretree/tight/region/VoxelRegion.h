@@ -12,15 +12,14 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// The voxels of a region in one leaf of the object.
 struct RegionLeaf {
     uint32_t leaf;
     LeafMask mask;
 };
-/// In the order of leaves, none without voxels.
+/// In the order of leaves; no part is empty.
 using VoxelRegion = std::vector<RegionLeaf>;
 
 /// @return the object voxels in @a ball.
@@ -51,10 +50,9 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 /// @return the voxels of a region that lie in @a ball.
 VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object);
 
-/// Makes a region of parts in any order, of which several may lie in the same leaf.
+/// Makes a region of parts that come in any order, and of which several may lie in one leaf.
 void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -5,15 +5,13 @@
 #pragma once
 
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
-#include <openvdb_spheretree/tight/fit/CostWindow.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class BallCover {
 public:
@@ -22,20 +20,15 @@ public:
     {}
 
     std::size_t size() const { return mBalls.size(); }
-    /// @return the ball of a number, empty where one was dropped.
+    /// @return the ball of a number; an empty one if it was dropped.
     const CoverBall& operator[](int32_t id) const { return mBalls[id]; }
     const std::vector<CoverBall>& balls() const { return mBalls; }
 
-    /// @return a hash of the uncovered voxels for which a ball was placed last, 0 if it never was.
+    /// @return a hash of the voxels for which a ball was placed last; 0 if it never was.
     uint64_t placedFor(int32_t id) const { return mPlacedFor[id]; }
 
-    /// @return as BallGrid::nearest.
-    std::vector<int32_t> nearest(int32_t id, const ExactSphere& ball, std::size_t count) const
-    {
-        return mGrid.nearest(id, ball, count);
-    }
-    /// @return as BallGrid::meeting.
-    std::vector<int32_t> meeting(const FineBox& box) const { return mGrid.meeting(box); }
+    /// @return the balls that are not empty, by place.
+    const BallGrid& grid() const { return mGrid; }
 
     void put(int32_t id, const CoverBall& ball)
     {
@@ -51,5 +44,4 @@ private:
     BallGrid mGrid;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -7,10 +7,8 @@
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
-#include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 using openvdb::Coord;
 
@@ -26,26 +24,22 @@ void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
 {
     thread_local ExtremePoints extreme;
     extreme.clear();
-    openvdb::CoordBBox box, one;
-    for (const CoverBall& ball : removed) {
-        if (ballBox(ball.ball, one)) box.expand(one);
-    }
-    if (!box.empty()) {
-        mObject.forEachLeaf(box, [&](std::size_t leaf) {
-            const Coord& origin = mObject.origin(leaf);
-            LeafMask uncovered{};
-            for (const CoverBall& ball : removed) {
-                if (!ball.empty() && mayReach(ball.ball, origin)) uncovered |= heldIn(leaf, ball);
-            }
+    openvdb::CoordBBox box;
+    for (const CoverBall& ball : removed) box.expand(ballBox(ball.ball));
+    mObject.forEachLeaf(box, [&](std::size_t leaf) {
+        const Coord& origin = mObject.origin(leaf);
+        LeafMask uncovered{};
+        for (const CoverBall& ball : removed) {
+            if (!ball.empty() && mayReach(ball.ball, origin)) uncovered |= heldIn(leaf, ball);
+        }
+        if (uncovered.none()) return;
+        for (const CoverBall& ball : others) {
+            if (ball.empty() || !mayReach(ball.ball, origin)) continue;
+            uncovered -= heldIn(leaf, ball);
             if (uncovered.none()) return;
-            for (const CoverBall& ball : others) {
-                if (ball.empty() || !mayReach(ball.ball, origin)) continue;
-                uncovered -= heldIn(leaf, ball);
-                if (uncovered.none()) return;
-            }
-            extreme.add(origin, uncovered);
-        });
-    }
+        }
+        extreme.add(origin, uncovered);
+    });
     points = extreme.finish();
 }
 
@@ -60,11 +54,6 @@ UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units, std::vector<int
     }
 }
 
-bool UnitGoal::holds(const CoverBall& ball, int32_t unit) const
-{
-    return ball.group == mGroups[unit] && holdsAll(ball.ball, mUnits[unit]);
-}
-
 void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
     const std::vector<CoverBall>& others, std::vector<Coord>& points) const
 {
@@ -72,8 +61,10 @@ void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
     for (const CoverBall& ball : removed) {
         if (ball.empty()) continue;
         for (const int32_t unit : mGrid.near(ball.ball)) {
-            const auto holdsUnit = [&](const CoverBall& other) { return holds(other, unit); };
-            if (!holdsUnit(ball) || std::any_of(others.begin(), others.end(), holdsUnit)) continue;
+            const auto holds = [&](const CoverBall& other) {
+                return other.group == mGroups[unit] && holdsAll(other.ball, mUnits[unit]);
+            };
+            if (!holds(ball) || std::any_of(others.begin(), others.end(), holds)) continue;
             points.insert(points.end(), mUnits[unit].begin(), mUnits[unit].end());
         }
     }
@@ -87,5 +78,4 @@ bool holdsAll(const ExactSphere& ball, const std::vector<Coord>& points)
     });
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverGoal.h
-/// @brief What a cover has to hold: which voxels would be uncovered without some of its balls?
+/// @brief What a cover has to hold, and so which voxels would be uncovered without some of its balls.
 ///
 /// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a whole:
-/// the power cell of a ball of the next finer level, which then is a child of that ball.
+/// the power cell of a ball of the next finer level, which becomes a child of the ball that holds it.
 
 #pragma once
 
@@ -17,26 +17,24 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CoverGoal {
 public:
     virtual ~CoverGoal() = default;
     /// @param removed  balls taken out of the cover
     /// @param others   at least all other balls that meet one of them; empty balls hold nothing
-    /// @param points   receives extreme points of all that only the removed balls hold: a ball that
-    ///                 holds these points holds it all
+    /// @param points   receives extreme points of the voxels that only the removed balls hold: a ball
+    ///                 that holds the points holds these voxels
     virtual void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const = 0;
 };
 
 class VoxelGoal : public CoverGoal {
 public:
-    /// Every object voxel that a ball holds counts.
-    explicit VoxelGoal(const SampleLevel& object) : mObject(object) {}
-    /// @param regions  of the groups: what a ball holds counts in its group's only
-    VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions)
+    /// @param regions  of the groups: a ball counts in its group's region only; without regions it
+    ///                 counts in all of the object
+    explicit VoxelGoal(const SampleLevel& object, std::vector<const VoxelRegion*> regions = {})
         : mObject(object), mRegions(std::move(regions))
     {}
     VoxelGoal(const SampleLevel& object, const std::vector<VoxelRegion>& regions) : mObject(object)
@@ -50,7 +48,7 @@ private:
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
 
     const SampleLevel& mObject;
-    std::vector<const VoxelRegion*> mRegions; ///< none: the object
+    std::vector<const VoxelRegion*> mRegions;
 };
 
 class UnitGoal : public CoverGoal {
@@ -63,8 +61,6 @@ public:
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
 private:
-    bool holds(const CoverBall& ball, int32_t unit) const;
-
     const std::vector<std::vector<openvdb::Coord>>& mUnits;
     std::vector<int32_t> mGroups;
     BallGrid mGrid; ///< of balls around units
@@ -73,5 +69,4 @@ private:
 /// @return whether @a ball holds all the points.
 bool holdsAll(const ExactSphere& ball, const std::vector<openvdb::Coord>& points);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -6,31 +6,13 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 namespace {
 
 using openvdb::Coord;
 
-/// The windows and lists of one thread.
-CoveringFit& scratchFit()
-{
-    thread_local CoveringFit fit;
-    return fit;
-}
-
-/// What the other balls of the part hold costs nothing.
-void coverOthers(const CoverPart& part, std::size_t i, CoveringFit& fit)
-{
-    for (std::size_t k = 0; k < part.balls.size(); ++k) {
-        const CoverBall& other = part.balls[k];
-        if (k == i || other.empty()) continue;
-        if (FineBox(other.ball).meets(fit.box())) fit.cover(other.ball);
-    }
-}
-
-/// @return the balls that share a voxel with one of @a removed, less these, the largest first: it is
+/// @return the other balls that may share a voxel with one of @a removed. The largest is first: it is
 /// the likeliest to hold all that would be uncovered.
 std::vector<CoverBall> othersOf(const CoverPart& part, const std::vector<std::size_t>& removed)
 {
@@ -71,7 +53,7 @@ CoverPart PartFit::around(const std::vector<int32_t>& ids) const
         const ExactSphere& ball = mCover[id].ball;
         part.box.expand(ball, 0.5 * ball.radius() + 4 * kFine);
     }
-    part.ids = mCover.meeting(part.box);
+    part.ids = mCover.grid().meeting(part.box);
     for (const int32_t id : part.ids) {
         part.balls.push_back(mCover[id]);
         part.placedFor.push_back(mCover.placedFor(id));
@@ -86,13 +68,24 @@ std::vector<Coord> PartFit::uncoveredWithout(const CoverPart& part, std::size_t 
     return points;
 }
 
+template <typename Targets>
+CoveringFit& PartFit::fitFor(const CoverPart& part, std::size_t i, const Targets& targets,
+    const std::vector<ExactSphere>& replaced) const
+{
+    thread_local CoveringFit fit;
+    fit.open(mObject, targets, replaced, mEffort.fit.samples);
+    for (std::size_t k = 0; k < part.balls.size(); ++k) {
+        const CoverBall& other = part.balls[k];
+        if (k == i || other.empty()) continue;
+        if (FineBox(other.ball).meets(fit.box())) fit.cover(other.ball);
+    }
+    return fit;
+}
+
 double PartFit::costOf(const CoverPart& part, std::size_t i) const
 {
-    CoveringFit& fit = scratchFit();
-    const ExactSphere& ball = part.balls[i].ball;
-    fit.open(mObject, ball, mEffort.fit.samples);
-    coverOthers(part, i, fit);
-    return fit.costOf({ball});
+    const std::vector<ExactSphere> ball{part.balls[i].ball};
+    return fitFor(part, i, ball, {}).costOf(ball);
 }
 
 std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
@@ -106,10 +99,8 @@ std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
 
 void PartFit::replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const
 {
-    CoveringFit& fit = scratchFit();
     ExactSphere& ball = part.balls[i].ball;
-    fit.open(mObject, std::vector<ExactSphere>{instead}, {ball}, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, std::vector<ExactSphere>{instead}, {ball});
     part.change += fit.costOf({instead}) - fit.costOf({ball});
     ball = instead;
     part.placedFor[i] = 0;
@@ -128,9 +119,7 @@ void PartFit::refit(CoverPart& part, std::size_t i) const
     const uint64_t hash = hashOf(points);
     if (part.placedFor[i] == hash) return;
     part.placedFor[i] = hash;
-    CoveringFit& fit = scratchFit();
-    fit.open(mObject, points, {ball}, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, points, {ball});
     const double before = fit.costOf({ball});
     const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
     const bool better =
@@ -156,9 +145,7 @@ bool PartFit::takeOver(CoverPart& part, std::size_t i, std::size_t successor) co
     const std::vector<ExactSphere> replaced{part.balls[i].ball, part.balls[successor].ball};
     part.balls[i].ball = part.balls[successor].ball = ExactSphere();
     if (points.empty()) return false;
-    CoveringFit& fit = scratchFit();
-    fit.open(mObject, points, replaced, mEffort.fit.samples);
-    coverOthers(part, i, fit);
+    CoveringFit& fit = fitFor(part, i, points, replaced);
     const double before = fit.costOf(replaced);
     const FittedBall fitted = fit.best(mEffort.fit, mEffort.flat);
     part.balls[successor].ball = fitted.ball;
@@ -196,5 +183,4 @@ void apply(const CoverChange& change, BallCover& cover, int32_t slot)
     for (const auto& [id, hash] : change.placedFor) cover.setPlacedFor(number(id), hash);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

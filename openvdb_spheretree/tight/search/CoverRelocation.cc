@@ -8,17 +8,14 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
-/// A neighbour of its group takes over the voxels that only ball @a id holds: the one for which that
-/// costs least.
 CoverChange CoverRelocation::removal(int32_t id) const
 {
     constexpr std::size_t kSuccessors = 3;
     const CoverBall& ball = mCover[id];
     if (ball.empty()) return {};
-    const std::vector<int32_t> around = mCover.nearest(id, ball.ball, kChangedNeighbours);
+    const std::vector<int32_t> around = mCover.grid().nearest(id, ball.ball, kChangedNeighbours);
     std::vector<int32_t> all(around);
     all.push_back(id);
     const CoverPart before = mFit.around(all);
@@ -36,20 +33,14 @@ CoverChange CoverRelocation::removal(int32_t id) const
     return mFit.changeOf(best);
 }
 
-CoverBall CoverRelocation::newcomer(uint64_t number) const
-{
-    Dice dice(~number);
-    CoverBall ball = mCover[int32_t(dice.below(mCover.size()))];
-    if (dice.uniform() < 0.5 || ball.empty()) return mFiner[dice.below(mFiner.size())];
-    ball.ball = halved(ball.ball, mFit.effort().flat, dice);
-    return ball;
-}
-
-/// A small ball is put in, and its neighbours shrink.
 CoverChange CoverRelocation::insertion(uint64_t number) const
 {
-    const CoverBall small = newcomer(number);
-    const std::vector<int32_t> around = mCover.nearest(kNewBall, small.ball, kChangedNeighbours);
+    Dice dice(~number);
+    CoverBall small = mCover[int32_t(dice.below(mCover.size()))];
+    if (dice.uniform() < 0.5 || small.empty()) small = mFiner[dice.below(mFiner.size())];
+    else small.ball = halved(small.ball, mFit.effort().flat, dice);
+    const std::vector<int32_t> around =
+        mCover.grid().nearest(kNewBall, small.ball, kChangedNeighbours);
     CoverPart part = mFit.around(around);
     const std::size_t last = mFit.insert(part, small);
     mFit.refitNear(part, around, small.ball);
@@ -92,12 +83,11 @@ void CoverRelocation::relocate()
     for (const std::size_t i : order) {
         while (next < put.size() && put[next].box.meetsAny(taken)) ++next;
         if (next == put.size() || !(removals[i].change + put[next].change < 0)) break;
-        const FineBox& box = removals[i].box;
-        if (box.meetsAny(taken) || box.meets(put[next].box)) continue;
+        const FineBox &from = removals[i].box, &to = put[next].box;
+        if (from.meetsAny(taken) || from.meets(to)) continue;
         apply(removals[i]);
         apply(put[next], int32_t(i));
-        taken.push_back(removals[i].box);
-        taken.push_back(put[next].box);
+        taken.insert(taken.end(), {from, to});
     }
     fill();
 }
@@ -114,5 +104,4 @@ void CoverRelocation::fill()
     }
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

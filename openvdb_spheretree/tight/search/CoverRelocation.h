@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverRelocation.h
-/// @brief Balls of a cover move elsewhere: one is removed, and a neighbour grows for the voxels that
-/// only it held; a small one is inserted at another place, and its neighbours shrink.
+/// @brief Balls of a cover move elsewhere. One is removed, and a neighbour grows to hold the voxels that
+/// only it held. A small one is inserted at another place, and its neighbours shrink.
 
 #pragma once
 
@@ -12,13 +12,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 class CoverRelocation {
 public:
-    /// @param finer  balls to be put in: smaller ones; together they cover, too. If there are none,
-    ///               every ball stays where it is.
+    /// @param finer  smaller balls to insert, which are a cover, too. If there are none, every ball
+    ///               stays where it is.
     CoverRelocation(BallCover& cover, const PartFit& fit, const std::vector<CoverBall>& finer,
         openvdb::util::NullInterrupter* interrupter)
         : mCover(cover), mFit(fit), mFiner(finer), mInterrupter(interrupter)
@@ -26,14 +25,16 @@ public:
 
     /// Pairs the cheapest removals with the best of many insertions, as long as that lowers the cost.
     void relocate();
-    /// Puts balls in where some were dropped, as long as that lowers the cost.
+    /// Inserts balls in place of dropped ones, as long as that lowers the cost.
     void fill();
-    /// @return what all that has done to the cover's cost, voxels.
+    /// @return how the cover's cost has changed by all that, voxels.
     double change() const { return mChange; }
 
 private:
+    /// A neighbour of its group takes over the voxels that only ball @a id holds: the one for which
+    /// that costs least.
     CoverChange removal(int32_t id) const;
-    CoverBall newcomer(uint64_t number) const;
+    /// A small ball is put in, and its neighbours shrink.
     CoverChange insertion(uint64_t number) const;
     std::vector<CoverChange> bestInsertions(std::size_t tries);
     void apply(const CoverChange& change, int32_t slot = -1);
@@ -46,5 +47,4 @@ private:
     double mChange = 0;
 };
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

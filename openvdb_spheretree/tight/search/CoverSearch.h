@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverSearch.h
-/// @brief Makes a cover cheaper without more balls (quality=best): tries changes, and keeps those that
-/// lower the cost.
+/// @brief Makes a cover cheaper with the same number of balls (quality=best): tries changes, and keeps
+/// those that lower the cost.
 ///
 /// 1. Every ball is placed anew, over and over, until nothing changes.
 /// 2. Many trials disturb one ball and refit its neighbours (CoverTrial.h). Six times in a search,
@@ -10,7 +10,7 @@
 ///
 /// Trials of a batch start from the same cover and run in parallel. Of those that lower the cost, the
 /// first ones whose surroundings do not meet are kept. A counter decides what is tried, and the number
-/// of balls how often: the result is the same for any number of threads, and for any speed.
+/// of balls how often. So the result depends neither on the number of threads nor on their speed.
 
 #pragma once
 
@@ -23,20 +23,18 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 struct SearchedCover {
-    std::vector<CoverBall> balls; ///< empty ones where balls went, if none put in lowers the cost
+    std::vector<CoverBall> balls; ///< a dropped ball for which none was inserted is empty
     double change = 0;            ///< of the cost, voxels, counted on samples: not above 0
 };
 
 /// @param balls  a cover in the sense of @a goal
-/// @param finer  small balls, to be put in where one is to spare: leaf balls, or a finer level.
-///               If there are none, balls stay where they are, or go if no voxel needs them.
+/// @param finer  smaller balls to insert: leaf balls, or a finer level. If there are none, no ball
+///               moves elsewhere, and balls that no voxel needs are dropped.
 SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<CoverBall>& finer,
     const SampledObject& object, const CoverGoal& goal, const SearchEffort& effort,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -8,31 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace tight {
-
-namespace {
-
-using openvdb::Coord;
-
-/// Somewhere else, and as large as it has to be there.
-ExactSphere moved(const ExactSphere& ball, const std::vector<Coord>& points, bool flat, Dice& dice)
-{
-    const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
-    ExactSphere result = shifted(ball, step, flat, dice);
-    result.radiusSq = 0;
-    for (const Coord& p : points) {
-        result.radiusSq = std::max(result.radiusSq, radiusSqToHold(result, voxelBall(p)));
-    }
-    return result;
-}
-
-void shuffle(std::vector<int32_t>& ids, Dice& dice)
-{
-    for (std::size_t k = ids.size(); k > 1; --k) std::swap(ids[k - 1], ids[dice.below(k)]);
-}
-
-} // namespace
+namespace openvdb_spheretree::tight {
 
 CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t number)
 {
@@ -40,22 +16,33 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     const auto id = int32_t(dice.below(cover.size()));
     const ExactSphere& ball = cover[id].ball;
     if (ball.empty()) return {};
-    std::vector<int32_t> around = cover.nearest(id, ball, kChangedNeighbours);
+    std::vector<int32_t> around = cover.grid().nearest(id, ball, kChangedNeighbours);
     std::vector<int32_t> all(around);
     all.push_back(id);
     CoverPart part = fit.around(all);
     const std::size_t i = part.indexOf(id);
-    const bool grow = dice.uniform() < 0.5;
-    const ExactSphere disturbed = grow
-        ? grown(ball, dice)
-        : moved(ball, fit.uncoveredWithout(part, i), fit.effort().flat, dice);
+    ExactSphere disturbed;
+    if (dice.uniform() < 0.5) {
+        disturbed = grown(ball, dice);
+    } else { // somewhere else, and as large as it must be there
+        const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
+        disturbed = shifted(ball, step, fit.effort().flat, dice);
+        disturbed.radiusSq = 0;
+        for (const openvdb::Coord& p : fit.uncoveredWithout(part, i)) {
+            disturbed.radiusSq =
+                std::max(disturbed.radiusSq, radiusSqToHold(disturbed, voxelBall(p)));
+        }
+    }
     if (!part.box.contains(FineBox(disturbed))) return {};
     fit.replace(part, i, disturbed);
-    if (dice.uniform() < 0.5) shuffle(around, dice);
+    if (dice.uniform() < 0.5) {
+        for (std::size_t k = around.size(); k > 1; --k) {
+            std::swap(around[k - 1], around[dice.below(k)]);
+        }
+    }
     fit.refitNear(part, around, disturbed);
     fit.refit(part, i);
     return fit.changeOf(part);
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RandomMoves.h
-/// @brief Random changes of a ball, the same ones for the same number of a trial.
+/// @brief Random changes of a ball. They depend on the number of a trial alone.
 
 #pragma once
 
@@ -11,8 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace tight {
+namespace openvdb_spheretree::tight {
 
 /// Random numbers of one trial.
 class Dice {
@@ -26,7 +25,7 @@ private:
     uint64_t mState;
 };
 
-/// @return the ball, up to 1.3 times as large, or by up to 2.3 voxels.
+/// @return the ball with a larger radius: up to 1.3 times, or by up to 2.3 voxels.
 inline ExactSphere grown(const ExactSphere& ball, Dice& dice)
 {
     const double r = ball.radius();
@@ -58,5 +57,4 @@ inline ExactSphere halved(const ExactSphere& ball, bool flat, Dice& dice)
     return half;
 }
 
-} // namespace tight
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::tight

@@ -40,7 +40,7 @@ Voxels voxelsIn(const MedialBall& ball, int dim)
     return voxels;
 }
 
-/// Counts all balls anew before each choice; of equals the larger, then the first by centre.
+/// Counts all balls anew before each choice; of equals the larger, then the first by center.
 InnerOrder naiveOrder(const Voxels& object, const std::vector<MedialBall>& balls, int dim)
 {
     std::set<Coord> left(object.begin(), object.end());
@@ -186,7 +186,7 @@ TEST(InnerTree, HasTheFirstBallsOfTheOrderOnEachLevel)
             for (int64_t i = 0; i < counts[k]; ++i) {
                 expected[order[i].center] = order[i].radiusSq;
             }
-            auto next = expected.begin(); // in the order of centres
+            auto next = expected.begin(); // in the order of centers
             for (int32_t id = level.begin; id < level.end; ++id, ++next) {
                 ASSERT_EQ(tree.ijk[id], next->first);
                 ASSERT_EQ(tree.radiusSq[id], next->second);

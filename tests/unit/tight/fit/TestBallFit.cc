@@ -27,7 +27,7 @@ struct Points {
         cloud.finish();
         return cloud;
     }
-    /// The radius around a centre that holds them all.
+    /// The radius around a center that holds them all.
     double reach(const Coord& from) const
     {
         double most = 0;
@@ -37,7 +37,7 @@ struct Points {
         }
         return most;
     }
-    /// The least radius around any centre in their box whose coordinates are multiples of @a step.
+    /// The least radius around any center in their box whose coordinates are multiples of @a step.
     double leastReach(int step) const
     {
         const CoordBBox box = boxOf(at);

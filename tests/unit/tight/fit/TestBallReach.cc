@@ -116,22 +116,20 @@ TEST(BallReach, LiesInTheBoxOfItsBall)
     Random random(5);
     for (int i = 0; i < 500; ++i) {
         const ExactSphere ball = randomBall(random, -5, 5, i % 6);
-        CoordBBox box;
-        const bool some = ballBox(ball, box);
+        const CoordBBox box = ballBox(ball);
         for (const Coord& v : voxelsOfBox(CoordBBox(Coord(-12), Coord(12)))) {
             if (!holds(ball, v)) continue;
-            ASSERT_TRUE(some);
             ASSERT_TRUE(box.isInside(v));
         }
-        if (!some) continue;
+        if (box == CoordBBox()) continue;
+        ASSERT_FALSE(box.empty());
         for (int a = 0; a < 3; ++a) {
             ASSERT_LE(16 * box.max()[a], double(ball.center[a]) + ball.radius());
             ASSERT_GE(16 * box.min()[a], double(ball.center[a]) - ball.radius());
         }
     }
-    CoordBBox box;
-    EXPECT_FALSE(ballBox(ExactSphere(), box));
-    EXPECT_FALSE(ballBox({{8, 0, 0}, 49}, box)); // between two voxels
+    EXPECT_EQ(ballBox(ExactSphere()), CoordBBox());
+    EXPECT_EQ(ballBox({{8, 0, 0}, 49}), CoordBBox()); // between two voxels
 }
 
 } // namespace

@@ -236,7 +236,7 @@ TEST(CostWindow, CountsVoxelsOutsideTheObject)
     }
 }
 
-/// Above level 0, centres are rounded to 1/16 sample and squared radii down.
+/// Above level 0, centers are rounded to 1/16 sample and squared radii down.
 TEST(CostWindow, RoundsBallsToItsSamples)
 {
     Random random(3);

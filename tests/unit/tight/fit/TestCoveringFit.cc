@@ -175,7 +175,7 @@ TEST(CoveringFit, KeepsCentersOfFlatTargetsInTheirPlane)
     }
 }
 
-/// Here the smallest ball reaches out of a round object, and one around its centre does not.
+/// Here the smallest ball reaches out of a round object, and one around its center does not.
 TEST(CoveringFit, LooksForTheBallInTheObject)
 {
     const Voxels voxels = shapes::ball(100);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 
+#include "support/ChosenObjects.h"
 #include "support/FineBalls.h"
 
 #include <map>
@@ -97,7 +98,7 @@ private:
         }
         return uncovered;
     }
-    /// The ball holds what is uncovered, and is no larger than that around its centre.
+    /// The ball holds what is uncovered, and is no larger than that around its center.
     void expectFitted(const MergeCandidate& c) const
     {
         const Voxels uncovered = uncoveredWithout(c.a, c.b);
@@ -144,11 +145,12 @@ std::vector<ExactSphere> medialLeaves(const Voxels& voxels, int dim)
 /// Balls small enough for costs to be counted on every voxel.
 TEST(SlackMerging, KeepsTheObjectCoveredAtTheCostItSays)
 {
+    const auto objects = chosenObjects(400, 455, 7, [](uint32_t, const RandomObject& object) {
+        const auto size = boxOf(object.voxels).extents().asVec3i();
+        return size.lengthSqr() <= 15 * 15 && object.voxels.size() <= 250;
+    });
     int dropped = 0;
-    for (uint32_t seed = 400; seed < 455; ++seed) {
-        const RandomObject object = randomObject(seed);
-        const bool wide = boxOf(object.voxels).extents().asVec3i().lengthSqr() > 15 * 15;
-        if (wide || object.voxels.size() > 250) continue;
+    for (const RandomObject& object : objects) {
         WatchedMerging model(object.voxels, medialLeaves(object.voxels, 3), false);
         SCOPED_TRACE(object.name);
         mergeToRoots(model, 6, nullptr);

@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    /// All of it, and in the smallest ball with that centre.
+    /// All of it, and in the smallest ball with that center.
     void expectHeld(const MergeCandidate& c, const Held& held) const
     {
         ExactSphere smaller = c.ball;

@@ -68,7 +68,7 @@ TEST(BallPruning, KeepsWhatPruningOneByOneKeepsOfManyBalls)
     ASSERT_NO_FATAL_FAILURE(expectPruned(object));
 }
 
-/// The smallest ball holds all of a leaf, and is alone at its own centre only.
+/// The smallest ball holds all of a leaf, and is alone at its own center only.
 TEST(BallPruning, KeepsABallForAVoxelInALeafThatItHolds)
 {
     const Coord middle(4, 4, 4);

@@ -30,8 +30,8 @@ void expectSame(const CoverCounts& counts, std::size_t leaf, const Counters& cou
 {
     for (int i = 0; i < 512; ++i) {
         const auto bit = [i](const LeafMask& mask) { return mask[i >> 6] >> (i & 63) & 1; };
-        ASSERT_EQ(bit(counts.once(leaf)), counters[i] == 1) << i << ": " << counters[i];
-        ASSERT_EQ(bit(counts.twice(leaf)), counters[i] == 2) << i << ": " << counters[i];
+        ASSERT_EQ(bit(counts.heldBy(leaf, 1)), counters[i] == 1) << i << ": " << counters[i];
+        ASSERT_EQ(bit(counts.heldBy(leaf, 2)), counters[i] == 2) << i << ": " << counters[i];
     }
 }
 
