@@ -28,12 +28,13 @@ HWY_INLINE hn::Vec<D> gapsIn(D d, hn::Vec<D> before, uint64_t plane, std::size_t
     return hn::IfThenElseZero(on, hn::SaturatedAdd(before, hn::Set(d, hn::TFromD<D>(1))));
 }
 
+/// From the voxels beside the leaf through its planes x = first, first + by, ... to the last.
 template <typename Gap>
-HWY_INLINE void Through(const LeafMask& mask, const Gap* before, Gap* last, int first, int by)
+HWY_INLINE void Through(const LeafMask& mask, const Gap* beside, Gap* last, int first, int by)
 {
     const Lanes64<Gap> d;
     for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
-        auto gaps = hn::LoadU(d, before + lane);
+        auto gaps = hn::LoadU(d, beside + lane);
         for (int k = 0, x = first; k < 8; ++k, x += by) gaps = gapsIn(d, gaps, mask[x], lane);
         hn::StoreU(gaps, d, last + lane);
     }
@@ -80,6 +81,7 @@ HWY_INLINE void Squares(const LeafMask& mask, const Gap* before, const Gap* behi
         for (std::size_t y = 0; y < 8; ++y) {
             for (std::size_t z = 0; z < 8; z += hn::Lanes(wide)) {
                 auto gaps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
+                // 46340^2 < 2^31 (MinPlus.h); a byte needs no clamp, as 255^2 < 2^16.
                 if (sizeof(Square) > 2) gaps = hn::Min(gaps, hn::Set(wide, Square(46340)));
                 hn::StoreU(hn::Mul(gaps, gaps), wide, rows + 64 * y + 8 * x + z);
             }

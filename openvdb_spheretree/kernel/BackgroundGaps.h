@@ -22,8 +22,8 @@ void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last);
 void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first);
 void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first);
 
-/// @param rows  receives the square of each voxel's smaller gap as rows across y (LeafRows.h). Gaps
-///              count up to 255, or 46340: 255^2 < 2^16, and 46340^2 < 2^31.
+/// @param rows  receives the square of each voxel's smaller gap, as rows across y (LeafRows.h);
+///              gaps beyond 255, or 46340, count as that much
 void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows);
 void squaresOfGaps(

@@ -21,7 +21,7 @@ struct LikeBefore {
     uint64_t alongY, alongZ;
 };
 
-/// @param row  64 values, and kLaneMargin before them. These are read, and do not matter: the first
+/// @param row  64 values, behind kLaneMargin others that are read too, of any content: the first
 ///             voxel along an axis has none before it.
 LikeBefore likeBefore(const int32_t* row);
 

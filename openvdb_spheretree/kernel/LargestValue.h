@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LargestValue.h
-/// @brief The largest of many values, as a vector kernel.
+/// @brief The largest of many values.
 
 #pragma once
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBallTerms.h
-/// @brief What the vector kernel and the portable one compare: see LeafBall.cc, which is compiled once
-/// for every instruction set, and this header once.
+/// @brief What the vector kernel and the portable one compare (LeafBall.cc).
 
 #pragma once
 

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// @return the lanes of a row that pass a test of the vector at each lane.
+/// @return the lanes for which test(lane), of the vector that begins there, is true.
 template <class D, typename Test>
 HWY_INLINE uint64_t LanesThat(D d, const Test& test)
 {
@@ -38,7 +38,7 @@ HWY_INLINE uint64_t EqualTo(const T* row, int offset)
     return LanesThat(d, [&](std::size_t lane) { return hn::Eq(hn::LoadU(d, row + lane), value); });
 }
 
-/// @param before  of the first lane in use: the 64 values that stand before the row's along the axis
+/// @param before  64 values: those before the row's along the axis
 template <typename T>
 HWY_INLINE uint64_t TargetAsBefore(const T* row, const T* before)
 {
@@ -49,8 +49,8 @@ HWY_INLINE uint64_t TargetAsBefore(const T* row, const T* before)
     });
 }
 
-/// Calls visit(x, row, same) for words of @a mask with a voxel: their 64 offsets, and which of them
-/// have the target of the voxel before along the axis.
+/// Calls visit(x, row, same) for words of @a mask that are not empty: their 64 offsets, and which
+/// voxels have the target of the voxel before them along the axis.
 template <typename T, typename Visit>
 HWY_INLINE void ForEachWord(const T* offsets, Axis axis, const LeafMask& mask, const Visit& visit)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file OffsetBits.h
-/// @brief Offsets to power labels as mask words: which are worth following, and where they lead.
+/// @brief Where the offsets of power labels lead, as mask words.
 ///
 /// A voxel's *target* is the voxel that its offset along an axis leads to. Neighbours mostly share
 /// it, so it is looked up once for all of them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafFinder.h
-/// @brief Finds the leaves of voxels that come nearly in the order of coordinates, as the centers of a
-/// level's balls do. The slab and the row of leaves of the last voxel are looked at first.
+/// @brief Finds the leaves of voxels that come nearly in the order of coordinates, as the centers
+/// of a level's balls do. The slab and the row of leaves of the last voxel are looked at first.
 
 #pragma once
 

@@ -15,8 +15,8 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// The origin of a place for a leaf, in 64 bits: coordinates next to the ends of 32 bits do not wrap
-/// around.
+/// The origin of a place for a leaf, in 64 bits: coordinates next to the ends of 32 bits do not
+/// wrap around.
 struct LeafPlace {
     int64_t x, y, z;
 

@@ -46,8 +46,8 @@ public:
     MaskMinus(const openvdb::MaskTree& a, const openvdb::MaskTree& b);
 
     std::size_t nodeCount() const { return mNodes.size(); }
-    /// @param result  becomes the cubes of a node, none of them empty. A tile is cut up only where the
-    ///                other mask has nodes.
+    /// @param result  becomes the cubes of a node, none of them empty. A tile is cut up only where
+    ///                the other mask has nodes.
     void cubes(std::size_t node, std::vector<VoxelCube>& result) const;
 
 private:

@@ -32,10 +32,10 @@ inline void countBytes(uint64_t word, std::size_t* sums)
     for (int y = 0; y < 8; ++y) sums[y] += word >> 8 * y & 0xff;
 }
 
-/// Calls visit(leaf, index, place) for the marked voxels of a slab: its leaf, its index there, and its
-/// rank among the marked voxels of the slab in the order of coordinates. Voxels are visited by x, then
-/// row of leaves by row of leaves. Leaves of a row have the same y, so the voxels of a row come before
-/// those of the next one. In a row they are ordered by y, then by leaf, then by z.
+/// Calls visit(leaf, index, place) for the marked voxels of a slab: its leaf, its index there, and
+/// its rank among the marked voxels of the slab in the order of coordinates. Voxels are visited by
+/// x, then row of leaves by row of leaves. Leaves of a row have the same y, so the voxels of a row
+/// come before those of the next one. In a row they are ordered by y, then by leaf, then by z.
 /// @param marks  a mask for each leaf of the slab
 template <typename Visit>
 void visitWithPlaces(

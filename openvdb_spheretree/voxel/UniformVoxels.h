@@ -8,14 +8,14 @@
 
 namespace openvdb_spheretree {
 
-/// Rotations, translations and uniform scales are fine. (OpenVDB's hasUniformScale() has an absolute
-/// tolerance: it takes small voxels of any shape for cubes, and small rotated cubes for none. Here it
-/// is relative, 1e-6.)
+/// Rotations, translations and uniform scales are fine. (OpenVDB's hasUniformScale() has an
+/// absolute tolerance: it takes small voxels of any shape for cubes, and small rotated cubes for
+/// none. Here it is relative, 1e-6.)
 /// @throw openvdb::ValueError naming the grid and its voxel size, unless its voxels are cubes
 void requireUniformVoxels(const openvdb::GridBase& grid);
 
-/// @return an upper bound of the world units a voxel, over all directions: the voxel size, a hair more
-///         where voxels are cubes only nearly.
+/// @return an upper bound of the world units a voxel, over all directions: the voxel size, a hair
+///         more where voxels are cubes only nearly.
 double largestStretch(const openvdb::math::Transform& transform);
 
 /// @return the same from below.
