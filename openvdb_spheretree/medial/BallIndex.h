@@ -2,10 +2,9 @@
 /// @file BallIndex.h
 /// @brief Which medial ball has its center at a voxel, without a search.
 ///
-/// The centers in a leaf are the bits of a mask. The number of bits before a center is its *rank* in
-/// the order of leaves. The rank names a ball as well as its index does, and is found in one cache
-/// line. A table takes ranks to indices in the order of balls, where they are needed. 128 bytes a
-/// leaf, 4 a ball.
+/// The centers in a leaf are the bits of a mask. The number of bits before a center is its *rank*
+/// in the order of leaves. The rank names a ball as well as its index does, and is found in one
+/// cache line. A table takes ranks to indices in the order of balls. 128 bytes a leaf, 4 a ball.
 
 #pragma once
 
@@ -48,8 +47,6 @@ private:
     {
         return std::size_t(leaf) * kLeafDim + (index >> 6);
     }
-    /// @return the number of centers.
-    std::size_t countRanks(const std::vector<LeafMask>& centers);
 
     std::vector<Word> mWords; ///< eight a leaf
     std::vector<int32_t> mBallOfRank;

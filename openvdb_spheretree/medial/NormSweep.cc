@@ -2,6 +2,7 @@
 #include "NormSweep.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/LeafWalk.h>
 
 #include <algorithm>
 #include <numeric>
@@ -73,8 +74,19 @@ NormSweep::NormSweep(const LeafLayout& layout, const Distance& distance, int dim
     : mLayout(layout), mDim(dim),
       mInterrupter(interrupter), mCost{0, uint32_t(distance.face()), uint32_t(distance.edge()),
                                      uint32_t(distance.corner())},
-      mNeighbours(layout)
-{}
+      mAround(layout.leafCount())
+{
+    constexpr std::size_t kChunk = 256;
+    const std::size_t count = mAround.size();
+    parallelFor((count + kChunk - 1) / kChunk, nullptr, [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kChunk;
+        LeafWalk around(layout, uint32_t(begin));
+        for (std::size_t leaf = begin; leaf < std::min(begin + kChunk, count); ++leaf) {
+            around.moveTo(uint32_t(leaf));
+            mAround[leaf] = around.all();
+        }
+    });
+}
 
 /// Calls visit(planes) for both directions of every axis; planes that it is called for at the same
 /// time do not touch.
@@ -101,7 +113,8 @@ void NormSweep::sweepAlong(int axis, int direction, const Visit& visit) const
         planes.forEachStep([&](int du, int dv, int) {
             int step[3];
             step[axis] = outside, step[u] = du, step[v] = dv;
-            planes.before[3 * (du + 1) + dv + 1] = mNeighbours.at(leaf, step[0], step[1], step[2]);
+            planes.before[3 * (du + 1) + dv + 1] =
+                mAround[leaf][LeafWalk::index(step[0], step[1], step[2])];
         });
         visit(planes);
     };
@@ -126,7 +139,7 @@ void NormSweep::loadBefore(const PlanePair& planes, const Value* values, Value* 
         const int firstV = dv < 0 ? 7 : 0, lastV = dv > 0 ? 0 : 7;
         for (int u = firstU; u <= lastU; ++u) {
             Value* to = canvas + (u + 8 * du + 1) * kCanvasWidth + 8 * dv + 1;
-            if (leaf == LeafNeighbours::kNone) {
+            if (leaf == LeafWalk::kNone) {
                 std::fill(to + firstV, to + lastV + 1, Value(0));
                 continue;
             }

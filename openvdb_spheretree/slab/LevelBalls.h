@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MedialBall.h>
 
@@ -12,15 +13,10 @@
 namespace openvdb_spheretree {
 namespace slab {
 
-/// Seconds that stages took. Stages that run in turns share their time.
-struct StreamSeconds {
-    double distance = 0, power = 0, medial = 0;
-};
-
 struct LevelBalls {
     std::vector<MedialBall> balls; ///< ordered by center
     std::vector<LeafMask> centers; ///< of the balls, a mask for each leaf
-    StreamSeconds seconds;
+    StageSeconds seconds;          ///< of distances, power labels and balls
 };
 
 } // namespace slab

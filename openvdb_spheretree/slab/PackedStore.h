@@ -49,7 +49,6 @@ private:
         int64_t place = 0; ///< in the file
     };
 
-    bool takesRoom(int64_t bytes);
     SpillFile& file(std::size_t size);
 
     std::vector<Array> mArrays;

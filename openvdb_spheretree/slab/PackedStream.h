@@ -7,7 +7,8 @@
 /// 1. *enter*: slab by slab, the labels along z and y, which are then packed (PackedLabels.h) in
 ///    groups of leaves (StreamPlan.h) and stored (PackedStore.h);
 /// 2. *along x*: band by band, the keys of all its groups, then the columns of its runs;
-/// 3. *finish*: slab by slab, the groups to which a label leads, for the medial balls and the queries.
+/// 3. *finish*: slab by slab, the groups to which a label leads, for the medial balls and the
+///    queries.
 ///
 /// So a group of leaves is unpacked twice at most.
 
@@ -143,7 +144,11 @@ private:
             mKeysOf[group.slab] = leaves - group.begin; // those of a slab are neighbours
             leaves += group.end - group.begin;
         }
-        makeRoom(leaves);
+        if (leaves > mRoom) {
+            mKeys.reset(); // before there is more
+            mKeys = detail::makeLargeArray<Key>(std::size_t(leaves) * kLeafVoxels);
+            mRoom = leaves;
+        }
         std::vector<GroupScratch> scratches(mPlan.slabs);
         detail::parallelForWithSlots(
             end - first, mPlan.slabs, mWork.interrupter, [&](std::size_t i, std::size_t slot) {
@@ -156,13 +161,6 @@ private:
             });
     }
 
-    void makeRoom(int64_t leaves)
-    {
-        if (leaves <= mRoom) return;
-        mKeys.reset(); // before there is more
-        mKeys = detail::makeLargeArray<Key>(std::size_t(leaves) * kLeafVoxels);
-        mRoom = leaves;
-    }
     Key* keysOf(uint32_t slab, uint32_t leaf) const
     {
         return mKeys.get() + std::ptrdiff_t(mKeysOf[slab] + leaf) * kLeafVoxels;
@@ -188,27 +186,17 @@ private:
             auto labels = scratch.memory.open(mLayout.slab(slab), mWork.dim, {});
             labels.dzFollowsDy = true;
             for (const uint32_t index : mCut.ofSlab[slab]) {
-                if (!hasMarks(mCut.groups[index])) continue;
+                const LeafGroup& group = mCut.groups[index];
+                uint32_t leaf = group.begin;
+                while (leaf < group.end && !mWork.hasMarks(leaf)) ++leaf;
+                if (leaf == group.end) continue;
                 unpack(index, scratch.group);
-                unpackLeaves(mCut.groups[index], labels, scratch.group);
+                for (leaf = group.begin; leaf < group.end; ++leaf) {
+                    unpackLeaf<Power>(placeOf(leaf, group, scratch.group), leaf, labels);
+                }
             }
             mWork.finish(slab, labels, scratch.balls);
         });
-    }
-
-    bool hasMarks(const LeafGroup& group) const
-    {
-        uint32_t leaf = group.begin;
-        while (leaf < group.end && !mWork.hasMarks(leaf)) ++leaf;
-        return leaf < group.end;
-    }
-
-    static void unpackLeaves(
-        const LeafGroup& group, const SlabLabels<Power>& labels, GroupScratch& scratch)
-    {
-        for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
-            unpackLeaf<Power>(placeOf(leaf, group, scratch), leaf, labels);
-        }
     }
 
     Work& mWork;

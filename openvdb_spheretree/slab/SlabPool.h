@@ -44,18 +44,16 @@ private:
     {
         auto best = mFree.end();
         for (auto it = mFree.begin(); it != mFree.end(); ++it) {
-            if (it->leaves() < leaves || (best != mFree.end() && it->leaves() >= best->leaves()))
-                continue;
-            best = it;
+            if (it->leaves() < leaves) continue;
+            if (best == mFree.end() || it->leaves() < best->leaves()) best = it;
         }
+        SlabMemory<Power> memory;
         if (best != mFree.end()) {
             std::swap(*best, mFree.back());
-            SlabMemory<Power> memory = std::move(mFree.back());
-            mFree.pop_back();
-            return memory;
+            memory = std::move(mFree.back());
         }
-        if (!mFree.empty()) mFree.pop_back(); // too small: better given back
-        return {};
+        if (!mFree.empty()) mFree.pop_back(); // the one taken, or one too small: better given back
+        return memory;
     }
 
     const LeafLayout& mLayout;

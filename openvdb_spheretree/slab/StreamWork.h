@@ -8,13 +8,16 @@
 #include "LabelQueries.h"
 #include "LevelBalls.h"
 #include "SlabBalls.h"
-#include "SlabEntry.h"
+#include "SlabDistance.h"
 #include "SlabLabels.h"
+#include "SlabPower.h"
+#include "XGaps.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/voxel/SlabOrder.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <cstring>
@@ -24,6 +27,37 @@
 
 namespace openvdb_spheretree {
 namespace slab {
+
+/// How a slab enters: its distances, and the passes of the power labels within it. Memory of one
+/// thread, for one slab after the other.
+template <typename Power, typename T>
+class SlabEntry {
+public:
+    /// @param labels  receives keys, and offsets along y and z
+    /// @return the largest squared distance.
+    uint32_t enter(const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, int dim,
+        const SlabLabels<Power>& labels)
+    {
+        const detail::Stage all("", nullptr, &seconds);
+        uint32_t largest = 0;
+        mPower.open(layout, slab, dim);
+        mDistance.forEachRun(
+            layout, slab, gaps, dim, [&](const LeafLayout::Run& run, const T* rows) {
+                const detail::Stage stage("", nullptr, &powerSeconds);
+                largest = std::max(largest,
+                    dim == 3 ? mPower.alongZ(run, rows, labels) : mPower.fromY(run, rows, labels));
+            });
+        const detail::Stage stage("", nullptr, &powerSeconds);
+        if (dim == 3) mPower.alongY(layout, slab, labels);
+        return largest;
+    }
+
+    double seconds = 0, powerSeconds = 0; ///< in all, and in the passes of power labels
+
+private:
+    SlabDistance<T> mDistance;
+    SlabPower<Power> mPower;
+};
 
 /// @tparam Power  of MaxPlus.h
 /// @tparam T      of squared distances
@@ -82,10 +116,10 @@ public:
     bool hasMarks(uint32_t leaf) const { return !mResult.centers[leaf].none(); }
     /// @return the slab of the first leaf of a run along x.
     uint32_t firstSlab(uint32_t run) const { return mFirstSlab[run]; }
-    StreamSeconds& seconds() { return mResult.seconds; }
+    StageSeconds& seconds() { return mResult.seconds; }
 
-    /// Distances and power labels are made in turns. They share the time that @a passed in proportion to
-    /// what the threads measured.
+    /// Distances and power labels are made in turns. They share the time that @a passed, in
+    /// proportion to what the threads measured.
     template <typename Entries>
     void share(double passed, Entries& entries)
     {

@@ -4,8 +4,8 @@
 ///
 /// Slabs go through three states:
 ///
-/// 1. *entered*: distances and the passes along z and y (SlabEntry.h), many slabs in parallel; what
-///    stays are keys and offsets;
+/// 1. *entered*: distances and the passes along z and y (StreamWork.h), many slabs in parallel;
+///    what stays are keys and offsets;
 /// 2. *final*: no ball of a slab that has not entered reaches it. Then its labels are found by the
 ///    pass along x, run by run, over the slabs of the window (ColumnPower.h), and its queries move
 ///    to the slabs that the labels lead to (LabelQueries.h);
@@ -41,7 +41,7 @@ public:
     WindowStream(Work& work, uint32_t window, uint32_t threads)
         : mWork(work), mLayout(work.layout), mWindow(std::min(window, mLayout.slabCount())),
           mEntries(threads), mCollect(threads), mPool(mLayout, work.dim, work.kept),
-          mMaxDistSq(mLayout.slabCount()), mNextOfRun(mLayout.runCount(Axis::X), 0)
+          mLargestDistSq(mLayout.slabCount()), mNextOfRun(mLayout.runCount(Axis::X), 0)
     {}
 
     void run()
@@ -62,10 +62,6 @@ private:
     };
 
     int32_t xOf(uint32_t slab) const { return mLayout.origin(mLayout.slab(slab).begin)[0]; }
-    bool touchesNext(uint32_t slab) const
-    {
-        return slab + 1 < mLayout.slabCount() && xOf(slab) + kLeafDim == xOf(slab + 1);
-    }
 
     template <typename Body>
     void forEach(std::size_t slabs, const Body& body) const
@@ -81,7 +77,7 @@ private:
         detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
             forEach(end - first, [&](std::size_t i, std::size_t slot) {
                 const uint32_t slab = first + uint32_t(i);
-                mMaxDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
+                mLargestDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
             });
         });
         mEntered = end;
@@ -91,9 +87,11 @@ private:
     /// @return the first slab that a ball to come may reach.
     uint32_t firstInDoubt() const
     {
-        if (!touchesNext(mEntered - 1)) return mEntered;
-        const int64_t end =
-            int64_t(xOf(mEntered - 1)) + 7 - detail::ceilSqrt(mMaxDistSq[mEntered - 1]);
+        const uint32_t last = mEntered - 1;
+        const bool touchesNext =
+            mEntered < mLayout.slabCount() && xOf(last) + kLeafDim == xOf(mEntered);
+        if (!touchesNext) return mEntered;
+        const int64_t end = int64_t(xOf(last)) + 7 - detail::ceilSqrt(mLargestDistSq[last]);
         uint32_t slab = mFinal;
         while (slab < mEntered && int64_t(xOf(slab)) + 7 <= end) ++slab;
         return slab;
@@ -147,7 +145,8 @@ private:
     bool reachesNothing(uint32_t slab) const
     {
         if (mFinal == mLayout.slabCount()) return true;
-        return int64_t(xOf(slab)) + 7 + detail::ceilSqrt(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
+        const int64_t reach = detail::ceilSqrt(mLargestDistSq[slab]);
+        return int64_t(xOf(slab)) + 7 + reach <= int64_t(xOf(mFinal));
     }
 
     Work& mWork;
@@ -156,9 +155,9 @@ private:
     std::vector<typename Work::Entry> mEntries; ///< memory of each thread
     std::vector<SlabBalls<Power>> mCollect;     ///< the same
     SlabPool<Power> mPool;
-    uint32_t mEntered = 0, mFinal = 0; ///< slabs before these are
-    std::vector<uint32_t> mMaxDistSq;  ///< of each slab
-    std::vector<uint32_t> mNextOfRun;  ///< its first leaf that is not final
+    uint32_t mEntered = 0, mFinal = 0;    ///< slabs before these are
+    std::vector<uint32_t> mLargestDistSq; ///< of each slab
+    std::vector<uint32_t> mNextOfRun;     ///< its first leaf that is not final
 };
 
 } // namespace slab

@@ -2,7 +2,7 @@
 /// @file LeafWalk.h
 /// @brief The 26 leaves around one leaf after the other, and for a neighbour that is not there, the
 /// next leaf behind its place. Leaves of a layout are ordered: from one leaf to the next, its
-/// neighbours move on as well. Nothing is stored; LeafNeighbours.h is a table.
+/// neighbours move on as well. Nothing is stored.
 
 #pragma once
 
@@ -35,6 +35,7 @@ struct LeafPlace {
 class LeafWalk {
 public:
     static constexpr uint32_t kNone = ~uint32_t(0);
+    static int index(int dx, int dy, int dz) { return 9 * (dx + 1) + 3 * (dy + 1) + dz + 1; }
 
     /// Starts before leaf @a first; O(log leaves).
     LeafWalk(const LeafLayout& layout, uint32_t first) : mLayout(layout)
@@ -61,13 +62,12 @@ public:
 
     /// @return the leaf there, or kNone.
     uint32_t at(int dx, int dy, int dz) const { return mLeaf[index(dx, dy, dz)]; }
-    /// @return the same of all, at 9 (dx + 1) + 3 (dy + 1) + dz + 1.
+    /// @return the same of all, by index().
     const std::array<uint32_t, 27>& all() const { return mLeaf; }
     /// @return the first leaf, in order, that stands there or later; leafCount() if none does.
     uint32_t firstFrom(int dx, int dy, int dz) const { return mFrom[index(dx, dy, dz)]; }
 
 private:
-    static int index(int dx, int dy, int dz) { return 9 * (dx + 1) + 3 * (dy + 1) + dz + 1; }
     LeafPlace placeOf(uint32_t leaf) const { return LeafPlace(mLayout.origin(leaf)); }
 
     uint32_t lowerBound(const LeafPlace& place) const
