@@ -16,7 +16,7 @@ using openvdb::Vec3d;
 
 constexpr int32_t kLeafSize = 1; ///< eight of them are tested at once
 constexpr int kBins = 16;
-constexpr int kAxes = 4; ///< the centre's three, and the radius
+constexpr int kAxes = 4; ///< the center's three, and the radius
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double coordinate(const Bound& bound, int axis)
@@ -24,7 +24,7 @@ double coordinate(const Bound& bound, int axis)
     return axis < 3 ? bound.center[axis] : bound.radius;
 }
 
-/// Around some bodies: their box, and the range of their centres and radii.
+/// Around some bodies: their box, and the range of their centers and radii.
 struct Extent {
     Box box;
     std::array<double, kAxes> lo{kInfinity, kInfinity, kInfinity, kInfinity};

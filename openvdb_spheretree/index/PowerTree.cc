@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PowerTree.h"
 
+#include "RegionHalving.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
@@ -21,16 +22,6 @@ int64_t powerOf(const MedialBall& ball, const Coord& voxel)
         sum += square(int64_t(ball.center[axis]) - voxel[axis]);
     }
     return sum;
-}
-
-int widestAxis(const openvdb::CoordBBox& box)
-{
-    const auto width = [&](int axis) { return int64_t(box.max()[axis]) - box.min()[axis]; };
-    int widest = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-        if (width(axis) > width(widest)) widest = axis;
-    }
-    return widest;
 }
 
 } // namespace
@@ -56,7 +47,7 @@ void PowerSearch::build(int32_t begin, int32_t end)
     }
     mNodes.push_back(node);
     if (end - begin <= kMostInLeaf) return;
-    const int axis = widestAxis(node.box);
+    const int axis = longestAxis(node.box);
     const int32_t middle = begin + (end - begin) / 2;
     const auto before = [&](int32_t a, int32_t b) {
         const int32_t x = mBalls[a].center[axis], y = mBalls[b].center[axis];

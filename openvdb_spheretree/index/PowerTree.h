@@ -2,10 +2,10 @@
 /// @file PowerTree.h
 /// @brief Which of many balls is nearest to a voxel by power distance, |q - c|^2 - radiusSq.
 ///
-/// A k-d tree of the centres, split at the median of the widest axis, each node with the box and
-/// the largest radius below it: together they bound the power from below. Integers throughout; of
-/// equals the ball of lowest index. Cost: O(n log n) to build, about O(log n) a search. Tests:
-/// TestInnerTree.cc.
+/// A k-d tree of the centers, split at the median of the widest axis. Each node has the box and the
+/// largest radius below it: together they bound the power from below. Integers throughout. Of
+/// equally near balls it is the one of lowest index. Cost: O(n log n) to build, about O(log n) a
+/// search. Tests: TestInnerTree.cc.
 
 #pragma once
 

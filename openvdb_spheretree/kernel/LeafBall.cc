@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBall.cc
-/// @brief With S units a voxel and centre c, a voxel q is inside when
+/// @brief With S units a voxel and center c, a voxel q is inside when
 ///     |S q - c|^2 <= radiusSq   <=>   S/2 |q|^2 - q.c <= floor((radiusSq - |c|^2) / 2S)
 /// as the left side is an integer. It is a sum of a term t(i) = i (S/2 i - c) for each axis. The 64
 /// sums of the terms of y and z are computed once; what is left is a limit for each of the 8 words,

@@ -94,7 +94,8 @@ private:
     detail::LargeArray<uint32_t> mSites; ///< of a norm: 512 leaf + index of each voxel's label
 };
 
-/// @return the power labels of a norm. Those of the Euclidean distance come from slab/LabelStream.h.
+/// @return the power labels of a norm. Those of the Euclidean distance come from
+///         slab/LabelStream.h.
 /// @param layout     kept by reference: must outlive the result
 /// @param distances  of that layout, by the norm
 /// @param dim        3, or 2 to leave the z axis out

@@ -12,8 +12,8 @@
 /// The function sees the blocks around its own as well, since an including model of one block alone
 /// could only be OR: it must be on where a child is on, and is not called where none is.
 ///
-/// Levels stay sparse: the function is called only for parent voxels of which a child, or a child of
-/// one of the 3^dim - 1 blocks around, is on. All other voxels stay off. It is not called within
+/// Levels stay sparse: the function is called only for parent voxels of which a child, or a child
+/// of one of the 3^dim - 1 blocks around, is on. All other voxels stay off. It is not called within
 /// tiles of the OR model's level (8^3 voxels or more, all on): these voxels have to be on.
 /// Cost: a call for every other such voxel, in parallel. Tests: TestBlockModel.cc.
 

@@ -11,7 +11,8 @@
 ///
 /// Both steps look for the voxels within r of another set. The distance transform of a band of
 /// voxels along it finds them, exactly, so closing has no kernel of its own:
-/// 1. `leafCubesOf`, `grown`: the cubes of 8^3 voxels, aligned like leaves, within reach of the set;
+/// 1. `leafCubesOf`, `grown`: the cubes of 8^3 voxels, aligned like leaves, within reach of the
+///    set;
 /// 2. dilation: off voxels there whose distance to the set is r at most;
 /// 3. erosion: of these, those go whose distance to the rest is r at most.
 ///

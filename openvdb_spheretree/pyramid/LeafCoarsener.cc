@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafCoarsener.h"
 
-#include <openvdb_spheretree/base/FloorDiv.h>
-
 #include <algorithm>
 
 namespace openvdb_spheretree {

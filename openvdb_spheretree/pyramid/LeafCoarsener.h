@@ -23,6 +23,10 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// Division rounded down, also below zero.
+/// @param b  1 or more
+inline int floorDiv(int a, int b) { return a >= 0 ? a / b : -1 - (-1 - a) / b; }
+
 class LeafCoarsener {
 public:
     explicit LeafCoarsener(const PyramidStep& step);

@@ -4,7 +4,6 @@
 #include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include "LeafCoarsener.h"
-#include <openvdb_spheretree/base/FloorDiv.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>

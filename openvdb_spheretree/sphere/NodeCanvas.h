@@ -2,9 +2,9 @@
 /// @file NodeCanvas.h
 /// @brief The 128^3 voxels of a lower internal node, to draw balls into, slab by slab.
 ///
-/// A slab is a quarter of the node, 32 voxels thick along x. Slabs have no leaf in common, nor a word
-/// of the node's masks, so threads may share a node. Within a slab, leaves stand in groups of 4^3
-/// (32^3 voxels): a word then tells which of a group's leaves are full. Nothing is drawn to these.
+/// A slab is a quarter of the node, 32 voxels thick along x. Slabs have no leaf in common, nor a
+/// word of the node's masks, so threads may share a node. Within a slab, leaves stand in groups of
+/// 4^3 (32^3 voxels): a word tells which of them are full. Nothing is drawn to these.
 
 #pragma once
 
@@ -51,13 +51,11 @@ public:
         return ball.lo[0] >> kGroupLog2 <= slab && ball.hi[0] >> kGroupLog2 >= slab;
     }
 
-    /// Has balls pass over a leaf, as if it were full.
-    void exclude(int group, int leaf) { mFull[group] |= bit(leaf); }
-
     /// @return the node's origin.
     const openvdb::Coord& origin() const { return mOrigin; }
 
     void fillGroup(int group) { mFull[group] = kAllOn; }
+    /// Nothing is drawn to a leaf that is full.
     void fillLeaf(int group, int leaf) { mFull[group] |= bit(leaf); }
     bool isFull(int group) const { return mFull[group] == kAllOn; }
     bool isFull(int group, int leaf) const { return mFull[group] & bit(leaf); }

@@ -3,12 +3,9 @@
 /// @brief Draws balls into a slab of a lower internal node, of 128^3 voxels.
 ///
 /// 1. Balls smaller than a leaf are drawn at once, as stamps or row by row.
-/// 2. The others are sorted into groups of 32^3, and from there into leaves; a group or leaf inside
-///    one of them is full, and nothing else is drawn there. In each, balls that add nothing to
-///    others are left out (PowerCull.h).
+/// 2. The others are sorted into groups of 32^3, and from there into leaves. A group or leaf inside
+///    one of them is full. In others, balls that add nothing are left out (PowerCull.h).
 /// 3. What is left is drawn leaf by leaf, on mask words.
-///
-/// Kept from slab to slab by a thread, as its memory is reused.
 
 #pragma once
 
@@ -21,6 +18,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+/// Memory of one thread, for one slab after the other.
 class NodePainter {
 public:
     /// The slab must have been begun on the canvas.

@@ -27,7 +27,8 @@ public:
     explicit ClipMask(const openvdb::MaskTree* tree);
 
     bool everywhere() const { return !mTree; }
-    /// @return the origins of the upper nodes, and of tiles as large, that the object has, in order.
+    /// @return the origins of the upper nodes, and of tiles as large, that the object has, in
+    ///         order.
     const std::vector<openvdb::Coord>& upperNodes() const { return mUpperNodes; }
     bool hasUpperNode(const openvdb::Coord& origin) const;
     /// @return whether the object has anything in the node at @a origin.
@@ -45,9 +46,9 @@ private:
 /// Spheres with the boxes of their voxels.
 struct ClippedSpheres {
     LargeArray<ClippedSphere> balls; ///< a ball each; undefined where a box is empty
-    /// All others: larger balls first, largest to smallest, since what they fill is not drawn again.
-    /// The small ones (NodeCanvas::isSmall) are in the order of spheres, which is mostly that of
-    /// their centres, and so kind to caches.
+    /// All others: larger balls first, largest to smallest, since what they fill is not drawn
+    /// again. The small ones (NodeCanvas::isSmall) are in the order of spheres, which is mostly
+    /// that of their centers, and so kind to caches.
     std::vector<int32_t> order;
 };
 

@@ -3,13 +3,13 @@
 /// @brief Spheres to a sparse mask: sorted into nodes, then drawn on leaf masks.
 ///
 /// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
-/// 2. sortIntoNodes: which spheres reach into which upper node (4096^3), and which lower one (128^3)
+/// 2. sortIntoNodes: which spheres reach into which upper node (4096^3), and which lower one
+///    (128^3)
 /// 3. drawSlab, in parallel over quarters of lower nodes: see NodePainter.h
 ///
-/// A node wholly inside a single sphere (and the clip) becomes a tile and is not descended; a leaf
-/// does when it is full. Clipping needs no step of its own, since every sphere's box is clipped.
-/// Exact: integers throughout. OR does not depend on the order of spheres, so the result does not
-/// depend on threads.
+/// A node wholly inside a single sphere and the clip becomes a tile; a full leaf does too. Exact:
+/// integers throughout. OR does not depend on the order of spheres, so the result does not depend
+/// on threads.
 
 #include "SphereRaster.h"
 
@@ -32,17 +32,6 @@ using openvdb::MaskTree;
 
 /// The voxels of lower nodes; null for those that are full.
 using DrawnNodes = std::vector<std::unique_ptr<LowerNode>>;
-
-void excludeOutside(NodeCanvas& canvas, const ClipMask& clipMask)
-{
-    if (clipMask.everywhere()) return;
-    for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) {
-        for (int leaf = 0; leaf < 64; ++leaf) {
-            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
-            if (!inside) canvas.exclude(group, leaf);
-        }
-    }
-}
 
 /// Moves the slab on the canvas to its node. A full leaf is a tile. Slabs of a node have no word of
 /// its masks in common, so several threads may do this.
@@ -72,7 +61,13 @@ void drawSlab(const NodeSpheres& spheres, int slab, const ClippedSphere* balls,
 {
     NodeCanvas& canvas = painter.canvas;
     canvas.begin(spheres.origin, slab);
-    excludeOutside(canvas, clipMask);
+    const int first = clipMask.everywhere() ? canvas.endGroup() : canvas.firstGroup();
+    for (int group = first; group < canvas.endGroup(); ++group) {
+        for (int leaf = 0; leaf < 64; ++leaf) { // nothing is drawn where the object has no leaf
+            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
+            if (!inside) canvas.fillLeaf(group, leaf);
+        }
+    }
     painter.draw(balls, spheres.balls);
     storeSlab(canvas, clipMask, node);
     for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) canvas.clean(group);

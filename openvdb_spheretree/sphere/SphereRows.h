@@ -12,9 +12,10 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Calls f(x, y, lo, hi) for the rows of a sphere in the cube of @a size voxels at @a origin: voxels
-/// (x, y, lo...hi), counted from the cube's corner, that lie in the sphere and in its clip. Rows may
-/// be empty (lo > hi). The sphere's box must meet the cube.
+/// Calls f(x, y, lo, hi) for the rows of a sphere, and of its clip, in the cube of @a size voxels
+/// at
+/// @a origin: voxels (x, y, lo...hi), counted from the cube's corner. Rows may be empty (lo > hi).
+/// The sphere's box must meet the cube.
 template <typename F>
 void forEachRow(const ClippedSphere& sphere, const openvdb::Coord& origin, int32_t size, const F& f)
 {
