@@ -79,12 +79,6 @@ struct Bins {
     {
         return std::min(int((coordinate(bound, axis) - lowest) * scale), kBins - 1);
     }
-    void add(const Bound& bound)
-    {
-        const int bin = binOf(bound);
-        ++count[bin];
-        extent[bin].add(bound);
-    }
     /// @return the bin that the second half is to start with for the least cost; 0 if all are in
     ///         one bin.
     int cheapestSplit() const
@@ -179,7 +173,12 @@ struct BoundingTree::Builder {
         Bins bins(extent);
         int bin = 0;
         if (depth < kCostDepth && bins.scale > 0) {
-            for (int32_t i = begin; i < end; ++i) bins.add(bounds[order[i]]);
+            for (int32_t i = begin; i < end; ++i) {
+                const Bound& bound = bounds[order[i]];
+                const int its = bins.binOf(bound);
+                ++bins.count[its];
+                bins.extent[its].add(bound);
+            }
             bin = bins.cheapestSplit();
         }
         if (bin == 0) return halve(begin, end, bins.axis);

@@ -24,7 +24,6 @@
 #include <openvdb/util/NodeMasks.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -7,8 +7,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
-
 HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree {
 namespace slab {

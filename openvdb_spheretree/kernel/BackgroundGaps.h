@@ -7,7 +7,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <cstdint>
 

@@ -24,7 +24,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree {

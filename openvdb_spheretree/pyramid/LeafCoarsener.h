@@ -13,7 +13,7 @@
 #pragma once
 
 #include "PyramidModel.h"
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <openvdb/openvdb.h>
 

@@ -15,7 +15,6 @@
 
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <memory>
 
 namespace openvdb_spheretree {
@@ -112,21 +111,6 @@ Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const 
     return parts;
 }
 
-/// The leaf that a group of parts of the same parent makes.
-std::unique_ptr<LeafNode> joinParts(
-    const LeafPart* begin, const LeafPart* end, const LeafCoarsener& coarsener)
-{
-    LeafMask joined{};
-    for (const LeafPart* part = begin; part != end; ++part) {
-        const LeafNode* const node = part->node;
-        const LeafMask mask = node ? LeafMask::from(node->getValueMask()) : LeafMask::full();
-        coarsener.add(mask, part->origin, part->parent, joined);
-    }
-    auto leaf = std::make_unique<LeafNode>(begin->parent, false);
-    joined.copyTo(leaf->getValueMask());
-    return leaf;
-}
-
 void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, MaskTree& result,
     NullInterrupter* interrupter)
 {
@@ -139,7 +123,14 @@ void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, Ma
     begins.push_back(parts.size());
     std::vector<std::unique_ptr<LeafNode>> leaves(begins.size() - 1);
     detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
-        leaves[i] = joinParts(&parts[begins[i]], parts.data() + begins[i + 1], coarsener);
+        LeafMask joined{};
+        for (std::size_t k = begins[i]; k < begins[i + 1]; ++k) {
+            const LeafNode* const node = parts[k].node;
+            const LeafMask mask = node ? LeafMask::from(node->getValueMask()) : LeafMask::full();
+            coarsener.add(mask, parts[k].origin, parts[k].parent, joined);
+        }
+        leaves[i] = std::make_unique<LeafNode>(parts[begins[i]].parent, false);
+        joined.copyTo(leaves[i]->getValueMask());
     });
     for (auto& leaf : leaves) {
         if (leaf->isDense()) result.addTile(1, leaf->origin(), true, true);

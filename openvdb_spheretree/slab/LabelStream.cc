@@ -9,8 +9,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <utility>
-
 namespace openvdb_spheretree {
 namespace slab {
 

@@ -125,10 +125,16 @@ private:
             "power labels along x", mWork.interrupter, &mWork.seconds().power);
         for (std::size_t band = 0; band + 1 < mCut.firstOfBand.size(); ++band) {
             unpackBand(mCut.firstOfBand[band], mCut.firstOfBand[band + 1]);
-            const uint32_t run = mCut.firstRunOfBand[band];
-            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - run,
+            const uint32_t first = mCut.firstRunOfBand[band];
+            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - first,
                 mWork.interrupter, [&](std::size_t i, ColumnScratch& scratch) {
-                    openColumn(run + uint32_t(i), scratch.column);
+                    const uint32_t index = first + uint32_t(i), slab = mWork.firstSlab(index);
+                    const LeafLayout::Run run = mLayout.run(Axis::X, index);
+                    scratch.column.clear();
+                    for (uint32_t k = 0; k < run.count; ++k) {
+                        scratch.column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
+                    }
+                    scratch.column.last = run.count;
                     mWork.labelColumn(scratch.column, scratch.power);
                 });
         }
@@ -164,17 +170,6 @@ private:
     Key* keysOf(uint32_t slab, uint32_t leaf) const
     {
         return mKeys.get() + std::ptrdiff_t(mKeysOf[slab] + leaf) * kLeafVoxels;
-    }
-
-    void openColumn(uint32_t i, Column<Power>& column) const
-    {
-        const LeafLayout::Run run = mLayout.run(Axis::X, i);
-        const uint32_t slab = mWork.firstSlab(i);
-        column.clear();
-        for (uint32_t k = 0; k < run.count; ++k) {
-            column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
-        }
-        column.last = run.count;
     }
 
     void finishAll()

@@ -6,7 +6,7 @@
 
 #include "ColumnPower.h"
 #include "LabelQueries.h"
-#include "LevelBalls.h"
+#include "LabelStream.h"
 #include "SlabBalls.h"
 #include "SlabDistance.h"
 #include "SlabLabels.h"
@@ -105,10 +105,26 @@ public:
         mRadii[slab] = balls.collect(layout, slab, labels, centers);
     }
 
-    /// @return the balls of all slabs.
+    /// @return the balls of all slabs: one list in the order of slabs.
     LevelBalls collected()
     {
-        detail::timed("medial balls", interrupter, &mResult.seconds.medial, [&] { placeBalls(); });
+        const auto placeBalls = [&] {
+            std::vector<std::size_t> first{0}; // of each slab
+            for (const Radii& radii : mRadii) first.push_back(first.back() + radii.size());
+            detail::resizeLarge(mResult.balls, first.back());
+            detail::parallelFor(mRadii.size(), interrupter, [&](std::size_t i) {
+                const auto slab = uint32_t(i);
+                const Radii radii = std::move(mRadii[slab]);
+                const LeafMask* centers = mResult.centers.data() + layout.slab(slab).begin;
+                MedialBall* balls = mResult.balls.data() + first[slab];
+                assert(radii.size() == detail::countMarks(centers, layout.slab(slab).size()));
+                detail::visitWithPlaces(
+                    layout, slab, centers, [&](uint32_t leaf, uint32_t index, std::size_t place) {
+                        balls[place] = {layout.voxel(leaf, index), int32_t(radii[place])};
+                    });
+            });
+        };
+        detail::timed("medial balls", interrupter, &mResult.seconds.medial, placeBalls);
         return std::move(mResult);
     }
 
@@ -141,24 +157,6 @@ public:
 private:
     using Gaps = XGaps<GapOf<T>>;
     using Radii = std::vector<typename SlabBalls<Power>::RadiusSq>;
-
-    /// Centers and radii of all slabs become balls, one list in the order of slabs.
-    void placeBalls()
-    {
-        std::vector<std::size_t> first{0}; // of each slab
-        for (const Radii& radii : mRadii) first.push_back(first.back() + radii.size());
-        detail::resizeLarge(mResult.balls, first.back());
-        detail::parallelFor(mRadii.size(), interrupter, [&](std::size_t slab) {
-            const Radii radii = std::move(mRadii[slab]);
-            const LeafMask* centers = mResult.centers.data() + layout.slab(uint32_t(slab)).begin;
-            MedialBall* balls = mResult.balls.data() + first[slab];
-            assert(radii.size() == detail::countMarks(centers, layout.slab(uint32_t(slab)).size()));
-            detail::visitWithPlaces(layout, uint32_t(slab), centers,
-                [&](uint32_t leaf, uint32_t index, std::size_t place) {
-                    balls[place] = {layout.voxel(leaf, index), int32_t(radii[place])};
-                });
-        });
-    }
 
     LabelQueries mQueries;
     std::unique_ptr<Gaps> mGaps;

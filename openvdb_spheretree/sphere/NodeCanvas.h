@@ -67,8 +67,16 @@ public:
             drawStamp(ball, mStamps.of(ball));
             return;
         }
-        forEachRow(ball, mOrigin, 1 << kLog2,
-            [this](int32_t x, int32_t y, int32_t lo, int32_t hi) { drawRow(x, y, lo, hi); });
+        forEachRow(ball, mOrigin, 1 << kLog2, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
+            if (x >> kGroupLog2 != mSlab) return;
+            for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) { // from leaf to leaf
+                const int group = inFours(x >> 5, y >> 5, z >> 5);
+                const int leaf = inFours(x >> 3, y >> 3, z >> 3);
+                const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
+                mDrawn[group] |= bit(leaf);
+                maskOf(group, leaf)[x & 7] |= rowBits(first, last) << (8 * (y & 7));
+            }
+        });
     }
 
     /// Draws the part of a ball that is in a leaf; @a origin is the leaf's.
@@ -127,19 +135,6 @@ private:
                 mDrawn[group] |= bit(leaf);
                 maskOf(group, leaf)[x & 7] |= word;
             }
-        }
-    }
-
-    /// Draws a row of z, which may be empty or cross leaves; coordinates from the node's corner.
-    void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
-    {
-        if (x >> kGroupLog2 != mSlab) return;
-        for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) {
-            const int group = inFours(x >> 5, y >> 5, z >> 5);
-            const int leaf = inFours(x >> 3, y >> 3, z >> 3);
-            const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
-            mDrawn[group] |= bit(leaf);
-            maskOf(group, leaf)[x & 7] |= rowBits(first, last) << (8 * (y & 7));
         }
     }
 

@@ -18,7 +18,6 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>

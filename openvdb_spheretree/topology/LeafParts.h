@@ -5,8 +5,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <array>
 #include <cstdint>

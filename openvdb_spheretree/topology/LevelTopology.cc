@@ -62,8 +62,19 @@ public:
     LevelParts(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter)
         : mLayout(layout), mCuts(layout.leafCount()), mLabels(chunks())
     {
-        detail::parallelForWithScratch<detail::PartLabels>(chunks(), interrupter,
-            [&](std::size_t chunk, detail::PartLabels& scratch) { cut(chunk, scratch); });
+        detail::parallelForWithScratch<detail::PartLabels>(
+            chunks(), interrupter, [&](std::size_t chunk, detail::PartLabels& labels) {
+                const uint32_t begin = uint32_t(chunk) * kChunk;
+                const uint32_t end = std::min(begin + kChunk, layout.leafCount());
+                for (uint32_t leaf = begin; leaf < end; ++leaf) {
+                    const auto counts = detail::leafParts(layout.mask(leaf), labels);
+                    mCuts[leaf].objectParts = uint16_t(counts.object);
+                    mCuts[leaf].backgroundParts = uint16_t(counts.background);
+                    if (counts.object <= 1 && counts.background <= 1) continue;
+                    mCuts[leaf].labels = uint16_t(mLabels[chunk].size());
+                    mLabels[chunk].push_back(labels);
+                }
+            });
         numberNodes();
     }
 
@@ -100,20 +111,6 @@ public:
     }
 
 private:
-    void cut(std::size_t chunk, detail::PartLabels& scratch)
-    {
-        const uint32_t begin = uint32_t(chunk) * kChunk;
-        const uint32_t end = std::min(begin + kChunk, mLayout.leafCount());
-        for (uint32_t leaf = begin; leaf < end; ++leaf) {
-            const auto counts = detail::leafParts(mLayout.mask(leaf), scratch);
-            mCuts[leaf].objectParts = uint16_t(counts.object);
-            mCuts[leaf].backgroundParts = uint16_t(counts.background);
-            if (counts.object <= 1 && counts.background <= 1) continue;
-            mCuts[leaf].labels = uint16_t(mLabels[chunk].size());
-            mLabels[chunk].push_back(scratch);
-        }
-    }
-
     void numberNodes()
     {
         int64_t object = 0, background = 1; // outside

@@ -7,7 +7,6 @@
 
 #include "LeafLayout.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 
