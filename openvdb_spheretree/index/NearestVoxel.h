@@ -6,12 +6,11 @@
 /// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
 /// Each box is the tight one of its voxels, so each of its faces has a voxel: that bounds the
 /// distance from above as well, and most calls of anyWithin() end near the root.
-/// Within a leaf, rows are searched by bits.
 ///
-/// Query points are in doubled coordinates (centers between voxels), distances squared and doubled
-/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centers. Between
-/// them a tile counts as the continuous box of its voxel centers, so that the answer may be too
-/// small, by half a voxel an axis at most.
+/// Query points are in doubled coordinates, for centers between voxels, and so are squared
+/// distances: |2 q - point2|^2, or of a norm N(2 q - point2)^2. Exact at voxel centers. Between
+/// them a tile counts as the continuous box of its voxel centers: results may be too small, by half
+/// a voxel an axis.
 
 #pragma once
 

@@ -38,21 +38,15 @@ HWY_INLINE void Through(const LeafMask& mask, const Gap* beside, Gap* last, int 
     }
 }
 
-void Through8(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+void Through8(const LeafMask& mask, const uint8_t* beside, uint8_t* last, bool back)
 {
-    Through(mask, before, last, 0, 1);
+    if (back) Through(mask, beside, last, 7, -1);
+    else Through(mask, beside, last, 0, 1);
 }
-void Through16(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+void Through16(const LeafMask& mask, const uint16_t* beside, uint16_t* last, bool back)
 {
-    Through(mask, before, last, 0, 1);
-}
-void BackThrough8(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
-{
-    Through(mask, behind, first, 7, -1);
-}
-void BackThrough16(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
-{
-    Through(mask, behind, first, 7, -1);
+    if (back) Through(mask, beside, last, 7, -1);
+    else Through(mask, beside, last, 0, 1);
 }
 
 template <typename Gap, typename Square>
@@ -107,26 +101,24 @@ namespace slab {
 
 HWY_EXPORT(Through8);
 HWY_EXPORT(Through16);
-HWY_EXPORT(BackThrough8);
-HWY_EXPORT(BackThrough16);
 HWY_EXPORT(Squares8);
 HWY_EXPORT(Squares16);
 
 void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
 {
-    HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last);
+    HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last, false);
 }
 void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
 {
-    HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last);
+    HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last, false);
 }
 void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
 {
-    HWY_DYNAMIC_DISPATCH(BackThrough8)(mask, behind, first);
+    HWY_DYNAMIC_DISPATCH(Through8)(mask, behind, first, true);
 }
 void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
 {
-    HWY_DYNAMIC_DISPATCH(BackThrough16)(mask, behind, first);
+    HWY_DYNAMIC_DISPATCH(Through16)(mask, behind, first, true);
 }
 void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)

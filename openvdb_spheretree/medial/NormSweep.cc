@@ -19,9 +19,6 @@ constexpr int kCanvasWidth = 10, kCanvasSize = kCanvasWidth * kCanvasWidth;
 
 constexpr uint32_t strideOf(int axis) { return 1u << (6 - 3 * axis); }
 
-uint32_t leafOf(uint32_t site) { return site / kLeafVoxels; }
-uint32_t indexOf(uint32_t site) { return site % kLeafVoxels; }
-
 /// The leaves in groups of equal coordinate along an axis, which ascends.
 struct Slabs {
     std::vector<uint32_t> leaves;
@@ -180,7 +177,8 @@ void NormSweep::distances(uint32_t* values) const
 bool NormSweep::better(uint32_t site, uint32_t than, const uint32_t* values) const
 {
     if (values[site] != values[than]) return values[site] > values[than];
-    return mLayout.voxel(leafOf(site), indexOf(site)) < mLayout.voxel(leafOf(than), indexOf(than));
+    return mLayout.voxel(site / kLeafVoxels, site % kLeafVoxels)
+        < mLayout.voxel(than / kLeafVoxels, than % kLeafVoxels);
 }
 
 void NormSweep::passLabels(const PlanePair& planes, const uint32_t* values, uint32_t* sites) const

@@ -5,10 +5,8 @@
 /// A parent's coordinate along an axis depends on its child's along that axis only, so the 512 bits
 /// are folded one axis at a time. Along x, words of equal parent are ORed. Along y, rows of eight
 /// bits move to their parent's row. Along z, the bits of a row come from a table of 256 entries.
-/// Along an axis that takes no part (z with dim = 2) the factor is 1, and the same code copies.
-///
-/// Which of the eight coordinates of a leaf share a parent depends only on how many of them the
-/// first parent takes: 1 to 8. So eight tables an axis suffice, whatever factor and origin are.
+/// With dim = 2 the factor along z is 1. Which of the eight coordinates of a leaf share a parent
+/// depends only on how many of them the first parent takes, 1 to 8: eight tables an axis suffice.
 
 #pragma once
 

@@ -20,15 +20,6 @@ int64_t largestSlab(const LeafLayout& layout)
     return most;
 }
 
-int64_t longestRun(const LeafLayout& layout)
-{
-    int64_t most = 0;
-    for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
-        most = std::max<int64_t>(most, layout.run(Axis::X, run).count);
-    }
-    return most;
-}
-
 /// More slabs at a time are no faster: fresh pages take longer than memory that is used again
 /// (gyroid of 10^8 voxels: 26 Mvoxel/s with all slabs at once, 38 with few).
 uint32_t usefulWindow(const LeafLayout& layout, uint32_t threads)
@@ -47,7 +38,11 @@ StreamPlan packedPlan(
     const int64_t leaves = largestSlab(layout), slab = leaves * (memory.scratch + memory.labels);
     // A thread packs a group of leaves, and compresses it.
     const int64_t thread = slab + 2 * memory.packed * std::min<int64_t>(leaves, kGroupLeaves);
-    const int64_t leastBand = longestRun(layout) * memory.keys;
+    int64_t longestRun = 0;
+    for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
+        longestRun = std::max<int64_t>(longestRun, layout.run(Axis::X, run).count);
+    }
+    const int64_t leastBand = longestRun * memory.keys;
     const int64_t needed = memory.fixed + thread + std::max(memory.gaps, leastBand);
     detail::requireAllowed(layout.leafCount(), needed, bytes);
     StreamPlan plan;

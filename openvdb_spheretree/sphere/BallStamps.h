@@ -41,23 +41,18 @@ public:
 
     const BallStamp& of(const ClippedSphere& ball)
     {
-        const uint64_t key = keyOf(ball);
+        // Which ball it is, from the corner of the leaf that its box begins in along y and z, and
+        // from the box itself along x. A ball that fits is less than 4.5 voxels in radius: its
+        // radiusSq is below 2^32 in any distance's units.
+        uint64_t key = uint64_t(ball.radiusSq);
+        for (int a = 0; a < 3; ++a) key = key << 1 | uint64_t(ball.center[a] & 1);
+        key = key << 6 | uint64_t(ball.lo[1] & 7) << 3 | uint64_t(ball.lo[2] & 7);
         const auto found = mStamps.find(key);
         if (found != mStamps.end()) return found->second;
         return mStamps.emplace(key, make(ball)).first->second;
     }
 
 private:
-    /// Which ball it is, from the corner of the leaf that its box begins in along y and z, and from
-    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its radiusSq is
-    /// below 2^32 in any distance's units.
-    static uint64_t keyOf(const ClippedSphere& ball)
-    {
-        uint64_t key = uint64_t(ball.radiusSq);
-        for (int a = 0; a < 3; ++a) key = key << 1 | uint64_t(ball.center[a] & 1);
-        return key << 6 | uint64_t(ball.lo[1] & 7) << 3 | uint64_t(ball.lo[2] & 7);
-    }
-
     static BallStamp make(const ClippedSphere& ball)
     {
         BallStamp stamp;

@@ -100,7 +100,6 @@ struct ClippedSphere {
     {
         return first >= lo[axis] && last <= hi[axis];
     }
-    /// @}
 
     /// @return whether the sphere comes as near as a voxel of the box first...last, which its own
     /// box must meet; the clip aside.
