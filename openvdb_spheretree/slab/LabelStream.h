@@ -3,11 +3,9 @@
 /// @brief From voxels to power labels and medial balls, slab by slab, within a bound on memory.
 ///
 /// Distances, and the passes of the labels along z and y, stay within a slab. The pass along x
-/// needs all slabs that a ball may reach over. In most objects these are a few: a window of slabs
-/// is in memory (WindowStream.h). Where they are too many, labels wait compressed, in memory or in
-/// a temporary file (PackedStream.h). What is done to slabs and columns is the same (StreamWork.h).
-///
-/// The result does not depend on the memory, nor on threads.
+/// needs all slabs that a ball may reach. If these are few, as in most objects, a window of slabs
+/// is in memory (WindowStream.h). If they are too many, labels wait compressed, in memory or in a
+/// temporary file (PackedStream.h). The result does not depend on the memory, nor on threads.
 
 #pragma once
 

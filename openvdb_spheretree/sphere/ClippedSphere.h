@@ -83,9 +83,8 @@ struct ClippedSphere {
         return distance.lengthSq(d[0], d[1], d[2]) <= radiusSq;
     }
 
-    /// @name Along an axis: how far the nearest and the farthest of the voxels first...last are
-    /// from the center, and whether they are in the box
-    /// @{
+    /// Along an axis: how far the nearest and the farthest of the voxels first...last are from the
+    /// center, and whether they are in the box.
     int64_t nearest(int axis, int32_t first, int32_t last) const
     {
         const int64_t from = inUnits(first, shift), to = inUnits(last, shift);
