@@ -12,8 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct FreeLargeArray {
     void operator()(void* data) const { std::free(data); }
@@ -51,5 +50,4 @@ LargeArray<T> makeLargeArray(std::size_t size)
     return LargeArray<T>(static_cast<T*>(allocateLarge(size * sizeof(T))));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

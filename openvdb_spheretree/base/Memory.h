@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the bytes of this machine, or of the container; 0 if they are not known.
 double physicalMemory();
@@ -35,5 +34,4 @@ void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
 /// @param remedy  what one can do
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -18,8 +18,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @throw Interrupted if @a interrupter (which may be null) wants the work to stop.
 inline void checkInterrupt(openvdb::util::NullInterrupter* interrupter, int percent = -1)
@@ -103,5 +102,4 @@ void parallelForWithSlots(std::size_t count, std::size_t slots,
     tbb::parallel_for(std::size_t(0), std::min(slots, count), work, tbb::simple_partitioner());
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

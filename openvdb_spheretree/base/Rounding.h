@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 inline double nextUp(double x)
 {
@@ -90,5 +89,4 @@ inline float toFloatDown(double x)
     return double(rounded) > x ? std::nextafter(rounded, -kInfinity) : rounded;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

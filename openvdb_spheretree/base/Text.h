@@ -12,8 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return `.obj` of `path/Part.OBJ`.
 inline std::string lowerExtension(const std::string& path)
@@ -60,5 +59,4 @@ inline std::string messageOf(const std::exception& error)
     return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

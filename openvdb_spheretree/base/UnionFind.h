@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class UnionFind {
 public:
@@ -61,5 +60,4 @@ private:
     std::vector<std::atomic<uint32_t>> mParent;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct BoundingNode {
     static constexpr int kWidth = 8;
@@ -36,5 +35,4 @@ struct BoundingNode {
 uint32_t entriesOf(
     const BoundingNode& node, const Ray& ray, double far, BoundingNode::Each<double>& entry);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -7,8 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -254,5 +253,4 @@ BoundingTree::BoundingTree(
     builder.join(0, 0, mNodes);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

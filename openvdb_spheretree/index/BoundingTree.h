@@ -28,8 +28,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using Box = openvdb::math::BBox<openvdb::Vec3d>;
 
@@ -158,5 +157,4 @@ private:
     std::vector<int32_t> mOrder;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -233,5 +232,4 @@ void NearestVoxel::searchItem(const Item& item, Query& query) const
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -23,8 +23,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NearestVoxel {
 public:
@@ -77,5 +76,4 @@ private:
     std::vector<std::vector<Box>> mLevels; ///< of boxes: [0] those of the items, back() the root's
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

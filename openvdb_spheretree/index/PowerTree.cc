@@ -8,8 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -97,5 +96,4 @@ int32_t PowerSearch::nearest(const Coord& voxel) const
     return best.ball;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

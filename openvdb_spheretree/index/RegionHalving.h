@@ -21,8 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the first of the axes along which a box is longest.
 inline int longestAxis(const openvdb::CoordBBox& box)
@@ -84,5 +83,4 @@ std::vector<Sum> divideRegions(Region whole, const Sum& zero, const Divide& divi
     return sums;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

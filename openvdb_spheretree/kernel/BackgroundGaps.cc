@@ -8,9 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace slab {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::slab::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -90,14 +88,11 @@ void Squares16(const LeafMask& mask, const uint16_t* before, const uint16_t* beh
     Squares(mask, before, behind, rows);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 HWY_EXPORT(Through8);
 HWY_EXPORT(Through16);
@@ -131,6 +126,5 @@ void squaresOfGaps(
     HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, rows);
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab
 #endif

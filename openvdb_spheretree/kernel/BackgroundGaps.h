@@ -11,8 +11,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// @param before  gaps, looking back, of the voxels just before the leaf, a lane each
 /// @param last    receives those of the leaf's last voxels
@@ -29,5 +28,4 @@ void squaresOfGaps(
 void squaresOfGaps(
     const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows);
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

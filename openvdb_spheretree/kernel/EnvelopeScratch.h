@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The rows [first, last) of `count`; all three are multiples of kLeafDim.
 struct RowRange {
@@ -32,5 +31,4 @@ struct EnvelopeScratch {
     }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

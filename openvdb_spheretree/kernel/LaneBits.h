@@ -6,8 +6,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return bit i: a[i] == b[i], of 64 values each.
 uint64_t equalLanes(const int32_t* a, const int32_t* b);
@@ -25,5 +24,4 @@ struct LikeBefore {
 ///             voxel along an axis has none before it.
 LikeBefore likeBefore(const int32_t* row);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

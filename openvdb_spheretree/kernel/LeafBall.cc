@@ -26,9 +26,7 @@
 #include <cstdlib>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 void orBall(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8])
 {
@@ -96,15 +94,12 @@ void orNormBall(
     }
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(orBall);
 HWY_EXPORT(orNormBall);
@@ -164,7 +159,6 @@ void orNormBallIntoLeaf(
     HWY_DYNAMIC_DISPATCH(orNormBall)(center, norm, limit, shift, words);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 
 #endif // HWY_ONCE

@@ -8,8 +8,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// No voxel of the leaf may be farther than this from the center along any axis: then 16 bits hold
 /// all that is compared, as 7 * 4680 < 2^15 - 1 (LeafBall.cc).
@@ -34,5 +33,4 @@ constexpr int64_t kLeafNormReach = int64_t(1) << 20;
 void orNormBallIntoLeaf(
     const int64_t center[3], const Distance& norm, int64_t limit, int shift, uint64_t words[8]);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

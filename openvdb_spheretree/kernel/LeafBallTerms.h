@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The terms t(i) of each axis. Voxel (x, y, z) of the leaf is in the ball when
 ///     ofY[y] + ofZ[z] - least <= most - ofX[x]
@@ -32,5 +31,4 @@ struct alignas(32) BallTerms {
     }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

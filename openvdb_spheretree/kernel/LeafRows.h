@@ -19,8 +19,7 @@
 #include <memory>
 #include <new>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr int kLanes = 64; ///< values in a row
 
@@ -94,5 +93,4 @@ void rowsToLeaf(Axis axis, const T* rows, T* leaf)
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

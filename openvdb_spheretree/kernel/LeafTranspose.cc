@@ -8,9 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -131,14 +129,11 @@ void StreamRowsYToLeaf(const int32_t* rows, int32_t* leaf)
 
 #endif // of targets with vectors
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(SwapRows16);
 HWY_EXPORT(SwapRows32);
@@ -172,6 +167,5 @@ void streamRowsYToLeaf(const int32_t* rows, int32_t* leaf)
     HWY_DYNAMIC_DISPATCH(StreamRowsYToLeaf)(rows, leaf);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 // The overloads for one type are vector kernels; the templates serve all other types.
 
@@ -59,5 +58,4 @@ void streamRowsYToLeaf(const T* rows, T* leaf)
 }
 void streamRowsYToLeaf(const int32_t* rows, int32_t* leaf);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -14,9 +14,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 /// Keys with room for the offset, for radii up to 60 voxels: from the top the sign, 12 bits of
 /// value, 12 of radiusSq, 7 of offset. They fit because 60^2 < 2^12, so keys are not negative. A
@@ -240,14 +238,11 @@ uint32_t FirstWide(
     return largestValue(distances, std::size_t(at(rows, 0)));
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(MaxPlusNarrow);
 HWY_EXPORT(MaxPlusWide);
@@ -282,6 +277,5 @@ uint32_t firstMaxPlus<WidePower>(
     return HWY_DYNAMIC_DISPATCH(FirstWide)(distances, outKey, offset, rows, scratch);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -18,8 +18,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Keys and offsets for radii up to 127 voxels: offsets fit 8 bits, values 14 (127^2 < 2^14).
 struct NarrowPower {
@@ -71,5 +70,4 @@ template <typename Power, typename T>
 uint32_t firstMaxPlus(const T* distances, typename Power::Key* outKey,
     typename Power::Offset* offset, int rows, EnvelopeScratch& scratch);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

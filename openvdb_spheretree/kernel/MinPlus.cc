@@ -10,9 +10,7 @@
 #include "EnvelopeSearch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 template <typename T>
 struct MinPlusOp {
@@ -83,14 +81,11 @@ void MinPlus32(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scr
     EnvelopeSearch<MinPlusOp<uint32_t>>({in, out}, {0, rows, rows}, scratch).run();
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(MinPlus16);
 HWY_EXPORT(MinPlus32);
@@ -105,6 +100,5 @@ void minPlus(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scrat
     HWY_DYNAMIC_DISPATCH(MinPlus32)(in, out, rows, scratch);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -8,8 +8,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Results are exact if all of them are below this. If one is not, others may be wrong as well, and
 /// the pass has to be done again in a wider type. Penalties are clamped: to 2^16 - 1, where sums
@@ -23,5 +22,4 @@ constexpr uint32_t kWideMax = 46340u * 46340u; ///< of 32-bit values
 void minPlus(const uint16_t* in, uint16_t* out, int rows, EnvelopeScratch& scratch);
 void minPlus(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scratch);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

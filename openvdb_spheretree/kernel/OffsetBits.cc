@@ -11,9 +11,7 @@
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -140,14 +138,11 @@ FreshOffsets Fresh16(const int16_t* offsets, Axis axis, const LeafMask& mask)
     return Fresh(offsets, axis, mask);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(TargetsAsBefore8);
 HWY_EXPORT(TargetsAsBefore16);
@@ -183,6 +178,5 @@ void markRowTargets(const int16_t* offsets, const uint64_t* on, int rows, uint64
     HWY_DYNAMIC_DISPATCH(MarkTargets16)(offsets, on, rows, marks);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

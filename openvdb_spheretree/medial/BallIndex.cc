@@ -4,8 +4,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/SlabOrder.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 BallIndex::BallIndex(const LeafLayout& layout, const std::vector<LeafMask>& centers,
     openvdb::util::NullInterrupter* interrupter)
@@ -31,5 +30,4 @@ BallIndex::BallIndex(const LeafLayout& layout, const std::vector<LeafMask>& cent
     });
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

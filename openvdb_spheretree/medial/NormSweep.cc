@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -208,5 +207,4 @@ void NormSweep::labels(const uint32_t* values, uint32_t* sites) const
     sweep([&](const PlanePair& planes) { passLabels(planes, values, sites); });
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

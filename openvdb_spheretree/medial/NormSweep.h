@@ -33,8 +33,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NormSweep {
 public:
@@ -72,5 +71,4 @@ private:
     std::vector<std::array<uint32_t, 27>> mAround; ///< of each leaf, as LeafWalk::all()
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

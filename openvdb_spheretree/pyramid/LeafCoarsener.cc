@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 LeafCoarsener::LeafCoarsener(const PyramidStep& step)
 {
@@ -76,5 +75,4 @@ void LeafCoarsener::add(const LeafMask& leaf, const openvdb::Coord& origin,
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

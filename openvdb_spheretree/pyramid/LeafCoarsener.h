@@ -18,8 +18,7 @@
 #include <array>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Division rounded down, also below zero.
 /// @param b  1 or more
@@ -57,5 +56,4 @@ private:
     std::array<std::array<uint8_t, 256>, 9> mRows{}; ///< `steps` of z for all bits of a row at once
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -10,8 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Offsets along one axis, 512 a leaf; one of the arrays is null, both if the axis takes no part.
 struct AxisOffsets {
@@ -30,5 +29,4 @@ struct AxisOffsets {
 
 using LabelOffsets = std::array<AxisOffsets, 3>; ///< along x, y, z
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -23,8 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The leaf of a voxel that is off.
 constexpr uint32_t kNoLeaf = UINT32_MAX;
@@ -86,5 +85,4 @@ private:
     std::vector<uint32_t> mNext;   ///< of each query, in its list
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

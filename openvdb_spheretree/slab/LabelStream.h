@@ -23,8 +23,7 @@
 #include <optional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The medial balls of a level.
 struct LevelBalls {
@@ -73,5 +72,4 @@ private:
     int64_t mMemory = 0;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

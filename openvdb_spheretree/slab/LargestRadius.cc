@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 namespace {
 
@@ -102,5 +101,4 @@ void requireRadius(uint32_t distSq)
         "beyond what power labels hold: use a larger voxel");
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

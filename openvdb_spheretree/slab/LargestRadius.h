@@ -10,8 +10,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// @return a number that no squared distance of the level exceeds: a bound by the lengths of runs,
 ///         or one by the distances among leaves. If narrow labels hold neither, it is the largest
@@ -28,5 +27,4 @@ void requireWide(uint32_t distSq);
 /// @throw openvdb::ValueError if power labels do not hold a ball of that size
 void requireRadius(uint32_t distSq);
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -17,8 +17,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 template <typename Power>
 struct PackedLabel {
@@ -65,5 +64,4 @@ void unpackLeaf(const PackedLabel<Power>* packed, uint32_t leaf, const SlabLabel
     for (uint32_t k = 0; k < kLeafVoxels; ++k) dz[k] = packed[k].dz;
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -7,8 +7,7 @@
 
 #include <cstring>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 void PackedStore::put(
     std::size_t array, const void* data, std::size_t bytes, int typeSize, Bytes& scratch)
@@ -66,5 +65,4 @@ SpillFile& PackedStore::file(std::size_t size)
     return *mFile;
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -15,8 +15,7 @@
 #include <mutex>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 class PackedStore {
 public:
@@ -60,5 +59,4 @@ private:
     bool mHasRoom = false;            ///< the file has, as far as that is known
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -24,8 +24,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 template <typename Power, typename T>
 class PackedStream {
@@ -204,5 +203,4 @@ private:
     std::vector<int64_t> mKeysOf;  ///< of a slab: where the keys of leaf 0 would be
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -28,8 +28,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// Memory of one thread, for one slab after the other.
 template <typename Power>
@@ -175,5 +174,4 @@ private:
     std::vector<Offset> mDzOfTargets;             ///< the same, where dz follows dy
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -17,8 +17,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The type of the gaps whose squares are T.
 template <typename T>
@@ -68,5 +67,4 @@ private:
     detail::EnvelopeScratch mEnvelope;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

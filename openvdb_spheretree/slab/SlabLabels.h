@@ -12,8 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// Arrays that receive the offsets of all leaves along x, y and z, 512 a leaf; null if not kept.
 template <typename Power>
@@ -91,5 +90,4 @@ private:
     detail::LargeArray<Offset> mOffsets;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 namespace {
 
@@ -124,5 +123,4 @@ LeafGroups::LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandB
     firstOfBand.push_back(uint32_t(groups.size()));
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

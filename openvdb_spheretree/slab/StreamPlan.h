@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// What a stream takes, in bytes.
 struct StreamMemory {
@@ -68,5 +67,4 @@ struct LeafGroups {
     std::vector<std::vector<uint32_t>> ofSlab; ///< the groups of each slab
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

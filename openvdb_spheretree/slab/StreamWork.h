@@ -25,8 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// How a slab enters: its distances, and the passes of the power labels within it. Memory of one
 /// thread, for one slab after the other.
@@ -165,5 +164,4 @@ private:
     LevelBalls mResult; ///< its centers are targets along x until the slab is finished
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -28,8 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The slabs of the window, and memory for them that is used again from slab to slab.
 template <typename Power>
@@ -211,5 +210,4 @@ private:
     std::vector<uint32_t> mNextOfRun;     ///< its first leaf that is not final
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -5,8 +5,7 @@
 
 #include <cstring>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 template <typename Gap>
 XGaps<Gap>::XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter)
@@ -29,5 +28,4 @@ XGaps<Gap>::XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* inte
 template class XGaps<uint8_t>;
 template class XGaps<uint16_t>;
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

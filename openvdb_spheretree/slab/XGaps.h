@@ -16,8 +16,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// @tparam Gap  uint8_t or uint16_t; larger gaps stay at its largest number
 template <typename Gap>
@@ -45,5 +44,4 @@ private:
     detail::LargeArray<Gap> mGaps;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The spheres that reach into each child of a cube, as one array with offsets. Reused, as building
 /// these lists is most of the work for small spheres.
@@ -158,5 +157,4 @@ private:
     int64_t mNearSq[3][kMostAlong], mFarSq[3][kMostAlong]; ///< of one ball, by child
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -15,8 +15,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The slices of a ball, from its first: words of the leaves [first, first], [first, next], [next,
 /// first] and [next, next] along y and z.
@@ -76,5 +75,4 @@ private:
     std::unordered_map<uint64_t, BallStamp> mStamps;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

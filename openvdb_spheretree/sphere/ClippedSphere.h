@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the shift of a metric: its subdivision's logarithm.
 /// @throw openvdb::ValueError if the subdivision is no power of two in range
@@ -144,5 +143,4 @@ inline bool clipSphere(const ExactSphere& s, const Distance& distance, int shift
     return true;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

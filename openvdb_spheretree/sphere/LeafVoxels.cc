@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -100,5 +99,4 @@ void addVoxelsOf(const ClippedSphere& sphere, const openvdb::Coord& origin, Leaf
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,8 +8,7 @@
 #include "ClippedSphere.h"
 #include <openvdb_spheretree/voxel/LeafMask.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param shift     2^shift units of the sphere are a voxel: 1 to 4
 /// @param origin    of the leaf
@@ -22,5 +21,4 @@ LeafMask voxelsOf(const ExactSphere& sphere, int shift, const openvdb::Coord& or
 /// sphere's box must meet the leaf.
 void addVoxelsOf(const ClippedSphere& sphere, const openvdb::Coord& origin, LeafMask& mask);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

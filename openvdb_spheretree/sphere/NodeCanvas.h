@@ -15,8 +15,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NodeCanvas {
 public:
@@ -145,5 +144,4 @@ private:
     uint64_t mFull[64] = {}, mDrawn[64] = {};
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

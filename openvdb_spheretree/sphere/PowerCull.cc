@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -92,5 +91,4 @@ void PowerCull::cull(
     list.resize(kept);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -19,8 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class PowerCull {
 public:
@@ -47,5 +46,4 @@ private:
     std::vector<Entry> mEntries;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -13,8 +13,7 @@
 #include <map>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -224,5 +223,4 @@ SphereNodes sortIntoNodes(
     return result;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

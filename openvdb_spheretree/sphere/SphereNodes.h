@@ -15,8 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr int kUpperLog2 = 12; ///< of an upper node's side
 
@@ -72,5 +71,4 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
 SphereNodes sortIntoNodes(const ClippedSpheres& spheres, const ClipMask& clipMask,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

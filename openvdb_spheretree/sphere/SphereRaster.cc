@@ -28,8 +28,7 @@
 #include <memory>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -191,5 +190,4 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Spher
     return assemble(sorted, nodes);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

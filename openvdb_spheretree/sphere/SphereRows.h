@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Calls f(x, y, lo, hi) for the rows of a sphere, and of its clip, in the cube of @a size voxels
 /// at
@@ -43,5 +42,4 @@ void forEachRow(const ClippedSphere& sphere, const openvdb::Coord& origin, int32
 /// @return the bits of lo...hi, which are in order, of a row of eight.
 inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (0xffu << lo); }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -16,8 +16,7 @@
 
 #include <array>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -92,5 +91,4 @@ int64_t eulerOfLeaf(const LeafLayout& layout, const LeafWalk& around)
     return sum;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

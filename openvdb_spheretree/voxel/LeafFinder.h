@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Memory of one thread.
 class LeafFinder {
@@ -64,5 +63,4 @@ private:
     uint32_t mLast = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <tuple>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The origin of a place for a leaf, in 64 bits: coordinates next to the ends of 32 bits do not
 /// wrap around.
@@ -85,5 +84,4 @@ private:
     std::array<uint32_t, 27> mFrom{}, mLeaf{};
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

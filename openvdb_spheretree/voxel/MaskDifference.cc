@@ -11,8 +11,7 @@
 
 #include <openvdb/tools/Count.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -134,5 +133,4 @@ int64_t countVoxels(const MaskTree& tree)
     return int64_t(openvdb::tools::countActiveVoxels(tree));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -14,8 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// A cube of 8, 128 or 4096 voxels a side, and which of its voxels are in a set.
 struct VoxelCube {
@@ -77,5 +76,4 @@ openvdb::MaskTree maskOf(const openvdb::BoolTree& tree);
 /// @return the number of active voxels.
 int64_t countVoxels(const openvdb::MaskTree& tree);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

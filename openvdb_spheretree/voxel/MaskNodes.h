@@ -8,8 +8,7 @@
 
 #include <openvdb/openvdb.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using UpperNode = openvdb::MaskTree::RootNodeType::ChildNodeType; ///< 4096^3 voxels
 using LowerNode = UpperNode::ChildNodeType;                       ///< 128^3
@@ -28,5 +27,4 @@ void forEachTile(const TreeType& tree, const F& f)
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

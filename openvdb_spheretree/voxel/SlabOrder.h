@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the number of voxels in some masks.
 inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
@@ -68,5 +67,4 @@ void visitWithPlaces(
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
