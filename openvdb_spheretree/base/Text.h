@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Text.h
-/// @brief Text that comes from outside, made fit for messages: names, values of options, files and
-/// errors may be damaged, and gigabytes long.
+/// @brief Text from outside, made fit for messages: it may be damaged, and gigabytes long.
 
 #pragma once
 

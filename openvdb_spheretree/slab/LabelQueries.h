@@ -7,9 +7,8 @@
 /// 3. When the slab of that leaf is finished, it moves along y and z to the center of its ball.
 ///
 /// Step 2 stays in a run along x, so threads that work on different runs do not meet. A list is a
-/// chain of numbers of queries, and a query is in one list at a time.
-///
-/// Cost: 8 bytes a leaf, if there are queries, and 4 a query.
+/// chain of numbers of queries; a query is in one list at a time. Cost: 8 bytes a leaf, if there
+/// are queries, and 4 a query.
 
 #pragma once
 

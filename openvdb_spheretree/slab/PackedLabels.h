@@ -3,10 +3,10 @@
 /// @brief The labels of a slab in a form that compresses well, and back.
 ///
 /// After the passes along z and y, a voxel's value is the site's radiusSq less the squares of the
-/// offsets to it along y and z. So the key follows from radiusSq and offsets, and is not packed. In
-/// the power cell of a ball radiusSq is constant, and offsets fall by one from voxel to voxel, which
-/// compresses well. The offset along z is the one that follows the voxel's own offset along y
-/// (SlabLabels::dzFollowsDy), so a leaf is unpacked without the others of its slab.
+/// offsets to it along y and z. So the key is not packed. In the power cell of a ball radiusSq is
+/// constant, and offsets fall by one from voxel to voxel, which compresses well. The offset along z
+/// is that of the voxel that dy leads to (SlabLabels::dzFollowsDy), so that a leaf is unpacked
+/// without the others of its slab.
 
 #pragma once
 

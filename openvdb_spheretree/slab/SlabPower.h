@@ -20,8 +20,8 @@
 
 namespace openvdb_spheretree::slab {
 
-/// Memory of one thread, for one slab after the other. Calls: open(), alongZ() for each run along z,
-/// alongY(). In two dimensions: open(), fromY() for each run along y.
+/// Memory of one thread, for one slab after the other. Calls: open(), alongZ() for each run along
+/// z, alongY(). In two dimensions: open(), fromY() for each run along y.
 template <typename Power>
 class SlabPower {
     using Key = typename Power::Key;

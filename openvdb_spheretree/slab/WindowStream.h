@@ -13,9 +13,9 @@
 ///    labels of its queries are known, and its memory goes to the next slab that enters.
 ///
 /// Distances change by at most 1 from a voxel to the next. So if M is the largest distance in the
-/// last slab that has entered, whose voxels end at x = e, no later ball reaches x <= e - M; where
-/// slabs do not touch, none at all. A slab with largest distance m whose voxels end at x reaches
-/// nothing from x + m on.
+/// last slab that has entered, whose voxels end at x = e, no ball of a later slab reaches x <= e -
+/// M; if that slab does not touch the next one, none reaches it at all. A slab with largest
+/// distance m whose voxels end at x reaches nothing from x + m on.
 
 #pragma once
 

@@ -25,8 +25,8 @@ public:
     };
 
     /// @param origin, log2    the cube
-    /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered x
-    ///                        slowest, as in OpenVDB
+    /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered
+    ///                        x slowest, as in OpenVDB
     /// @param alongX          children elsewhere along x get no ball
     void build(const ClippedSphere* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafVoxels.h
-/// @brief Which voxels of an 8x8x8 leaf a sphere holds, exactly: by a kernel where its 16 or 32 bits
-/// suffice, else row by row.
+/// @brief Which voxels of an 8x8x8 leaf a sphere holds, exactly: by a kernel where its 16 or 32
+/// bits suffice, else row by row.
 
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereNodes.h
-/// @brief Spheres sorted into OpenVDB's nodes: which ones reach into which upper internal node of
-/// 4096^3 voxels, and in there into which lower one of 128^3. Exact. Cost: some hundred bytes a
-/// sphere, and four for each pair of a sphere and a node; time likewise.
+/// @brief Which spheres reach into which upper internal node of OpenVDB's, of 4096^3 voxels, and in
+/// there into which lower one of 128^3. Exact. Cost: some hundred bytes a sphere, and four for each
+/// pair of a sphere and a node.
 
 #pragma once
 
