@@ -126,16 +126,16 @@ private:
         }
     }
 
-    static HWY_INLINE void storeOffsets(V offset, int8_t* offsets)
+    static HWY_INLINE void storeOffsets(V offset, Offset* offsets)
     {
-        const hn::Rebind<int8_t, D> narrow;
-        hn::StoreU(hn::DemoteTo(narrow, offset), narrow, offsets);
-    }
-    static HWY_INLINE void storeOffsets(V offset, int16_t* offsets)
-    {
-        HWY_ALIGN Value wide[kLanes];
-        hn::Store(offset, D(), wide);
-        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(wide[i]);
+        if constexpr (sizeof(Offset) == 1) {
+            const hn::Rebind<Offset, D> narrow;
+            hn::StoreU(hn::DemoteTo(narrow, offset), narrow, offsets);
+        } else {
+            HWY_ALIGN Value wide[kLanes];
+            hn::Store(offset, D(), wide);
+            for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(wide[i]);
+        }
     }
 
     /// @param square  below 2^33

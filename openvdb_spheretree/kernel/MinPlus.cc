@@ -28,23 +28,17 @@ struct MinPlusOp {
         return T(std::min(square, sizeof(T) == 2 ? 65535u : kWideMax));
     }
     HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
-    static HWY_INLINE hn::Vec<hn::CappedTag<uint16_t, kLanes>> add(
-        hn::Vec<hn::CappedTag<uint16_t, kLanes>> a, hn::Vec<hn::CappedTag<uint16_t, kLanes>> b)
+    static HWY_INLINE V candidate(V value, V penalty)
     {
-        return hn::SaturatedAdd(a, b);
+        if constexpr (sizeof(T) == 2) return hn::SaturatedAdd(value, penalty);
+        else return hn::Add(value, penalty);
     }
-    static HWY_INLINE hn::Vec<hn::CappedTag<uint32_t, kLanes>> add(
-        hn::Vec<hn::CappedTag<uint32_t, kLanes>> a, hn::Vec<hn::CappedTag<uint32_t, kLanes>> b)
-    {
-        return hn::Add(a, b);
-    }
-    static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
     /// Two rows as far away on either side have the same penalty.
     static HWY_INLINE V bestOfThree(V own, V before, V penalty, V behind, V)
     {
-        return hn::Min(own, add(hn::Min(before, behind), penalty));
+        return hn::Min(own, candidate(hn::Min(before, behind), penalty));
     }
     static HWY_INLINE V offsetOf(V value) { return value; } // values hold none
     HWY_INLINE void store(int row, int lane, V value, V) const

@@ -5,14 +5,14 @@
 ///
 /// A cheapest path has at most three kinds of steps, all of one sign an axis, in any order. So it
 /// may take its steps along z alone first, then all others within a plane of constant x, then those
-/// that change x. The transform does the same, with two sweeps an axis, in the order z, y, x:
-///     sweep along z: value of the voxel before + a;
+/// that change x. The transform does the same, with two sweeps an axis, in the order z, y, x
+/// (Borgefors' chamfer masks, taken apart by axis). All voxels of a plane are independent.
+///     along z: value of the voxel before + a;
 ///     along y: those at y - 1 with z - 1, z, z + 1;  along x: the nine at x - 1
-/// (Borgefors' chamfer masks, taken apart by axis.) All voxels of a plane are independent.
 ///
-/// *Locality.* A path to the nearest background voxel meets no other one before. So background
-/// counts as 0 wherever a path meets it, and nothing is stored of it. A path from the center of a
-/// ball to a voxel of the ball stays in the ball.
+/// *Locality.* A path to the nearest background voxel meets no other one before: background is 0
+/// wherever a path meets it, and need not be stored. A path from a ball's center to a voxel of the
+/// ball stays in the ball.
 ///
 /// *Labels.* The distance changes by at most N(p - q) between p and q, so the power
 /// distance(p) - N(p - q) of any p is at most distance(q), which q reaches itself. The label of q

@@ -42,11 +42,6 @@ struct VoxelEdges {
     double length[3];
 };
 
-bool isFinite(const openvdb::Vec3d& v)
-{
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
 } // namespace
 
 void requireUniformVoxels(const openvdb::GridBase& grid)
@@ -61,7 +56,7 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
     const VoxelEdges voxel(transform);
     const double* length = voxel.length;
     const openvdb::Vec3d offset = transform.baseMap()->applyMap({0, 0, 0});
-    if (!isFinite(offset) || !isFinite({length[0], length[1], length[2]}) || !(length[0] > 0)) {
+    if (!offset.isFinite() || !openvdb::Vec3d(length).isFinite() || !(length[0] > 0)) {
         OPENVDB_THROW(openvdb::ValueError,
             detail::describe(grid)
                 << " has a transform with a zero, "
