@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BoundingNode.cc
-/// @brief As many children at a time as the machine has lanes of doubles; in doubles, because no
-/// bounds for rounding are then needed but those of BoundingTree. Machines may differ in the last
-/// bit of an entry, and so in what is looked at first, but not in what is hit.
+/// @brief As many children at a time as the machine has lanes of doubles: in doubles, the bounds of
+/// BoundingTree suffice for rounding. Machines may differ in the last bit of an entry, and so in
+/// what is looked at first, but not in what is hit.
 
 #include "BoundingNode.h"
 

@@ -68,20 +68,6 @@ uint32_t largestOf(const LeafLayout& layout, const uint32_t* values, NullInterru
     return largest;
 }
 
-/// Balls of a norm have squared radii too.
-void requireSquareFits(uint32_t largest, const Distance& distance)
-{
-    constexpr uint32_t kLargestRoot = 46340;
-    if (largest < kLargestRoot) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object holds a ball of " << kLargestRoot / uint32_t(distance.unit())
-                                      << " voxels radius or more, whose square does not fit 32 "
-                                         "bits with dist="
-                                      << toString(distance)
-                                      << ": use a larger voxel, or smaller "
-                                         "weights");
-}
-
 } // namespace
 
 DistanceMap distanceTransform(
@@ -96,8 +82,15 @@ DistanceMap distanceTransform(
         map.mWide = detail::makeLargeArray<uint32_t>(size);
         detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
         map.mLargest = largestOf(layout, map.mWide.get(), interrupter);
-        requireSquareFits(map.mLargest, distance);
-        return map;
+        constexpr uint32_t kLargestRoot = 46340; // balls of a norm have squared radii too
+        if (map.mLargest < kLargestRoot) return map;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object holds a ball of " << kLargestRoot / uint32_t(distance.unit())
+                                          << " voxels radius or more, whose square does not fit 32 "
+                                             "bits with dist="
+                                          << toString(distance)
+                                          << ": use a larger voxel, or smaller "
+                                             "weights");
     }
     map.mNarrow = detail::makeLargeArray<uint16_t>(size);
     map.mLargest = transform<uint16_t>(layout, dim, map.mNarrow.get(), interrupter);

@@ -163,10 +163,10 @@ void joinTiles(std::vector<TilePart>& tiles, MaskTree& result, NullInterrupter* 
 /// @throw openvdb::ValueError unless @a result has every voxel of the OR model and, with dim = 2,
 ///        is no thicker than it.
 void requireIncluding(
-    const MaskTree& level, const MaskTree& result, const PyramidStep& step, NullInterrupter* i)
+    const MaskTree& level, const MaskTree& result, const PyramidStep& step, NullInterrupter* stop)
 {
-    const MaskTree::Ptr needed = coarsen(level, step, i);
-    const detail::MaskDifference lost = detail::maskDifference(*needed, result, i);
+    const MaskTree::Ptr needed = coarsen(level, step, stop);
+    const detail::MaskDifference lost = detail::maskDifference(*needed, result, stop);
     if (lost.voxels > 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "the pyramid model is not including: it leaves out "

@@ -113,22 +113,17 @@ private:
 
     int32_t xOf(uint32_t slab) const { return mLayout.origin(mLayout.slab(slab).begin)[0]; }
 
-    template <typename Body>
-    void forEach(std::size_t slabs, const Body& body) const
-    {
-        detail::parallelForWithSlots(slabs, mEntries.size(), mWork.interrupter, body);
-    }
-
     void enter(uint32_t end)
     {
         const uint32_t first = mEntered;
         for (uint32_t slab = first; slab < end; ++slab) mPool.open(slab);
         double seconds = 0;
         detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
-            forEach(end - first, [&](std::size_t i, std::size_t slot) {
-                const uint32_t slab = first + uint32_t(i);
-                mLargestDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
-            });
+            detail::parallelForWithSlots(end - first, mEntries.size(), mWork.interrupter,
+                [&](std::size_t i, std::size_t slot) {
+                    const uint32_t slab = first + uint32_t(i);
+                    mLargestDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
+                });
         });
         mEntered = end;
         mWork.share(seconds, mEntries);
@@ -185,9 +180,10 @@ private:
         for (uint32_t slab = 0; slab < mFinal; ++slab) {
             if (mPool.isOpen(slab) && reachesNothing(slab)) done.push_back(slab);
         }
-        forEach(done.size(), [&](std::size_t i, std::size_t slot) {
-            mWork.finish(done[i], mPool[done[i]], mCollect[slot]);
-        });
+        detail::parallelForWithSlots(
+            done.size(), mEntries.size(), mWork.interrupter, [&](std::size_t i, std::size_t slot) {
+                mWork.finish(done[i], mPool[done[i]], mCollect[slot]);
+            });
         for (const uint32_t slab : done) mPool.close(slab);
     }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MaskDifference.cc
-/// @brief Difference of two masks: leaf masks against leaf masks, tiles against whatever is there.
-///
-/// The 128^3 nodes of the first mask come first; its larger tiles are few, and come last.
+/// @brief Leaf masks against leaf masks, tiles against whatever is there. The lower internal nodes
+/// of the first mask come first; its tiles are few, and come last.
 
 #include "MaskDifference.h"
 
