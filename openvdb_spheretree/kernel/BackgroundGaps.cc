@@ -99,21 +99,13 @@ HWY_EXPORT(Through16);
 HWY_EXPORT(Squares8);
 HWY_EXPORT(Squares16);
 
-void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+void gapsThrough(const LeafMask& mask, const uint8_t* beside, uint8_t* last, bool back)
 {
-    HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last, false);
+    HWY_DYNAMIC_DISPATCH(Through8)(mask, beside, last, back);
 }
-void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+void gapsThrough(const LeafMask& mask, const uint16_t* beside, uint16_t* last, bool back)
 {
-    HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last, false);
-}
-void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
-{
-    HWY_DYNAMIC_DISPATCH(Through8)(mask, behind, first, true);
-}
-void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
-{
-    HWY_DYNAMIC_DISPATCH(Through16)(mask, behind, first, true);
+    HWY_DYNAMIC_DISPATCH(Through16)(mask, beside, last, back);
 }
 void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)

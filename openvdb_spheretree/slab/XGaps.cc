@@ -16,11 +16,11 @@ XGaps<Gap>::XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* inte
         const uint32_t *leaf = run.leaves, last = run.count - 1;
         std::memset(below(leaf[0]), 0, 64 * sizeof(Gap));
         for (uint32_t i = 0; i < last; ++i) {
-            gapsThrough(layout.mask(leaf[i]), below(leaf[i]), below(leaf[i + 1]));
+            gapsThrough(layout.mask(leaf[i]), below(leaf[i]), below(leaf[i + 1]), /*back=*/false);
         }
         std::memset(above(leaf[last]), 0, 64 * sizeof(Gap));
         for (uint32_t i = last; i > 0; --i) {
-            gapsBackThrough(layout.mask(leaf[i]), above(leaf[i]), above(leaf[i - 1]));
+            gapsThrough(layout.mask(leaf[i]), above(leaf[i]), above(leaf[i - 1]), /*back=*/true);
         }
     });
 }
