@@ -10,20 +10,7 @@
 
 namespace openvdb_spheretree::detail {
 
-namespace {
-
 using openvdb::Coord;
-
-int64_t powerOf(const MedialBall& ball, const Coord& voxel)
-{
-    int64_t sum = -int64_t(ball.radiusSq);
-    for (int axis = 0; axis < 3; ++axis) {
-        sum += square(int64_t(ball.center[axis]) - voxel[axis]);
-    }
-    return sum;
-}
-
-} // namespace
 
 PowerSearch::PowerSearch(std::vector<MedialBall> balls) : mBalls(std::move(balls))
 {
@@ -74,7 +61,9 @@ void PowerSearch::search(int32_t at, const Coord& voxel, Found& best) const
     const Node& node = mNodes[at];
     if (node.second == 0) {
         for (int32_t i = node.begin; i < node.end; ++i) {
-            const Found found{powerOf(mBalls[mOrder[i]], voxel), mOrder[i]};
+            const MedialBall& ball = mBalls[mOrder[i]];
+            Found found{-int64_t(ball.radiusSq), mOrder[i]};
+            for (int a = 0; a < 3; ++a) found.power += square(int64_t(ball.center[a]) - voxel[a]);
             const bool better =
                 found.power < best.power || (found.power == best.power && found.ball < best.ball);
             if (better) best = found;

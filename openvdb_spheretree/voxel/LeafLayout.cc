@@ -79,15 +79,6 @@ std::vector<Place> placesOf(const openvdb::MaskTree& level,
     return places;
 }
 
-/// Leaf nodes, and those that tiles stand for.
-int64_t countLeaves(const openvdb::MaskTree& level)
-{
-    int64_t count = int64_t(level.leafCount());
-    detail::forEachTile(level,
-        [&](const openvdb::CoordBBox& box) { count += int64_t(box.volume() / kLeafVoxels); });
-    return count;
-}
-
 /// @throw openvdb::ValueError, before anything is allocated
 void requireRoom(int64_t leaves)
 {
@@ -125,7 +116,9 @@ LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 
 void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
-    const int64_t count = countLeaves(level);
+    int64_t count = int64_t(level.leafCount()); // and the leaves that tiles stand for
+    detail::forEachTile(level,
+        [&](const openvdb::CoordBBox& tile) { count += int64_t(tile.volume() / kLeafVoxels); });
     requireRoom(count);
     std::vector<const detail::LeafNode*> nodes;
     nodes.reserve(level.leafCount());
