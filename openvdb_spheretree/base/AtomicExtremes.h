@@ -6,8 +6,7 @@
 
 #include <atomic>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Makes @a largest at least @a value.
 template <typename T>
@@ -25,5 +24,4 @@ void lowerTo(std::atomic<T>& smallest, T value)
     while (value < seen && !smallest.compare_exchange_weak(seen, value)) {}
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

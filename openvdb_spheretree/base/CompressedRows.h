@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CompressedRows.h
-/// @brief Lists of integers, one for each of many rows, as compressed sparse rows (CSR): two arrays
-/// in place of a vector a row.
-///
-/// The children of nodes by their parents, the neighbours of nodes in a graph. Cost: O(rows + items)
-/// to make; 4 bytes an item, 8 a row. Tests: TestCompressedRows.cc.
+/// @brief Lists of integers, one for each of many rows, as compressed sparse rows (CSR): the
+/// children of nodes, or their neighbours in a graph. Cost: O(rows + items) to make; 4 bytes an
+/// item, 8 a row. Tests: TestCompressedRows.cc.
 
 #pragma once
 
@@ -47,7 +45,8 @@ CompressedRows compressedRows(
     std::size_t items, std::size_t rows, const Row& row, const Target& target)
 {
     CompressedRows result;
-    // Counts two places ahead become begins one place ahead, which filling moves to their own.
+    // The count of row r goes to r + 2. Sums then make r + 1 the begin of row r, and filling the
+    // row moves that to its end, which is the begin of row r + 1.
     result.offsets.assign(rows + 2, 0);
     for (std::size_t i = 0; i < items; ++i) ++result.offsets[std::size_t(row(i)) + 2];
     for (std::size_t r = 2; r < result.offsets.size(); ++r) {

@@ -12,8 +12,7 @@
 #include <cstddef>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 template <typename Enum>
 struct Named {
@@ -54,5 +53,4 @@ Enum fromName(const std::array<Named<Enum>, N>& names, const char* setting, cons
         setting << "=" << inQuotes(text) << " is unknown: choose " << listOf(names));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

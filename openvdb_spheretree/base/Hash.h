@@ -6,8 +6,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): a permutation of 64-bit numbers.
 inline uint64_t hash(uint64_t key)
@@ -21,5 +20,4 @@ inline uint64_t hash(uint64_t key)
 /// @return a number in [0, 1) from the upper half of @a bits.
 inline double unitInterval(uint64_t bits) { return double(bits >> 32) / 4294967296.0; }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

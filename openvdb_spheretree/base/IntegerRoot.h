@@ -7,8 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param x  below 2^31.5 in size
 inline int64_t square(int64_t x) { return x * x; }
@@ -57,5 +56,4 @@ inline int64_t ceilSqrtWide(Uint128 value)
     return root + (Uint128(root) * Uint128(root) < value);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Interrupted.h
-/// @brief What long work throws when its interrupter asked it to stop.
+/// @brief What long work throws when its interrupter stops it.
 
 #pragma once
 

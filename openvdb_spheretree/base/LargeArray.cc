@@ -8,8 +8,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -41,5 +40,4 @@ void* allocateLarge(std::size_t bytes)
     return data;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -2,8 +2,8 @@
 /// @file LargeArray.h
 /// @brief Arrays of numbers that start uninitialised, on huge pages where the system has them.
 ///
-/// The transforms write each of their values once and leave. For arrays of tens of megabytes,
-/// getting 4 KiB pages one by one from the kernel took a quarter of their time.
+/// The transforms write each value once. For arrays of tens of megabytes, getting pages of 4 KiB
+/// one by one from the kernel took a quarter of their time.
 
 #pragma once
 
@@ -12,14 +12,13 @@
 #include <memory>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct FreeLargeArray {
     void operator()(void* data) const { std::free(data); }
 };
 
-/// Asks for huge pages where memory that nobody has written to yet has room for them.
+/// Requests huge pages for memory that has not been written to yet.
 void wishHugePages(void* data, std::size_t bytes);
 
 /// Gives an empty vector room, on huge pages where the system has them.
@@ -30,7 +29,7 @@ void reserveLarge(std::vector<T>& vector, std::size_t size)
     wishHugePages(vector.data(), size * sizeof(T));
 }
 
-/// Makes an empty vector one of @a size zeros (or what T is by default), likewise.
+/// Gives an empty vector @a size values of T(), likewise.
 template <typename T>
 void resizeLarge(std::vector<T>& vector, std::size_t size)
 {
@@ -51,5 +50,4 @@ LargeArray<T> makeLargeArray(std::size_t size)
     return LargeArray<T>(static_cast<T*>(allocateLarge(size * sizeof(T))));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -13,8 +13,7 @@
 #include <unistd.h>
 #endif
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -84,5 +83,4 @@ void requireMemory(int64_t leaves, int64_t bytesPerLeaf)
         "use a larger voxel, or split the object");
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

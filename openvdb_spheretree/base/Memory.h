@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Memory.h
-/// @brief An error in good time, in place of a machine that swaps or a process that is killed.
+/// @brief How much memory there is, and errors before too much is used.
 
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the bytes of this machine, or of the container; 0 if they are not known.
 double physicalMemory();
 
-/// Of the machine's memory, what labels may take unless the settings say otherwise.
+/// The part of the machine's memory that labels may take unless the settings say otherwise.
 constexpr double kMemoryShare = 0.75;
 
 /// @param memory  bytes, or 0 for kMemoryShare of the machine's
-/// @return the bytes; INT64_MAX if nobody knows the machine's.
+/// @return the bytes; INT64_MAX if the machine's are not known.
 int64_t allowedMemory(int64_t memory);
 
 /// @return bytes for messages: as GiB with one decimal, or MiB, rounded up (or down).
@@ -35,5 +34,4 @@ void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
 /// @param remedy  what one can do
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Parallel.h
 /// @brief The one facade over oneTBB: parallel loops that can be interrupted, with scratch memory
-/// per thread. The number of threads is the caller's business, never set here.
+/// per thread. The number of threads is never set here.
 
 #pragma once
 
@@ -18,8 +18,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @throw Interrupted if @a interrupter (which may be null) wants the work to stop.
 inline void checkInterrupt(openvdb::util::NullInterrupter* interrupter, int percent = -1)
@@ -80,8 +79,9 @@ void parallelForWithScratch(
         count, interrupter, [] { return Scratch(); }, body);
 }
 
-/// Calls body(i, slot) for i in [0, count), at most @a slots at a time. While a body runs, no other
-/// has its number `slot`, which is below @a slots: an index of what is too large for every thread.
+/// Calls body(i, slot) for i in [0, count), at most @a slots at a time. Bodies that run at the same
+/// time have different slots in [0, slots): indices of what is too large for every thread to have
+/// one.
 template <typename Body>
 void parallelForWithSlots(std::size_t count, std::size_t slots,
     openvdb::util::NullInterrupter* interrupter, const Body& body)
@@ -103,5 +103,4 @@ void parallelForWithSlots(std::size_t count, std::size_t slots,
     tbb::parallel_for(std::size_t(0), std::min(slots, count), work, tbb::simple_partitioner());
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -2,9 +2,8 @@
 /// @file Rounding.h
 /// @brief Arithmetic on radii that errs to one side, and is exact where the true value is a double.
 ///
-/// `...Up` never comes out below the true value: what was covered stays covered. `...Down` never
-/// comes out above it: what was inside stays inside. The sign of an error is known from fma(), which
-/// rounds once.
+/// `...Up` is never below the true value: what was covered stays covered. `...Down` is never above
+/// it: what was inside stays inside. The sign of an error is known from fma(), which rounds once.
 
 #pragma once
 
@@ -12,8 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 inline double nextUp(double x)
 {
@@ -81,7 +79,7 @@ inline float toFloatUp(double x)
     return double(rounded) < x ? std::nextafter(rounded, kInfinity) : rounded;
 }
 
-/// @return infinity for what is beyond all floats, as toFloatUp() does.
+/// @return infinity for what is beyond all floats.
 inline float toFloatDown(double x)
 {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -90,5 +88,4 @@ inline float toFloatDown(double x)
     return double(rounded) > x ? std::nextafter(rounded, -kInfinity) : rounded;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

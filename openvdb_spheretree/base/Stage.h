@@ -8,8 +8,7 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// From its construction to its end. @a interrupter and @a sum may be null.
 class Stage {
@@ -42,5 +41,4 @@ auto timed(
     return work();
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Text.h
-/// @brief Text that comes from outside, made fit for messages: names, values of options, files and
-/// errors may be damaged, and gigabytes long.
+/// @brief Text from outside, made fit for messages: it may be damaged, and gigabytes long.
 
 #pragma once
 
@@ -12,8 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return `.obj` of `path/Part.OBJ`.
 inline std::string lowerExtension(const std::string& path)
@@ -60,5 +58,4 @@ inline std::string messageOf(const std::exception& error)
     return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

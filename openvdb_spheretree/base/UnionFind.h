@@ -3,9 +3,9 @@
 /// @brief Disjoint sets that many threads may join at once, without locks.
 ///
 /// The parent of a node is never a larger one, so there are no cycles. Only roots are linked, by
-/// compare-and-swap; a node that has a parent never becomes a root again. Path halving may
-/// overwrite a newer parent by an older one, which is an ancestor all the same. Which sets there
-/// are in the end does not depend on the order of the joins. 4 bytes a node.
+/// compare-and-swap; a node that has a parent never becomes a root again. Path halving may replace
+/// a newer parent by an older one, which is an ancestor too. The resulting sets do not depend on
+/// the order of joins. 4 bytes a node.
 
 #pragma once
 
@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class UnionFind {
 public:
@@ -61,5 +60,4 @@ private:
     std::vector<std::atomic<uint32_t>> mParent;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BoundingNode.cc
-/// @brief As many children at a time as the machine has lanes of doubles; in doubles, because no
-/// bounds for rounding are then needed but those of BoundingTree. Machines may differ in the last
-/// bit of an entry, and so in what is looked at first, but not in what is hit.
+/// @brief As many children at a time as the machine has lanes of doubles: in doubles, the bounds of
+/// BoundingTree suffice for rounding. Machines may differ in the last bit of an entry, and so in
+/// what is looked at first, but not in what is hit.
 
 #include "BoundingNode.h"
 
@@ -13,9 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Doubles = hn::CappedTag<double, BoundingNode::kWidth>;
@@ -68,15 +66,12 @@ uint32_t entries(
     return entered;
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(entries);
 
@@ -86,7 +81,6 @@ uint32_t entriesOf(
     return HWY_DYNAMIC_DISPATCH(entries)(node, ray, far, entry);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 
 #endif // HWY_ONCE

@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct BoundingNode {
     static constexpr int kWidth = 8;
@@ -28,13 +27,12 @@ struct BoundingNode {
     BoundingNode() { behind.fill(-std::numeric_limits<float>::infinity()); }
 };
 
-/// @brief Where a ray enters both ball and box of each child, 0 if it starts inside. (Without
-/// the root, with the plane that touches the ball in front instead, dragon-512's leaf balls take
-/// 7.9 s of CPU time at 640 x 480 instead of 4.0.)
-/// @param entry  receives that, for the children of the answer
+/// @param entry  receives where the ray enters both ball and box, for the children of the result; 0
+///               if it starts inside. (With the plane that touches the ball in front, in place of a
+///               root, dragon-512's leaf balls take 7.9 s of CPU time at 640 x 480 in place of
+///               4.0.)
 /// @return a bit for each child that the ray enters no further away than @a far
 uint32_t entriesOf(
     const BoundingNode& node, const Ray& ray, double far, BoundingNode::Each<double>& entry);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -7,8 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -16,7 +15,7 @@ using openvdb::Vec3d;
 
 constexpr int32_t kLeafSize = 1; ///< eight of them are tested at once
 constexpr int kBins = 16;
-constexpr int kAxes = 4; ///< the centre's three, and the radius
+constexpr int kAxes = 4; ///< the center's three, and the radius
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double coordinate(const Bound& bound, int axis)
@@ -24,7 +23,7 @@ double coordinate(const Bound& bound, int axis)
     return axis < 3 ? bound.center[axis] : bound.radius;
 }
 
-/// Around some bodies: their box, and the range of their centres and radii.
+/// Around some bodies: their box, and the range of their centers and radii.
 struct Extent {
     Box box;
     std::array<double, kAxes> lo{kInfinity, kInfinity, kInfinity, kInfinity};
@@ -78,12 +77,6 @@ struct Bins {
     int binOf(const Bound& bound) const
     {
         return std::min(int((coordinate(bound, axis) - lowest) * scale), kBins - 1);
-    }
-    void add(const Bound& bound)
-    {
-        const int bin = binOf(bound);
-        ++count[bin];
-        extent[bin].add(bound);
     }
     /// @return the bin that the second half is to start with for the least cost; 0 if all are in
     ///         one bin.
@@ -179,7 +172,12 @@ struct BoundingTree::Builder {
         Bins bins(extent);
         int bin = 0;
         if (depth < kCostDepth && bins.scale > 0) {
-            for (int32_t i = begin; i < end; ++i) bins.add(bounds[order[i]]);
+            for (int32_t i = begin; i < end; ++i) {
+                const Bound& bound = bounds[order[i]];
+                const int its = bins.binOf(bound);
+                ++bins.count[its];
+                bins.extent[its].add(bound);
+            }
             bin = bins.cheapestSplit();
         }
         if (bin == 0) return halve(begin, end, bins.axis);
@@ -255,5 +253,4 @@ BoundingTree::BoundingTree(
     builder.join(0, 0, mNodes);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

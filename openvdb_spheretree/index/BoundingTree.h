@@ -2,18 +2,18 @@
 /// @file BoundingTree.h
 /// @brief A bounding volume hierarchy: which of many bodies may a ball meet, or a ray.
 ///
-/// A binary tree, top down, of which nodes are then joined until a node has eight children. Each
-/// has a box and a ball around all that is below it. Balls along a medial axis overlap so much that
-/// a point of their surface lies in the boxes of hundreds; the bounding ball of balls of about one
-/// centre and radius is tight where their box is not. (On the 138,157 leaf balls of dragon-512, a
-/// ray to the sky tested 82 balls and 262 nodes of a binary tree, with boxes alone 680 and 708.) So
-/// nodes are split by centre or by radius, whichever spreads most, where the surface area heuristic
-/// (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the cheapest place, and deep down at
-/// the median.
+/// A binary tree is built from the top down; then its nodes are joined until a node has eight
+/// children. Each has a box and a ball around all that is below it. Balls along a medial axis
+/// overlap so much that a point of their surface lies in the boxes of hundreds; around balls of
+/// about the same center and radius, a ball is tight where a box is not. (On the 138,157 leaf balls
+/// of dragon-512, a ray to the sky tested 82 balls and 262 nodes of a binary tree, with boxes alone
+/// 680 and 708.) So nodes are split by center or by radius, whichever spreads most, where the
+/// surface area heuristic (Goldsmith and Salmon 1987; in 16 bins, Wald 2007) finds the cheapest
+/// place, and deep down at the median.
 ///
-/// Bounds are floats rounded outwards: a query may be told of a body that it misses by a hair, and
-/// is told of every one that it meets. The same bodies give the same tree. Cost: O(n log n) to
-/// build, 416 bytes a node. Tests: TestRayScene.cc, TestIntersectionDag.cc.
+/// Bounds are floats rounded outwards: a query finds every body that it meets, and some that it
+/// misses by a hair. The same bodies give the same tree. Cost: O(n log n) to build, 416 bytes a
+/// node. Tests: TestRayScene.cc, TestIntersectionDag.cc.
 
 #pragma once
 
@@ -24,13 +24,11 @@
 #include <openvdb/util/NodeMasks.h>
 #include <openvdb/util/NullInterrupter.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using Box = openvdb::math::BBox<openvdb::Vec3d>;
 
@@ -39,12 +37,12 @@ struct Bound {
     openvdb::Vec3d center;
     double radius;
     Box box;
-    /// A ray does not enter the body if it starts with the centre further behind it than this. Of a
-    /// ball it is 0: rays enter it only where its centre is still ahead. So a ray that starts on a
-    /// surface is not tested against the balls that it leaves, of which there are many.
+    /// A ray that starts with the center further behind it than this does not enter the body. For a
+    /// ball it is 0: a ray enters it only where its center is ahead. So a ray that starts on a
+    /// surface is not tested against the many balls that it leaves.
     double behind;
 
-    /// Of a body, whatever it is, within this ball.
+    /// Of any body within this ball.
     static Bound ofBall(const openvdb::Vec3d& center, double radius)
     {
         const openvdb::Vec3d reach(radius);
@@ -109,7 +107,25 @@ private:
     struct Builder;
 
     /// @return a bit for each child that meets @a bound; @a entry of these is 0.
-    static uint32_t meets(const BoundingNode& node, const Bound& bound, Entries& entry);
+    static uint32_t meets(const BoundingNode& node, const Bound& bound, Entries& entry)
+    {
+        uint32_t met = 0;
+        for (int child = 0; child < BoundingNode::kWidth; ++child) {
+            double apartSq = 0;
+            bool isApart = node.first[child] == 0 && node.count[child] == 0; // no child
+            for (int axis = 0; axis < 3; ++axis) {
+                isApart |= double(node.hi[axis][child]) < bound.box.min()[axis];
+                isApart |= bound.box.max()[axis] < double(node.lo[axis][child]);
+                const double apart = double(node.center[axis][child]) - bound.center[axis];
+                apartSq += apart * apart;
+            }
+            const double reach = double(node.radius[child]) + bound.radius;
+            if (isApart || apartSq > reach * reach) continue;
+            met |= 1u << child;
+            entry[child] = 0;
+        }
+        return met;
+    }
 
     /// Nearer child first.
     template <typename EntriesOf, typename Visit>
@@ -141,25 +157,4 @@ private:
     std::vector<int32_t> mOrder;
 };
 
-inline uint32_t BoundingTree::meets(const BoundingNode& node, const Bound& bound, Entries& entry)
-{
-    uint32_t met = 0;
-    for (int child = 0; child < BoundingNode::kWidth; ++child) {
-        double apartSq = 0;
-        bool isApart = node.first[child] == 0 && node.count[child] == 0; // no child
-        for (int axis = 0; axis < 3; ++axis) {
-            isApart |= double(node.hi[axis][child]) < bound.box.min()[axis];
-            isApart |= bound.box.max()[axis] < double(node.lo[axis][child]);
-            const double apart = double(node.center[axis][child]) - bound.center[axis];
-            apartSq += apart * apart;
-        }
-        const double reach = double(node.radius[child]) + bound.radius;
-        if (isApart || apartSq > reach * reach) continue;
-        met |= 1u << child;
-        entry[child] = 0;
-    }
-    return met;
-}
-
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

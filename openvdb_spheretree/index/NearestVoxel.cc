@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -35,7 +34,7 @@ bool mortonLess(const Coord& a, const Coord& b)
     return a[axis] < b[axis];
 }
 
-/// The squares of three of these fit 63 bits.
+/// Three squares of 2^30 fit 63 bits.
 int64_t clamped(int64_t distance) { return std::min(distance, NearestVoxel::kFar2); }
 
 int lowestBit(uint32_t byte) { return int(openvdb::util::FindLowestOn(openvdb::Byte(byte))); }
@@ -52,26 +51,7 @@ int nearestBit(uint32_t row, int64_t point2)
     return point2 - 2 * lower <= 2 * upper - point2 ? lower : upper;
 }
 
-/// A voxel of the box that is nearest to the point.
-Coord nearestOf(const int32_t lo[3], const int32_t hi[3], const int64_t point2[3])
-{
-    Coord voxel;
-    for (int a = 0; a < 3; ++a) {
-        const int64_t from = lo[a], to = hi[a];
-        voxel[a] = int32_t(std::max(from, std::min(point2[a] >> 1, to)));
-    }
-    return voxel;
-}
-
 } // namespace
-
-void NearestVoxel::Box::expand(const Box& other)
-{
-    for (int a = 0; a < 3; ++a) {
-        lo[a] = std::min(lo[a], other.lo[a]);
-        hi[a] = std::max(hi[a], other.hi[a]);
-    }
-}
 
 NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask, const Distance& distance)
     : mDistance(distance)
@@ -82,20 +62,11 @@ NearestVoxel::NearestVoxel(const openvdb::MaskTree& mask, const Distance& distan
     }
     mItems.resize(leaves.size());
     parallelFor(leaves.size(), nullptr, [&](std::size_t i) { mItems[i] = itemOf(*leaves[i]); });
-    forEachTile(mask, [&](const openvdb::CoordBBox& box) { addTile(box.min(), box.dim().x()); });
+    forEachTile(mask, [&](const openvdb::CoordBBox& box) {
+        const Coord &lo = box.min(), &hi = box.max();
+        mItems.push_back({{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}, lo, /*solid=*/true, {}});
+    });
     group();
-}
-
-void NearestVoxel::addTile(const Coord& origin, int32_t size)
-{
-    Item item;
-    item.origin = origin;
-    item.solid = true;
-    for (int a = 0; a < 3; ++a) {
-        item.box.lo[a] = origin[a];
-        item.box.hi[a] = origin[a] + (size - 1);
-    }
-    mItems.push_back(item);
 }
 
 NearestVoxel::Item NearestVoxel::itemOf(const openvdb::MaskTree::LeafNodeType& leaf)
@@ -104,10 +75,10 @@ NearestVoxel::Item NearestVoxel::itemOf(const openvdb::MaskTree::LeafNodeType& l
     item.origin = leaf.origin();
     uint64_t anyX = 0; // bit 8 y + z
     uint32_t xs = 0, ys = 0, zs = 0;
+    item.voxels = LeafMask::from(leaf.getValueMask());
     for (int x = 0; x < 8; ++x) {
-        item.words[x] = leaf.getValueMask().getWord<uint64_t>(x);
-        anyX |= item.words[x];
-        if (item.words[x]) xs |= 1u << x;
+        anyX |= item.voxels[x];
+        if (item.voxels[x]) xs |= 1u << x;
     }
     for (int y = 0; y < 8; ++y) {
         const uint32_t row = anyX >> (8 * y) & 0xff;
@@ -135,9 +106,14 @@ void NearestVoxel::group()
         const std::vector<Box>& below = mLevels.back();
         std::vector<Box> boxes;
         for (std::size_t i = 0; i < below.size(); i += kFanout) {
-            boxes.push_back(below[i]);
-            const std::size_t end = std::min(i + kFanout, below.size());
-            for (std::size_t j = i + 1; j < end; ++j) boxes.back().expand(below[j]);
+            Box box = below[i];
+            for (std::size_t j = i + 1; j < std::min(i + kFanout, below.size()); ++j) {
+                for (int a = 0; a < 3; ++a) {
+                    box.lo[a] = std::min(box.lo[a], below[j].lo[a]);
+                    box.hi[a] = std::max(box.hi[a], below[j].hi[a]);
+                }
+            }
+            boxes.push_back(box);
         }
         mLevels.push_back(std::move(boxes));
     }
@@ -231,16 +207,19 @@ void NearestVoxel::searchItem(const Item& item, Query& query) const
         const int64_t sq = nearSq(item.box, query.point2);
         if (sq >= query.best) return;
         query.best = sq;
-        query.voxel = nearestOf(item.box.lo, item.box.hi, query.point2);
+        for (int a = 0; a < 3; ++a) {
+            const int64_t from = item.box.lo[a], to = item.box.hi[a];
+            query.voxel[a] = int32_t(std::max(from, std::min(query.point2[a] >> 1, to)));
+        }
         return;
     }
     int64_t local2[3]; // the point, from the leaf's corner
     for (int a = 0; a < 3; ++a) local2[a] = query.point2[a] - 2 * int64_t(item.origin[a]);
     for (int x = 0; x < 8; ++x) {
         const int64_t dx = clamped(std::abs(2 * x - local2[0]));
-        if (!item.words[x] || mDistance.lengthSq(dx, 0, 0) >= query.best) continue;
+        if (!item.voxels[x] || mDistance.lengthSq(dx, 0, 0) >= query.best) continue;
         for (int y = 0; y < 8; ++y) {
-            const uint32_t row = (item.words[x] >> (8 * y)) & 0xff;
+            const uint32_t row = (item.voxels[x] >> (8 * y)) & 0xff;
             const int64_t dy = clamped(std::abs(2 * y - local2[1]));
             if (!row || mDistance.lengthSq(dx, dy, 0) >= query.best) continue;
             const int z = nearestBit(row, local2[2]);
@@ -253,5 +232,4 @@ void NearestVoxel::searchItem(const Item& item, Query& query) const
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,23 +6,22 @@
 /// Nodes are sorted along a Morton curve and grouped by eight, level by level, without pointers.
 /// Each box is the tight one of its voxels, so each of its faces has a voxel: that bounds the
 /// distance from above as well, and most calls of anyWithin() end near the root.
-/// Within a leaf, rows are searched by bits.
 ///
-/// Query points are in doubled coordinates (centres between voxels), distances squared and doubled
-/// likewise: |2 q - point2|^2, or of a norm: N(2 q - point2)^2. Exact at voxel centres. Between
-/// them a tile counts as the continuous box of its voxel centres, so that the answer may be too
-/// small, by half a voxel an axis at most.
+/// Query points are in doubled coordinates, for centers between voxels, and so are squared
+/// distances: |2 q - point2|^2, or of a norm N(2 q - point2)^2. Exact at voxel centers. Between
+/// them a tile counts as the continuous box of its voxel centers: results may be too small, by half
+/// a voxel an axis.
 
 #pragma once
 
 #include <openvdb_spheretree/voxel/Distance.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NearestVoxel {
 public:
@@ -48,13 +47,12 @@ public:
 private:
     struct Box {
         int32_t lo[3], hi[3];
-        void expand(const Box& other);
     };
     struct Item {
         Box box;
         openvdb::Coord origin;
-        bool solid; ///< every voxel of the box is there
-        uint64_t words[8];
+        bool solid;      ///< every voxel of the box is there
+        LeafMask voxels; ///< only of a leaf
     };
     struct Query {
         const int64_t* point2;
@@ -66,7 +64,6 @@ private:
 
     int64_t nearSq(const Box& box, const int64_t point2[3]) const;
     int64_t faceSq(const Box& box, const int64_t point2[3]) const;
-    void addTile(const openvdb::Coord& origin, int32_t size);
     static Item itemOf(const openvdb::MaskTree::LeafNodeType& leaf); ///< which is not empty
     void group();
     void searchNode(std::size_t level, std::size_t node, Query& query) const;
@@ -77,5 +74,4 @@ private:
     std::vector<std::vector<Box>> mLevels; ///< of boxes: [0] those of the items, back() the root's
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

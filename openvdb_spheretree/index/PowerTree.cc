@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PowerTree.h"
 
+#include "RegionHalving.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
-
-namespace {
+namespace openvdb_spheretree::detail {
 
 using openvdb::Coord;
-
-int64_t powerOf(const MedialBall& ball, const Coord& voxel)
-{
-    int64_t sum = -int64_t(ball.radiusSq);
-    for (int axis = 0; axis < 3; ++axis) {
-        sum += square(int64_t(ball.center[axis]) - voxel[axis]);
-    }
-    return sum;
-}
-
-int widestAxis(const openvdb::CoordBBox& box)
-{
-    const auto width = [&](int axis) { return int64_t(box.max()[axis]) - box.min()[axis]; };
-    int widest = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-        if (width(axis) > width(widest)) widest = axis;
-    }
-    return widest;
-}
-
-} // namespace
 
 PowerSearch::PowerSearch(std::vector<MedialBall> balls) : mBalls(std::move(balls))
 {
@@ -56,7 +33,7 @@ void PowerSearch::build(int32_t begin, int32_t end)
     }
     mNodes.push_back(node);
     if (end - begin <= kMostInLeaf) return;
-    const int axis = widestAxis(node.box);
+    const int axis = longestAxis(node.box);
     const int32_t middle = begin + (end - begin) / 2;
     const auto before = [&](int32_t a, int32_t b) {
         const int32_t x = mBalls[a].center[axis], y = mBalls[b].center[axis];
@@ -84,7 +61,9 @@ void PowerSearch::search(int32_t at, const Coord& voxel, Found& best) const
     const Node& node = mNodes[at];
     if (node.second == 0) {
         for (int32_t i = node.begin; i < node.end; ++i) {
-            const Found found{powerOf(mBalls[mOrder[i]], voxel), mOrder[i]};
+            const MedialBall& ball = mBalls[mOrder[i]];
+            Found found{-int64_t(ball.radiusSq), mOrder[i]};
+            for (int a = 0; a < 3; ++a) found.power += square(int64_t(ball.center[a]) - voxel[a]);
             const bool better =
                 found.power < best.power || (found.power == best.power && found.ball < best.ball);
             if (better) best = found;
@@ -106,5 +85,4 @@ int32_t PowerSearch::nearest(const Coord& voxel) const
     return best.ball;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -2,11 +2,11 @@
 /// @file PowerTree.h
 /// @brief Which of many balls is nearest to a voxel by power distance, |q - c|^2 - radiusSq.
 ///
-/// A k-d tree of the centres, split at the median of the widest axis, each node with the box and
-/// the largest radius below it: together they bound the power from below. Integers throughout; of
-/// equals the ball of lowest index. Cost: O(n log n) to build, about O(log n) a search. Tests:
-/// TestInnerTree.cc. (A visit of BoundingTree finds the same in three to eight times the time, and takes
-/// five to nine times as long to build: what a ball around many balls says of their powers is weak.)
+/// A k-d tree of the centers, split at the median of the widest axis. Each node has the box and the
+/// largest radius below it: together they bound the power from below. Integers throughout. Of
+/// equally near balls it is the one of lowest index. Cost: O(n log n) to build, about O(log n) a
+/// search. Tests: TestInnerTree.cc. (A visit of BoundingTree finds the same in three to eight times the
+/// time: what a ball around many balls says of their powers is weak.)
 
 #pragma once
 
@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class PowerSearch {
 public:
@@ -50,5 +49,4 @@ private:
     std::vector<Node> mNodes; ///< depth first
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct Ray {
     openvdb::Vec3d origin;
@@ -28,5 +27,4 @@ struct Ray {
     openvdb::Vec3d at(double t) const { return origin + t * direction; }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -2,10 +2,10 @@
 /// @file RegionHalving.h
 /// @brief Halves a region of space over and over, with a list of what may matter there.
 ///
-/// What does not matter in a region matters in no part of it. So the list gets shorter on the way
-/// down, and a small region deep inside never sees most of the candidates that are near it: those that
-/// another one makes irrelevant are gone long before. (With a list for each leaf of all balls that
-/// reach it, the power cells of dragon-512 took 2.7 s in place of 0.6 s.)
+/// What does not matter in a region matters in no part of it, so the list gets shorter on the way
+/// down. A small region never sees most of the candidates near it: they were removed long before.
+/// (With a list for each leaf of all balls that reach it, the power cells of dragon-512 took 2.7 s
+/// in place of 0.6 s.)
 ///
 /// First regions are divided until there are enough for all threads, then each is taken to its end.
 
@@ -21,8 +21,16 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
+
+/// @return the first of the axes along which a box is longest.
+inline int longestAxis(const openvdb::CoordBBox& box)
+{
+    const auto length = [&](int a) { return int64_t(box.max()[a]) - box.min()[a]; };
+    int axis = 0;
+    for (int a = 1; a < 3; ++a) axis = length(a) > length(axis) ? a : axis;
+    return axis;
+}
 
 /// Divides items in two halves across the longest side of the box around them.
 /// @param originOf  of an item: a Coord
@@ -30,17 +38,16 @@ namespace detail {
 template <typename Item, typename OriginOf>
 Item* halve(Item* begin, Item* end, const openvdb::CoordBBox& box, const OriginOf& originOf)
 {
-    const auto length = [&](int a) { return int64_t(box.max()[a]) - box.min()[a]; };
-    int axis = 0;
-    for (int a = 1; a < 3; ++a) axis = length(a) > length(axis) ? a : axis;
+    const int axis = longestAxis(box);
     Item* const middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end,
         [&](const Item& a, const Item& b) { return originOf(a)[axis] < originOf(b)[axis]; });
     return middle;
 }
 
-/// @param divide  divide(region, sum) adds what it finds in a region to a sum, and returns the regions
-///                to look at in its place; none where it is done. Called by several threads.
+/// @param divide  divide(region, sum) adds what it finds in a region to a sum, and returns the
+///                regions to look at in its place; none where it is done. Called by several
+///                threads.
 /// @return some sums, begun as copies of @a zero; their total is that of all regions.
 template <typename Region, typename Sum, typename Divide>
 std::vector<Sum> divideRegions(Region whole, const Sum& zero, const Divide& divide,
@@ -76,5 +83,4 @@ std::vector<Sum> divideRegions(Region whole, const Sum& zero, const Divide& divi
     return sums;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

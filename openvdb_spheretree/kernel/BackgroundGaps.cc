@@ -7,12 +7,8 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
-
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace slab {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::slab::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -28,32 +24,27 @@ HWY_INLINE hn::Vec<D> gapsIn(D d, hn::Vec<D> before, uint64_t plane, std::size_t
     return hn::IfThenElseZero(on, hn::SaturatedAdd(before, hn::Set(d, hn::TFromD<D>(1))));
 }
 
+/// From the voxels beside the leaf through its planes x = first, first + by, ... to the last.
 template <typename Gap>
-HWY_INLINE void Through(const LeafMask& mask, const Gap* before, Gap* last, int first, int by)
+HWY_INLINE void Through(const LeafMask& mask, const Gap* beside, Gap* last, int first, int by)
 {
     const Lanes64<Gap> d;
     for (std::size_t lane = 0; lane < 64; lane += hn::Lanes(d)) {
-        auto gaps = hn::LoadU(d, before + lane);
+        auto gaps = hn::LoadU(d, beside + lane);
         for (int k = 0, x = first; k < 8; ++k, x += by) gaps = gapsIn(d, gaps, mask[x], lane);
         hn::StoreU(gaps, d, last + lane);
     }
 }
 
-void Through8(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+void Through8(const LeafMask& mask, const uint8_t* beside, uint8_t* last, bool back)
 {
-    Through(mask, before, last, 0, 1);
+    if (back) Through(mask, beside, last, 7, -1);
+    else Through(mask, beside, last, 0, 1);
 }
-void Through16(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+void Through16(const LeafMask& mask, const uint16_t* beside, uint16_t* last, bool back)
 {
-    Through(mask, before, last, 0, 1);
-}
-void BackThrough8(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
-{
-    Through(mask, behind, first, 7, -1);
-}
-void BackThrough16(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
-{
-    Through(mask, behind, first, 7, -1);
+    if (back) Through(mask, beside, last, 7, -1);
+    else Through(mask, beside, last, 0, 1);
 }
 
 template <typename Gap, typename Square>
@@ -80,6 +71,7 @@ HWY_INLINE void Squares(const LeafMask& mask, const Gap* before, const Gap* behi
         for (std::size_t y = 0; y < 8; ++y) {
             for (std::size_t z = 0; z < 8; z += hn::Lanes(wide)) {
                 auto gaps = hn::PromoteTo(wide, hn::LoadU(narrow, nearest + 64 * x + 8 * y + z));
+                // 46340^2 < 2^31 (MinPlus.h); a byte needs no clamp, as 255^2 < 2^16.
                 if (sizeof(Square) > 2) gaps = hn::Min(gaps, hn::Set(wide, Square(46340)));
                 hn::StoreU(hn::Mul(gaps, gaps), wide, rows + 64 * y + 8 * x + z);
             }
@@ -96,37 +88,24 @@ void Squares16(const LeafMask& mask, const uint16_t* before, const uint16_t* beh
     Squares(mask, before, behind, rows);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 HWY_EXPORT(Through8);
 HWY_EXPORT(Through16);
-HWY_EXPORT(BackThrough8);
-HWY_EXPORT(BackThrough16);
 HWY_EXPORT(Squares8);
 HWY_EXPORT(Squares16);
 
-void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last)
+void gapsThrough(const LeafMask& mask, const uint8_t* beside, uint8_t* last, bool back)
 {
-    HWY_DYNAMIC_DISPATCH(Through8)(mask, before, last);
+    HWY_DYNAMIC_DISPATCH(Through8)(mask, beside, last, back);
 }
-void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last)
+void gapsThrough(const LeafMask& mask, const uint16_t* beside, uint16_t* last, bool back)
 {
-    HWY_DYNAMIC_DISPATCH(Through16)(mask, before, last);
-}
-void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first)
-{
-    HWY_DYNAMIC_DISPATCH(BackThrough8)(mask, behind, first);
-}
-void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first)
-{
-    HWY_DYNAMIC_DISPATCH(BackThrough16)(mask, behind, first);
+    HWY_DYNAMIC_DISPATCH(Through16)(mask, beside, last, back);
 }
 void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows)
@@ -139,6 +118,5 @@ void squaresOfGaps(
     HWY_DYNAMIC_DISPATCH(Squares16)(mask, before, behind, rows);
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab
 #endif

@@ -7,27 +7,24 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
-/// @param before  gaps, looking back, of the voxels just before the leaf, a lane each
+/// @param beside  gaps, looking back, of the voxels just before the leaf, a lane each
 /// @param last    receives those of the leaf's last voxels
-void gapsThrough(const LeafMask& mask, const uint8_t* before, uint8_t* last);
-void gapsThrough(const LeafMask& mask, const uint16_t* before, uint16_t* last);
-/// The same in the other direction: from the voxels just behind the leaf to its first ones.
-void gapsBackThrough(const LeafMask& mask, const uint8_t* behind, uint8_t* first);
-void gapsBackThrough(const LeafMask& mask, const uint16_t* behind, uint16_t* first);
+/// @param back    the same in the other direction: from the voxels just behind the leaf, looking
+///                on, to its first ones
+void gapsThrough(const LeafMask& mask, const uint8_t* beside, uint8_t* last, bool back);
+void gapsThrough(const LeafMask& mask, const uint16_t* beside, uint16_t* last, bool back);
 
-/// @param rows  receives the square of each voxel's smaller gap as rows across y (LeafRows.h). Gaps
-///              count up to 255, or 46340: 255^2 < 2^16, and 46340^2 < 2^31.
+/// @param rows  receives the square of each voxel's smaller gap, as rows across y (LeafRows.h);
+///              gaps beyond 255, or 46340, count as that much
 void squaresOfGaps(
     const LeafMask& mask, const uint8_t* before, const uint8_t* behind, uint16_t* rows);
 void squaresOfGaps(
     const LeafMask& mask, const uint16_t* before, const uint16_t* behind, uint32_t* rows);
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -10,20 +10,18 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// The rows [first, last) of @a count; all three are multiples of kLeafDim.
+/// The rows [first, last) of `count`; all three are multiples of kLeafDim.
 struct RowRange {
     int first, last, count;
 };
 
-/// An entry for each leaf of the run: its eight rows are decided together.
 struct EnvelopeScratch {
-    std::vector<int> reach;                 ///< how far away a better row can be
-    std::vector<int64_t> largest, smallest; ///< values in the leaf; smallest of the object
-    RowBuffer<int32_t> keys;                ///< rows in another form
-    RowBuffer<int64_t> wideKeys;
+    std::vector<int> reach;                 ///< by leaf: how many rows away a better row can be
+    std::vector<int64_t> largest, smallest; ///< by leaf: its values; smallest of object voxels
+    RowBuffer<int32_t> keys;                ///< rows that a kernel made of its input
+    RowBuffer<int64_t> wideKeys;            ///< the same
 
     void resize(std::size_t leaves)
     {
@@ -33,5 +31,4 @@ struct EnvelopeScratch {
     }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

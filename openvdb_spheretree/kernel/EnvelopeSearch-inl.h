@@ -4,27 +4,27 @@
 /// penalty (i - j)^2, for 64 lines side by side. Exact.
 ///
 /// Both transforms are this search: the distance transform takes the smallest value + (i - j)^2,
-/// the power map the largest value - (i - j)^2 (CM07, sections 2 and 3). Instead of building the
-/// envelope of parabolas line by line, which is scalar work, it uses that the best j never moves
-/// backwards as i grows (the penalty is convex), for all lanes of a vector at once:
+/// the power map the largest value - (i - j)^2 (CM07, sections 2 and 3). To build the envelope of
+/// parabolas line by line is scalar work. But the penalty is convex: as i grows, the best j never
+/// moves backwards. This serves all lanes of a vector at once:
 ///
-/// 1. `reach`   of every leaf (8 rows): how far away a better row can be at all; the rows of a leaf
-///              without reach are copied;
-/// 2. `window`  leaves of short reach look at every row in reach, both ways at once;
-/// 3. `divide`  leaves of longer reach: search the middle row, remembering where each lane found its
-///              best; the rows before need not look beyond the last of these places, the rows behind
-///              not before the first. Depth is log2(rows), so at most 31 (rows fit an int).
+/// 1. `leafReach`  of every leaf (8 rows): how far away a better row can be. Leaves without reach
+///                 are copied.
+/// 2. `window`     leaves of short reach look at every row in reach, both ways at once;
+/// 3. `divide`     leaves of longer reach: search the middle row, and note where its lanes found
+///                 their best. Rows before it need not look beyond the last of these places, rows
+///                 behind it not before the first. Depth is log2(rows), so at most 31 (rows fit an
+///                 int).
 ///
 /// Of equally good rows the first one wins. That choice is monotone too, so it survives step 3.
 /// Cost: O(rows log reach) per line when the lines of a run are alike, O(rows reach) at worst.
-/// Plain windows for all leaves took 2.3 times as long on solids (dragon-512, with a prototype). To
-/// go from one leaf to the next, finding the best of its first row outwards until no lane can gain,
-/// was as fast on dragon-512 and 7% slower on fandisk-512.
+/// Plain windows for all leaves took 2.3 times as long on solids (dragon-512). To search outwards
+/// from the best of the leaf before was as fast on dragon-512, and 7% slower on fandisk-512.
 ///
-/// An Op supplies Value, penalty(d), candidate(), better(), best(), bestOfThree() for one row on
-/// either side, load(), store() and leafReach(). It says whether store() needs offsets to the best
-/// row: kTracksOffset if they are kept beside the values, kOffsetInKey if the values hold them and
-/// offsetOf() extracts them. See MinPlus.cc and MaxPlus.cc. This header is compiled once for each
+/// An Op (MinPlus.cc, MaxPlus.cc) supplies Value, penalty(d), candidate(), better(), best(),
+/// bestOfThree() for one row on either side, load(), store() and leafReach(). If store() needs
+/// offsets to the best row, they are kept beside the values (kTracksOffset), or the values hold
+/// them (kOffsetInKey) and offsetOf() extracts them. This header is compiled once for each
 /// instruction set.
 
 #if defined(SPHERETREE_ENVELOPE_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -45,9 +45,7 @@
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -88,8 +86,8 @@ public:
 
 private:
     static constexpr int kWidth = int(hn::MaxLanes(D()));
-    /// Vectors side by side that are searched together: one has to wait for its own last result,
-    /// several need not wait for each other.
+    /// Vectors side by side that are searched together: they need not wait for each other's
+    /// results.
     static constexpr int kVectors = kLanes / kWidth < 4 ? kLanes / kWidth : 4;
     /// Beyond this reach, dividing beats looking at every row (measured: 4 to 6 are alike).
     static constexpr int kWindowReach = 6;
@@ -258,9 +256,7 @@ private:
     std::vector<int>& mReach;
 };
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

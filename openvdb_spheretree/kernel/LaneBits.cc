@@ -10,9 +10,7 @@
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -35,14 +33,11 @@ LikeBefore LikeBeforeAlongBoth(const int32_t* row)
     return {EqualLanes(row, row - 8) & ~kFirstAlongY, EqualLanes(row, row - 1) & ~kFirstAlongZ};
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(EqualLanes);
 HWY_EXPORT(LikeBeforeAlongBoth);
@@ -53,6 +48,5 @@ uint64_t equalLanes(const int32_t* a, const int32_t* b)
 }
 LikeBefore likeBefore(const int32_t* row) { return HWY_DYNAMIC_DISPATCH(LikeBeforeAlongBoth)(row); }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -6,8 +6,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return bit i: a[i] == b[i], of 64 values each.
 uint64_t equalLanes(const int32_t* a, const int32_t* b);
@@ -21,9 +20,8 @@ struct LikeBefore {
     uint64_t alongY, alongZ;
 };
 
-/// @param row  64 values, and kLaneMargin before them. These are read, and do not matter: the first
+/// @param row  64 values, behind kLaneMargin others that are read too, of any content: the first
 ///             voxel along an axis has none before it.
 LikeBefore likeBefore(const int32_t* row);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,9 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -28,14 +26,11 @@ HWY_INLINE uint32_t Largest(const T* values, std::size_t count)
 uint32_t Largest16(const uint16_t* values, std::size_t count) { return Largest(values, count); }
 uint32_t Largest32(const uint32_t* values, std::size_t count) { return Largest(values, count); }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(Largest16);
 HWY_EXPORT(Largest32);
@@ -49,6 +44,5 @@ uint32_t largestValue(const uint32_t* values, std::size_t count)
     return HWY_DYNAMIC_DISPATCH(Largest32)(values, count);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

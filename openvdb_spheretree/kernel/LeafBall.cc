@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBall.cc
-/// @brief With S units a voxel and centre c, a voxel q is inside when
+/// @brief With S units a voxel and center c, a voxel q is inside when
 ///     |S q - c|^2 <= radiusSq   <=>   S/2 |q|^2 - q.c <= floor((radiusSq - |c|^2) / 2S)
-/// as the left side is an integer: a sum of a term t(i) = i (S/2 i - c) for each axis, small and
-/// alike for all S. The 64 sums of the terms of y and z are computed once, the rest is one value
-/// for each of the 8 words: 64 comparisons of 16-bit lanes a word. (A square root a row, 64 a leaf,
-/// took ten times as long.)
+/// as the left side is an integer. It is a sum of a term t(i) = i (S/2 i - c) for each axis. The 64
+/// sums of the terms of y and z are computed once; what is left is a limit for each of the 8 words,
+/// and 64 comparisons of 16-bit lanes a word. (A square root a row took ten times as long.)
 ///
-/// Both sides are shifted so that the limits of the words start at 0. They differ by no more than
-/// the terms of x do: with |S q - c| <= r, by 49/2 S if the centre is between the voxels along x,
-/// else by 7 r - 49/2 S; so limits are below 2^15 - 1 where r is at most kLeafBallReach, and
-/// saturating the left side to 16 bits then changes no comparison. In 32 bits nothing overflows:
-/// coordinates of c are at most r, as the leaf's corner voxel is that near, and 3 r^2 < 2^26. Exact.
+/// Exact. Let r = kLeafBallReach, with |S q - c| <= r along each axis.
+/// - 16 bits: both sides are shifted so that the least limit is 0. Limits differ by no more than
+///   the terms of x do: 49/2 S if the center is between the voxels along x, else 7 r - 49/2 S. Both
+///   are below 2^15 - 1, so saturating the left side changes no comparison.
+/// - 32 bits: the corner voxel is near, so coordinates of c are at most r, and 3 r^2 < 2^26.
 
 #include "LeafBall.h"
 
@@ -25,12 +24,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 void orBall(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8])
 {
@@ -63,8 +59,8 @@ void orBall(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words
 #endif
 }
 
-/// The largest, middle and smallest of three coordinates take the three weights: for each of the 64
-/// (y, z) of a leaf the larger and the smaller one are known, and x falls in somewhere.
+/// The three weights go to the largest, middle and smallest of three coordinates. For each of the
+/// 64 (y, z) of a leaf, the larger and the smaller of the two are computed once.
 void orNormBall(
     const int64_t center[3], const Distance& norm, int64_t limit, int shift, uint64_t words[8])
 {
@@ -98,15 +94,12 @@ void orNormBall(
     }
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(orBall);
 HWY_EXPORT(orNormBall);
@@ -166,7 +159,6 @@ void orNormBallIntoLeaf(
     HWY_DYNAMIC_DISPATCH(orNormBall)(center, norm, limit, shift, words);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 
 #endif // HWY_ONCE

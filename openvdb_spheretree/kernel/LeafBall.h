@@ -8,25 +8,23 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// No voxel of the leaf may be farther than this from the center along any axis: its 16-bit terms
-/// then hold all values (LeafBall.cc).
+/// No voxel of the leaf may be farther than this from the center along any axis: then 16 bits hold
+/// all that is compared, as 7 * 4680 < 2^15 - 1 (LeafBall.cc).
 constexpr int64_t kLeafBallReach = 4680;
 
-/// @brief ORs the voxels q of the ball |2^shift q - center|^2 <= radiusSq into the words of a leaf:
-/// word x, bit 8 y + z.
+/// @brief ORs the voxels q of the ball |2^shift q - center|^2 <= radiusSq into the words of a leaf.
 /// @param center    from the leaf's corner; |2^shift q - center| <= kLeafBallReach on each axis
 /// @param radiusSq  at most kLeafBallReach^2
 /// @param shift     2^shift units are a voxel; 1 to 4
 void orBallIntoLeaf(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8]);
 
-/// @brief The same without vector instructions, for processors that the vector code is not made for.
+/// @brief The same for processors whose vector instructions are not known.
 void orBallIntoLeafPortable(
     const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8]);
 
-/// Of a norm: the sum of the three weighted coordinates is at most 3 * 255 * 2^20 < 2^31.
+/// The same for norms: weights are at most 255, so N is at most 3 * 255 * 2^20 < 2^31.
 constexpr int64_t kLeafNormReach = int64_t(1) << 20;
 
 /// @brief The same for the ball { q : N(2^shift q - center) <= limit } of a norm.
@@ -35,5 +33,4 @@ constexpr int64_t kLeafNormReach = int64_t(1) << 20;
 void orNormBallIntoLeaf(
     const int64_t center[3], const Distance& norm, int64_t limit, int shift, uint64_t words[8]);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

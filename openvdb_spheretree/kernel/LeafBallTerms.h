@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBallTerms.h
-/// @brief What the vector kernel and the portable one compare: see LeafBall.cc, which is compiled once
-/// for every instruction set, and this header once.
+/// @brief What the vector kernel and the portable one compare (LeafBall.cc).
 
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The terms t(i) of each axis. Voxel (x, y, z) of the leaf is in the ball when
 ///     ofY[y] + ofZ[z] - least <= most - ofX[x]
@@ -33,5 +31,4 @@ struct alignas(32) BallTerms {
     }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

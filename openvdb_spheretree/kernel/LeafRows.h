@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafRows.h
-/// @brief The 512 values of a leaf as rows across an axis, and back.
+/// @brief The 512 values of a leaf as rows across an axis.
 ///
 /// The kernels of both transforms sweep along one axis and treat the 64 lines of a run side by
 /// side, one lane a line. A *row* is the 64 values at one position along the axis; a leaf has
@@ -19,12 +19,11 @@
 #include <memory>
 #include <new>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr int kLanes = 64; ///< values in a row
 
-/// @return where a lane of a row is; rows may be -1, and too many for an int to count their values.
+/// @return where a lane of a row is. Row -1 is valid, and an int may be too small for the result.
 inline std::ptrdiff_t at(int row, int lane) { return std::ptrdiff_t(row) * kLanes + lane; }
 
 /// Rows of a run, with `margin` zero rows before the first and after the last. Grows, never
@@ -76,40 +75,22 @@ void transpose8x8(const T* in, std::size_t inStride, T* out, std::size_t outStri
         std::memcpy(out + row * outStride, b + 8 * row, 8 * sizeof(T));
 }
 
-/// Swaps x and y of 512 values, in blocks of eight along z.
-template <typename T>
-void swapXY(const T* in, T* out)
-{
-    for (int x = 0; x < 8; ++x) {
-        for (int y = 0; y < 8; ++y) {
-            std::memcpy(out + 64 * y + 8 * x, in + 64 * x + 8 * y, 8 * sizeof(T));
-        }
-    }
-}
-
-/// Copies the 512 values of a leaf into its eight rows.
-template <typename T>
-void leafToRows(Axis axis, const T* leaf, T* rows)
-{
-    switch (axis) {
-    case Axis::X: std::memcpy(rows, leaf, kLeafVoxels * sizeof(T)); break;
-    case Axis::Y: swapXY(leaf, rows); break;
-    case Axis::Z:
-        for (int x = 0; x < 8; ++x) transpose8x8(leaf + 64 * x, 8, rows + 8 * x, 64);
-    }
-}
-
-/// Copies eight rows back into their leaf.
+/// Copies the eight rows of a leaf into its own order.
 template <typename T>
 void rowsToLeaf(Axis axis, const T* rows, T* leaf)
 {
     switch (axis) {
     case Axis::X: std::memcpy(leaf, rows, kLeafVoxels * sizeof(T)); break;
-    case Axis::Y: swapXY(rows, leaf); break;
+    case Axis::Y:
+        for (int y = 0; y < 8; ++y) {
+            for (int x = 0; x < 8; ++x) {
+                std::memcpy(leaf + 64 * x + 8 * y, rows + 64 * y + 8 * x, 8 * sizeof(T));
+            }
+        }
+        break;
     case Axis::Z:
         for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

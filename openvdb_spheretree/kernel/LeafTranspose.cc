@@ -8,14 +8,12 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void SwapRows16(const uint16_t* rows, uint16_t* swapped) { swapRowsPlainly(rows, swapped); }
-void SwapRows32(const int32_t* rows, int32_t* swapped) { swapRowsPlainly(rows, swapped); }
+void SwapRows16(const uint16_t* rows, uint16_t* swapped) { swapRows<>(rows, swapped); }
+void SwapRows32(const int32_t* rows, int32_t* swapped) { swapRows<>(rows, swapped); }
 void RowsZToLeaf8(const int8_t* rows, int8_t* leaf) { rowsToLeaf(Axis::Z, rows, leaf); }
 void StreamRowsZToLeaf16(const uint16_t* rows, uint16_t* leaf) { rowsToLeaf(Axis::Z, rows, leaf); }
 void StreamRowsZToLeaf32(const uint16_t* rows, int32_t* leaf) { rowsToLeafAs(Axis::Z, rows, leaf); }
@@ -25,12 +23,12 @@ void StreamRowsYToLeaf(const int32_t* rows, int32_t* leaf) { rowsToLeaf(Axis::Y,
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of 16 bytes, on every target.
+/// A vector of 16 bytes.
 template <typename T>
 using Block = hn::FixedTag<T, 16 / sizeof(T)>;
 
-/// Interleaves eight vectors: 16 bytes of each become 128 bytes in a row, value by value, which
-/// store(i, vector) gets in eight pieces.
+/// Interleaves 16 bytes of each of eight rows, value by value: store(i, vector) gets the 128 bytes
+/// in eight pieces.
 template <typename T, typename Store>
 HWY_INLINE void Interleave8(const T* in, std::size_t stride, const Store& store)
 {
@@ -131,14 +129,11 @@ void StreamRowsYToLeaf(const int32_t* rows, int32_t* leaf)
 
 #endif // of targets with vectors
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(SwapRows16);
 HWY_EXPORT(SwapRows32);
@@ -147,38 +142,30 @@ HWY_EXPORT(StreamRowsZToLeaf16);
 HWY_EXPORT(StreamRowsZToLeaf32);
 HWY_EXPORT(StreamRowsYToLeaf);
 
-template <>
 void swapRows(const uint16_t* rows, uint16_t* swapped)
 {
     HWY_DYNAMIC_DISPATCH(SwapRows16)(rows, swapped);
 }
-template <>
 void swapRows(const int32_t* rows, int32_t* swapped)
 {
     HWY_DYNAMIC_DISPATCH(SwapRows32)(rows, swapped);
 }
-template <>
 void rowsZToLeaf(const int8_t* rows, int8_t* leaf)
 {
     HWY_DYNAMIC_DISPATCH(RowsZToLeaf8)(rows, leaf);
 }
-template <>
 void streamRowsZToLeaf(const uint16_t* rows, uint16_t* leaf)
 {
     HWY_DYNAMIC_DISPATCH(StreamRowsZToLeaf16)(rows, leaf);
 }
-template <>
 void streamRowsZToLeaf(const uint16_t* rows, int32_t* leaf)
 {
     HWY_DYNAMIC_DISPATCH(StreamRowsZToLeaf32)(rows, leaf);
 }
-
-template <>
 void streamRowsYToLeaf(const int32_t* rows, int32_t* leaf)
 {
     HWY_DYNAMIC_DISPATCH(StreamRowsYToLeaf)(rows, leaf);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

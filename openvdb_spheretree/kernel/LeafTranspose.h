@@ -9,27 +9,18 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-template <typename T>
-void swapRowsPlainly(const T* rows, T* swapped)
-{
-    for (int x = 0; x < 8; ++x) {
-        transpose8x8(rows + 8 * x, kLanes, swapped + 8 * x, kLanes);
-    }
-}
+// The overloads for one type are vector kernels; the templates serve all other types.
 
 /// @brief Rows across one of the axes y and z to rows across the other: [u][8 x + v] to
 /// [v][8 x + u], for the 512 values of a leaf.
 template <typename T>
 void swapRows(const T* rows, T* swapped)
 {
-    swapRowsPlainly(rows, swapped);
+    for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, kLanes, swapped + 8 * x, kLanes);
 }
-template <>
 void swapRows(const uint16_t* rows, uint16_t* swapped);
-template <>
 void swapRows(const int32_t* rows, int32_t* swapped);
 
 /// @brief Rows across z to the leaf's own order: rowsToLeaf(Axis::Z).
@@ -38,7 +29,6 @@ void rowsZToLeaf(const T* rows, T* leaf)
 {
     rowsToLeaf(Axis::Z, rows, leaf);
 }
-template <>
 void rowsZToLeaf(const int8_t* rows, int8_t* leaf);
 
 /// @brief rowsToLeaf() to values of another type.
@@ -57,9 +47,7 @@ void streamRowsZToLeaf(const T* rows, Value* leaf)
 {
     rowsToLeafAs(Axis::Z, rows, leaf);
 }
-template <>
 void streamRowsZToLeaf(const uint16_t* rows, uint16_t* leaf);
-template <>
 void streamRowsZToLeaf(const uint16_t* rows, int32_t* leaf);
 
 /// @brief rowsToLeaf(Axis::Y), past the cache as well.
@@ -68,8 +56,6 @@ void streamRowsYToLeaf(const T* rows, T* leaf)
 {
     rowsToLeaf(Axis::Y, rows, leaf);
 }
-template <>
 void streamRowsYToLeaf(const int32_t* rows, int32_t* leaf);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -14,14 +14,13 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
-/// Keys with room for the offset, for radii up to 60 voxels: 12 bits of value, 12 of radiusSq, 7 of
-/// offset, and the sign. 60^2 < 2^12, so keys are not negative. A better row is at most 59 rows
-/// away (59 <= sqrt(60^2 - 1)), and rows that are searched four together look 3 rows further: 62^2
-/// < 2^12 as well, so a candidate may be negative, and does not fall below -2^31.
+/// Keys with room for the offset, for radii up to 60 voxels: from the top the sign, 12 bits of
+/// value, 12 of radiusSq, 7 of offset. They fit because 60^2 < 2^12, so keys are not negative. A
+/// better row is at most floor(sqrt(60^2 - 1)) = 59 rows away. Rows that are searched four together
+/// look 3 rows further: offsets are -62 to 62, and with the bias 2 to 126. A penalty is at most
+/// 62^2 2^19 + 62 < 2^31: a candidate may be negative, but does not fall below -2^31.
 struct SmallKeys {
     using Key = int32_t;
     using Offset = int8_t;
@@ -31,8 +30,10 @@ struct SmallKeys {
     static constexpr uint32_t kMaxRadiusSq = 60 * 60;
 };
 
-/// Keys as they come. Narrow ones have 14 bits of value, as 127^2 < 2^14; candidates from up to 129
-/// rows away stay above -2^31, as 129^2 < 2^15. Wide ones have 30 bits of 63, likewise.
+/// Keys as they come. Narrow ones have 14 bits of value above 16 of radiusSq: 127^2 < 2^14, so they
+/// are below 2^30. Rows up to floor(sqrt(127^2 - 1)) + 3 = 129 away are looked at: 129^2 2^16 <
+/// 2^31, so candidates stay above -2^31. Wide ones have 30 bits of value above 32, and look 32769
+/// rows away: 32769^2 2^32 < 2^63.
 template <typename Power>
 struct PlainKeys : Power {
     static constexpr bool kOffsetInKey = false;
@@ -111,7 +112,7 @@ struct MaxPlusOp {
     }
 
 private:
-    /// The key as it came.
+    /// The key without an offset.
     static HWY_INLINE V plain(V key)
     {
         if constexpr (kOffsetInKey) {
@@ -125,16 +126,16 @@ private:
         }
     }
 
-    static HWY_INLINE void storeOffsets(V offset, int8_t* offsets)
+    static HWY_INLINE void storeOffsets(V offset, Offset* offsets)
     {
-        const hn::Rebind<int8_t, D> narrow;
-        hn::StoreU(hn::DemoteTo(narrow, offset), narrow, offsets);
-    }
-    static HWY_INLINE void storeOffsets(V offset, int16_t* offsets)
-    {
-        HWY_ALIGN Value wide[kLanes];
-        hn::Store(offset, D(), wide);
-        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(wide[i]);
+        if constexpr (sizeof(Offset) == 1) {
+            const hn::Rebind<Offset, D> narrow;
+            hn::StoreU(hn::DemoteTo(narrow, offset), narrow, offsets);
+        } else {
+            HWY_ALIGN Value wide[kLanes];
+            hn::Store(offset, D(), wide);
+            for (std::size_t i = 0; i < hn::Lanes(D()); ++i) offsets[i] = Offset(wide[i]);
+        }
     }
 
     /// @param square  below 2^33
@@ -237,14 +238,11 @@ uint32_t FirstWide(
     return largestValue(distances, std::size_t(at(rows, 0)));
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(MaxPlusNarrow);
 HWY_EXPORT(MaxPlusWide);
@@ -279,6 +277,5 @@ uint32_t firstMaxPlus<WidePower>(
     return HWY_DYNAMIC_DISPATCH(FirstWide)(distances, outKey, offset, rows, scratch);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -7,10 +7,10 @@
 /// radiusSq among equals, which is the tie rule; the place along the axis decides last, because the
 /// first of equal rows wins.
 ///
-/// Where radii are small, as nearly everywhere, there is room for that place in the key as well: the
-/// offset to the site, counted downwards so that the first row is the largest. A candidate then
+/// Where radii are small, as nearly everywhere, there is room for that place in the key as well:
+/// the offset to the site, counted downwards so that the first row is the largest. A candidate then
 /// costs one subtraction and one max. The kernel turns keys into that form, and back, for each run
-/// whose radii allow it. Its bits are counted at SmallKeys in MaxPlus.cc.
+/// whose radii allow it (SmallKeys in MaxPlus.cc, where bits are counted).
 
 #pragma once
 
@@ -18,10 +18,9 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// Keys and offsets for radii up to 127 voxels: offsets fit 8 bits, values 14, so keys are positive.
+/// Keys and offsets for radii up to 127 voxels: offsets fit 8 bits, values 14 (127^2 < 2^14).
 struct NarrowPower {
     using Key = int32_t;
     using Offset = int8_t;
@@ -29,7 +28,7 @@ struct NarrowPower {
     static constexpr uint32_t kMaxRadiusSq = 127 * 127;
 };
 
-/// Keys and offsets for radii up to 32767 voxels: offsets fit 16 bits, values 30.
+/// The same for radii up to 32767 voxels: offsets fit 16 bits, values 30.
 struct WidePower {
     using Key = int64_t;
     using Offset = int16_t;
@@ -53,9 +52,9 @@ uint32_t siteSqOf(typename Power::Key key)
 }
 
 /// @brief outKey(i) = max over j of inKey(j) with (i - j)^2 taken off its value; offset(i) = j - i
-/// for the first such j. Background (key 0) stays 0 with offset 0, and cuts its line: a value must
-/// be at most the squared distance to the next background on its line, as distances, and what the
-/// passes before leave of them, are.
+/// for the first such j. Background (key 0) stays 0 with offset 0, and cuts its line. For that, a
+/// value must be at most the squared distance to the next background on its line: distances are,
+/// and so is what earlier passes leave of them.
 /// @param inKey   row -1 and the row behind the last are readable and zero
 /// @param outKey  may be null when only the offsets are wanted
 /// @param rows    results are for its range; others of outKey and offset stay as they are
@@ -71,5 +70,4 @@ template <typename Power, typename T>
 uint32_t firstMaxPlus(const T* distances, typename Power::Key* outKey,
     typename Power::Offset* offset, int rows, EnvelopeScratch& scratch);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

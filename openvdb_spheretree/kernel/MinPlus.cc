@@ -10,9 +10,7 @@
 #include "EnvelopeSearch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 template <typename T>
 struct MinPlusOp {
@@ -30,23 +28,17 @@ struct MinPlusOp {
         return T(std::min(square, sizeof(T) == 2 ? 65535u : kWideMax));
     }
     HWY_INLINE V load(int row, int lane) const { return hn::Load(D(), in + at(row, lane)); }
-    static HWY_INLINE hn::Vec<hn::CappedTag<uint16_t, kLanes>> add(
-        hn::Vec<hn::CappedTag<uint16_t, kLanes>> a, hn::Vec<hn::CappedTag<uint16_t, kLanes>> b)
+    static HWY_INLINE V candidate(V value, V penalty)
     {
-        return hn::SaturatedAdd(a, b);
+        if constexpr (sizeof(T) == 2) return hn::SaturatedAdd(value, penalty);
+        else return hn::Add(value, penalty);
     }
-    static HWY_INLINE hn::Vec<hn::CappedTag<uint32_t, kLanes>> add(
-        hn::Vec<hn::CappedTag<uint32_t, kLanes>> a, hn::Vec<hn::CappedTag<uint32_t, kLanes>> b)
-    {
-        return hn::Add(a, b);
-    }
-    static HWY_INLINE V candidate(V value, V penalty) { return add(value, penalty); }
     static HWY_INLINE auto better(V a, V b) { return hn::Lt(a, b); }
     static HWY_INLINE V best(V a, V b) { return hn::Min(a, b); }
     /// Two rows as far away on either side have the same penalty.
     static HWY_INLINE V bestOfThree(V own, V before, V penalty, V behind, V)
     {
-        return hn::Min(own, add(hn::Min(before, behind), penalty));
+        return hn::Min(own, candidate(hn::Min(before, behind), penalty));
     }
     static HWY_INLINE V offsetOf(V value) { return value; } // values hold none
     HWY_INLINE void store(int row, int lane, V value, V) const
@@ -83,14 +75,11 @@ void MinPlus32(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scr
     EnvelopeSearch<MinPlusOp<uint32_t>>({in, out}, {0, rows, rows}, scratch).run();
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(MinPlus16);
 HWY_EXPORT(MinPlus32);
@@ -105,6 +94,5 @@ void minPlus(const uint32_t* in, uint32_t* out, int rows, EnvelopeScratch& scrat
     HWY_DYNAMIC_DISPATCH(MinPlus32)(in, out, rows, scratch);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

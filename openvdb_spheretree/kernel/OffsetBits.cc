@@ -11,13 +11,11 @@
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
-namespace HWY_NAMESPACE {
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// @return the lanes of a row that pass a test of the vector at each lane.
+/// @return the lanes for which test(lane), of the vector that begins there, is true.
 template <class D, typename Test>
 HWY_INLINE uint64_t LanesThat(D d, const Test& test)
 {
@@ -38,7 +36,7 @@ HWY_INLINE uint64_t EqualTo(const T* row, int offset)
     return LanesThat(d, [&](std::size_t lane) { return hn::Eq(hn::LoadU(d, row + lane), value); });
 }
 
-/// @param before  of the first lane in use: the 64 values that stand before the row's along the axis
+/// @param before  64 values: those before the row's along the axis
 template <typename T>
 HWY_INLINE uint64_t TargetAsBefore(const T* row, const T* before)
 {
@@ -49,8 +47,8 @@ HWY_INLINE uint64_t TargetAsBefore(const T* row, const T* before)
     });
 }
 
-/// Calls visit(x, row, same) for words of @a mask with a voxel: their 64 offsets, and which of them
-/// have the target of the voxel before along the axis.
+/// Calls visit(x, row, same) for words of @a mask that are not empty: their 64 offsets, and which
+/// voxels have the target of the voxel before them along the axis.
 template <typename T, typename Visit>
 HWY_INLINE void ForEachWord(const T* offsets, Axis axis, const LeafMask& mask, const Visit& visit)
 {
@@ -140,14 +138,11 @@ FreshOffsets Fresh16(const int16_t* offsets, Axis axis, const LeafMask& mask)
     return Fresh(offsets, axis, mask);
 }
 
-} // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(TargetsAsBefore8);
 HWY_EXPORT(TargetsAsBefore16);
@@ -183,6 +178,5 @@ void markRowTargets(const int16_t* offsets, const uint64_t* on, int rows, uint64
     HWY_DYNAMIC_DISPATCH(MarkTargets16)(offsets, on, rows, marks);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file OffsetBits.h
-/// @brief Offsets to power labels as mask words: which are worth following, and where they lead.
+/// @brief Where the offsets of power labels lead, as mask words.
 ///
 /// A voxel's *target* is the voxel that its offset along an axis leads to. Neighbours mostly share
 /// it, so it is looked up once for all of them.
@@ -12,8 +12,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param offsets  512 of a leaf along @a axis, in leaf order
 /// @return the voxels with the target of the voxel before them along the axis, in the same leaf;
@@ -37,5 +36,4 @@ FreshOffsets freshOffsets(const int16_t* offsets, Axis axis, const LeafMask& mas
 void markRowTargets(const int8_t* offsets, const uint64_t* on, int rows, uint64_t* marks);
 void markRowTargets(const int16_t* offsets, const uint64_t* on, int rows, uint64_t* marks);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -2,10 +2,9 @@
 /// @file BallIndex.h
 /// @brief Which medial ball has its center at a voxel, without a search.
 ///
-/// The centers in a leaf are the bits of a mask. The number of bits before a center is its *rank* in
-/// the order of leaves. The rank names a ball as well as its index does, and is found in one cache
-/// line. A table takes ranks to indices in the order of balls, where they are needed. 128 bytes a
-/// leaf, 4 a ball.
+/// The centers in a leaf are the bits of a mask. The number of bits before a center is its *rank*
+/// in the order of leaves. The rank names a ball as well as its index does, and is found in one
+/// cache line. A table takes ranks to indices in the order of balls. 128 bytes a leaf, 4 a ball.
 
 #pragma once
 
@@ -18,8 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class BallIndex {
 public:
@@ -48,12 +46,9 @@ private:
     {
         return std::size_t(leaf) * kLeafDim + (index >> 6);
     }
-    /// @return the number of centers.
-    std::size_t countRanks(const std::vector<LeafMask>& centers);
 
     std::vector<Word> mWords; ///< eight a leaf
     std::vector<int32_t> mBallOfRank;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

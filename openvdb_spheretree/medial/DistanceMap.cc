@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/kernel/LargestValue.h>
 #include <openvdb_spheretree/kernel/LeafTranspose.h>
 #include <openvdb_spheretree/kernel/MinPlus.h>
+#include <openvdb_spheretree/slab/LargestRadius.h>
 #include <openvdb_spheretree/slab/SlabDistance.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 
@@ -21,31 +22,19 @@ namespace {
 
 using openvdb::util::NullInterrupter;
 
-template <typename T>
-constexpr uint32_t kLimit = sizeof(T) == 2 ? detail::kNarrowMax : detail::kWideMax;
-
-/// The largest of what many threads see.
-class Largest {
-public:
-    void see(uint32_t value) { detail::raiseTo(mValue, value); }
-    uint32_t value() const { return mValue; }
-
-private:
-    std::atomic<uint32_t> mValue{0};
-};
-
 /// @tparam T  computes
-/// @return the largest value; the values are exact if it is below kLimit<T>.
+/// @return the largest value; the values are exact if it is below kNarrowMax (kWideMax).
 template <typename T, typename Value>
 uint32_t transform(const LeafLayout& layout, int dim, Value* values, NullInterrupter* interrupter)
 {
     const slab::XGaps<slab::GapOf<T>> gaps(layout, interrupter);
     using Slab = slab::SlabDistance<T>;
-    Largest largest;
+    std::atomic<uint32_t> largest{0};
     detail::parallelForWithScratch<Slab>(
         layout.slabCount(), interrupter, [&](std::size_t index, Slab& distances) {
             const auto store = [&](const LeafLayout::Run& run, const T* rows) {
-                largest.see(detail::largestValue(rows, std::size_t(run.count) * kLeafVoxels));
+                const std::size_t size = std::size_t(run.count) * kLeafVoxels;
+                detail::raiseTo(largest, detail::largestValue(rows, size));
                 for (uint32_t i = 0; i < run.count; ++i, rows += kLeafVoxels) {
                     Value* leaf = values + std::size_t(run.leaves[i]) * kLeafVoxels;
                     if (dim == 3) detail::streamRowsZToLeaf(rows, leaf);
@@ -55,7 +44,7 @@ uint32_t transform(const LeafLayout& layout, int dim, Value* values, NullInterru
             distances.forEachRun(layout, uint32_t(index), gaps, dim, store);
             hwy::FlushStream(); // what went past the cache is there for other threads
         });
-    return largest.value();
+    return largest;
 }
 
 /// In 32 bits, where 16 are not enough.
@@ -63,35 +52,20 @@ uint32_t wideTransform(
     const LeafLayout& layout, int dim, uint32_t* values, NullInterrupter* interrupter)
 {
     const uint32_t largest = transform<uint32_t>(layout, dim, values, interrupter);
-    if (largest < kLimit<uint32_t>) return largest;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object holds a ball of 46340 voxels radius or more, whose "
-        "square does not fit 32 bits: use a larger voxel");
+    slab::requireWide(largest);
+    return largest;
 }
 
 uint32_t largestOf(const LeafLayout& layout, const uint32_t* values, NullInterrupter* interrupter)
 {
-    Largest largest;
+    std::atomic<uint32_t> largest{0};
     detail::parallelFor(layout.slabCount(), interrupter, [&](std::size_t index) {
         const LeafLayout::Slab slab = layout.slab(uint32_t(index));
         const uint32_t* first = values + std::size_t(slab.begin) * kLeafVoxels;
-        largest.see(detail::largestValue(first, std::size_t(slab.size()) * kLeafVoxels));
+        const std::size_t size = std::size_t(slab.size()) * kLeafVoxels;
+        detail::raiseTo(largest, detail::largestValue(first, size));
     });
-    return largest.value();
-}
-
-/// Balls of a norm have squared radii too.
-void requireSquareFits(uint32_t largest, const Distance& distance)
-{
-    constexpr uint32_t kLargestRoot = 46340;
-    if (largest < kLargestRoot) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object holds a ball of " << kLargestRoot / uint32_t(distance.unit())
-                                      << " voxels radius or more, whose square does not fit 32 "
-                                         "bits with dist="
-                                      << toString(distance)
-                                      << ": use a larger voxel, or smaller "
-                                         "weights");
+    return largest;
 }
 
 } // namespace
@@ -108,13 +82,19 @@ DistanceMap distanceTransform(
         map.mWide = detail::makeLargeArray<uint32_t>(size);
         detail::NormSweep(layout, distance, dim, interrupter).distances(map.mWide.get());
         map.mLargest = largestOf(layout, map.mWide.get(), interrupter);
-        requireSquareFits(map.mLargest, distance);
-        return map;
+        constexpr uint32_t kLargestRoot = 46340; // balls of a norm have squared radii too
+        if (map.mLargest < kLargestRoot) return map;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the object holds a ball of " << kLargestRoot / uint32_t(distance.unit())
+                                          << " voxels radius or more, whose square does not fit 32 "
+                                             "bits with dist="
+                                          << toString(distance)
+                                          << ": use a larger voxel, or smaller "
+                                             "weights");
     }
     map.mNarrow = detail::makeLargeArray<uint16_t>(size);
     map.mLargest = transform<uint16_t>(layout, dim, map.mNarrow.get(), interrupter);
-    if (map.mLargest < kLimit<uint16_t>) return map;
-
+    if (map.mLargest < detail::kNarrowMax) return map;
     map.mNarrow.reset();
     map.mWide = detail::makeLargeArray<uint32_t>(size);
     map.mLargest = wideTransform(layout, dim, map.mWide.get(), interrupter);
@@ -129,7 +109,7 @@ uint32_t distanceTransform(
         OPENVDB_THROW(openvdb::ValueError, "distances go to memory that is aligned to 16 bytes");
     }
     const uint32_t largest = transform<uint16_t>(layout, dim, values, interrupter);
-    if (largest < kLimit<uint16_t>) return largest;
+    if (largest < detail::kNarrowMax) return largest;
     return wideTransform(layout, dim, reinterpret_cast<uint32_t*>(values), interrupter);
 }
 

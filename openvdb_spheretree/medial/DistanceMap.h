@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file DistanceMap.h
-/// @brief The distance of every voxel of a level to the nearest background voxel, and the transform
-/// that computes it.
+/// @brief The distances of DistanceTransform.h as flat arrays, and the transform that computes
+/// them.
 ///
-/// The separable transform of CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of
-/// object voxels: no value crosses background, so no background voxel is stored or visited.
+/// CM07 (Coeurjolly, Montanvert, IEEE PAMI 2007), cut at every run of object voxels: no value
+/// crosses background.
 ///
 /// 1. x: the gap to the background on the voxel's own line, squared (slab/XGaps.h);
 /// 2. y, then z: min over the line of value + offset^2 (kernel/MinPlus.h), slab by slab
 ///    (slab/SlabDistance.h).
 ///
-/// Norms have sweeps of their own (NormSweep.h).
-///
-/// Values are computed in 16 bits, and again in 32 bits if one of them turns out not to fit.
-/// Exact, integer. Cost: linear in active voxels times log of the radius, whatever the bounding
-/// box. Tests: TestDistanceTransform.cc, against all background voxels one by one.
+/// Norms have sweeps of their own (NormSweep.h). Euclidean values are computed in 16 bits, and
+/// again in 32 bits if one of them turns out not to fit.
 
 #pragma once
 

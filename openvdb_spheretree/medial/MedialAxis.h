@@ -3,8 +3,8 @@
 /// @brief The reduced discrete medial axis: the balls whose union is the object, none of them
 /// without a voxel that it covers best.
 ///
-/// The medial balls are the sites that label at least one voxel (D. Coeurjolly and A. Montanvert, IEEE
-/// PAMI 2007, section 4).
+/// The medial balls are the sites that label at least one voxel (D. Coeurjolly and A. Montanvert,
+/// IEEE PAMI 2007, section 4).
 ///
 /// Exact. Cost: linear in active voxels, times log of the radius. Tests: TestMedialAxis.cc.
 

@@ -109,11 +109,8 @@ MedialLevel::MedialLevel(const openvdb::MaskTree& voxels, int dim, const Distanc
     : layout(detail::timed("layout of leaves", interrupter, seconds ? &seconds->distance : nullptr,
         [&] { return LeafLayout(voxels); }))
 {
-    if (!distance.isEuclidean()) {
-        findNormBalls(dim, distance, queries, interrupter, seconds);
-        return;
-    }
-    findBalls(dim, queries, interrupter, seconds);
+    if (distance.isEuclidean()) findBalls(dim, queries, interrupter, seconds);
+    else findNormBalls(dim, distance, queries, interrupter, seconds);
 }
 
 void MedialLevel::findBalls(

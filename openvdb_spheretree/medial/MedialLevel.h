@@ -43,7 +43,8 @@ struct MedialLevel {
     /// @return the index in `balls` of the ball with its center at @a center. O(log balls).
     /// @throw openvdb::LookupError if there is none
     int32_t ballAt(const openvdb::Coord& center) const;
-    /// @return the index in `balls` of the label of @a ijk, if all labels were queried. O(log balls).
+    /// @return the index in `balls` of the label of @a ijk, if all labels were queried. O(log
+    ///         balls).
     /// @throw openvdb::LookupError if @a ijk is off
     int32_t labelOf(const openvdb::Coord& ijk) const { return ballAt(labels.label(ijk)); }
 

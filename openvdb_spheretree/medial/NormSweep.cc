@@ -2,12 +2,12 @@
 #include "NormSweep.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/LeafWalk.h>
 
 #include <algorithm>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -17,9 +17,6 @@ constexpr uint32_t kFarAway = uint32_t(1) << 30;
 constexpr int kCanvasWidth = 10, kCanvasSize = kCanvasWidth * kCanvasWidth;
 
 constexpr uint32_t strideOf(int axis) { return 1u << (6 - 3 * axis); }
-
-uint32_t leafOf(uint32_t site) { return site / kLeafVoxels; }
-uint32_t indexOf(uint32_t site) { return site % kLeafVoxels; }
 
 /// The leaves in groups of equal coordinate along an axis, which ascends.
 struct Slabs {
@@ -73,8 +70,19 @@ NormSweep::NormSweep(const LeafLayout& layout, const Distance& distance, int dim
     : mLayout(layout), mDim(dim),
       mInterrupter(interrupter), mCost{0, uint32_t(distance.face()), uint32_t(distance.edge()),
                                      uint32_t(distance.corner())},
-      mNeighbours(layout)
-{}
+      mAround(layout.leafCount())
+{
+    constexpr std::size_t kChunk = 256;
+    const std::size_t count = mAround.size();
+    parallelFor((count + kChunk - 1) / kChunk, nullptr, [&](std::size_t chunk) {
+        const std::size_t begin = chunk * kChunk;
+        LeafWalk around(layout, uint32_t(begin));
+        for (std::size_t leaf = begin; leaf < std::min(begin + kChunk, count); ++leaf) {
+            around.moveTo(uint32_t(leaf));
+            mAround[leaf] = around.all();
+        }
+    });
+}
 
 /// Calls visit(planes) for both directions of every axis; planes that it is called for at the same
 /// time do not touch.
@@ -101,7 +109,8 @@ void NormSweep::sweepAlong(int axis, int direction, const Visit& visit) const
         planes.forEachStep([&](int du, int dv, int) {
             int step[3];
             step[axis] = outside, step[u] = du, step[v] = dv;
-            planes.before[3 * (du + 1) + dv + 1] = mNeighbours.at(leaf, step[0], step[1], step[2]);
+            planes.before[3 * (du + 1) + dv + 1] =
+                mAround[leaf][LeafWalk::index(step[0], step[1], step[2])];
         });
         visit(planes);
     };
@@ -126,7 +135,7 @@ void NormSweep::loadBefore(const PlanePair& planes, const Value* values, Value* 
         const int firstV = dv < 0 ? 7 : 0, lastV = dv > 0 ? 0 : 7;
         for (int u = firstU; u <= lastU; ++u) {
             Value* to = canvas + (u + 8 * du + 1) * kCanvasWidth + 8 * dv + 1;
-            if (leaf == LeafNeighbours::kNone) {
+            if (leaf == LeafWalk::kNone) {
                 std::fill(to + firstV, to + lastV + 1, Value(0));
                 continue;
             }
@@ -167,7 +176,8 @@ void NormSweep::distances(uint32_t* values) const
 bool NormSweep::better(uint32_t site, uint32_t than, const uint32_t* values) const
 {
     if (values[site] != values[than]) return values[site] > values[than];
-    return mLayout.voxel(leafOf(site), indexOf(site)) < mLayout.voxel(leafOf(than), indexOf(than));
+    return mLayout.voxel(site / kLeafVoxels, site % kLeafVoxels)
+        < mLayout.voxel(than / kLeafVoxels, than % kLeafVoxels);
 }
 
 void NormSweep::passLabels(const PlanePair& planes, const uint32_t* values, uint32_t* sites) const
@@ -197,5 +207,4 @@ void NormSweep::labels(const uint32_t* values, uint32_t* sites) const
     sweep([&](const PlanePair& planes) { passLabels(planes, values, sites); });
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -3,16 +3,16 @@
 /// @brief Distance transform and power labels for norms of the 3x3x3 neighbourhood, by sweeping
 /// planes of voxels to and fro along each axis.
 ///
-/// A cheapest path has at most three kinds of steps, all of one sign an axis, in any order. So it may
-/// take its steps along z alone first, then all others within a plane of constant x, then those that
-/// change x. The transform does the same, with two sweeps an axis, in the order z, y, x:
-///     sweep along z: value of the voxel before + a;
+/// A cheapest path has at most three kinds of steps, all of one sign an axis, in any order. So it
+/// may take its steps along z alone first, then all others within a plane of constant x, then those
+/// that change x. The transform does the same, with two sweeps an axis, in the order z, y, x
+/// (Borgefors' chamfer masks, taken apart by axis). All voxels of a plane are independent.
+///     along z: value of the voxel before + a;
 ///     along y: those at y - 1 with z - 1, z, z + 1;  along x: the nine at x - 1
-/// (Borgefors' chamfer masks, taken apart by axis.) All voxels of a plane are independent.
 ///
-/// *Locality.* A path to the nearest background voxel meets no other one before. So background counts
-/// as 0 wherever a path meets it, and nothing is stored of it. A path from the center of a ball to a
-/// voxel of the ball stays in the ball.
+/// *Locality.* A path to the nearest background voxel meets no other one before: background is 0
+/// wherever a path meets it, and need not be stored. A path from a ball's center to a voxel of the
+/// ball stays in the ball.
 ///
 /// *Labels.* The distance changes by at most N(p - q) between p and q, so the power
 /// distance(p) - N(p - q) of any p is at most distance(q), which q reaches itself. The label of q
@@ -26,7 +26,6 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/LeafNeighbours.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
@@ -34,8 +33,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NormSweep {
 public:
@@ -69,9 +67,8 @@ private:
     const LeafLayout& mLayout;
     int mDim;
     openvdb::util::NullInterrupter* mInterrupter;
-    std::array<uint32_t, 4> mCost; ///< of a step that changes this many coordinates
-    LeafNeighbours mNeighbours;
+    std::array<uint32_t, 4> mCost;                 ///< of a step that changes this many coordinates
+    std::vector<std::array<uint32_t, 27>> mAround; ///< of each leaf, as LeafWalk::all()
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,13 +9,11 @@
 
 namespace openvdb_spheretree {
 
-namespace {
-
-using openvdb::util::NullInterrupter;
-
-/// The labels of a norm are numbers of voxels, 512 leaf + index: 2^23 leaves fill 32 bits.
-void requireNumberedVoxels(const LeafLayout& layout)
+PowerMap normLabels(const LeafLayout& layout, const DistanceMap& distances, int dim,
+    openvdb::util::NullInterrupter* interrupter)
 {
+    requireDim(dim);
+    // Labels are numbers of voxels, 512 leaf + index: 2^23 leaves fill 32 bits.
     constexpr uint32_t kMaxLeaves = uint32_t(1) << 23;
     if (layout.leafCount() > kMaxLeaves) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -24,15 +22,6 @@ void requireNumberedVoxels(const LeafLayout& layout)
                                  "larger voxel, or dist=l2");
     }
     detail::requireMemory(layout.leafCount(), kLeafVoxels * (2 * sizeof(uint32_t)));
-}
-
-} // namespace
-
-PowerMap normLabels(
-    const LeafLayout& layout, const DistanceMap& distances, int dim, NullInterrupter* interrupter)
-{
-    requireDim(dim);
-    requireNumberedVoxels(layout);
     PowerMap map;
     map.mLayout = &layout;
     map.mSites = detail::makeLargeArray<uint32_t>(std::size_t(layout.leafCount()) * kLeafVoxels);

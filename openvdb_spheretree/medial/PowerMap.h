@@ -9,11 +9,9 @@
 /// (slab/LabelStream.h).
 ///
 /// What is kept is one small offset a voxel and axis: the label of q is found by going dx(q) along
-/// x, from there dy along y, and from there dz along z. Keys are 32-bit with 8-bit offsets for
-/// radii up to 127 voxels, else 64-bit with 16-bit offsets.
-///
-/// For a norm N of the 3x3x3 neighbourhood (Distance.h) the power is distance(p) - N(p - q), ties
-/// as above; the label itself is kept, 4 bytes a voxel (NormSweep.h).
+/// x, from there dy along y, and from there dz along z. Offsets have 8 bits for radii up to 127
+/// voxels, else 16. For a norm N of the 3x3x3 neighbourhood (Distance.h) the power is
+/// distance(p) - N(p - q), ties as above; the label itself is kept, 4 bytes a voxel (NormSweep.h).
 ///
 /// Exact, integer, ties included. Cost: as the distance transform's; 3 or 6 bytes a voxel kept, 4
 /// or 8 more while it runs. Tests: TestPowerMap.cc, against all sites one by one.
@@ -94,7 +92,8 @@ private:
     detail::LargeArray<uint32_t> mSites; ///< of a norm: 512 leaf + index of each voxel's label
 };
 
-/// @return the power labels of a norm. Those of the Euclidean distance come from slab/LabelStream.h.
+/// @return the power labels of a norm. Those of the Euclidean distance come from
+///         slab/LabelStream.h.
 /// @param layout     kept by reference: must outlive the result
 /// @param distances  of that layout, by the norm
 /// @param dim        3, or 2 to leave the z axis out

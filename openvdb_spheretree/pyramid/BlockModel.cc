@@ -97,35 +97,29 @@ bool ChildBlock::any(int x, int y, int z) const
 /// Evaluates the function in the voxels of a leaf.
 class BlockEvaluator {
 public:
-    BlockEvaluator(const MaskTree& children, const MaskTree& orLevel, const PyramidStep& step,
-        const CoordBBox& box)
-        : mStep(step), mChildren(children), mOr(orLevel), mBox(box)
-    {}
+    const Accessor children, orLevel;
+    const PyramidStep& step;
+    const CoordBBox& box; ///< of the OR level: with dim = 2 its planes are all there is
 
     /// Keeps those on voxels of @a leaf on for which the function is true.
     void decide(LeafNode& leaf, const std::function<bool(const ChildBlock&)>& isOn) const
     {
         ChildBlock block;
-        block.mStep = &mStep;
-        block.mChildren = &mChildren;
-        block.mOr = &mOr;
+        block.mStep = &step;
+        block.mChildren = &children;
+        block.mOr = &orLevel;
         LeafNode::NodeMaskType decided;
         for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel) {
             const Coord ijk = voxel.getCoord();
-            const int f = mStep.factor;
-            if (mStep.dim == 2 && (ijk[2] < mBox.min()[2] || ijk[2] > mBox.max()[2])) continue;
+            const int f = step.factor;
+            if (step.dim == 2 && (ijk[2] < box.min()[2] || ijk[2] > box.max()[2])) continue;
             block.mParent = ijk;
             block.mFirst =
-                mStep.origin + Coord(f * ijk[0], f * ijk[1], mStep.dim == 2 ? ijk[2] : f * ijk[2]);
+                step.origin + Coord(f * ijk[0], f * ijk[1], step.dim == 2 ? ijk[2] : f * ijk[2]);
             if (isOn(block)) decided.setOn(voxel.pos());
         }
         leaf.setValueMask(decided);
     }
-
-private:
-    const PyramidStep& mStep;
-    Accessor mChildren, mOr;
-    const CoordBBox& mBox; ///< of the OR level: with dim = 2 its planes are all there is
 };
 
 PyramidModel blockModel(std::function<bool(const ChildBlock&)> isOn, NullInterrupter* interrupter)
@@ -145,7 +139,7 @@ PyramidModel blockModel(std::function<bool(const ChildBlock&)> isOn, NullInterru
         std::vector<LeafNode*> leaves;
         candidates->getNodes(leaves);
         detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
-            BlockEvaluator(level, *orLevel, step, box).decide(*leaves[i], isOn);
+            BlockEvaluator{Accessor(level), Accessor(*orLevel), step, box}.decide(*leaves[i], isOn);
         });
         candidates->topologyUnion(tiles);
         openvdb::tools::prune(*candidates);

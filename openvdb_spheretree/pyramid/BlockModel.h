@@ -9,13 +9,11 @@
 ///         return block.any() || (block.any(-1, 0, 0) && block.any(1, 0, 0));
 ///     });
 ///
-/// The function sees the blocks around its own as well, since an including model of one block alone
-/// could only be OR: it must be on where a child is on, and is not called where none is.
-///
-/// Levels stay sparse: the function is called only for parent voxels of which a child, or a child of
-/// one of the 3^dim - 1 blocks around, is on. All other voxels stay off. It is not called within
-/// tiles of the OR model's level (8^3 voxels or more, all on): these voxels have to be on.
-/// Cost: a call for every other such voxel, in parallel. Tests: TestBlockModel.cc.
+/// The function sees the blocks around its own as well: an including model of one block alone could
+/// only be OR. Levels stay sparse: the function is called only for parent voxels of which a child,
+/// or a child of one of the 3^dim - 1 blocks around, is on; all others stay off. Tiles of the OR
+/// model's level (8^3 voxels or more) have to be on, and are without a call. Cost: a call for every
+/// other such voxel, in parallel. Tests: TestBlockModel.cc.
 
 #pragma once
 

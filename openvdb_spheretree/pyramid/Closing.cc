@@ -93,10 +93,10 @@ MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrup
     return result;
 }
 
-/// Off voxels at most @a radius away from an on one. Off voxels far from the set are not looked at:
-/// to the distance transform of a band of off voxels, what lies behind the band is on like the
-/// set. The band is twice as wide as the cubes that can be near the set, so voxels of these cubes
-/// are farther than the radius from what lies behind.
+/// Off voxels at most @a radius away from an on one, by the distance transform of a band of off
+/// voxels. To it, what lies behind the band is on like the set. The band is twice as wide as the
+/// cubes that can be near the set, so voxels of these cubes are farther than the radius from what
+/// lies behind.
 MaskTree::Ptr nearSet(const MaskTree& set, int radius, int dim, NullInterrupter* interrupter)
 {
     CoordBBox box;

@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafCoarsener.h"
 
-#include <openvdb_spheretree/base/FloorDiv.h>
+#include <openvdb_spheretree/voxel/LeafPlanes.h>
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
-
-namespace {
-
-constexpr uint64_t kRows = 0x0101010101010101ull; ///< one bit a row; times a byte: it in every row
-
-/// Moves the bits of every row by @a places; what leaves its row is lost.
-uint64_t shiftRows(uint64_t word, int places)
-{
-    if (places >= 0) return (word & (0xffu >> places) * kRows) << places;
-    return (word >> -places) & (0xffu >> -places) * kRows;
-}
-
-} // namespace
+namespace openvdb_spheretree::detail {
 
 LeafCoarsener::LeafCoarsener(const PyramidStep& step)
 {
@@ -70,7 +56,7 @@ uint64_t LeafCoarsener::foldRows(uint64_t word, const Fall& y, const Fall& z) co
         if (to < 0 || to > 7) continue;
         result |= uint64_t(mRows[z.taken][word >> 8 * row & 0xff]) << 8 * to;
     }
-    return shiftRows(result, z.base);
+    return movedPlane(result, 0, z.base); // -7 to 7: some parent of the row is here
 }
 
 void LeafCoarsener::add(const LeafMask& leaf, const openvdb::Coord& origin,
@@ -89,5 +75,4 @@ void LeafCoarsener::add(const LeafMask& leaf, const openvdb::Coord& origin,
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -5,22 +5,23 @@
 /// A parent's coordinate along an axis depends on its child's along that axis only, so the 512 bits
 /// are folded one axis at a time. Along x, words of equal parent are ORed. Along y, rows of eight
 /// bits move to their parent's row. Along z, the bits of a row come from a table of 256 entries.
-/// Along an axis that takes no part (z with dim = 2) the factor is 1, and the same code copies.
-///
-/// Which of the eight coordinates of a leaf share a parent depends only on how many of them the
-/// first parent takes: 1 to 8. So eight tables an axis suffice, whatever factor and origin are.
+/// With dim = 2 the factor along z is 1. Which of the eight coordinates of a leaf share a parent
+/// depends only on how many of them the first parent takes, 1 to 8: eight tables an axis suffice.
 
 #pragma once
 
 #include "PyramidModel.h"
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <array>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
+
+/// Division rounded down, also below zero.
+/// @param b  1 or more
+inline int floorDiv(int a, int b) { return a >= 0 ? a / b : -1 - (-1 - a) / b; }
 
 class LeafCoarsener {
 public:
@@ -54,5 +55,4 @@ private:
     std::array<std::array<uint8_t, 256>, 9> mRows{}; ///< `steps` of z for all bits of a row at once
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -4,7 +4,6 @@
 #include <openvdb_spheretree/voxel/ObjectVoxels.h>
 
 #include "LeafCoarsener.h"
-#include <openvdb_spheretree/base/FloorDiv.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
@@ -16,7 +15,6 @@
 
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <memory>
 
 namespace openvdb_spheretree {
@@ -113,21 +111,6 @@ Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const 
     return parts;
 }
 
-/// The leaf that a group of parts of the same parent makes.
-std::unique_ptr<LeafNode> joinParts(
-    const LeafPart* begin, const LeafPart* end, const LeafCoarsener& coarsener)
-{
-    LeafMask joined{};
-    for (const LeafPart* part = begin; part != end; ++part) {
-        const LeafNode* const node = part->node;
-        const LeafMask mask = node ? LeafMask::from(node->getValueMask()) : LeafMask::full();
-        coarsener.add(mask, part->origin, part->parent, joined);
-    }
-    auto leaf = std::make_unique<LeafNode>(begin->parent, false);
-    joined.copyTo(leaf->getValueMask());
-    return leaf;
-}
-
 void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, MaskTree& result,
     NullInterrupter* interrupter)
 {
@@ -140,7 +123,14 @@ void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, Ma
     begins.push_back(parts.size());
     std::vector<std::unique_ptr<LeafNode>> leaves(begins.size() - 1);
     detail::parallelFor(leaves.size(), interrupter, [&](std::size_t i) {
-        leaves[i] = joinParts(&parts[begins[i]], parts.data() + begins[i + 1], coarsener);
+        LeafMask joined{};
+        for (std::size_t k = begins[i]; k < begins[i + 1]; ++k) {
+            const LeafNode* const node = parts[k].node;
+            const LeafMask mask = node ? LeafMask::from(node->getValueMask()) : LeafMask::full();
+            coarsener.add(mask, parts[k].origin, parts[k].parent, joined);
+        }
+        leaves[i] = std::make_unique<LeafNode>(parts[begins[i]].parent, false);
+        joined.copyTo(leaves[i]->getValueMask());
     });
     for (auto& leaf : leaves) {
         if (leaf->isDense()) result.addTile(1, leaf->origin(), true, true);
@@ -173,10 +163,10 @@ void joinTiles(std::vector<TilePart>& tiles, MaskTree& result, NullInterrupter* 
 /// @throw openvdb::ValueError unless @a result has every voxel of the OR model and, with dim = 2,
 ///        is no thicker than it.
 void requireIncluding(
-    const MaskTree& level, const MaskTree& result, const PyramidStep& step, NullInterrupter* i)
+    const MaskTree& level, const MaskTree& result, const PyramidStep& step, NullInterrupter* stop)
 {
-    const MaskTree::Ptr needed = coarsen(level, step, i);
-    const detail::MaskDifference lost = detail::maskDifference(*needed, result, i);
+    const MaskTree::Ptr needed = coarsen(level, step, stop);
+    const detail::MaskDifference lost = detail::maskDifference(*needed, result, stop);
     if (lost.voxels > 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "the pyramid model is not including: it leaves out "

@@ -13,10 +13,9 @@
 /// 2. `joinLeaves`: these by parent leaf, in parallel, on mask words (LeafCoarsener.h);
 /// 3. `joinTiles`: larger tiles as boxes; a cube that tiles of its size fill is a tile again.
 ///
-/// Other *including* models (a parent of an on voxel is always on) plug in as a function; this is
-/// verified at every level. Exact. Cost: linear in leaves and tiles, whatever the bounding box; no
-/// voxel and no tile is looked at by itself. Source: Broutta et al. 2009, section 2.3. Tests:
-/// TestOrPyramid.cc, TestPyramidFactors.cc.
+/// Other models plug in as a function (PyramidModel.h). Exact. Cost: linear in leaves and tiles,
+/// whatever the bounding box. Source: Broutta et al. 2009, section 2.3. Tests: TestOrPyramid.cc,
+/// TestPyramidFactors.cc.
 
 #pragma once
 

@@ -15,8 +15,7 @@
 #include <cstring>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// Leaves of a run along x with their keys, one behind the other. Those in [first, last) get their
 /// labels.
@@ -85,5 +84,4 @@ private:
     detail::EnvelopeScratch mEnvelope;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

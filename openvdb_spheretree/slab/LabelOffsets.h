@@ -10,8 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Offsets along one axis, 512 a leaf; one of the arrays is null, both if the axis takes no part.
 struct AxisOffsets {
@@ -21,23 +20,13 @@ struct AxisOffsets {
     bool empty() const { return !narrow && !wide; }
     /// Makes room for @a size offsets. @return where they go.
     template <typename Offset>
-    Offset* make(std::size_t size);
+    Offset* make(std::size_t size)
+    {
+        if constexpr (sizeof(Offset) == 1) return (narrow = makeLargeArray<int8_t>(size)).get();
+        else return (wide = makeLargeArray<int16_t>(size)).get();
+    }
 };
-
-template <>
-inline int8_t* AxisOffsets::make<int8_t>(std::size_t size)
-{
-    narrow = makeLargeArray<int8_t>(size);
-    return narrow.get();
-}
-template <>
-inline int16_t* AxisOffsets::make<int16_t>(std::size_t size)
-{
-    wide = makeLargeArray<int16_t>(size);
-    return wide.get();
-}
 
 using LabelOffsets = std::array<AxisOffsets, 3>; ///< along x, y, z
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

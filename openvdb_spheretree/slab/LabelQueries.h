@@ -7,9 +7,8 @@
 /// 3. When the slab of that leaf is finished, it moves along y and z to the center of its ball.
 ///
 /// Step 2 stays in a run along x, so threads that work on different runs do not meet. A list is a
-/// chain of numbers of queries, and a query is in one list at a time.
-///
-/// Cost: 8 bytes a leaf, if there are queries, and 4 a query.
+/// chain of numbers of queries; a query is in one list at a time. Cost: 8 bytes a leaf, if there
+/// are queries, and 4 a query.
 
 #pragma once
 
@@ -23,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The leaf of a voxel that is off.
 constexpr uint32_t kNoLeaf = UINT32_MAX;
@@ -86,5 +84,4 @@ private:
     std::vector<uint32_t> mNext;   ///< of each query, in its list
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -9,10 +9,7 @@
 
 #include <tbb/task_arena.h>
 
-#include <utility>
-
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 using detail::NarrowPower;
 using detail::WidePower;
@@ -87,5 +84,4 @@ LevelBalls LabelStream::run(NullInterrupter* interrupter)
                             : runWith<WidePower, uint32_t>(plan, interrupter);
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -2,20 +2,19 @@
 /// @file LabelStream.h
 /// @brief From voxels to power labels and medial balls, slab by slab, within a bound on memory.
 ///
-/// Distances, and the passes of the labels along z and y, stay within a slab. The pass along x needs
-/// all slabs that a ball may reach over. In most objects these are a few: a window of slabs is in
-/// memory (WindowStream.h). Where they are too many, labels wait compressed, in memory or in a
-/// temporary file (PackedStream.h). What is done to slabs and columns is the same (StreamWork.h).
-///
-/// The result does not depend on the memory, nor on threads.
+/// Distances, and the passes of the labels along z and y, stay within a slab. The pass along x
+/// needs all slabs that a ball may reach. If these are few, as in most objects, a window of slabs
+/// is in memory (WindowStream.h). If they are too many, labels wait compressed, in memory or in a
+/// temporary file (PackedStream.h). The result does not depend on the memory, nor on threads.
 
 #pragma once
 
-#include "LabelQueries.h"
 #include "LabelOffsets.h"
-#include "LevelBalls.h"
+#include "LabelQueries.h"
 #include "StreamPlan.h"
+#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/voxel/VoxelRef.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -24,8 +23,14 @@
 #include <optional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
+
+/// The medial balls of a level.
+struct LevelBalls {
+    std::vector<MedialBall> balls; ///< ordered by center
+    std::vector<LeafMask> centers; ///< of the balls, a mask for each leaf
+    StageSeconds seconds;          ///< of distances, power labels and balls
+};
 
 class LabelStream {
 public:
@@ -67,5 +72,4 @@ private:
     int64_t mMemory = 0;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 namespace {
 
@@ -33,9 +32,9 @@ uint64_t boundByRuns(const LeafLayout& layout, int dim)
             }
         }
     }
-    uint64_t most = 0;
-    for (const uint32_t leaves : shortest) most = std::max<uint64_t>(most, leaves);
-    const uint64_t farthest = (most * kLeafDim + 1) / 2;
+    const auto most = std::max_element(shortest.begin(), shortest.end());
+    const uint64_t leaves = most == shortest.end() ? 0 : *most;
+    const uint64_t farthest = (leaves * kLeafDim + 1) / 2;
     return farthest * farthest;
 }
 
@@ -56,8 +55,8 @@ uint32_t largest(const LeafLayout& layout, int dim, uint32_t threads, NullInterr
     return ofSlab.empty() ? 0 : *std::max_element(ofSlab.begin(), ofSlab.end());
 }
 
-/// A leaf that is not there has nothing but background: eight times as far as the nearest such place
-/// is among leaves, there is a voxel of it.
+/// A place without a leaf has nothing but background. If the nearest one is d leaves away,
+/// background is no more than 8 d voxels away.
 uint64_t boundByLeaves(
     const LeafLayout& layout, int dim, uint32_t threads, NullInterrupter* interrupter)
 {
@@ -82,7 +81,13 @@ uint32_t largestDistSq(
     const uint32_t narrow = largest<uint16_t>(layout, dim, threads, interrupter);
     if (narrow < detail::kNarrowMax) return narrow;
     const uint32_t wide = largest<uint32_t>(layout, dim, threads, interrupter);
-    if (wide < detail::kWideMax) return wide;
+    requireWide(wide);
+    return wide;
+}
+
+void requireWide(uint32_t distSq)
+{
+    if (distSq < detail::kWideMax) return;
     OPENVDB_THROW(openvdb::ValueError,
         "the object holds a ball of 46340 voxels radius or more, whose "
         "square does not fit 32 bits: use a larger voxel");
@@ -96,5 +101,4 @@ void requireRadius(uint32_t distSq)
         "beyond what power labels hold: use a larger voxel");
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

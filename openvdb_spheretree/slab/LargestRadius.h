@@ -10,19 +10,21 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
-/// @return a number that no squared distance of the level exceeds. The lengths of runs bound it, and
-///         the distances among leaves. Only where both bounds are beyond what narrow labels hold, it
-///         is the largest distance itself, by a distance transform of which nothing is kept.
+/// @return a number that no squared distance of the level exceeds: a bound by the lengths of runs,
+///         or one by the distances among leaves. If narrow labels hold neither, it is the largest
+///         squared distance itself, by a distance transform of which nothing is kept.
 /// @param threads  at most, each with memory for the distances of a slab
 /// @throw openvdb::ValueError if a radius is 46340 voxels or more
 uint32_t largestDistSq(const LeafLayout& layout, int dim, uint32_t threads,
     openvdb::util::NullInterrupter* interrupter);
 
+/// @param distSq  the largest squared distance of a transform in 32 bits
+/// @throw openvdb::ValueError if they do not hold it
+void requireWide(uint32_t distSq);
+
 /// @throw openvdb::ValueError if power labels do not hold a ball of that size
 void requireRadius(uint32_t distSq);
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

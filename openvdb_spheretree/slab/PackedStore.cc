@@ -7,8 +7,7 @@
 
 #include <cstring>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 void PackedStore::put(
     std::size_t array, const void* data, std::size_t bytes, int typeSize, Bytes& scratch)
@@ -25,10 +24,11 @@ void PackedStore::put(
     }
     Array& own = mArrays[array];
     own.size = uint32_t(size);
-    if (takesRoom(size)) {
+    if (mInMemory.fetch_add(size) + size <= mMemory) {
         own.data = std::unique_ptr<unsigned char[]>(new unsigned char[own.size]);
         std::memcpy(own.data.get(), scratch.data(), own.size);
     } else {
+        mInMemory -= size;
         own.place = file(own.size).append(scratch.data(), own.size);
     }
     ++mCount;
@@ -50,16 +50,9 @@ void PackedStore::get(std::size_t array, void* data, std::size_t bytes, Bytes& s
     }
 }
 
-/// @return whether an array may stay in memory, where it is then counted.
-bool PackedStore::takesRoom(int64_t bytes)
-{
-    if (mInMemory.fetch_add(bytes) + bytes <= mMemory) return true;
-    mInMemory -= bytes;
-    return false;
-}
-
-/// @return the file, for an array of @a size bytes. When the first one goes there, the arrays so far
-/// tell how large the file will become.
+/// @return the file, for an array of @a size bytes. When the first one goes there, the arrays so
+///         far
+/// tell about how large the file will become.
 SpillFile& PackedStore::file(std::size_t size)
 {
     const std::lock_guard<std::mutex> lock(mFileMutex);
@@ -72,5 +65,4 @@ SpillFile& PackedStore::file(std::size_t size)
     return *mFile;
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -15,8 +15,7 @@
 #include <mutex>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 class PackedStore {
 public:
@@ -49,7 +48,6 @@ private:
         int64_t place = 0; ///< in the file
     };
 
-    bool takesRoom(int64_t bytes);
     SpillFile& file(std::size_t size);
 
     std::vector<Array> mArrays;
@@ -61,5 +59,4 @@ private:
     bool mHasRoom = false;            ///< the file has, as far as that is known
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -2,29 +2,80 @@
 /// @file PackedStream.h
 /// @brief A stream of labels that has few slabs in memory at a time, and all others compressed.
 ///
-/// For objects with balls so large that most slabs wait for others. It has three phases:
+/// For objects with balls so large that most slabs wait for others. A group of leaves is unpacked
+/// twice at most:
 ///
-/// 1. *enter*: slab by slab, the labels along z and y, which are then packed (PackedLabels.h) in
-///    groups of leaves (StreamPlan.h) and stored (PackedStore.h);
+/// 1. *enter*: slab by slab, the labels along z and y, which are packed in groups of leaves
+///    (StreamPlan.h) and stored (PackedStore.h);
 /// 2. *along x*: band by band, the keys of all its groups, then the columns of its runs;
-/// 3. *finish*: slab by slab, the groups to which a label leads, for the medial balls and the queries.
-///
-/// So a group of leaves is unpacked twice at most.
+/// 3. *finish*: slab by slab, the groups to which a label leads, for medial balls and queries.
 
 #pragma once
 
 #include "PackedStore.h"
-#include "PackedLabels.h"
 #include "StreamPlan.h"
 #include "StreamWork.h"
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/kernel/MaxPlus.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
+
+/// A label in a form that compresses well.
+///
+/// After the passes along z and y, a voxel's value is the site's radiusSq less the squares of the
+/// offsets to it along y and z. So the key is not packed. In the power cell of a ball radiusSq is
+/// constant, and offsets fall by one from voxel to voxel, which compresses well. The offset along z
+/// is that of the voxel that dy leads to (SlabLabels::dzFollowsDy), so that a leaf is unpacked
+/// without the others of its slab.
+template <typename Power>
+struct PackedLabel {
+    std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t> siteSq;
+    typename Power::Offset dy, dz;
+};
+
+/// @param packed  receives 512
+template <typename Power>
+void packLeaf(const LeafLayout& layout, uint32_t leaf, const SlabLabels<Power>& labels,
+    PackedLabel<Power>* packed)
+{
+    const auto* keys = labels.keysOf(leaf);
+    const auto* dy = labels.dyOf(leaf);
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+        packed[k].siteSq = detail::siteSqOf<Power>(keys[k]);
+        packed[k].dy = dy[k];
+        const VoxelRef voxel{leaf, k};
+        const VoxelRef there = moved(layout, Axis::Y, voxel, dy[k]);
+        packed[k].dz = typename Power::Offset(labels.dzAfter(voxel, there));
+    }
+}
+
+/// @param keys  receives 512
+template <typename Power>
+void unpackKeys(const PackedLabel<Power>* packed, typename Power::Key* keys)
+{
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) {
+        const uint32_t siteSq = packed[k].siteSq;
+        const auto below = uint32_t(packed[k].dy * packed[k].dy + packed[k].dz * packed[k].dz);
+        keys[k] = detail::powerKey<Power>(siteSq - below, siteSq);
+    }
+}
+
+/// @param labels  receive those of a leaf; with dzFollowsDy
+template <typename Power>
+void unpackLeaf(const PackedLabel<Power>* packed, uint32_t leaf, const SlabLabels<Power>& labels)
+{
+    unpackKeys<Power>(packed, labels.keysOf(leaf));
+    auto* dy = labels.dyOf(leaf);
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) dy[k] = packed[k].dy;
+    if (!labels.dz) return;
+    auto* dz = labels.dzOf(leaf);
+    for (uint32_t k = 0; k < kLeafVoxels; ++k) dz[k] = packed[k].dz;
+}
 
 template <typename Power, typename T>
 class PackedStream {
@@ -124,10 +175,16 @@ private:
             "power labels along x", mWork.interrupter, &mWork.seconds().power);
         for (std::size_t band = 0; band + 1 < mCut.firstOfBand.size(); ++band) {
             unpackBand(mCut.firstOfBand[band], mCut.firstOfBand[band + 1]);
-            const uint32_t run = mCut.firstRunOfBand[band];
-            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - run,
+            const uint32_t first = mCut.firstRunOfBand[band];
+            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - first,
                 mWork.interrupter, [&](std::size_t i, ColumnScratch& scratch) {
-                    openColumn(run + uint32_t(i), scratch.column);
+                    const uint32_t index = first + uint32_t(i), slab = mWork.firstSlab(index);
+                    const LeafLayout::Run run = mLayout.run(Axis::X, index);
+                    scratch.column.clear();
+                    for (uint32_t k = 0; k < run.count; ++k) {
+                        scratch.column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
+                    }
+                    scratch.column.last = run.count;
                     mWork.labelColumn(scratch.column, scratch.power);
                 });
         }
@@ -143,7 +200,11 @@ private:
             mKeysOf[group.slab] = leaves - group.begin; // those of a slab are neighbours
             leaves += group.end - group.begin;
         }
-        makeRoom(leaves);
+        if (leaves > mRoom) {
+            mKeys.reset(); // before there is more
+            mKeys = detail::makeLargeArray<Key>(std::size_t(leaves) * kLeafVoxels);
+            mRoom = leaves;
+        }
         std::vector<GroupScratch> scratches(mPlan.slabs);
         detail::parallelForWithSlots(
             end - first, mPlan.slabs, mWork.interrupter, [&](std::size_t i, std::size_t slot) {
@@ -156,27 +217,9 @@ private:
             });
     }
 
-    void makeRoom(int64_t leaves)
-    {
-        if (leaves <= mRoom) return;
-        mKeys.reset(); // before there is more
-        mKeys = detail::makeLargeArray<Key>(std::size_t(leaves) * kLeafVoxels);
-        mRoom = leaves;
-    }
     Key* keysOf(uint32_t slab, uint32_t leaf) const
     {
         return mKeys.get() + std::ptrdiff_t(mKeysOf[slab] + leaf) * kLeafVoxels;
-    }
-
-    void openColumn(uint32_t i, Column<Power>& column) const
-    {
-        const LeafLayout::Run run = mLayout.run(Axis::X, i);
-        const uint32_t slab = mWork.firstSlab(i);
-        column.clear();
-        for (uint32_t k = 0; k < run.count; ++k) {
-            column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
-        }
-        column.last = run.count;
     }
 
     void finishAll()
@@ -188,27 +231,17 @@ private:
             auto labels = scratch.memory.open(mLayout.slab(slab), mWork.dim, {});
             labels.dzFollowsDy = true;
             for (const uint32_t index : mCut.ofSlab[slab]) {
-                if (!hasMarks(mCut.groups[index])) continue;
+                const LeafGroup& group = mCut.groups[index];
+                uint32_t leaf = group.begin;
+                while (leaf < group.end && !mWork.hasMarks(leaf)) ++leaf;
+                if (leaf == group.end) continue;
                 unpack(index, scratch.group);
-                unpackLeaves(mCut.groups[index], labels, scratch.group);
+                for (leaf = group.begin; leaf < group.end; ++leaf) {
+                    unpackLeaf<Power>(placeOf(leaf, group, scratch.group), leaf, labels);
+                }
             }
             mWork.finish(slab, labels, scratch.balls);
         });
-    }
-
-    bool hasMarks(const LeafGroup& group) const
-    {
-        uint32_t leaf = group.begin;
-        while (leaf < group.end && !mWork.hasMarks(leaf)) ++leaf;
-        return leaf < group.end;
-    }
-
-    static void unpackLeaves(
-        const LeafGroup& group, const SlabLabels<Power>& labels, GroupScratch& scratch)
-    {
-        for (uint32_t leaf = group.begin; leaf < group.end; ++leaf) {
-            unpackLeaf<Power>(placeOf(leaf, group, scratch), leaf, labels);
-        }
     }
 
     Work& mWork;
@@ -221,5 +254,4 @@ private:
     std::vector<int64_t> mKeysOf;  ///< of a slab: where the keys of leaf 0 would be
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -2,16 +2,14 @@
 /// @file SlabBalls.h
 /// @brief The medial balls of a slab, once all labels that lead to it are known along x.
 ///
-/// A label leads from a voxel along x to a voxel of the slab, from there along y, and from there
-/// along z to the center of its ball. The voxel that it reaches along x has the ball's radiusSq in
-/// its key. The radius is carried along: a center need not be its own label, so the center's key may
-/// hold the radius of another ball.
+/// A label leads from a voxel along x to a voxel of the slab, from there along y, then along z to
+/// the center of its ball. The voxel that it reaches along x has the ball's radiusSq in its key,
+/// and it is carried along: a center need not be its own label, so its key may hold another ball's
+/// radius.
 ///
 /// 1. Marks are where labels lead to along x. All of them are followed along y, with their radii.
-/// 2. Their targets are followed along z. Many marks have become one target by then.
-///
-/// To follow each mark to its center, and find its radius by the center's rank, took three times as
-/// long (dragon-512).
+/// 2. Their targets are followed along z. Many marks have become one target by then. (To follow
+///    each mark to its center, and find its radius by the center's rank, took three times as long.)
 
 #pragma once
 
@@ -30,8 +28,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// Memory of one thread, for one slab after the other.
 template <typename Power>
@@ -89,7 +86,8 @@ private:
         LeafMask* targets; ///< receives where they lead
     };
 
-    /// The radius in a voxel's key. The slab wrote its keys past the caches, so they are prefetched.
+    /// The radius in a voxel's key. The slab wrote its keys past the caches, so they are
+    /// prefetched.
     struct RadiusInKey {
         const Labels& labels;
 
@@ -126,8 +124,8 @@ private:
         void prefetch(uint32_t, const LeafMask&) const {}
     };
 
-    /// Marks the targets of a pass, and carries a value along. Voxels with the same target have the
-    /// same value: the radius, as they belong to one ball, or the offset that follows.
+    /// Marks the targets of a pass, and carries a value along: the radius, or the offset that
+    /// follows. Voxels with the same target have the same value, as they belong to one ball.
     /// @param valueOf  of a marked voxel: RadiusInKey or ValueOfVoxel
     /// @return the values at the targets, 512 a leaf, elsewhere undefined; they are in @a memory.
     template <typename Value, typename ValueOf>
@@ -176,5 +174,4 @@ private:
     std::vector<Offset> mDzOfTargets;             ///< the same, where dz follows dy
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -2,9 +2,8 @@
 /// @file SlabDistance.h
 /// @brief The exact distances of one slab, while its values are in the cache.
 ///
-/// Squares along x come straight from mask words (XGaps.h) into rows along y; the passes along y
-/// and z then work on rows of 64 lanes (MinPlus.h), the voxels of each leaf transposed in
-/// between.
+/// Squares along x come straight from mask words (XGaps.h) into rows along y. The passes along y
+/// and z work on rows of 64 lanes (MinPlus.h), with each leaf transposed in between.
 
 #pragma once
 
@@ -18,8 +17,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// The type of the gaps whose squares are T.
 template <typename T>
@@ -37,19 +35,24 @@ public:
         const Visit& visit)
     {
         if (dim == 3) mAlongZ.open(layout, slab, Axis::Z);
-        forEachAlongY(layout, slab, gaps, [&](const LeafLayout::Run& run, const T* rows) {
-            if (dim == 2) {
-                visit(run, rows);
-                return;
-            }
+        const LeafLayout::Slab alongY = layout.runsOfSlab(Axis::Y, slab);
+        for (uint32_t index = alongY.begin; index < alongY.end; ++index) {
+            const LeafLayout::Run run = layout.run(Axis::Y, index);
+            const int rows = int(run.count) * kLeafDim;
+            T* in = mIn.rows(rows, 1);
+            T* out = mOut.rows(rows);
             for (uint32_t i = 0; i < run.count; ++i) {
-                detail::swapRows(
-                    rows + std::size_t(i) * kLeafVoxels, mAlongZ.ofLeaf(run.leaves[i]));
+                gaps.squares(run.leaves[i], in + std::size_t(i) * kLeafVoxels);
             }
-        });
+            detail::minPlus(in, out, rows, mEnvelope);
+            if (dim == 2) visit(run, out);
+            for (uint32_t i = 0; dim == 3 && i < run.count; ++i) {
+                detail::swapRows(out + std::size_t(i) * kLeafVoxels, mAlongZ.ofLeaf(run.leaves[i]));
+            }
+        }
         if (dim == 2) return;
-        const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Z, slab);
-        for (uint32_t index = runs.begin; index < runs.end; ++index) {
+        const LeafLayout::Slab alongZ = layout.runsOfSlab(Axis::Z, slab);
+        for (uint32_t index = alongZ.begin; index < alongZ.end; ++index) {
             const LeafLayout::Run run = layout.run(Axis::Z, index);
             const int rows = int(run.count) * kLeafDim;
             T* out = mOut.rows(rows);
@@ -59,28 +62,9 @@ public:
     }
 
 private:
-    template <typename Visit>
-    void forEachAlongY(
-        const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, const Visit& visit)
-    {
-        const LeafLayout::Slab runs = layout.runsOfSlab(Axis::Y, slab);
-        for (uint32_t index = runs.begin; index < runs.end; ++index) {
-            const LeafLayout::Run run = layout.run(Axis::Y, index);
-            const int rows = int(run.count) * kLeafDim;
-            T* in = mIn.rows(rows, 1);
-            T* out = mOut.rows(rows);
-            for (uint32_t i = 0; i < run.count; ++i) {
-                gaps.squares(run.leaves[i], in + std::size_t(i) * kLeafVoxels);
-            }
-            detail::minPlus(in, out, rows, mEnvelope);
-            visit(run, out);
-        }
-    }
-
     SlabRows<T> mAlongZ;
     detail::RowBuffer<T> mIn, mOut;
     detail::EnvelopeScratch mEnvelope;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -12,8 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// Arrays that receive the offsets of all leaves along x, y and z, 512 a leaf; null if not kept.
 template <typename Power>
@@ -65,7 +64,15 @@ public:
     /// @return labels, undefined so far, of the slab that has the leaves @a range.
     SlabLabels<Power> open(LeafLayout::Slab range, int dim, const KeptOffsets<Power>& kept)
     {
-        if (mLeaves < range.size()) makeRoom(range.size(), kept[0] ? 0 : dim - 1);
+        if (mLeaves < range.size()) {
+            mLeaves = range.size();
+            const std::size_t size = std::size_t(mLeaves) * kLeafVoxels;
+            const auto axes = std::size_t(kept[0] ? 0 : dim - 1);
+            mKeys.reset(); // before there is more
+            mOffsets.reset();
+            mKeys = detail::makeLargeArray<typename Power::Key>(size);
+            if (axes) mOffsets = detail::makeLargeArray<Offset>(axes * size);
+        }
         SlabLabels<Power> labels;
         labels.firstLeaf = range.begin;
         labels.keys = mKeys.get();
@@ -78,20 +85,9 @@ public:
     }
 
 private:
-    void makeRoom(uint32_t leaves, int offsets)
-    {
-        const std::size_t size = std::size_t(leaves) * kLeafVoxels;
-        mKeys.reset(); // before there is more
-        mOffsets.reset();
-        mKeys = detail::makeLargeArray<typename Power::Key>(size);
-        if (offsets) mOffsets = detail::makeLargeArray<Offset>(size * std::size_t(offsets));
-        mLeaves = leaves;
-    }
-
     uint32_t mLeaves = 0;
     detail::LargeArray<typename Power::Key> mKeys;
     detail::LargeArray<Offset> mOffsets;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

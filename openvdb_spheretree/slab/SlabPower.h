@@ -18,11 +18,10 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
-/// Memory of one thread, for one slab after the other. Calls: open(), alongZ() for each run along z,
-/// alongY(). In two dimensions: open(), fromY() for each run along y.
+/// Memory of one thread, for one slab after the other. Calls: open(), alongZ() for each run along
+/// z, alongY(). In two dimensions: open(), fromY() for each run along y.
 template <typename Power>
 class SlabPower {
     using Key = typename Power::Key;
@@ -106,5 +105,4 @@ private:
     detail::EnvelopeScratch mEnvelope;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

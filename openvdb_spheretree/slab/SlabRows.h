@@ -12,8 +12,7 @@
 #include <cstring>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 template <typename T>
 class SlabRows {
@@ -52,5 +51,4 @@ private:
     std::vector<uint32_t> mLeafRow, mRunRow;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

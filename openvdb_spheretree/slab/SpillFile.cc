@@ -13,23 +13,18 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 namespace {
-
-std::string temporaryFolder()
-{
-    const char* folder = std::getenv("TMPDIR");
-    return folder && *folder ? folder : "/tmp";
-}
 
 std::string whyNot(int error) { return std::generic_category().message(error); }
 
 } // namespace
 
-SpillFile::SpillFile() : mFolder(temporaryFolder())
+SpillFile::SpillFile()
 {
+    const char* folder = std::getenv("TMPDIR");
+    mFolder = folder && *folder ? folder : "/tmp";
     std::string name = mFolder + "/spheretree.XXXXXX";
     mFile = mkostemp(name.data(), O_CLOEXEC);
     if (mFile < 0) fail("cannot be made: " + whyNot(errno));
@@ -86,5 +81,4 @@ void SpillFile::fail(const std::string& what) const
                                      "more memory=");
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

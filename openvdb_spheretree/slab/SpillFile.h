@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 class SpillFile {
 public:
@@ -45,5 +44,4 @@ private:
     std::atomic<int64_t> mSize{0};
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

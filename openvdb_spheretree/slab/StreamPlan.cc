@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 namespace {
 
@@ -20,17 +19,8 @@ int64_t largestSlab(const LeafLayout& layout)
     return most;
 }
 
-int64_t longestRun(const LeafLayout& layout)
-{
-    int64_t most = 0;
-    for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
-        most = std::max<int64_t>(most, layout.run(Axis::X, run).count);
-    }
-    return most;
-}
-
-/// More slabs at a time are no faster: memory that is used again is at hand, fresh pages take
-/// longer than the passes (gyroid of 10^8 voxels: 26 Mvoxel/s with all slabs at once, 38 with few).
+/// More slabs at a time are no faster: fresh pages take longer than memory that is used again
+/// (gyroid of 10^8 voxels: 26 Mvoxel/s with all slabs at once, 38 with few).
 uint32_t usefulWindow(const LeafLayout& layout, uint32_t threads)
 {
     constexpr uint32_t kLeaves = 8192, kSlabsOfThread = 4;
@@ -39,20 +29,19 @@ uint32_t usefulWindow(const LeafLayout& layout, uint32_t threads)
     return std::min(slabs, std::max(kSlabsOfThread * threads, kLeaves / leavesOfSlab));
 }
 
-/// What a thread takes that packs a group of leaves, and its compressed form.
-int64_t bufferBytes(const LeafLayout& layout, const StreamMemory& memory)
-{
-    return 2 * memory.packed * std::min<int64_t>(largestSlab(layout), kGroupLeaves);
-}
-
 /// Beside what each thread works on, compressed labels take what there is. When all slabs have
 /// entered, the gaps along x and the threads' slabs make room for a band of keys.
 StreamPlan packedPlan(
     const LeafLayout& layout, const StreamMemory& memory, int64_t bytes, uint32_t threads)
 {
-    const int64_t slab = largestSlab(layout) * (memory.scratch + memory.labels);
-    const int64_t thread = slab + bufferBytes(layout, memory);
-    const int64_t leastBand = longestRun(layout) * memory.keys;
+    const int64_t leaves = largestSlab(layout), slab = leaves * (memory.scratch + memory.labels);
+    // A thread packs a group of leaves, and compresses it.
+    const int64_t thread = slab + 2 * memory.packed * std::min<int64_t>(leaves, kGroupLeaves);
+    int64_t longestRun = 0;
+    for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
+        longestRun = std::max<int64_t>(longestRun, layout.run(Axis::X, run).count);
+    }
+    const int64_t leastBand = longestRun * memory.keys;
     const int64_t needed = memory.fixed + thread + std::max(memory.gaps, leastBand);
     detail::requireAllowed(layout.leafCount(), needed, bytes);
     StreamPlan plan;
@@ -77,11 +66,10 @@ int64_t windowBytes(
     const auto reach = uint64_t(detail::ceilSqrt(largestDistSq));
     const uint64_t open = window + 2 * (reach / kLeafDim + 2);
     const uint32_t slabs = layout.slabCount();
-    int64_t most = 0;
+    int64_t most = 0; // leaves
     for (uint32_t first = 0; first < slabs; ++first) {
         const auto end = uint32_t(std::min<uint64_t>(slabs, first + open));
-        const int64_t leaves = layout.slab(end - 1).end - layout.slab(first).begin;
-        most = std::max(most, leaves);
+        most = std::max<int64_t>(most, layout.slab(end - 1).end - layout.slab(first).begin);
     }
     return most * memory.labels;
 }
@@ -135,5 +123,4 @@ LeafGroups::LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandB
     firstOfBand.push_back(uint32_t(groups.size()));
 }
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// What a stream takes, in bytes.
 struct StreamMemory {
@@ -56,8 +55,8 @@ struct LeafGroup {
 /// @brief How slabs are cut into groups of leaves.
 ///
 /// A *band* is a range of runs along x in the order of y, then z. Leaves of a slab have the same
-/// order, so those of a band are a range too. It is cut into groups, and the runs of a band need the
-/// groups of the band and no others.
+/// order, so those of a band are a range too. It is cut into groups, and the runs of a band need
+/// the groups of the band and no others.
 struct LeafGroups {
     /// @param bandBytes  of keys that a band may have; a single run may have more
     LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes);
@@ -68,5 +67,4 @@ struct LeafGroups {
     std::vector<std::vector<uint32_t>> ofSlab; ///< the groups of each slab
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -6,15 +6,18 @@
 
 #include "ColumnPower.h"
 #include "LabelQueries.h"
-#include "LevelBalls.h"
+#include "LabelStream.h"
 #include "SlabBalls.h"
-#include "SlabEntry.h"
+#include "SlabDistance.h"
 #include "SlabLabels.h"
+#include "SlabPower.h"
+#include "XGaps.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/voxel/SlabOrder.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <cstring>
@@ -22,8 +25,38 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
+
+/// How a slab enters: its distances, and the passes of the power labels within it. Memory of one
+/// thread, for one slab after the other.
+template <typename Power, typename T>
+class SlabEntry {
+public:
+    /// @param labels  receives keys, and offsets along y and z
+    /// @return the largest squared distance.
+    uint32_t enter(const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, int dim,
+        const SlabLabels<Power>& labels)
+    {
+        const detail::Stage all("", nullptr, &seconds);
+        uint32_t largest = 0;
+        mPower.open(layout, slab, dim);
+        mDistance.forEachRun(
+            layout, slab, gaps, dim, [&](const LeafLayout::Run& run, const T* rows) {
+                const detail::Stage stage("", nullptr, &powerSeconds);
+                largest = std::max(largest,
+                    dim == 3 ? mPower.alongZ(run, rows, labels) : mPower.fromY(run, rows, labels));
+            });
+        const detail::Stage stage("", nullptr, &powerSeconds);
+        if (dim == 3) mPower.alongY(layout, slab, labels);
+        return largest;
+    }
+
+    double seconds = 0, powerSeconds = 0; ///< in all, and in the passes of power labels
+
+private:
+    SlabDistance<T> mDistance;
+    SlabPower<Power> mPower;
+};
 
 /// @tparam Power  of MaxPlus.h
 /// @tparam T      of squared distances
@@ -71,10 +104,26 @@ public:
         mRadii[slab] = balls.collect(layout, slab, labels, centers);
     }
 
-    /// @return the balls of all slabs.
+    /// @return the balls of all slabs: one list in the order of slabs.
     LevelBalls collected()
     {
-        detail::timed("medial balls", interrupter, &mResult.seconds.medial, [&] { placeBalls(); });
+        const auto placeBalls = [&] {
+            std::vector<std::size_t> first{0}; // of each slab
+            for (const Radii& radii : mRadii) first.push_back(first.back() + radii.size());
+            detail::resizeLarge(mResult.balls, first.back());
+            detail::parallelFor(mRadii.size(), interrupter, [&](std::size_t i) {
+                const auto slab = uint32_t(i);
+                const Radii radii = std::move(mRadii[slab]);
+                const LeafMask* centers = mResult.centers.data() + layout.slab(slab).begin;
+                MedialBall* balls = mResult.balls.data() + first[slab];
+                assert(radii.size() == detail::countMarks(centers, layout.slab(slab).size()));
+                detail::visitWithPlaces(
+                    layout, slab, centers, [&](uint32_t leaf, uint32_t index, std::size_t place) {
+                        balls[place] = {layout.voxel(leaf, index), int32_t(radii[place])};
+                    });
+            });
+        };
+        detail::timed("medial balls", interrupter, &mResult.seconds.medial, placeBalls);
         return std::move(mResult);
     }
 
@@ -82,10 +131,10 @@ public:
     bool hasMarks(uint32_t leaf) const { return !mResult.centers[leaf].none(); }
     /// @return the slab of the first leaf of a run along x.
     uint32_t firstSlab(uint32_t run) const { return mFirstSlab[run]; }
-    StreamSeconds& seconds() { return mResult.seconds; }
+    StageSeconds& seconds() { return mResult.seconds; }
 
-    /// Distances and power labels are made in turns. They share the time that @a passed in proportion to
-    /// what the threads measured.
+    /// Distances and power labels are made in turns. They share the time that @a passed, in
+    /// proportion to what the threads measured.
     template <typename Entries>
     void share(double passed, Entries& entries)
     {
@@ -108,24 +157,6 @@ private:
     using Gaps = XGaps<GapOf<T>>;
     using Radii = std::vector<typename SlabBalls<Power>::RadiusSq>;
 
-    /// Centers and radii of all slabs become balls, one list in the order of slabs.
-    void placeBalls()
-    {
-        std::vector<std::size_t> first{0}; // of each slab
-        for (const Radii& radii : mRadii) first.push_back(first.back() + radii.size());
-        detail::resizeLarge(mResult.balls, first.back());
-        detail::parallelFor(mRadii.size(), interrupter, [&](std::size_t slab) {
-            const Radii radii = std::move(mRadii[slab]);
-            const LeafMask* centers = mResult.centers.data() + layout.slab(uint32_t(slab)).begin;
-            MedialBall* balls = mResult.balls.data() + first[slab];
-            assert(radii.size() == detail::countMarks(centers, layout.slab(uint32_t(slab)).size()));
-            detail::visitWithPlaces(layout, uint32_t(slab), centers,
-                [&](uint32_t leaf, uint32_t index, std::size_t place) {
-                    balls[place] = {layout.voxel(leaf, index), int32_t(radii[place])};
-                });
-        });
-    }
-
     LabelQueries mQueries;
     std::unique_ptr<Gaps> mGaps;
     std::vector<uint32_t> mFirstSlab; ///< of each run along x
@@ -133,5 +164,4 @@ private:
     LevelBalls mResult; ///< its centers are targets along x until the slab is finished
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

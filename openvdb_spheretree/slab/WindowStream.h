@@ -4,8 +4,8 @@
 ///
 /// Slabs go through three states:
 ///
-/// 1. *entered*: distances and the passes along z and y (SlabEntry.h), many slabs in parallel; what
-///    stays are keys and offsets;
+/// 1. *entered*: distances and the passes along z and y (StreamWork.h), many slabs in parallel;
+///    what stays are keys and offsets;
 /// 2. *final*: no ball of a slab that has not entered reaches it. Then its labels are found by the
 ///    pass along x, run by run, over the slabs of the window (ColumnPower.h), and its queries move
 ///    to the slabs that the labels lead to (LabelQueries.h);
@@ -13,22 +13,72 @@
 ///    labels of its queries are known, and its memory goes to the next slab that enters.
 ///
 /// Distances change by at most 1 from a voxel to the next. So if M is the largest distance in the
-/// last slab that has entered, whose voxels end at x = e, no later ball reaches x <= e - M; where
-/// slabs do not touch, none at all. A slab with largest distance m whose voxels end at x reaches
-/// nothing from x + m on.
+/// last slab that has entered, whose voxels end at x = e, no ball of a later slab reaches x <= e -
+/// M; if that slab does not touch the next one, none reaches it at all. A slab with largest
+/// distance m whose voxels end at x reaches nothing from x + m on.
 
 #pragma once
 
-#include "SlabPool.h"
+#include "SlabLabels.h"
 #include "StreamWork.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
+
+/// The slabs of the window, and memory for them that is used again from slab to slab.
+template <typename Power>
+class SlabPool {
+public:
+    SlabPool(const LeafLayout& layout, int dim, const KeptOffsets<Power>& kept)
+        : mLayout(layout), mDim(dim), mKept(kept), mOpen(layout.slabCount()),
+          mMemory(layout.slabCount())
+    {}
+
+    const SlabLabels<Power>& operator[](uint32_t slab) const { return mOpen[slab]; }
+    bool isOpen(uint32_t slab) const { return mOpen[slab].keys != nullptr; }
+
+    /// Labels are undefined.
+    void open(uint32_t slab)
+    {
+        const LeafLayout::Slab leaves = mLayout.slab(slab);
+        mMemory[slab] = taken(leaves.size());
+        mOpen[slab] = mMemory[slab].open(leaves, mDim, mKept);
+    }
+    void close(uint32_t slab)
+    {
+        mFree.push_back(std::move(mMemory[slab]));
+        mOpen[slab] = {};
+    }
+
+private:
+    /// @return the smallest free memory that is large enough, or new one.
+    SlabMemory<Power> taken(uint32_t leaves)
+    {
+        auto best = mFree.end();
+        for (auto it = mFree.begin(); it != mFree.end(); ++it) {
+            if (it->leaves() < leaves) continue;
+            if (best == mFree.end() || it->leaves() < best->leaves()) best = it;
+        }
+        SlabMemory<Power> memory;
+        if (best != mFree.end()) {
+            std::swap(*best, mFree.back());
+            memory = std::move(mFree.back());
+        }
+        if (!mFree.empty()) mFree.pop_back(); // the one taken, or one too small: better given back
+        return memory;
+    }
+
+    const LeafLayout& mLayout;
+    const int mDim;
+    const KeptOffsets<Power> mKept;
+    std::vector<SlabLabels<Power>> mOpen;
+    std::vector<SlabMemory<Power>> mMemory, mFree; ///< of open slabs, and of none
+};
 
 template <typename Power, typename T>
 class WindowStream {
@@ -41,7 +91,7 @@ public:
     WindowStream(Work& work, uint32_t window, uint32_t threads)
         : mWork(work), mLayout(work.layout), mWindow(std::min(window, mLayout.slabCount())),
           mEntries(threads), mCollect(threads), mPool(mLayout, work.dim, work.kept),
-          mMaxDistSq(mLayout.slabCount()), mNextOfRun(mLayout.runCount(Axis::X), 0)
+          mLargestDistSq(mLayout.slabCount()), mNextOfRun(mLayout.runCount(Axis::X), 0)
     {}
 
     void run()
@@ -62,16 +112,6 @@ private:
     };
 
     int32_t xOf(uint32_t slab) const { return mLayout.origin(mLayout.slab(slab).begin)[0]; }
-    bool touchesNext(uint32_t slab) const
-    {
-        return slab + 1 < mLayout.slabCount() && xOf(slab) + kLeafDim == xOf(slab + 1);
-    }
-
-    template <typename Body>
-    void forEach(std::size_t slabs, const Body& body) const
-    {
-        detail::parallelForWithSlots(slabs, mEntries.size(), mWork.interrupter, body);
-    }
 
     void enter(uint32_t end)
     {
@@ -79,10 +119,11 @@ private:
         for (uint32_t slab = first; slab < end; ++slab) mPool.open(slab);
         double seconds = 0;
         detail::timed("distances and power labels", mWork.interrupter, &seconds, [&] {
-            forEach(end - first, [&](std::size_t i, std::size_t slot) {
-                const uint32_t slab = first + uint32_t(i);
-                mMaxDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
-            });
+            detail::parallelForWithSlots(end - first, mEntries.size(), mWork.interrupter,
+                [&](std::size_t i, std::size_t slot) {
+                    const uint32_t slab = first + uint32_t(i);
+                    mLargestDistSq[slab] = mWork.enter(slab, mPool[slab], mEntries[slot]);
+                });
         });
         mEntered = end;
         mWork.share(seconds, mEntries);
@@ -91,9 +132,11 @@ private:
     /// @return the first slab that a ball to come may reach.
     uint32_t firstInDoubt() const
     {
-        if (!touchesNext(mEntered - 1)) return mEntered;
-        const int64_t end =
-            int64_t(xOf(mEntered - 1)) + 7 - detail::ceilSqrt(mMaxDistSq[mEntered - 1]);
+        const uint32_t last = mEntered - 1;
+        const bool touchesNext =
+            mEntered < mLayout.slabCount() && xOf(last) + kLeafDim == xOf(mEntered);
+        if (!touchesNext) return mEntered;
+        const int64_t end = int64_t(xOf(last)) + 7 - detail::ceilSqrt(mLargestDistSq[last]);
         uint32_t slab = mFinal;
         while (slab < mEntered && int64_t(xOf(slab)) + 7 <= end) ++slab;
         return slab;
@@ -137,9 +180,10 @@ private:
         for (uint32_t slab = 0; slab < mFinal; ++slab) {
             if (mPool.isOpen(slab) && reachesNothing(slab)) done.push_back(slab);
         }
-        forEach(done.size(), [&](std::size_t i, std::size_t slot) {
-            mWork.finish(done[i], mPool[done[i]], mCollect[slot]);
-        });
+        detail::parallelForWithSlots(
+            done.size(), mEntries.size(), mWork.interrupter, [&](std::size_t i, std::size_t slot) {
+                mWork.finish(done[i], mPool[done[i]], mCollect[slot]);
+            });
         for (const uint32_t slab : done) mPool.close(slab);
     }
 
@@ -147,7 +191,8 @@ private:
     bool reachesNothing(uint32_t slab) const
     {
         if (mFinal == mLayout.slabCount()) return true;
-        return int64_t(xOf(slab)) + 7 + detail::ceilSqrt(mMaxDistSq[slab]) <= int64_t(xOf(mFinal));
+        const int64_t reach = detail::ceilSqrt(mLargestDistSq[slab]);
+        return int64_t(xOf(slab)) + 7 + reach <= int64_t(xOf(mFinal));
     }
 
     Work& mWork;
@@ -156,10 +201,9 @@ private:
     std::vector<typename Work::Entry> mEntries; ///< memory of each thread
     std::vector<SlabBalls<Power>> mCollect;     ///< the same
     SlabPool<Power> mPool;
-    uint32_t mEntered = 0, mFinal = 0; ///< slabs before these are
-    std::vector<uint32_t> mMaxDistSq;  ///< of each slab
-    std::vector<uint32_t> mNextOfRun;  ///< its first leaf that is not final
+    uint32_t mEntered = 0, mFinal = 0;    ///< slabs before these are
+    std::vector<uint32_t> mLargestDistSq; ///< of each slab
+    std::vector<uint32_t> mNextOfRun;     ///< its first leaf that is not final
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

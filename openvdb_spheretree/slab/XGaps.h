@@ -2,22 +2,21 @@
 /// @file XGaps.h
 /// @brief The gaps along x at both ends of every leaf: how far the background is from there.
 ///
-/// With these numbers a slab needs nothing else of the others: its distances along x follow from
-/// its own mask words. Each run of leaves is swept both ways, on words alone (BackgroundGaps.h).
-///
-/// Cost: 128 gaps a leaf.
+/// A slab needs nothing else of the other slabs: with these numbers, its distances along x follow
+/// from its own mask words. Each run of leaves is swept both ways, on words alone. Cost: 128 gaps a
+/// leaf.
 
 #pragma once
 
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/kernel/BackgroundGaps.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace slab {
+namespace openvdb_spheretree::slab {
 
 /// @tparam Gap  uint8_t or uint16_t; larger gaps stay at its largest number
 template <typename Gap>
@@ -27,21 +26,22 @@ public:
     XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter);
 
     /// @brief The squared distance to the background on a voxel's own line along x.
-    /// @param rows  receives them as rows across y (LeafRows.h), 0 for background; Square is twice as
-    ///              wide as Gap
+    /// @param rows  receives them as rows across y (LeafRows.h), 0 for background; Square is twice
+    ///              as wide as Gap
     template <typename Square>
-    void squares(uint32_t leaf, Square* rows) const;
+    void squares(uint32_t leaf, Square* rows) const
+    {
+        squaresOfGaps(mLayout.mask(leaf), below(leaf), above(leaf), rows);
+    }
 
 private:
-    /// Of the last voxels before the leaf, looking back, and of the first ones behind it, looking on;
-    /// a lane 8 y + z.
+    /// Of the last voxels before the leaf, looking back, and of the first ones behind it, looking
+    /// on.
     Gap* below(uint32_t leaf) const { return mGaps.get() + std::size_t(leaf) * 128; }
     Gap* above(uint32_t leaf) const { return below(leaf) + 64; }
-    void sweep(LeafLayout::Run run);
 
     const LeafLayout& mLayout;
     detail::LargeArray<Gap> mGaps;
 };
 
-} // namespace slab
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::slab

@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The spheres that reach into each child of a cube, as one array with offsets. Reused, as building
 /// these lists is most of the work for small spheres.
@@ -26,8 +25,8 @@ public:
     };
 
     /// @param origin, log2    the cube
-    /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered x
-    ///                        slowest, as in OpenVDB
+    /// @param childLog2       its children's size, no more than 32 along an axis; they are numbered
+    ///                        x slowest, as in OpenVDB
     /// @param alongX          children elsewhere along x get no ball
     void build(const ClippedSphere* balls, const int32_t* begin, const int32_t* end,
         const openvdb::Coord& origin, int log2, int childLog2, Range alongX = {0, INT32_MAX})
@@ -158,5 +157,4 @@ private:
     int64_t mNearSq[3][kMostAlong], mFarSq[3][kMostAlong]; ///< of one ball, by child
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

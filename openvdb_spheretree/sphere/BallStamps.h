@@ -3,10 +3,9 @@
 /// @brief Balls of a few voxels as mask words that are computed once: most of the balls of a thin
 /// object are one of some hundred.
 ///
-/// What such a ball looks like depends on its size, on where its centre is between voxels, and on
-/// where in a leaf its box begins along y and z: then its slices are words, of at most two by two
-/// leaves. (Along x, slices go where they belong, one by one.) Drawn row by row, a ball of 30 rows
-/// takes ten times as long.
+/// What such a ball looks like depends on its size, on where its center is between voxels, and on
+/// where in a leaf its box begins along y and z. Each of its slices along x is then a word for each
+/// of two by two leaves. (Drawn row by row, a ball of 30 rows takes ten times as long.)
 
 #pragma once
 
@@ -16,8 +15,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The slices of a ball, from its first: words of the leaves [first, first], [first, next], [next,
 /// first] and [next, next] along y and z.
@@ -26,14 +24,14 @@ struct BallStamp {
     std::array<std::array<uint64_t, 4>, kSide> slices = {};
 };
 
-/// Stamps as they are asked for. All balls must be of one distance and unit. A level has some
-/// hundred to some thousand of them, and there are no more than 10^5 Euclidean ones (30 MB).
+/// Stamps, made when they are first used. All balls must be of one distance and unit. A level has
+/// some hundred to some thousand of them, and there are no more than 10^5 Euclidean ones (30 MB).
 class BallStamps {
 public:
-    /// @return whether a ball has one: it is not clipped, and its box no wider than a leaf.
+    /// @return whether a ball has a stamp: it is not clipped, and its box is no wider than a leaf.
     static bool has(const ClippedSphere& ball)
     {
-        if (ball.clipped || ball.shift > 1) return false; // finer centres are hardly ever alike
+        if (ball.clipped || ball.shift > 1) return false; // finer centers are hardly ever alike
         for (int a = 0; a < 3; ++a) {
             if (ball.hi[a] - ball.lo[a] >= BallStamp::kSide) return false;
         }
@@ -42,29 +40,23 @@ public:
 
     const BallStamp& of(const ClippedSphere& ball)
     {
-        const uint64_t key = keyOf(ball);
+        // Which ball it is, from the corner of the leaf that its box begins in along y and z, and
+        // from the box itself along x. A ball that fits is less than 4.5 voxels in radius: its
+        // radiusSq is below 2^32 in any distance's units.
+        uint64_t key = uint64_t(ball.radiusSq);
+        for (int a = 0; a < 3; ++a) key = key << 1 | uint64_t(ball.center[a] & 1);
+        key = key << 6 | uint64_t(ball.lo[1] & 7) << 3 | uint64_t(ball.lo[2] & 7);
         const auto found = mStamps.find(key);
-        return found != mStamps.end() ? found->second
-                                      : mStamps.emplace(key, make(ball)).first->second;
+        if (found != mStamps.end()) return found->second;
+        return mStamps.emplace(key, make(ball)).first->second;
     }
 
 private:
-    /// Which ball it is, from the corner of the leaf that its box begins in along y and z, and from
-    /// the box itself along x. A ball that fits is less than 4.5 voxels in radius: its radiusSq is
-    /// below 2^32 in any distance's units.
-    static uint64_t keyOf(const ClippedSphere& ball)
-    {
-        uint64_t key = uint64_t(ball.radiusSq);
-        for (int a = 0; a < 3; ++a) key = key << 1 | uint64_t(ball.center[a] & 1);
-        return key << 6 | uint64_t(ball.lo[1] & 7) << 3 | uint64_t(ball.lo[2] & 7);
-    }
-
     static BallStamp make(const ClippedSphere& ball)
     {
         BallStamp stamp;
         const openvdb::Coord corner(ball.lo[0], ball.lo[1] & ~7, ball.lo[2] & ~7);
-        ClippedSphere local =
-            ball; // in place of the corner of the leaf, which may be the last of all
+        ClippedSphere local = ball; // from that corner: a stamp may reach beyond 32 bits
         for (int a = 0; a < 3; ++a) {
             local.lo[a] -= corner[a];
             local.hi[a] -= corner[a];
@@ -83,5 +75,4 @@ private:
     std::unordered_map<uint64_t, BallStamp> mStamps;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -3,9 +3,8 @@
 /// @brief Integer arithmetic on closed spheres that never overflows: what lies inside, and the box.
 ///
 /// Everything is in units of half a voxel or less, so that centers between voxels are integers:
-/// 2^shift units are a voxel. A sphere may be one of a norm. All that is used of a distance is that
-/// it grows with each coordinate: so the nearest voxel of a box is the nearest along every axis, and
-/// the farthest voxel the farthest.
+/// 2^shift units are a voxel. A sphere may be one of a norm: all distances grow with each
+/// coordinate, so the nearest (farthest) voxel of a box is the nearest (farthest) along every axis.
 
 #pragma once
 
@@ -14,8 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the shift of a metric: its subdivision's logarithm.
 /// @throw openvdb::ValueError if the subdivision is no power of two in range
@@ -48,9 +46,9 @@ inline int64_t offVoxel(int64_t center, int shift)
     return std::min(above, inUnits(1, shift) - above);
 }
 
-/// @return the first and the last coordinate along @a axis of the voxels that the sphere holds,
-/// exactly: along the other two axes a voxel is no nearer than the one nearest to the center. Empty
-/// if the sphere holds none.
+/// @return the first and the last coordinate along @a axis of the voxels in the sphere; empty if
+///         there
+/// are none. Exact: along the other two axes no voxel is nearer to the center than offVoxel().
 inline Interval extent(const ExactSphere& s, int axis, const Distance& distance, int shift)
 {
     const int64_t reach = distance.reach(offVoxel(s.center[(axis + 1) % 3], shift),
@@ -68,23 +66,24 @@ struct ClippedSphere {
     bool plain;           ///< Euclidean, and small enough that squares near its box do not overflow
     int8_t shift;         ///< 2^shift units of center and radiusSq are a voxel
 
-    /// Spheres of this size and less are plain. holds() is called for voxels of cubes that meet the
-    /// sphere's box, at most 4096 voxels or 2^16 units wide: they are less than 2^29 + 2^16 units
-    /// from the center along an axis, and three squares of that are below 2^60.
+    /// Spheres of this size and less are plain: their radius is at most 2^29 units. holds() is
+    /// called for voxels of cubes that meet the sphere's box, at most 4096 voxels or 2^16 units
+    /// wide. They are less than 2^29 + 2^16 units from the center along an axis: three squares are
+    /// below 2^60.
     static constexpr int64_t kMaxPlainRadiusSq = int64_t(1) << 58;
     /// Lengths that do not fit 63 bits are INT64_MAX (Distance::lengthSq): no sphere holds them.
     static constexpr int64_t kMaxRadiusSq = INT64_MAX - 1;
 
-    /// @param d  from the center, in units; no farther than the corners of a cube that meets the box
+    /// @param d  from the center, in units; no farther than the corners of a cube that meets the
+    ///           box
     bool holds(const int64_t d[3]) const
     {
         if (plain) return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= radiusSq;
         return distance.lengthSq(d[0], d[1], d[2]) <= radiusSq;
     }
 
-    /// @name Along an axis: how far the nearest and the farthest of the voxels first...last are from
-    /// the centre, and whether they are in the box
-    /// @{
+    /// Along an axis: how far the nearest and the farthest of the voxels first...last are from the
+    /// center, and whether they are in the box.
     int64_t nearest(int axis, int32_t first, int32_t last) const
     {
         const int64_t from = inUnits(first, shift), to = inUnits(last, shift);
@@ -99,7 +98,6 @@ struct ClippedSphere {
     {
         return first >= lo[axis] && last <= hi[axis];
     }
-    /// @}
 
     /// @return whether the sphere comes as near as a voxel of the box first...last, which its own
     /// box must meet; the clip aside.
@@ -108,13 +106,6 @@ struct ClippedSphere {
         int64_t d[3];
         for (int a = 0; a < 3; ++a) d[a] = nearest(a, first[a], last[a]);
         return holds(d);
-    }
-    /// The same for the cube of @a size voxels at @a origin.
-    bool touches(const int32_t origin[3], int32_t size) const
-    {
-        const int32_t far = size - 1;
-        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
-        return touches(origin, last);
     }
 
     /// @return whether every voxel of the box is in the sphere and in the clip.
@@ -126,12 +117,6 @@ struct ClippedSphere {
             d[a] = farthest(a, first[a], last[a]);
         }
         return holds(d);
-    }
-    bool contains(const int32_t origin[3], int32_t size) const
-    {
-        const int32_t far = size - 1;
-        const int32_t last[3] = {origin[0] + far, origin[1] + far, origin[2] + far};
-        return contains(origin, last);
     }
 };
 
@@ -158,5 +143,4 @@ inline bool clipSphere(const ExactSphere& s, const Distance& distance, int shift
     return true;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

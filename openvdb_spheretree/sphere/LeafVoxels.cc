@@ -8,17 +8,12 @@
 #include <algorithm>
 #include <cassert>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
-/// How far the nearest and the farthest of a leaf's voxels are along an axis, in units.
+/// How far the farthest of a leaf's voxels is along an axis, in units.
 /// @param center  from the leaf's corner
-int64_t nearestAlong(int64_t center, int64_t last)
-{
-    return std::max<int64_t>(0, std::max(-center, center - last));
-}
 int64_t farthestAlong(int64_t center, int64_t last) { return std::max(center, last - center); }
 
 /// ORs the voxels of a sphere into a leaf's by a kernel, where that is exact.
@@ -72,7 +67,7 @@ LeafMask voxelsOf(
     int64_t center[3], near[3], far[3];
     for (int a = 0; a < 3; ++a) {
         center[a] = sphere.center[a] - inUnits(origin[a], shift);
-        near[a] = nearestAlong(center[a], last);
+        near[a] = std::max<int64_t>(0, std::max(-center[a], center[a] - last));
         far[a] = farthestAlong(center[a], last);
     }
     const int64_t radiusSq = std::min(sphere.radiusSq, ClippedSphere::kMaxRadiusSq);
@@ -104,5 +99,4 @@ void addVoxelsOf(const ClippedSphere& sphere, const openvdb::Coord& origin, Leaf
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafVoxels.h
-/// @brief Which voxels of an 8x8x8 leaf a sphere holds, exactly: by a kernel where its 16 or 32 bits
-/// suffice, else row by row.
+/// @brief Which voxels of an 8x8x8 leaf a sphere holds, exactly: by a kernel where its 16 or 32
+/// bits suffice, else row by row.
 
 #pragma once
 
 #include "ClippedSphere.h"
 #include <openvdb_spheretree/voxel/LeafMask.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param shift     2^shift units of the sphere are a voxel: 1 to 4
 /// @param origin    of the leaf
@@ -22,5 +21,4 @@ LeafMask voxelsOf(const ExactSphere& sphere, int shift, const openvdb::Coord& or
 /// sphere's box must meet the leaf.
 void addVoxelsOf(const ClippedSphere& sphere, const openvdb::Coord& origin, LeafMask& mask);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

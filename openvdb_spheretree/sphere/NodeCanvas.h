@@ -2,9 +2,9 @@
 /// @file NodeCanvas.h
 /// @brief The 128^3 voxels of a lower internal node, to draw balls into, slab by slab.
 ///
-/// A slab is a quarter of the node, 32 voxels thick along x. Slabs have no leaf in common, nor a word
-/// of the node's masks, so threads may share a node. Within a slab, leaves stand in groups of 4^3
-/// (32^3 voxels): a word then tells which of a group's leaves are full. Nothing is drawn to these.
+/// A slab is a quarter of the node, 32 voxels thick along x. Slabs have no leaf in common, nor a
+/// word of the node's masks, so threads may share a node. Within a slab, leaves stand in groups of
+/// 4^3 (32^3 voxels): a word tells which of them are full. Nothing is drawn to these.
 
 #pragma once
 
@@ -15,8 +15,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NodeCanvas {
 public:
@@ -51,13 +50,11 @@ public:
         return ball.lo[0] >> kGroupLog2 <= slab && ball.hi[0] >> kGroupLog2 >= slab;
     }
 
-    /// Has balls pass over a leaf, as if it were full.
-    void exclude(int group, int leaf) { mFull[group] |= bit(leaf); }
-
     /// @return the node's origin.
     const openvdb::Coord& origin() const { return mOrigin; }
 
     void fillGroup(int group) { mFull[group] = kAllOn; }
+    /// Nothing is drawn to a leaf that is full.
     void fillLeaf(int group, int leaf) { mFull[group] |= bit(leaf); }
     bool isFull(int group) const { return mFull[group] == kAllOn; }
     bool isFull(int group, int leaf) const { return mFull[group] & bit(leaf); }
@@ -69,8 +66,16 @@ public:
             drawStamp(ball, mStamps.of(ball));
             return;
         }
-        forEachRow(ball, mOrigin, 1 << kLog2,
-            [this](int32_t x, int32_t y, int32_t lo, int32_t hi) { drawRow(x, y, lo, hi); });
+        forEachRow(ball, mOrigin, 1 << kLog2, [&](int32_t x, int32_t y, int32_t lo, int32_t hi) {
+            if (x >> kGroupLog2 != mSlab) return;
+            for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) { // from leaf to leaf
+                const int group = inFours(x >> 5, y >> 5, z >> 5);
+                const int leaf = inFours(x >> 3, y >> 3, z >> 3);
+                const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
+                mDrawn[group] |= bit(leaf);
+                maskOf(group, leaf)[x & 7] |= rowBits(first, last) << (8 * (y & 7));
+            }
+        });
     }
 
     /// Draws the part of a ball that is in a leaf; @a origin is the leaf's.
@@ -132,19 +137,6 @@ private:
         }
     }
 
-    /// Draws a row of z, which may be empty or cross leaves; coordinates from the node's corner.
-    void drawRow(int32_t x, int32_t y, int32_t lo, int32_t hi)
-    {
-        if (x >> kGroupLog2 != mSlab) return;
-        for (int32_t z = lo & ~7; z <= hi && lo <= hi; z += 8) {
-            const int group = inFours(x >> 5, y >> 5, z >> 5);
-            const int leaf = inFours(x >> 3, y >> 3, z >> 3);
-            const int first = std::max(lo - z, 0), last = std::min(hi - z, 7);
-            mDrawn[group] |= bit(leaf);
-            maskOf(group, leaf)[x & 7] |= rowBits(first, last) << (8 * (y & 7));
-        }
-    }
-
     openvdb::Coord mOrigin;
     int mSlab = 0;
     BallStamps mStamps;
@@ -152,5 +144,4 @@ private:
     uint64_t mFull[64] = {}, mDrawn[64] = {};
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

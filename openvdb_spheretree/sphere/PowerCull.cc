@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
 /// Fewer balls are as soon drawn.
 constexpr std::size_t kFew = 8;
 
-/// Powers of balls this near, and no larger, fit 62 bits; so do their differences. In units.
+/// In units, the largest radius, and the farthest center along an axis: powers are between -3 *
+/// 2^58 and 2^58, so they and their differences fit 62 bits.
 constexpr int64_t kFarthest = int64_t(1) << 29;
 
 } // namespace
@@ -48,8 +48,8 @@ PowerCull::Champions PowerCull::champions(int64_t reach) const
         const int64_t x = 2 * reach * entry.center[0], y = 2 * reach * entry.center[1],
                       z = 2 * reach * entry.center[2];
         for (std::size_t place = 0; place < kPlaces; ++place) {
-            // What the power is there, but for what is the same for all balls. The centre is tried
-            // first later on, so it stands first.
+            // The power there, but for what is the same for all balls. The center is place 0: it is
+            // what exceeded() tries first.
             const std::size_t corner = place - 1;
             const int64_t atCorner =
                 (corner & 4 ? x : -x) + (corner & 2 ? y : -y) + (corner & 1 ? z : -z);
@@ -81,7 +81,7 @@ void PowerCull::cull(
     const ClippedSphere* balls, const int32_t origin[3], int32_t size, std::vector<int32_t>& list)
 {
     if (list.size() <= kFew || !collect(balls, origin, size, list)) return;
-    // From the centre to the last voxels.
+    // From the center to the last voxels.
     const int64_t reach = inUnits(size - 1, balls[list[0]].shift - 1);
     const Champions best = champions(reach);
     std::size_t kept = 0;
@@ -91,5 +91,4 @@ void PowerCull::cull(
     list.resize(kept);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

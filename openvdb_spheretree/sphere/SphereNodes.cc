@@ -13,8 +13,7 @@
 #include <map>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -22,8 +21,8 @@ using openvdb::Coord;
 using openvdb::MaskTree;
 using openvdb::util::NullInterrupter;
 
-/// So many balls are sorted in one go: enough to be worth the lists of an upper node's 32^3
-/// children, and few enough for these to be counted in 32 bits.
+/// Balls that are sorted in one go: enough to be worth the lists of an upper node's 32^3 children,
+/// and few enough for entries, 2^13 * 2^15 at most, to be counted in 32 bits.
 constexpr std::size_t kBallsAtATime = 8192;
 
 using NodesByOrigin = std::map<Coord, NodeSpheres>; // x slowest
@@ -32,8 +31,9 @@ void enterUpperNode(
     NodesByOrigin& nodes, const Coord& origin, const ClippedSphere& ball, int32_t index)
 {
     NodeSpheres& node = nodes[origin];
-    if (node.full || !ball.touches(origin.data(), 1 << kUpperLog2)) return;
-    node.full = ball.contains(origin.data(), 1 << kUpperLog2);
+    const Coord last = origin.offsetBy((1 << kUpperLog2) - 1);
+    if (node.full || !ball.touches(origin.data(), last.data())) return;
+    node.full = ball.contains(origin.data(), last.data());
     node.balls.push_back(index);
 }
 
@@ -85,7 +85,7 @@ NodesByOrigin sortIntoUpperNodes(
             const int32_t* const begin = some.balls.data();
             join(nodes[origin], some.full, begin, begin + some.balls.size());
         }
-        NodesByOrigin().swap(part);
+        part = {};
     }
     return nodes;
 }
@@ -223,5 +223,4 @@ SphereNodes sortIntoNodes(
     return result;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereNodes.h
-/// @brief Spheres sorted into OpenVDB's nodes: which ones reach into which upper internal node of
-/// 4096^3 voxels, and in there into which lower one of 128^3. Exact. Cost: some hundred bytes a
-/// sphere, and four for each pair of a sphere and a node; time likewise.
+/// @brief Which spheres reach into which upper internal node of OpenVDB's, of 4096^3 voxels, and in
+/// there into which lower one of 128^3. Exact. Cost: some hundred bytes a sphere, and four for each
+/// pair of a sphere and a node.
 
 #pragma once
 
@@ -15,8 +15,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr int kUpperLog2 = 12; ///< of an upper node's side
 
@@ -27,7 +26,8 @@ public:
     explicit ClipMask(const openvdb::MaskTree* tree);
 
     bool everywhere() const { return !mTree; }
-    /// @return the origins of the upper nodes, and of tiles as large, that the object has, in order.
+    /// @return the origins of the upper nodes, and of tiles as large, that the object has, in
+    ///         order.
     const std::vector<openvdb::Coord>& upperNodes() const { return mUpperNodes; }
     bool hasUpperNode(const openvdb::Coord& origin) const;
     /// @return whether the object has anything in the node at @a origin.
@@ -45,9 +45,9 @@ private:
 /// Spheres with the boxes of their voxels.
 struct ClippedSpheres {
     LargeArray<ClippedSphere> balls; ///< a ball each; undefined where a box is empty
-    /// All others: larger balls first, largest to smallest, since what they fill is not drawn again.
-    /// The small ones (NodeCanvas::isSmall) are in the order of spheres, which is mostly that of
-    /// their centres, and so kind to caches.
+    /// All others: larger balls first, largest to smallest, since what they fill is not drawn
+    /// again. The small ones (NodeCanvas::isSmall) are in the order of spheres, which is mostly
+    /// that of their centers, and so kind to caches.
     std::vector<int32_t> order;
 };
 
@@ -71,5 +71,4 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
 SphereNodes sortIntoNodes(const ClippedSpheres& spheres, const ClipMask& clipMask,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

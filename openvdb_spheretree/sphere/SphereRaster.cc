@@ -3,46 +3,95 @@
 /// @brief Spheres to a sparse mask: sorted into nodes, then drawn on leaf masks.
 ///
 /// 1. clipSpheres: the spheres' boxes, clipped; empty ones dropped
-/// 2. sortIntoNodes: which spheres reach into which upper node (4096^3), and which lower one (128^3)
-/// 3. drawSlab, in parallel over quarters of lower nodes: see NodePainter.h
+/// 2. sortIntoNodes: which spheres reach into which upper node (4096^3), and which lower one
+///    (128^3)
+/// 3. drawSlab, in parallel over quarters of lower nodes:
+///    - balls smaller than a leaf are drawn at once, as stamps or row by row;
+///    - the others are sorted into groups of 32^3, and from there into leaves. A group or leaf
+///      inside one of them is full. In others, balls that add nothing are left out (PowerCull.h);
+///    - what is left is drawn leaf by leaf, on mask words.
 ///
-/// A node wholly inside a single sphere (and the clip) becomes a tile and is not descended; a leaf
-/// does when it is full. Clipping needs no step of its own, since every sphere's box is clipped.
-/// Exact: integers throughout. OR does not depend on the order of spheres, so the result does not
-/// depend on threads.
+/// A node wholly inside a single sphere and the clip becomes a tile; a full leaf does too. Exact:
+/// integers throughout. OR does not depend on the order of spheres, so the result does not depend
+/// on threads.
 
 #include "SphereRaster.h"
 
-#include "NodePainter.h"
+#include "BallLists.h"
+#include "NodeCanvas.h"
+#include "PowerCull.h"
 #include "SphereNodes.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskNodes.h>
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
 using openvdb::MaskTree;
 
+/// Draws balls into a slab of a lower internal node. Memory of one thread, for one slab after the
+/// other.
+class NodePainter {
+public:
+    /// The slab must have been begun on the canvas.
+    void draw(const ClippedSphere* balls, const std::vector<int32_t>& ofNode)
+    {
+        mLarge.clear();
+        for (const int32_t i : ofNode) {
+            if (!canvas.touches(balls[i])) continue;
+            if (NodeCanvas::isSmall(balls[i])) canvas.drawSmall(balls[i]);
+            else mLarge.push_back(i);
+        }
+        if (mLarge.empty()) return;
+        mGroups.build(balls, mLarge.data(), mLarge.data() + mLarge.size(), canvas.origin(),
+            NodeCanvas::kLog2, NodeCanvas::kGroupLog2, {canvas.slab(), canvas.slab()});
+        for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group)
+            drawGroup(balls, group);
+    }
+
+    NodeCanvas canvas;
+
+private:
+    void drawGroup(const ClippedSphere* balls, int group)
+    {
+        if (mGroups.full(group)) {
+            canvas.fillGroup(group);
+            return;
+        }
+        mOfGroup.assign(mGroups.begin(group), mGroups.end(group));
+        if (mOfGroup.empty() || canvas.isFull(group)) return;
+        const Coord origin = mGroups.childOrigin(group);
+        mCull.cull(balls, origin.data(), 1 << NodeCanvas::kGroupLog2, mOfGroup);
+        mLeaves.build(balls, mOfGroup.data(), mOfGroup.data() + mOfGroup.size(), origin,
+            NodeCanvas::kGroupLog2, NodeCanvas::kLeafLog2);
+        for (int leaf = 0; leaf < 64; ++leaf) drawLeaf(balls, group, leaf);
+    }
+
+    void drawLeaf(const ClippedSphere* balls, int group, int leaf)
+    {
+        if (mLeaves.full(leaf)) {
+            canvas.fillLeaf(group, leaf);
+            return;
+        }
+        mOfLeaf.assign(mLeaves.begin(leaf), mLeaves.end(leaf));
+        if (mOfLeaf.empty() || canvas.isFull(group, leaf)) return;
+        const Coord origin = mLeaves.childOrigin(leaf);
+        mCull.cull(balls, origin.data(), 1 << NodeCanvas::kLeafLog2, mOfLeaf);
+        for (const int32_t i : mOfLeaf) canvas.drawLeaf(balls[i], group, leaf, origin);
+    }
+
+    BallLists mGroups, mLeaves;
+    PowerCull mCull;
+    std::vector<int32_t> mLarge, mOfGroup, mOfLeaf;
+};
+
 /// The voxels of lower nodes; null for those that are full.
 using DrawnNodes = std::vector<std::unique_ptr<LowerNode>>;
-
-void excludeOutside(NodeCanvas& canvas, const ClipMask& clipMask)
-{
-    if (clipMask.everywhere()) return;
-    for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) {
-        for (int leaf = 0; leaf < 64; ++leaf) {
-            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
-            if (!inside) canvas.exclude(group, leaf);
-        }
-    }
-}
 
 /// Moves the slab on the canvas to its node. A full leaf is a tile. Slabs of a node have no word of
 /// its masks in common, so several threads may do this.
@@ -72,7 +121,13 @@ void drawSlab(const NodeSpheres& spheres, int slab, const ClippedSphere* balls,
 {
     NodeCanvas& canvas = painter.canvas;
     canvas.begin(spheres.origin, slab);
-    excludeOutside(canvas, clipMask);
+    const int first = clipMask.everywhere() ? canvas.endGroup() : canvas.firstGroup();
+    for (int group = first; group < canvas.endGroup(); ++group) {
+        for (int leaf = 0; leaf < 64; ++leaf) { // nothing is drawn where the object has no leaf
+            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
+            if (!inside) canvas.fillLeaf(group, leaf);
+        }
+    }
     painter.draw(balls, spheres.balls);
     storeSlab(canvas, clipMask, node);
     for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) canvas.clean(group);
@@ -135,5 +190,4 @@ MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres, const Spher
     return assemble(sorted, nodes);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,8 +8,7 @@
 
 #include "SphereUnion.h"
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @brief Every voxel of @a clip that lies in a sphere.
 /// @param within  may be null; else nodes where it has nothing are left out. (Voxels that it does
@@ -19,5 +18,4 @@ openvdb::MaskTree::Ptr rasterSpheres(const std::vector<ExactSphere>& spheres,
     const SphereMetric& metric, const openvdb::CoordBBox& clip, const openvdb::MaskTree* within,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// Calls f(x, y, lo, hi) for the rows of a sphere in the cube of @a size voxels at @a origin: voxels
-/// (x, y, lo...hi), counted from the cube's corner, that lie in the sphere and in its clip. Rows may
-/// be empty (lo > hi). The sphere's box must meet the cube.
+/// Calls f(x, y, lo, hi) for the rows of a sphere, and of its clip, in the cube of @a size voxels
+/// at
+/// @a origin: voxels (x, y, lo...hi), counted from the cube's corner. Rows may be empty (lo > hi).
+/// The sphere's box must meet the cube.
 template <typename F>
 void forEachRow(const ClippedSphere& sphere, const openvdb::Coord& origin, int32_t size, const F& f)
 {
@@ -42,5 +42,4 @@ void forEachRow(const ClippedSphere& sphere, const openvdb::Coord& origin, int32
 /// @return the bits of lo...hi, which are in order, of a row of eight.
 inline uint64_t rowBits(int32_t lo, int32_t hi) { return (0xffu >> (7 - hi)) & (0xffu << lo); }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file SphereUnion.cc
-/// @brief The public face of the rasteriser.
-
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include "SphereUnion.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereUnion.h
-/// @brief The union of closed spheres as a sparse set of voxels: which voxel centres lie in any
+/// @brief The union of closed spheres as a sparse set of voxels: which voxel centers lie in any
 /// sphere.
 
 #pragma once
@@ -24,7 +24,7 @@ openvdb::MaskTree::Ptr sphereUnion(const std::vector<ExactSphere>& spheres,
     const openvdb::CoordBBox& clip, const SphereMetric& metric = {},
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @return the smallest box that holds every voxel centre in the spheres.
+/// @return the smallest box that holds every voxel center in the spheres.
 openvdb::CoordBBox boundingBox(
     const std::vector<ExactSphere>& spheres, const SphereMetric& metric = {});
 

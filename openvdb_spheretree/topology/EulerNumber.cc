@@ -3,10 +3,10 @@
 /// @brief Voxels are added one by one in the order x, y, z. A voxel adds those of its faces of any
 /// dimension (the cube, 6 faces, 12 edges, 8 vertices) that no voxel before it has.
 ///
-/// Such a face lies in direction d of the cube's center, with components -1, 0, 1. It belongs to the
-/// voxels v + e where each component of e is 0 or that of d. For d with dx = 1 and for the same d
-/// with dx = 0, the voxels *before* v are the same ones, and the two faces count with opposite signs:
-/// they cancel out. The 9 directions with dx = -1 remain: 9 bit counts for a word of 64 voxels.
+/// Such a face lies in direction d of the cube's center, with components -1, 0, 1. It belongs to
+/// the voxels v + e where each component of e is 0 or that of d. For dx = 1 and dx = 0, with equal
+/// dy and dz, the voxels *before* v are the same, and the two faces count with opposite signs: they
+/// cancel out. The 9 directions with dx = -1 remain: 9 bit counts for a word of 64 voxels.
 
 #include "EulerNumber.h"
 
@@ -16,8 +16,7 @@
 
 #include <array>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -92,5 +91,4 @@ int64_t eulerOfLeaf(const LeafLayout& layout, const LeafWalk& around)
     return sum;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

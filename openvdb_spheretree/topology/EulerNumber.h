@@ -8,13 +8,11 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @brief What a leaf's voxels add to vertices - edges + faces - cubes when all voxels are added in
 /// order; the sum over all leaves is the Euler characteristic.
 /// @param around  stands at the leaf
 int64_t eulerOfLeaf(const LeafLayout& layout, const LeafWalk& around);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

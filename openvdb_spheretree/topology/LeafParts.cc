@@ -3,8 +3,7 @@
 
 #include <openvdb_spheretree/voxel/LeafPlanes.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -96,5 +95,4 @@ PartCounts leafParts(const LeafMask& mask, PartLabels& labels)
         labelParts<ByCorners>(mask, labels), labelParts<ByFaces>(LeafMask::full() - mask, labels)};
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -5,14 +5,12 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <array>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// For each voxel of a leaf its part, from 0 on: of the object if it is on, else of the background.
 /// A byte suffices: 64 parts of the object (one in every 2 x 2 x 2 voxels), 256 of the background
@@ -27,5 +25,4 @@ struct PartCounts {
 /// @param labels  receives the labels
 PartCounts leafParts(const LeafMask& mask, PartLabels& labels);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,17 +8,15 @@
 /// - b0 - b1 + b2 is the Euler characteristic, a sum over leaves (EulerNumber.cc).
 ///
 /// 1. `LevelParts`: cut object and background into their parts within each leaf, by flooding mask
-///    words (LeafParts.h). Background outside the leaves is *gaps*: where a column of leaves
-///    along z has a hole, the places in the hole are one part. All other places, before, behind and
-///    beside the columns, are open to infinity along z or in the column they are in, so they are
-///    one part as well, whatever the bounding box.
+///    words (LeafParts.h). Of the background outside the leaves, what lies between two leaves of a
+///    column along z is one part, a *gap*. All else is open to infinity along z: one part as well,
+///    whatever the bounding box.
 /// 2. `PartJoiner`: join parts that touch across the borders of leaves, in two union-finds. A gap
 ///    is joined with what lies beside it by walking the four columns around it.
 /// 3. Count the sets.
 ///
-/// The alternative, counting the components of the surface between the two, needs a node for every
-/// vertex of the surface; here it is one for most leaves. Cost: linear in leaves. Exact; tests
-/// against floods of dense arrays in TestLevelTopology.cc.
+/// (Components of the surface between the two would need a node for each of its vertices; here it
+/// is one for most leaves.) Cost: linear in leaves. Exact. Tests: TestLevelTopology.cc.
 
 #include "LevelTopology.h"
 
@@ -33,6 +31,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -45,12 +44,12 @@ using detail::UnionFind;
 
 constexpr uint32_t kChunk = 256; // leaves that one task takes on
 
-/// How a leaf is cut, and the nodes of its parts: of the object from `object` on, of the background
-/// from `background` on, and behind the latter one for the gap behind the leaf, if there is one.
+/// How a leaf is cut into parts, and their nodes in the union-finds.
 struct LeafCut {
     static constexpr uint16_t kUnlabelled = 0xffff;
 
-    uint32_t object = 0, background = 0;
+    uint32_t object = 0, background = 0; ///< the first node; a gap behind the leaf has the node
+                                         ///< behind those of the leaf's background
     uint16_t objectParts = 0, backgroundParts = 0;
     uint16_t labels = kUnlabelled; ///< index in the chunk's; unlabelled where all labels are 0
 };
@@ -63,8 +62,19 @@ public:
     LevelParts(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter)
         : mLayout(layout), mCuts(layout.leafCount()), mLabels(chunks())
     {
-        detail::parallelForWithScratch<detail::PartLabels>(chunks(), interrupter,
-            [&](std::size_t chunk, detail::PartLabels& scratch) { cut(chunk, scratch); });
+        detail::parallelForWithScratch<detail::PartLabels>(
+            chunks(), interrupter, [&](std::size_t chunk, detail::PartLabels& labels) {
+                const uint32_t begin = uint32_t(chunk) * kChunk;
+                const uint32_t end = std::min(begin + kChunk, layout.leafCount());
+                for (uint32_t leaf = begin; leaf < end; ++leaf) {
+                    const auto counts = detail::leafParts(layout.mask(leaf), labels);
+                    mCuts[leaf].objectParts = uint16_t(counts.object);
+                    mCuts[leaf].backgroundParts = uint16_t(counts.background);
+                    if (counts.object <= 1 && counts.background <= 1) continue;
+                    mCuts[leaf].labels = uint16_t(mLabels[chunk].size());
+                    mLabels[chunk].push_back(labels);
+                }
+            });
         numberNodes();
     }
 
@@ -101,20 +111,6 @@ public:
     }
 
 private:
-    void cut(std::size_t chunk, detail::PartLabels& scratch)
-    {
-        const uint32_t begin = uint32_t(chunk) * kChunk;
-        const uint32_t end = std::min(begin + kChunk, mLayout.leafCount());
-        for (uint32_t leaf = begin; leaf < end; ++leaf) {
-            const auto counts = detail::leafParts(mLayout.mask(leaf), scratch);
-            mCuts[leaf].objectParts = uint16_t(counts.object);
-            mCuts[leaf].backgroundParts = uint16_t(counts.background);
-            if (counts.object <= 1 && counts.background <= 1) continue;
-            mCuts[leaf].labels = uint16_t(mLabels[chunk].size());
-            mLabels[chunk].push_back(scratch);
-        }
-    }
-
     void numberNodes()
     {
         int64_t object = 0, background = 1; // outside
@@ -165,8 +161,6 @@ struct Contact {
     static Contact withFaces(Axis axis) { return {axis, 0, 7, {0, 0}, {0, 0}}; }
 };
 
-LeafMask complement(const LeafMask& mask) { return LeafMask::full() - mask; }
-
 /// Joins the parts of leaves with what is around them, each pair of leaves once, and sums up the
 /// Euler characteristic on the way.
 class PartJoiner {
@@ -176,7 +170,7 @@ public:
           mBackground(parts.backgroundNodes()), mEuler(parts.chunks(), 0)
     {}
 
-    void joinAll(openvdb::util::NullInterrupter* interrupter)
+    LevelTopology joinAll(openvdb::util::NullInterrupter* interrupter)
     {
         detail::parallelFor(mParts.chunks(), interrupter, [&](std::size_t chunk) {
             const uint32_t begin = uint32_t(chunk) * kChunk;
@@ -190,15 +184,9 @@ public:
                 if (!isDeepInside(around)) mEuler[chunk] += eulerOfLeaf(mLayout, around);
             }
         });
-    }
-
-    int64_t components() const { return mObject.sets(); }
-    int64_t cavities() const { return mBackground.sets() - 1; }
-    int64_t euler() const
-    {
-        int64_t sum = 0;
-        for (const int64_t chunk : mEuler) sum += chunk;
-        return sum;
+        const int64_t components = mObject.sets(), cavities = mBackground.sets() - 1;
+        const int64_t euler = std::accumulate(mEuler.begin(), mEuler.end(), int64_t(0));
+        return {components, components + cavities - euler, cavities};
     }
 
 private:
@@ -229,11 +217,10 @@ private:
     void joinBackground(uint32_t leaf, const LeafWalk& around)
     {
         const Side here = backgroundSide(leaf);
-        const LeafMask mask = complement(mLayout.mask(leaf));
+        const LeafMask mask = LeafMask::full() - mLayout.mask(leaf);
         for (int i = 0; i < 6; ++i) {
             const int step = i < 3 ? -1 : 1, axis = i % 3;
-            const int dx = axis == 0 ? step : 0, dy = axis == 1 ? step : 0,
-                      dz = axis == 2 ? step : 0;
+            const int dx = step * (axis == 0), dy = step * (axis == 1), dz = step * (axis == 2);
             const uint32_t other = around.at(dx, dy, dz);
             if (other == LeafWalk::kNone) {
                 const LeafPlace place = LeafPlace(mLayout.origin(leaf)).offsetBy(dx, dy, dz);
@@ -242,7 +229,7 @@ private:
             } else if (step < 0 && !mParts.isFull(other)) {
                 const Side there = backgroundSide(other);
                 if (areOne(mBackground, here, there)) continue;
-                joinContact(mBackground, here, mask, there, complement(mLayout.mask(other)),
+                joinContact(mBackground, here, mask, there, LeafMask::full() - mLayout.mask(other),
                     Contact::withFaces(Axis(axis)));
             }
         }
@@ -334,10 +321,7 @@ private:
 LevelTopology levelTopology(const LeafLayout& level, openvdb::util::NullInterrupter* interrupter)
 {
     const LevelParts parts(level, interrupter);
-    PartJoiner joiner(level, parts);
-    joiner.joinAll(interrupter);
-    const int64_t components = joiner.components(), cavities = joiner.cavities();
-    return {components, components + cavities - joiner.euler(), cavities};
+    return PartJoiner(level, parts).joinAll(interrupter);
 }
 
 LevelTopology levelTopology(

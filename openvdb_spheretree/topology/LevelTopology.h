@@ -4,9 +4,8 @@
 ///
 /// Each voxel is a closed unit cube, so voxels belong together when they share a corner (26-
 /// connected) and background when it shares a face (6-connected): T. Y. Kong, A. Rosenfeld,
-/// "Digital topology: introduction and survey", CVGIP 48, 1989. An object one voxel thick needs no
-/// care of its own: it is a union of squares, thickened, which changes none of the three numbers.
-/// So in two dimensions voxels are 8-connected, `tunnels` are the holes, and there are no cavities.
+/// "Digital topology: introduction and survey", CVGIP 48, 1989. For objects one voxel thick, voxels
+/// are thereby 8-connected in their plane, `tunnels` are the holes, and there are no cavities.
 
 #pragma once
 

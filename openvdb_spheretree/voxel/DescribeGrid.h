@@ -10,8 +10,7 @@
 
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return "grid 'name'", of a sane length whatever the name.
 inline std::string describe(const openvdb::GridBase& grid)
@@ -20,5 +19,4 @@ inline std::string describe(const openvdb::GridBase& grid)
     return name.empty() ? "the grid without a name" : "grid " + inQuotes(name, 80);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -12,9 +12,9 @@ namespace openvdb_spheretree {
 
 namespace {
 
-/// @return the largest cost of any way from voxel to voxel that is at most @a limit. More than
-/// face - 1 steps of another kind are never needed: that many of them cost as much as steps across
-/// faces do.
+/// @return the largest cost of any path from voxel to voxel that is at most @a limit. `face` steps
+///         of
+/// another kind cost a multiple of `face`, as steps across faces do: fewer of them suffice.
 int64_t largestCost(int64_t limit, int64_t face, int64_t edge, int64_t corner)
 {
     int64_t best = 0;

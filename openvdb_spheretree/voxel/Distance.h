@@ -3,17 +3,16 @@
 /// @brief The distances that balls may be made of: the Euclidean one, and the norms of a 3x3x3
 /// neighbourhood (l1, l-infinity, chamfer).
 ///
-/// A chamfer distance is the cost of the cheapest way from voxel to voxel, where a step across a
+/// A chamfer distance is the cost of the cheapest path from voxel to voxel, where a step across a
 /// face, an edge or a corner costs a, b or c (G. Borgefors, "Distance transformations in digital
 /// images", CVGIP 1986). With the coordinates of a difference sorted by size, x >= y >= z >= 0,
 ///     N(x, y, z) = a (x - y) + b (y - z) + c z = a x + (b - a) y + (c - b) z
 /// which is a norm just when a >= b - a >= c - b >= 0: then it is the largest of these sums over
-/// all orders of the coordinates. l1 is (1, 2, 3), l-infinity (1, 1, 1). In two dimensions c takes
-/// no part.
+/// all orders of the coordinates. l1 is (1, 2, 3), l-infinity (1, 1, 1). In two dimensions c is not
+/// used.
 ///
-/// All distances here are handled as squares, so that one geometry serves them: |d|^2 for the
-/// Euclidean one, N(d)^2 for the others. A norm is measured in steps of `unit()` = a: a voxel is a
-/// units wide.
+/// All distances are handled as squares: |d|^2, or N(d)^2. A norm is in units of which a voxel has
+/// `unit()` = a.
 
 #pragma once
 
@@ -81,16 +80,16 @@ public:
         const int64_t soFar = lengthSq(x, y, 0);
         if (soFar > limitSq || soFar == INT64_MAX) return -1;
         const int64_t left = limitSq - soFar;
-        // Below 2^52, rounding makes no root an integer that is none.
+        // Below 2^52 the rounded root has the right floor (base/IntegerRoot.h).
         constexpr int64_t kExact = int64_t(1) << 52;
         if (isEuclidean() && left < kExact) return int64_t(std::sqrt(double(left)));
         return isEuclidean() ? farReach(left) : normReach(x, y, limitSq);
     }
 
+    /// @param radiusSq  of a norm a square
     /// @return a closed radius, squared, whose ball holds just the voxels of the open ball
-    ///         { q : lengthSq(q) < radiusSq }: radiusSq - 1 if Euclidean; of a norm, where radiusSq
-    ///         is a square, the square of the largest cost of any way in space that is below its
-    ///         root.
+    ///         { q : lengthSq(q) < radiusSq }: radiusSq - 1; of a norm, the square of the largest
+    ///         cost of any path that is below the radius.
     int64_t closedSq(int64_t radiusSq) const;
 
     bool operator==(const Distance& o) const

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FlatAxis.h
 /// @brief Objects one voxel thick along an axis are turned so that this axis is z, which the stages
-/// leave out in two dimensions. Their results are turned back.
-///
-/// The two other axes keep their order. So the order of voxels, and with it every tie, is the same
-/// before and after.
+/// leave out in two dimensions. Their results are turned back. The two other axes keep their order:
+/// so does the order of voxels, and with it every tie.
 
 #pragma once
 
@@ -12,8 +10,7 @@
 
 namespace openvdb_spheretree {
 
-/// @return the axis along which a box is one voxel thick: z if it is, or else y or x; -1 if none
-/// is.
+/// @return the axis along which a box is one voxel thick, z before y before x; -1 if there is none.
 int flatAxisOf(const openvdb::CoordBBox& box);
 
 class FlatAxis {
@@ -50,7 +47,7 @@ private:
 };
 
 /// @return how to turn @a object for stages that leave out z if @a dim is 2. An object that is flat
-///         along no axis stays as it is: each of its slices of equal z is an object of its own.
+///         along no axis is not turned: each of its slices of equal z is an object of its own.
 FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim);
 
 } // namespace openvdb_spheretree

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafFinder.h
-/// @brief The leaves of voxels that come nearly in the order of coordinates, as the centres of a
-/// level's balls do: the slab and the row of leaves of the last one are looked at first.
+/// @brief Finds the leaves of voxels that come nearly in the order of coordinates, as the centers
+/// of a level's balls do. The slab and the row of leaves of the last voxel are looked at first.
 
 #pragma once
 
 #include "LeafLayout.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Memory of one thread.
 class LeafFinder {
@@ -42,7 +40,7 @@ public:
 private:
     using Leaves = LeafLayout::Slab; ///< [begin, end)
 
-    /// @return the first of some leaves that is not before a coordinate; it is often the very first.
+    /// @return the first of @a leaves at @a coordinate or behind; it is often the very first.
     uint32_t first(Leaves leaves, int axis, int32_t coordinate) const
     {
         if (leaves.size() == 0 || mLayout.origin(leaves.begin)[axis] >= coordinate)
@@ -65,5 +63,4 @@ private:
     uint32_t mLast = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

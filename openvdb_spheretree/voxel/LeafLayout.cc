@@ -21,7 +21,7 @@ namespace {
 
 /// Coordinates as numbers without a sign, in the same order.
 uint32_t ordered(int32_t coordinate) { return uint32_t(coordinate) ^ 0x80000000u; }
-int32_t coordinate(uint32_t ordered) { return int32_t(ordered ^ 0x80000000u); }
+int32_t coordinate(uint64_t ordered) { return int32_t(uint32_t(ordered) ^ 0x80000000u); }
 uint64_t ordered(int32_t first, int32_t second)
 {
     return uint64_t(ordered(first)) << 32 | ordered(second);
@@ -36,10 +36,7 @@ struct Place {
     uint32_t x, node; ///< node: its index among the tree's leaf nodes
 
     bool operator<(const Place& o) const { return x != o.x ? x < o.x : yz < o.yz; }
-    openvdb::Coord origin() const
-    {
-        return {coordinate(x), coordinate(uint32_t(yz >> 32)), coordinate(uint32_t(yz))};
-    }
+    openvdb::Coord origin() const { return {coordinate(x), coordinate(yz >> 32), coordinate(yz)}; }
 };
 
 Place placeOf(const openvdb::Coord& origin, uint32_t node)
@@ -47,26 +44,13 @@ Place placeOf(const openvdb::Coord& origin, uint32_t node)
     return {ordered(origin[1], origin[2]), ordered(origin[0]), node};
 }
 
-/// A leaf and what orders it among others.
+/// Leaves are ordered by key, then by number.
 struct Keyed {
     uint64_t key;
     uint32_t leaf;
 
     bool operator<(const Keyed& o) const { return key != o.key ? key < o.key : leaf < o.leaf; }
 };
-
-void appendTile(const openvdb::CoordBBox& tile, std::vector<Place>& places)
-{
-    const openvdb::Coord& lo = tile.min();
-    const openvdb::Coord n = tile.extents();
-    for (int x = 0; x < n[0]; x += kLeafDim) {
-        for (int y = 0; y < n[1]; y += kLeafDim) {
-            for (int z = 0; z < n[2]; z += kLeafDim) {
-                places.push_back(placeOf(lo.offsetBy(x, y, z), kInTile));
-            }
-        }
-    }
-}
 
 /// @return all leaves that hold voxels, in order.
 std::vector<Place> placesOf(const openvdb::MaskTree& level,
@@ -81,18 +65,18 @@ std::vector<Place> placesOf(const openvdb::MaskTree& level,
                      [](const Place& place) { return place.node == kInTile; }),
         places.end());
     places.reserve(std::size_t(count));
-    detail::forEachTile(level, [&](const openvdb::CoordBBox& box) { appendTile(box, places); });
+    detail::forEachTile(level, [&](const openvdb::CoordBBox& tile) {
+        const int side = tile.dim()[0];
+        for (int x = 0; x < side; x += kLeafDim) {
+            for (int y = 0; y < side; y += kLeafDim) {
+                for (int z = 0; z < side; z += kLeafDim) {
+                    places.push_back(placeOf(tile.min().offsetBy(x, y, z), kInTile));
+                }
+            }
+        }
+    });
     tbb::parallel_sort(places.begin(), places.end());
     return places;
-}
-
-/// Leaf nodes, and those that tiles stand for.
-int64_t countLeaves(const openvdb::MaskTree& level)
-{
-    int64_t count = int64_t(level.leafCount());
-    detail::forEachTile(level,
-        [&](const openvdb::CoordBBox& box) { count += int64_t(box.volume() / kLeafVoxels); });
-    return count;
 }
 
 /// @throw openvdb::ValueError, before anything is allocated
@@ -105,7 +89,7 @@ void requireRoom(int64_t leaves)
                 << " leaf nodes, those inside its tiles included, more than 2^31: use a "
                    "larger voxel, or split the object");
     }
-    // The layout itself, twice while it is sorted, and at least the steps along x.
+    // The layout itself, twice while it is sorted, and at least the gaps along x.
     detail::requireMemory(leaves, 2 * 100 + 2 * 64);
 }
 
@@ -114,7 +98,10 @@ void requireRoom(int64_t leaves)
 LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 {
     collectLeaves(level);
-    cutSlabs();
+    for (uint32_t leaf = 0; leaf < leafCount(); ++leaf) {
+        if (leaf == 0 || mOrigins[leaf][0] != mOrigins[leaf - 1][0]) mSlabBegin.push_back(leaf);
+    }
+    mSlabBegin.push_back(leafCount());
     for (Lines& lines : mLines) {
         lines.leaves.resize(leafCount());
         lines.position.resize(leafCount());
@@ -129,7 +116,9 @@ LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 
 void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
-    const int64_t count = countLeaves(level);
+    int64_t count = int64_t(level.leafCount()); // and the leaves that tiles stand for
+    detail::forEachTile(level,
+        [&](const openvdb::CoordBBox& tile) { count += int64_t(tile.volume() / kLeafVoxels); });
     requireRoom(count);
     std::vector<const detail::LeafNode*> nodes;
     nodes.reserve(level.leafCount());
@@ -143,25 +132,14 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
         int64_t sum = 0;
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             mOrigins[i] = places[i].origin();
-            for (uint32_t x = 0; x < 8; ++x) {
-                uint64_t& word = mMasks[i][x];
-                word = places[i].node == kInTile
-                    ? ~uint64_t(0)
-                    : nodes[places[i].node]->getValueMask().template getWord<uint64_t>(x);
-                sum += openvdb::util::CountOn(word);
-            }
+            mMasks[i] = places[i].node == kInTile
+                ? LeafMask::full()
+                : LeafMask::from(nodes[places[i].node]->getValueMask());
+            sum += mMasks[i].count();
         }
         voxels += sum;
     });
     mVoxelCount = voxels;
-}
-
-void LeafLayout::cutSlabs()
-{
-    for (uint32_t leaf = 0; leaf < leafCount(); ++leaf) {
-        if (leaf == 0 || mOrigins[leaf][0] != mOrigins[leaf - 1][0]) mSlabBegin.push_back(leaf);
-    }
-    mSlabBegin.push_back(leafCount());
 }
 
 void LeafLayout::orderAlongX()

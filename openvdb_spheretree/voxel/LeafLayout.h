@@ -6,8 +6,8 @@
 /// The separable transforms work on lines of voxels. A line is cut wherever the leaves along it
 /// have a gap, because a gap is background and no value crosses background (docs/algorithm.md,
 /// "Why sparse storage loses nothing"). So the unit of work is a *run*: leaves that touch, one
-/// behind the other along an axis; it holds 64 lines side by side. Nothing of a level is stored
-/// outside its leaves, and no tree is searched while a transform runs.
+/// behind the other along an axis. A run holds 64 lines side by side. Nothing is stored outside the
+/// leaves of a level, and no tree is searched while a transform runs.
 ///
 /// Leaves of equal x make a *slab*. Lines along y and z lie in one slab, so slabs are independent
 /// of each other but for the passes along x.
@@ -36,8 +36,7 @@ public:
         uint32_t count;
     };
 
-    /// @throw openvdb::ValueError if there are more than 2^31 leaves, or more than there is memory
-    /// for
+    /// @throw openvdb::ValueError if leaves exceed 2^31, or the memory
     explicit LeafLayout(const openvdb::MaskTree& level);
 
     uint32_t leafCount() const { return uint32_t(mOrigins.size()); }
@@ -99,7 +98,6 @@ private:
     };
 
     void collectLeaves(const openvdb::MaskTree& level);
-    void cutSlabs();
     void orderAlongX();
     void orderAlongY();
     void cutRuns(Axis axis);

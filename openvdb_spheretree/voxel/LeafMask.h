@@ -9,7 +9,6 @@
 #include <openvdb/math/Coord.h>
 #include <openvdb/util/NodeMasks.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -9,8 +9,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr uint64_t kColumn = 0x0101010101010101; ///< v = 0 in every row
 
@@ -45,5 +44,4 @@ inline uint32_t offsetInPlane(Axis axis, int at, uint32_t bit)
     return 8 * bit + at;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MaskDifference.cc
-/// @brief Difference of two masks: leaf masks against leaf masks, tiles against whatever is there.
-///
-/// The 128^3 nodes of the first mask come first; its larger tiles are few, and come last.
+/// @brief Leaf masks against leaf masks, tiles against whatever is there. The lower internal nodes
+/// of the first mask come first; its tiles are few, and come last.
 
 #include "MaskDifference.h"
 
@@ -11,8 +10,7 @@
 
 #include <openvdb/tools/Count.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -43,29 +41,21 @@ void subtractFromNode(const LowerNode& a, const MaskTree& b, std::vector<VoxelCu
     }
 }
 
-/// A tile of 128^3 minus what the other mask has there.
-void subtractFromTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCube>& result)
+/// A tile of 128^3 or 4096^3 minus what the other mask has there.
+void subtractFromTile(
+    const Coord& origin, int32_t size, const MaskTree& b, std::vector<VoxelCube>& result)
 {
-    const LowerNode* other = b.probeConstNode<LowerNode>(origin);
-    if (!other) {
-        if (!b.isValueOn(origin)) result.push_back(VoxelCube::full(origin, LowerNode::DIM));
-        return;
-    }
-    for (openvdb::Index n = 0; n < LowerNode::NUM_VALUES; ++n) {
-        append(other->offsetToGlobalCoord(n), LeafMask::full() - leafVoxels(*other, n), result);
-    }
-}
-
-/// A tile of 4096^3 minus what the other mask has there.
-void subtractFromLargeTile(const Coord& origin, const MaskTree& b, std::vector<VoxelCube>& result)
-{
-    const UpperNode* other = b.probeConstNode<UpperNode>(origin);
-    if (!other) {
-        if (!b.isValueOn(origin)) result.push_back(VoxelCube::full(origin, UpperNode::DIM));
-        return;
-    }
-    for (openvdb::Index n = 0; n < UpperNode::NUM_VALUES; ++n) {
-        subtractFromTile(other->offsetToGlobalCoord(n), b, result);
+    const bool isLarge = size == int32_t(UpperNode::DIM);
+    if (const auto* upper = isLarge ? b.probeConstNode<UpperNode>(origin) : nullptr) {
+        for (openvdb::Index n = 0; n < UpperNode::NUM_VALUES; ++n) {
+            subtractFromTile(upper->offsetToGlobalCoord(n), LowerNode::DIM, b, result);
+        }
+    } else if (const auto* lower = isLarge ? nullptr : b.probeConstNode<LowerNode>(origin)) {
+        for (openvdb::Index n = 0; n < LowerNode::NUM_VALUES; ++n) {
+            append(lower->offsetToGlobalCoord(n), LeafMask::full() - leafVoxels(*lower, n), result);
+        }
+    } else if (!b.isValueOn(origin)) {
+        result.push_back(VoxelCube::full(origin, size));
     }
 }
 
@@ -90,16 +80,16 @@ Coord VoxelCube::first() const
 MaskMinus::MaskMinus(const MaskTree& a, const MaskTree& b) : mA(a), mB(b)
 {
     constexpr int32_t kSize = LowerNode::DIM;
-    std::vector<Node> tiles;
     for (auto upper = a.root().cbeginChildOn(); upper; ++upper) {
         for (auto lower = upper->cbeginChildOn(); lower; ++lower) {
             mNodes.push_back({lower->origin(), kSize, false});
         }
+    }
+    for (auto upper = a.root().cbeginChildOn(); upper; ++upper) {
         for (auto tile = upper->cbeginValueOn(); tile; ++tile) {
-            tiles.push_back({tile.getCoord(), kSize, true});
+            mNodes.push_back({tile.getCoord(), kSize, true});
         }
     }
-    mNodes.insert(mNodes.end(), tiles.begin(), tiles.end());
     for (auto tile = a.root().cbeginValueOn(); tile; ++tile) {
         mNodes.push_back({tile.getCoord(), int32_t(UpperNode::DIM), true});
     }
@@ -109,13 +99,8 @@ void MaskMinus::cubes(std::size_t index, std::vector<VoxelCube>& result) const
 {
     result.clear();
     const Node& node = mNodes[index];
-    if (!node.tile) {
-        subtractFromNode(*mA.probeConstNode<LowerNode>(node.origin), mB, result);
-    } else if (node.size == int32_t(LowerNode::DIM)) {
-        subtractFromTile(node.origin, mB, result);
-    } else {
-        subtractFromLargeTile(node.origin, mB, result);
-    }
+    if (node.tile) subtractFromTile(node.origin, node.size, mB, result);
+    else subtractFromNode(*mA.probeConstNode<LowerNode>(node.origin), mB, result);
 }
 
 MaskDifference maskDifference(
@@ -125,9 +110,9 @@ MaskDifference maskDifference(
     std::vector<std::vector<VoxelCube>> parts(minus.nodeCount());
     parallelFor(
         parts.size(), interrupter, [&](std::size_t node) { minus.cubes(node, parts[node]); });
-    MaskDifference result;
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
+    MaskDifference result;
     result.cubes.reserve(count);
     for (auto& part : parts) {
         for (const VoxelCube& cube : part) result.voxels += cube.voxels();
@@ -147,5 +132,4 @@ int64_t countVoxels(const MaskTree& tree)
     return int64_t(openvdb::tools::countActiveVoxels(tree));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

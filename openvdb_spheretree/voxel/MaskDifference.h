@@ -13,15 +13,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// A cube of 8, 128 or 4096 voxels a side, and which of its voxels are in a set: of a cube of 8 those
-/// of the mask, of a larger one all.
+/// A cube of 8, 128 or 4096 voxels a side, and which of its voxels are in a set.
 struct VoxelCube {
     openvdb::Coord origin;
     int32_t size = kLeafDim;
-    LeafMask mask{};
+    LeafMask mask{}; ///< of a cube of 8; larger cubes have all their voxels
 
     static VoxelCube full(const openvdb::Coord& origin, int32_t size)
     {
@@ -38,17 +36,16 @@ struct VoxelCube {
     openvdb::Coord first() const;
 };
 
-/// What one mask has and another has not, by the lower internal nodes and the tiles of 128 or more of
-/// the first. Nothing of it is in memory; the cubes of a node are made when they are asked for.
+/// What one mask has and another has not, by nodes of the first: its lower internal nodes, and its
+/// tiles of 128 or more. Nothing is stored; the cubes of a node are made when they are read.
 class MaskMinus {
 public:
     /// Both are kept by reference.
     MaskMinus(const openvdb::MaskTree& a, const openvdb::MaskTree& b);
 
     std::size_t nodeCount() const { return mNodes.size(); }
-    /// @param result  becomes the cubes of a node, none of them empty; those of a lower internal node
-    ///                stand together. Tiles are compared as tiles: one is cut up only where the
-    ///                other mask has nodes.
+    /// @param result  becomes the cubes of a node, none of them empty. A tile is cut up only where
+    ///                the other mask has nodes.
     void cubes(std::size_t node, std::vector<VoxelCube>& result) const;
 
 private:
@@ -78,5 +75,4 @@ openvdb::MaskTree maskOf(const openvdb::BoolTree& tree);
 /// @return the number of active voxels.
 int64_t countVoxels(const openvdb::MaskTree& tree);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,8 +6,7 @@
 
 #include "Masks.h"
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using UpperNode = openvdb::MaskTree::RootNodeType::ChildNodeType; ///< 4096^3 voxels
 using LowerNode = UpperNode::ChildNodeType;                       ///< 128^3
@@ -26,5 +25,4 @@ void forEachTile(const TreeType& tree, const F& f)
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the number of voxels in some masks.
 inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
@@ -21,19 +20,6 @@ inline std::size_t countMarks(const LeafMask* masks, std::size_t count)
     std::size_t sum = 0;
     for (std::size_t i = 0; i < count; ++i) sum += std::size_t(masks[i].count());
     return sum;
-}
-
-/// @return where the rows of leaves of equal y begin in a slab, and the slab's end.
-inline std::vector<uint32_t> rowsOfSlab(const LeafLayout& layout, const LeafLayout::Slab& slab)
-{
-    std::vector<uint32_t> begin;
-    for (uint32_t leaf = slab.begin; leaf < slab.end; ++leaf) {
-        const bool starts =
-            leaf == slab.begin || layout.origin(leaf)[1] != layout.origin(leaf - 1)[1];
-        if (starts) begin.push_back(leaf);
-    }
-    begin.push_back(slab.end);
-    return begin;
 }
 
 /// Adds the bits of each byte of @a word to eight sums.
@@ -45,18 +31,23 @@ inline void countBytes(uint64_t word, std::size_t* sums)
     for (int y = 0; y < 8; ++y) sums[y] += word >> 8 * y & 0xff;
 }
 
-/// Calls visit(leaf, index, place) for the marked voxels of a slab: its leaf, its index there, and its
-/// rank among the marked voxels of the slab in the order of coordinates. Voxels are visited for each
-/// x of the leaves, row of leaves by row of leaves. (A row has one y: its voxels come before those of
-/// the next row. Within it voxels are ordered by y, then by leaf, then by z.)
+/// Calls visit(leaf, index, place) for the marked voxels of a slab: its leaf, its index there, and
+/// its rank among the marked voxels of the slab in the order of coordinates. Voxels are visited by
+/// x, then row of leaves by row of leaves. Leaves of a row have the same y, so the voxels of a row
+/// come before those of the next one. In a row they are ordered by y, then by leaf, then by z.
 /// @param marks  a mask for each leaf of the slab
 template <typename Visit>
 void visitWithPlaces(
     const LeafLayout& layout, uint32_t slabIndex, const LeafMask* marks, const Visit& visit)
 {
     const LeafLayout::Slab slab = layout.slab(slabIndex);
-    const std::vector<uint32_t> rows = rowsOfSlab(layout, slab);
-    std::size_t before = 0;
+    std::vector<uint32_t> rows; // the first leaf of each, and the slab's end
+    for (uint32_t leaf = slab.begin; leaf < slab.end; ++leaf) {
+        const bool starts = rows.empty() || layout.origin(leaf)[1] != layout.origin(leaf - 1)[1];
+        if (starts) rows.push_back(leaf);
+    }
+    rows.push_back(slab.end);
+    std::size_t before = 0; // voxels in earlier rows
     for (uint32_t x = 0; x < 8; ++x) {
         for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
             std::size_t place[9] = {};
@@ -76,5 +67,4 @@ void visitWithPlaces(
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

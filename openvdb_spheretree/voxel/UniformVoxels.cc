@@ -25,10 +25,8 @@ struct VoxelEdges {
         edge[2] = map->applyJacobian({0, 0, 1});
         for (int i = 0; i < 3; ++i) length[i] = edge[i].length();
     }
-    double lengthMismatch() const
-    {
-        return *std::max_element(length, length + 3) - *std::min_element(length, length + 3);
-    }
+    double longest() const { return *std::max_element(length, length + 3); }
+    double shortest() const { return *std::min_element(length, length + 3); }
     /// The largest cosine of the angle between two edges.
     double skew() const
     {
@@ -44,11 +42,6 @@ struct VoxelEdges {
     double length[3];
 };
 
-bool isFinite(const openvdb::Vec3d& v)
-{
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
 } // namespace
 
 void requireUniformVoxels(const openvdb::GridBase& grid)
@@ -63,13 +56,13 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
     const VoxelEdges voxel(transform);
     const double* length = voxel.length;
     const openvdb::Vec3d offset = transform.baseMap()->applyMap({0, 0, 0});
-    if (!isFinite(offset) || !isFinite({length[0], length[1], length[2]}) || !(length[0] > 0)) {
+    if (!offset.isFinite() || !openvdb::Vec3d(length).isFinite() || !(length[0] > 0)) {
         OPENVDB_THROW(openvdb::ValueError,
             detail::describe(grid)
                 << " has a transform with a zero, "
                    "an infinity or a NaN in it: set its transform, or resample it to cubic voxels");
     }
-    const bool uniform = voxel.lengthMismatch() <= kTolerance * length[0];
+    const bool uniform = voxel.longest() - voxel.shortest() <= kTolerance * length[0];
     const bool orthogonal = voxel.skew() <= kTolerance;
     if (uniform && orthogonal) return;
     OPENVDB_THROW(openvdb::ValueError,
@@ -82,21 +75,18 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
 double largestStretch(const openvdb::math::Transform& transform)
 {
     const VoxelEdges voxel(transform);
-    const double largest = *std::max_element(voxel.length, voxel.length + 3);
-    // |J v|^2 = sum of length^2 v_i^2 + 2 edge_i.edge_j v_i v_j <= largest^2 (1 + 2 skew) |v|^2.
+    // |J v|^2 = sum of length^2 v_i^2 + 2 edge_i.edge_j v_i v_j <= longest^2 (1 + 2 skew) |v|^2.
     const double skew = voxel.skew();
-    return skew < 1e-15 ? largest : largest * (1 + skew + 1e-15);
+    return skew < 1e-15 ? voxel.longest() : voxel.longest() * (1 + skew + 1e-15);
 }
 
 double smallestStretch(const openvdb::math::Transform& transform)
 {
     const VoxelEdges voxel(transform);
-    const double* length = voxel.length;
-    const double smallest = *std::min_element(length, length + 3);
-    // As above, |J v|^2 >= smallest^2 (1 - 2 skew) |v|^2 but for 1e-6 of the skew, and the root of
+    // As above, |J v|^2 >= shortest^2 (1 - 2 skew) |v|^2 but for 1e-6 of the skew, and the root of
     // 1 - 2 skew is about 1 - skew.
     const double skew = voxel.skew();
-    return skew < 1e-15 ? smallest : smallest * (1 - 2 * skew - 1e-15);
+    return skew < 1e-15 ? voxel.shortest() : voxel.shortest() * (1 - 2 * skew - 1e-15);
 }
 
 } // namespace openvdb_spheretree
