@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
+#include <openvdb/math/Math.h>
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -62,7 +63,7 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
     const Vec3d lo = transform.indexToWorld(box.min().asVec3d() - Vec3d(0.5));
     const Vec3d hi = transform.indexToWorld(box.max().asVec3d() + Vec3d(0.5));
     camera.lookAt = (lo + hi) / 2;
-    const double half = std::tan(fovDegrees * M_PI / 360);
+    const double half = std::tan(fovDegrees * openvdb::math::pi<double>() / 360);
     const double narrower = std::atan(half * std::min(aspect, 1.0));
     const double distance = (hi - lo).length() / 2 / std::sin(narrower);
     const int flat = flatAxisOf(box);

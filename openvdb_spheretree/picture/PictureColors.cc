@@ -9,6 +9,8 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/index/BoundingTree.h>
 
+#include <openvdb/math/Math.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +39,7 @@ Vec3d linearOfOklab(double lightness, double a, double b)
 /// Every second one a little darker, to tell neighbours on the circle apart.
 Vec3f paletteColor(int index)
 {
-    const double hue = 2 * M_PI * (index + 0.6) / kHues;
+    const double hue = 2 * openvdb::math::pi<double>() * (index + 0.6) / kHues;
     const double lightness = index % 2 ? 0.70 : 0.80, chroma = 0.115;
     Vec3d color = linearOfOklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
     for (int c = 0; c < 3; ++c) color[c] = std::min(std::max(color[c], 0.01), 1.0);

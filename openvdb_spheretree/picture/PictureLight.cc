@@ -3,6 +3,8 @@
 
 #include "PictureColors.h"
 
+#include <openvdb/math/Math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,8 @@ namespace detail {
 using openvdb::Vec3d;
 
 namespace {
+
+constexpr double kPi = openvdb::math::pi<double>();
 
 /// Two unit vectors across a third (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
@@ -37,7 +41,7 @@ CameraFrame::CameraFrame(
 }
 
 CameraRays::CameraRays(const CameraFrame& frame, double fovDegrees, int width, int height)
-    : mFrame(frame), mPixel(2 * std::tan(fovDegrees * M_PI / 360) / height),
+    : mFrame(frame), mPixel(2 * std::tan(fovDegrees * kPi / 360) / height),
       mHalfWidth(mPixel * width / 2), mHalfHeight(mPixel * height / 2)
 {}
 
@@ -51,7 +55,7 @@ Light::Light(const CameraFrame& frame)
 Vec3d Light::towardsLamp(double u, double v) const
 {
     constexpr double kRadius = 0.14; // seen from the scene: some 8 degrees
-    const double r = kRadius * std::sqrt(u), angle = 2 * M_PI * v;
+    const double r = kRadius * std::sqrt(u), angle = 2 * kPi * v;
     return (lamp + r * std::cos(angle) * lampAcross + r * std::sin(angle) * lampAlong).unit();
 }
 
@@ -59,7 +63,7 @@ Vec3d Light::towardsSky(const Vec3d& normal, double u, double v)
 {
     Vec3d across, along;
     makeBasis(normal, across, along);
-    const double r = std::sqrt(u), angle = 2 * M_PI * v;
+    const double r = std::sqrt(u), angle = 2 * kPi * v;
     return r * std::cos(angle) * across + r * std::sin(angle) * along + std::sqrt(1 - u) * normal;
 }
 
