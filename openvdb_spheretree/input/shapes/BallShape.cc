@@ -53,10 +53,9 @@ Filling SolidBall::filling(const CoordBBox& cube) const
 LeafMask SolidBall::leaf(const Coord& origin) const
 {
     LeafMask mask{};
-    for (int n = 0; n < kLeafVoxels; ++n) {
-        const Coord q = origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
-        const bool on = square(q[0]) + square(q[1]) + square(q[2]) < mRadiusSq;
-        mask[n >> 6] |= uint64_t(on) << (n & 63);
+    for (uint32_t n = 0; n < kLeafVoxels; ++n) {
+        const Coord q = origin.offsetBy(int(n >> 6), int(n >> 3 & 7), int(n & 7));
+        if (square(q[0]) + square(q[1]) + square(q[2]) < mRadiusSq) mask.setOn(n);
     }
     return mask;
 }
