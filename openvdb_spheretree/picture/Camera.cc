@@ -21,7 +21,7 @@ void requireFinite(const char* name, const Vec3d& v)
     OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
 }
 
-/// The unit vector to a viewer of things that stand upright along @a up.
+/// @return the unit vector towards a viewer in front, to the right and above.
 Vec3d frontRightAbove(const Vec3d& up)
 {
     const Vec3d above = up.unit();
@@ -77,8 +77,8 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
         return transform.baseMap()->applyJacobian(index).unit();
     };
     camera.eye = camera.lookAt + distance * worldAxis(flat);
-    const bool upright = worldAxis(flat).cross(up.unit()).length() > 1e-3;
-    if (!upright) camera.up = worldAxis(flat == 2 ? 1 : 2); // it cannot be
+    const bool isAcross = worldAxis(flat).cross(up.unit()).length() > 1e-3;
+    if (!isAcross) camera.up = worldAxis(flat == 2 ? 1 : 2);
     return camera;
 }
 

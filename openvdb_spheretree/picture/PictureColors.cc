@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file PictureColors.cc
-/// @brief Twelve colours of about one lightness are handed out so that what lies side by side
-/// differs: greedily, by id, avoiding the colours of the nearest neighbours that have one.
+/// Spheres get one of twelve colours of about the same lightness, one after the other: each takes
+/// one that its nearest neighbours do not have yet, so that what lies side by side differs.
 
 #include "PictureColors.h"
 
@@ -14,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -24,8 +24,9 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 constexpr int kHues = 12;
+constexpr int kPlain = 8; ///< blue: for spheres that all have one colour
 
-/// Oklab (Ottosson 2020): equal steps look equal, so that no hue shouts.
+/// Oklab (Ottosson 2020): hues of one lightness look equally light.
 Vec3d linearOfOklab(double lightness, double a, double b)
 {
     const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
@@ -46,83 +47,48 @@ Vec3f paletteColor(int index)
     return Vec3f(color);
 }
 
-constexpr int kPlain = 8; ///< the blue one, where one colour is all there is
-
-/// The nodes in [begin, end) of a tree, each with the index of a colour.
-class Coloring {
-public:
-    Coloring(const SphereTree& tree, int32_t begin, int32_t end,
-        openvdb::util::NullInterrupter* interrupter)
-        : mTree(tree), mBegin(begin), mBounds(boundsOf(begin, end), interrupter)
-    {
-        mColors.resize(end - begin, -1);
-        for (int32_t i = 0; i < end - begin; ++i) {
-            if (i % 1024 == 0) checkInterrupt(interrupter);
-            mColors[i] = choose(i);
-        }
-    }
-    int colorOf(int32_t id) const { return mColors[id - mBegin]; }
-
-private:
-    struct Neighbour {
-        double distanceSq;
-        int32_t index;
-        bool operator<(const Neighbour& o) const
-        {
-            return distanceSq != o.distanceSq ? distanceSq < o.distanceSq : index < o.index;
-        }
-    };
-
-    /// Half as large as the sphere, and a voxel: overlapping spheres would all be neighbours.
-    Bound boundOf(int32_t id) const
-    {
-        return Bound::ofBall(mTree.spheres.center[id], mTree.spheres.radius[id] / 2 + 1);
-    }
-    std::vector<Bound> boundsOf(int32_t begin, int32_t end) const
-    {
-        std::vector<Bound> bounds;
-        for (int32_t id = begin; id < end; ++id) bounds.push_back(boundOf(id));
-        return bounds;
-    }
-
-    /// A colour that none of the nearest kHues - 1 neighbours has.
-    int choose(int32_t i) const
-    {
-        std::array<Neighbour, kHues - 1> nearest;
-        int count = 0;
-        mBounds.visitMeeting(boundOf(mBegin + i), [&](int32_t place) {
-            const int32_t other = mBounds.order()[place];
-            if (other >= i) return; // has no colour yet
-            const Vec3d apart =
-                mTree.spheres.center[mBegin + other] - mTree.spheres.center[mBegin + i];
-            const Neighbour neighbour{apart.lengthSqr(), other};
-            const double reach = boundOf(mBegin + other).radius + boundOf(mBegin + i).radius;
-            if (neighbour.distanceSq > reach * reach) return; // bounds are not exact
-            if (count == kHues - 1 && !(neighbour < nearest[count - 1])) return;
-            const int last = count < kHues - 1 ? count++ : count - 1;
-            nearest[last] = neighbour;
-            std::sort(nearest.begin(), nearest.begin() + count);
-        });
-        std::array<bool, kHues> used = {};
-        for (int n = 0; n < count; ++n) used[mColors[nearest[n].index]] = true;
-        int color = int(hash(uint64_t(i)) % kHues);
-        while (used[color]) color = (color + 5) % kHues; // 5 and 12 have no divisor in common
-        return color;
-    }
-
-    const SphereTree& mTree;
-    const int32_t mBegin;
-    BoundingTree mBounds;
-    std::vector<int> mColors;
-};
-
-/// The level whose nodes are the parents of @a level, or null.
-const SphereTreeLevel* levelAbove(const SphereTree& tree, const SphereTreeLevel& level)
+/// @return a colour that none of the nearest kHues - 1 neighbours of body @a i has, of those with a
+///         smaller number: these have their @a colors already.
+int colorOf(int32_t i, const std::vector<Bound>& bounds, const BoundingTree& bodies,
+    const std::vector<int>& colors)
 {
-    for (const SphereTreeLevel& other : tree.levels) {
-        if (other.end == level.begin && other.size() > 0) return &other;
+    using Neighbour = std::pair<double, int32_t>; // squared distance, number
+    std::array<Neighbour, kHues - 1> nearest;
+    int count = 0;
+    bodies.visitMeeting(bounds[i], [&](int32_t place) {
+        const int32_t other = bodies.order()[place];
+        if (other >= i) return;
+        const double distanceSq = (bounds[other].center - bounds[i].center).lengthSqr();
+        const double reach = bounds[other].radius + bounds[i].radius;
+        if (distanceSq > reach * reach) return; // BoundingTree rounds bounds outwards
+        const Neighbour neighbour(distanceSq, other);
+        if (count == kHues - 1 && !(neighbour < nearest[count - 1])) return;
+        const int last = count < kHues - 1 ? count++ : count - 1;
+        nearest[last] = neighbour;
+        std::sort(nearest.begin(), nearest.begin() + count);
+    });
+    std::array<bool, kHues> used = {};
+    for (int n = 0; n < count; ++n) used[colors[nearest[n].second]] = true;
+    int color = int(hash(uint64_t(i)) % kHues);
+    while (used[color]) color = (color + 5) % kHues; // 5 and 12 have no divisor in common
+    return color;
+}
+
+/// @return for each node of a level the index of a colour.
+std::vector<int> coloring(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<Bound> bounds; // of half the radius: overlapping spheres would all be neighbours
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        bounds.push_back(Bound::ofBall(tree.spheres.center[id], tree.spheres.radius[id] / 2 + 1));
     }
-    return nullptr;
+    const BoundingTree bodies(bounds, interrupter);
+    std::vector<int> colors(level.size(), -1);
+    for (int32_t i = 0; i < level.size(); ++i) {
+        if (i % 1024 == 0) checkInterrupt(interrupter);
+        colors[i] = colorOf(i, bounds, bodies, colors);
+    }
+    return colors;
 }
 
 } // namespace
@@ -149,21 +115,22 @@ std::vector<Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& le
 {
     Vec3f one = paletteColor(kPlain);
     if (settings.color == PictureColor::Fixed) one = Vec3f(linearOf(settings.fixed));
-    if (settings.color == PictureColor::Level)
+    if (settings.color == PictureColor::Level) {
         one = paletteColor((kPlain + 5 * level.level) % kHues);
+    }
     std::vector<Vec3f> colors(level.size(), one);
     if (settings.color == PictureColor::Id) {
-        const Coloring own(tree, level.begin, level.end, interrupter);
-        for (int32_t id = level.begin; id < level.end; ++id) {
-            colors[id - level.begin] = paletteColor(own.colorOf(id));
-        }
+        const std::vector<int> own = coloring(tree, level, interrupter);
+        std::transform(own.begin(), own.end(), colors.begin(), paletteColor);
     }
-    const SphereTreeLevel* const above = levelAbove(tree, level);
-    if (settings.color != PictureColor::Parent || !above) return colors;
-    const Coloring ofParents(tree, above->begin, above->end, interrupter);
-    for (int32_t id = level.begin; id < level.end; ++id) {
-        const int32_t parent = tree.spheres.parent[id];
-        if (parent >= 0) colors[id - level.begin] = paletteColor(ofParents.colorOf(parent));
+    if (settings.color == PictureColor::Parent && tree.hasLevel(level.level + 1)) {
+        const SphereTreeLevel& above = tree.level(level.level + 1);
+        const std::vector<int> ofParents = coloring(tree, above, interrupter);
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const int32_t parent = tree.spheres.parent[id];
+            if (parent < 0) continue;
+            colors[id - level.begin] = paletteColor(ofParents[parent - above.begin]);
+        }
     }
     return colors;
 }
