@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -58,6 +60,17 @@ inline std::string messageOf(const std::exception& error)
     constexpr std::size_t kLongest = 400;
     const std::string_view message = withoutType(error.what());
     return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
+}
+
+/// @return the number that the whole text is; nothing if it is none, or out of the type's range.
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text)
+{
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end) return {};
+    return number;
 }
 
 } // namespace detail

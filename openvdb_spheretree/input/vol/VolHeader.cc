@@ -6,10 +6,8 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <system_error>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -47,7 +45,7 @@ void addField(const std::string& path, const std::string& line, HeaderFields& fi
     }
 }
 
-/// @return the fields, and in @a offset where the values start.
+/// @return the fields; @a offset becomes that of the first value.
 HeaderFields splitHeader(const std::string& path, const std::string& text, std::uint64_t& offset)
 {
     HeaderFields fields;
@@ -75,15 +73,13 @@ std::uint64_t sideOf(const std::string& path, const HeaderFields& fields, const 
 {
     const auto it = fields.find(key);
     if (it == fields.end()) fail(path, "header has no key '" + key + "'");
-    const std::string& text = it->second;
-    std::uint64_t side = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > kMaxSide) {
+    const auto side = parseNumber<std::uint64_t>(it->second);
+    if (!side || *side < 1 || *side > kMaxSide) {
         fail(path,
-            "header key '" + key + "' is " + inQuotes(text) + ", not a whole number from 1 to "
-                + std::to_string(kMaxSide));
+            "header key '" + key + "' is " + inQuotes(it->second)
+                + ", not a whole number from 1 to " + std::to_string(kMaxSide));
     }
-    return side;
+    return *side;
 }
 
 int versionOf(const std::string& path, const HeaderFields& fields)
@@ -100,17 +96,14 @@ double voxelSizeOf(const std::string& path, const HeaderFields& fields)
 {
     const auto it = fields.find("Voxel-Size");
     if (it == fields.end()) return 1;
-    const std::string& text = it->second;
-    double size = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(size)
-        || size <= 0) {
-        fail(path, "header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
+    const auto size = parseNumber<double>(it->second);
+    if (!size || !std::isfinite(*size) || *size <= 0) {
+        fail(path, "header key 'Voxel-Size' is " + inQuotes(it->second) + ", not a number above 0");
     }
-    return size;
+    return *size;
 }
 
-/// Refuse what cannot fit before anything of its size is allocated.
+/// Refuses a header whose file cannot hold the values, or holds more.
 void checkSize(const std::string& path, const VolHeader& header)
 {
     const std::string claim = "header keys X, Y, Z ask for " + std::to_string(header.volumeBytes())
