@@ -17,12 +17,17 @@
 namespace openvdb_spheretree {
 namespace detail {
 
+inline std::string lowerCase(std::string_view text)
+{
+    std::string lower(text);
+    for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+}
+
 /// @return `.obj` of `path/Part.OBJ`.
 inline std::string lowerExtension(const std::string& path)
 {
-    std::string text = std::filesystem::path(path).extension().string();
-    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return text;
+    return lowerCase(std::filesystem::path(path).extension().string());
 }
 
 /// @return the text on one line, its control characters replaced; where it is longer than @a

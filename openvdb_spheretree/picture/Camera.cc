@@ -17,8 +17,7 @@ using openvdb::Vec3d;
 
 void requireFinite(const char* name, const Vec3d& v)
 {
-    if (std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2])) return;
-    OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
+    if (!v.isFinite()) OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
 }
 
 /// @return the unit vector towards a viewer in front, to the right and above.

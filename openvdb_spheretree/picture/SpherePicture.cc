@@ -146,8 +146,8 @@ private:
         }
         for (int y = top; y < bottom; ++y) {
             for (int x = left; x < right; ++x) {
-                const Pixel& pixel = patch.at(x, y);
-                const Vec3d light = pixel.surface ? blurred(patch, x, y) : pixel.color;
+                const Pixel& shown = patch.at(x, y);
+                const Vec3d light = shown.surface ? blurred(patch, x, y) : shown.color;
                 uint8_t* const rgb = &picture.rgb[3 * (std::size_t(y) * picture.width + x)];
                 for (int c = 0; c < 3; ++c) rgb[c] = detail::srgbByte(light[c]);
             }

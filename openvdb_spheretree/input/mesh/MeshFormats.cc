@@ -25,13 +25,6 @@ using openvdb::Vec3s;
 constexpr std::size_t kStlHeaderBytes = 84; // 80 of text, and the number of facets
 constexpr std::size_t kStlFacetBytes = 50;  // a normal, three corners, and two bytes of colour
 
-std::string lower(std::string_view word)
-{
-    std::string text(word);
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 // OBJ
 
 /// @param word  "point", "point/uv", "point//normal" or "point/uv/normal", each counted from 1, or
@@ -128,7 +121,7 @@ void needWords(MeshText& text, std::initializer_list<const char*> expectedWords)
 {
     for (const char* expected : expectedWords) {
         const std::string_view word = text.wordOnAnyLine();
-        if (lower(word) == expected) continue;
+        if (lowerCase(word) == expected) continue;
         text.fail(word.empty() ? std::string("the file ends before '") + expected + "'"
                                : inQuotes(word) + " instead of '" + expected + "'");
     }
@@ -154,10 +147,10 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
     MeshText text(bytes);
     for (std::string_view solid = text.wordOnAnyLine(); !solid.empty();
          solid = text.wordOnAnyLine()) {
-        if (lower(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
+        if (lowerCase(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
         text.nextLine(); // the rest of the line is the solid's name
         for (;;) {
-            const std::string word = lower(text.wordOnAnyLine());
+            const std::string word = lowerCase(text.wordOnAnyLine());
             if (word == "endsolid") break;
             if (word.empty()) text.fail("the file ends before 'endsolid'; it is truncated");
             if (word != "facet") text.fail(inQuotes(word) + " instead of 'facet' or 'endsolid'");
@@ -169,19 +162,6 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
 }
 
 // OFF
-
-/// The first word is OFF; letters before it name what points have besides coordinates.
-void offKeyword(MeshText& text)
-{
-    text.needLine("the keyword OFF");
-    std::string_view word = text.word();
-    for (const std::string_view prefix : {"ST", "C", "N"}) {
-        if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
-    }
-    if (word != "OFF") {
-        text.fail("the file does not begin with OFF (points in four or n dimensions are not read)");
-    }
-}
 
 std::uint64_t offCount(MeshText& text, std::string_view word, const char* what)
 {
@@ -247,8 +227,15 @@ PolygonSoup parseOff(const std::string& bytes)
 {
     PolygonSoup soup;
     MeshText text(bytes);
-    offKeyword(text);
+    text.needLine("the keyword OFF");
     std::string_view word = text.word();
+    for (const std::string_view prefix : {"ST", "C", "N"}) { // what points have besides coordinates
+        if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
+    }
+    if (word != "OFF") {
+        text.fail("the file does not begin with OFF (points in four or n dimensions are not read)");
+    }
+    word = text.word();
     if (word.empty()) {
         text.needLine("the number of points");
         word = text.word();
@@ -272,7 +259,7 @@ PolygonSoup parseStl(const std::string& bytes)
     const bool hasHeader = bytes.size() >= kStlHeaderBytes;
     if (hasHeader && bytes.size() == binaryStlSize(bytes)) return parseBinaryStl(bytes);
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-    const bool isAscii = first != bytes.npos && lower(bytes.substr(first, 5)) == "solid";
+    const bool isAscii = first != bytes.npos && lowerCase(bytes.substr(first, 5)) == "solid";
     if (isAscii) return parseAsciiStl(bytes);
     if (!hasHeader) throw IoError("too short for an STL file; it is truncated");
     throw IoError("neither an ASCII STL nor a whole binary one: its header asks for "
