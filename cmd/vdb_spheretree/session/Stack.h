@@ -57,8 +57,10 @@ public:
     /// @param suits     whether an item is that
     /// @param ageOrName the user's choice. If it is empty, the newest action that made an item that
     ///                  suits must have made only one such item, which is taken.
+    /// @param meshes    whether it is looked for among the meshes, not among grids and trees
     /// @throw CommandError (input) if there is no such item, or more than one
-    StackItem& select(const std::string& what, const Suits& suits, const std::string& ageOrName);
+    StackItem& select(const std::string& what, const Suits& suits, const std::string& ageOrName,
+        bool meshes = false);
     StackItem& selectTree(const std::string& ageOrName);
     StackItem& selectMesh(const std::string& ageOrName);
 
@@ -69,16 +71,11 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
-    StackItem& selectAmong(
-        const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes);
     std::string listing() const;
 
     std::vector<std::unique_ptr<StackItem>> mItems;
     std::string mSource;
     int mBatch = 0;
 };
-
-/// @return the type of a grid's values, such as `float` or `bool`; or `points`.
-std::string shortType(const openvdb::GridBase& grid);
 
 } // namespace command
