@@ -26,23 +26,19 @@ using openvdb::Vec3f;
 constexpr int kHues = 12;
 constexpr int kPlain = 8; ///< blue: for spheres that all have one colour
 
-/// Oklab (Ottosson 2020): hues of one lightness look equally light.
-Vec3d linearOfOklab(double lightness, double a, double b)
-{
-    const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
-    const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
-    const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-    return Vec3d(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-        -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-        -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s);
-}
-
-/// Every second one a little darker, to tell neighbours on the circle apart.
+/// Colours of Oklab (Ottosson 2020), where hues of one lightness look equally light. Every second
+/// one is a little darker, to tell neighbours on the circle apart.
 Vec3f paletteColor(int index)
 {
     const double hue = 2 * openvdb::math::pi<double>() * (index + 0.6) / kHues;
     const double lightness = index % 2 ? 0.70 : 0.80, chroma = 0.115;
-    Vec3d color = linearOfOklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
+    const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+    const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+    const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+    const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+    Vec3d color(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+        -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+        -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s);
     for (int c = 0; c < 3; ++c) color[c] = std::min(std::max(color[c], 0.01), 1.0);
     return Vec3f(color);
 }

@@ -82,9 +82,7 @@ public:
     /// By tiles, not by rows: rays side by side need the same shapes.
     Picture paint(openvdb::util::NullInterrupter* interrupter) const
     {
-        Picture picture;
-        picture.width = mView.settings.width;
-        picture.height = mView.settings.height;
+        Picture picture{mView.settings.width, mView.settings.height, {}};
         picture.rgb.resize(std::size_t(picture.width) * picture.height * 3);
         const std::size_t across = (picture.width + kTile - 1) / kTile;
         const std::size_t tiles = across * ((picture.height + kTile - 1) / kTile);
@@ -107,12 +105,15 @@ private:
     };
     using Probes = std::array<Sample, kProbes * kProbes>;
 
+    struct Incident {
+        double lamp = 0;    ///< how much of the lamp is visible, 0 to 1
+        Vec3d ambient{0.0}; ///< mean light of the sky
+    };
     /// What a pixel shows of one smooth surface, and the light on it: means of the samples.
     struct Surface {
         int32_t shape;
         Vec3d point{0.0}, normal{0.0}, toEye{0.0};
-        double lamp = 0; ///< how much of the lamp is visible, 0 to 1
-        Vec3d ambient{0.0};
+        Incident light = {};
     };
     struct Pixel {
         Vec3d color{0.0}; ///< linear; not used where there is a surface
@@ -163,21 +164,20 @@ private:
         const int right = std::min(patch.right, x + kBlur + 1);
         const int top = std::max(patch.top, y - kBlur);
         const int bottom = std::min(patch.bottom, y + kBlur + 1);
-        double lamp = 0;
-        Vec3d sky(0.0);
+        Incident sum;
         int count = 0;
         for (int v = top; v < bottom; ++v) {
             for (int u = left; u < right; ++u) {
                 const auto& other = patch.at(u, v).surface;
                 if (!other) continue;
                 if (!isSmooth(here.point, here.normal, other->point, other->normal)) continue;
-                lamp += other->lamp;
-                sky += other->ambient;
+                sum.lamp += other->light.lamp;
+                sum.ambient += other->light.ambient;
                 ++count;
             }
         }
-        return mView.light.reflected(
-            Vec3d(mColors[here.shape]), here.normal, here.toEye, lamp / count, sky / count);
+        return mView.light.reflected(Vec3d(mColors[here.shape]), here.normal, here.toEye,
+            sum.lamp / count, sum.ambient / count);
     }
 
     /// Four samples are enough where they all see one smooth surface, or all see nothing.
@@ -207,12 +207,12 @@ private:
         Surface mean{probes[0].hit->shape};
         const auto count = int(probes.size());
         for (int s = 0; s < count; ++s) {
-            const Vec3d normal = probes[s].hit->normal, from = probes[s].start;
-            mean.point += from / count;
-            mean.normal += normal;
+            const Incident light = incidentOn(probes[s], s, count, seed);
+            mean.point += probes[s].start / count;
+            mean.normal += probes[s].hit->normal;
             mean.toEye -= probes[s].ray.direction;
-            mean.lamp += lampShare(from, normal, s, count, seed) / count;
-            mean.ambient += ambient(from, normal, s, count, seed) / count;
+            mean.light.lamp += light.lamp / count;
+            mean.light.ambient += light.ambient / count;
         }
         mean.normal.normalize();
         mean.toEye.normalize();
@@ -259,39 +259,33 @@ private:
     Vec3d lightOf(const Sample& sample, int s, int count, uint64_t seed) const
     {
         if (!sample.hit) return Light::background(sample.y / mView.settings.height);
-        const Vec3d normal = sample.hit->normal;
-        const double lamp = lampShare(sample.start, normal, s, count, seed);
-        return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), normal,
-            -sample.ray.direction, lamp, ambient(sample.start, normal, s, count, seed));
+        const Incident light = incidentOn(sample, s, count, seed);
+        return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), sample.hit->normal,
+            -sample.ray.direction, light.lamp, light.ambient);
     }
 
-    /// @return how much of the lamp is visible. The samples of a pixel share one set of points, so
-    ///         that they look at all of it.
-    double lampShare(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
+    /// The samples of a pixel share one set of points of the lamp and one of the sky, so that they
+    /// look at all of both.
+    Incident incidentOn(const Sample& sample, int s, int count, uint64_t seed) const
     {
-        const int rays = std::max(1, mView.settings.lightRays / 2 / count);
+        const Vec3d &from = sample.start, &normal = sample.hit->normal;
+        const int lampRays = std::max(1, mView.settings.lightRays / 2 / count);
         int seen = 0;
-        for (int k = 0; k < rays; ++k) {
-            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x1a));
+        for (int k = 0; k < lampRays; ++k) {
+            const PlanePoint point(k * count + s, lampRays * count, detail::hash(seed ^ 0x1a));
             const Vec3d towards = mView.light.towardsLamp(point.u, point.v);
             seen += towards.dot(normal) > 0 && !mScene.isBlocked(Ray(from, towards));
         }
-        return double(seen) / rays;
-    }
-
-    /// @return the mean light of the sky, in the same way.
-    Vec3d ambient(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
-    {
         constexpr double kBounce = 0.12; // what blocks the sky reflects some light itself
-        const int rays = std::max(1, mView.settings.lightRays / count);
-        Vec3d sum(0.0);
-        for (int k = 0; k < rays; ++k) {
-            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x5c));
+        const int skyRays = std::max(1, mView.settings.lightRays / count);
+        Vec3d sky(0.0);
+        for (int k = 0; k < skyRays; ++k) {
+            const PlanePoint point(k * count + s, skyRays * count, detail::hash(seed ^ 0x5c));
             const Vec3d towards = Light::towardsSky(normal, point.u, point.v);
             const bool open = !mScene.isBlocked(Ray(from, towards), mView.occlusionReach);
-            sum += (open ? 1.0 : kBounce) * mView.light.sky(towards);
+            sky += (open ? 1.0 : kBounce) * mView.light.sky(towards);
         }
-        return sum / rays;
+        return {double(seen) / lampRays, sky / skyRays};
     }
 
     const detail::RayScene<Shape> mScene;

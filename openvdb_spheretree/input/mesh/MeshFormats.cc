@@ -127,20 +127,6 @@ void needWords(MeshText& text, std::initializer_list<const char*> expectedWords)
     }
 }
 
-/// One facet, after its first word.
-void asciiFacet(MeshText& text, PolygonSoup& soup)
-{
-    needWords(text, {"normal"});
-    for (int i = 0; i < 3; ++i) text.wordOnAnyLine(); // some write nan there
-    needWords(text, {"outer", "loop"});
-    for (int corner = 0; corner < 3; ++corner) {
-        needWords(text, {"vertex"});
-        soup.points.push_back(text.point());
-    }
-    addTriangle(soup);
-    needWords(text, {"endloop", "endfacet"});
-}
-
 PolygonSoup parseAsciiStl(const std::string& bytes)
 {
     PolygonSoup soup;
@@ -154,7 +140,15 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
             if (word == "endsolid") break;
             if (word.empty()) text.fail("the file ends before 'endsolid'; it is truncated");
             if (word != "facet") text.fail(inQuotes(word) + " instead of 'facet' or 'endsolid'");
-            asciiFacet(text, soup);
+            needWords(text, {"normal"});
+            for (int i = 0; i < 3; ++i) text.wordOnAnyLine(); // some write nan there
+            needWords(text, {"outer", "loop"});
+            for (int corner = 0; corner < 3; ++corner) {
+                needWords(text, {"vertex"});
+                soup.points.push_back(text.point());
+            }
+            addTriangle(soup);
+            needWords(text, {"endloop", "endfacet"});
         }
         text.nextLine();
     }
@@ -189,8 +183,6 @@ void offFace(MeshText& text, PolygonSoup& soup)
     if (count >= 3) soup.counts.push_back(std::uint32_t(count));
     else soup.corners.resize(begin); // a point or a line has no area
 }
-
-} // namespace
 
 PolygonSoup parseObj(std::string bytes)
 {
@@ -266,6 +258,8 @@ PolygonSoup parseStl(const std::string& bytes)
         + std::to_string(binaryStlSize(bytes)) + " bytes, the file holds "
         + std::to_string(bytes.size()));
 }
+
+} // namespace
 
 bool isStrictFormat(const std::string& extension)
 {

@@ -31,13 +31,8 @@ bool isStrictFormat(const std::string& extension);
 ///        the file
 PolygonSoup parseMesh(const std::string& extension, std::string bytes);
 
-/// @name The formats
-/// @{
-PolygonSoup parseObj(std::string text);
-PolygonSoup parseOff(const std::string& text);
+/// The reader of PLY, in PlyFormat.cc.
 PolygonSoup parsePly(const std::string& bytes);
-PolygonSoup parseStl(const std::string& bytes);
-/// @}
 
 } // namespace detail
 } // namespace openvdb_spheretree

@@ -13,8 +13,8 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-/// The largest radiusSq with (4 pi / 3)^2 radiusSq^3 <= voxels^2. Products alone, which every
-/// machine rounds alike; a cube root is not.
+/// The largest radiusSq with (4 pi / 3)^2 radiusSq^3 <= voxels^2. It needs only products, which
+/// every machine rounds alike; cube roots are not.
 int64_t radiusSqOf(int64_t voxels)
 {
     constexpr double kVolumeSq = 17.545963379714415; // of the unit ball, squared
