@@ -28,26 +28,23 @@ void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
 
 } // namespace
 
-CameraFrame::CameraFrame(
-    const Camera& camera, const openvdb::math::Transform& transform, const openvdb::Coord& middle)
+CameraRays::CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
+    const openvdb::Coord& middle, int width, int height)
+    : pixel(2 * std::tan(camera.fovDegrees * kPi / 360) / height), halfWidth(pixel * width / 2),
+      halfHeight(pixel * height / 2)
 {
     const Vec3d ahead = (camera.lookAt - camera.eye).unit();
     const Vec3d sideways = ahead.cross(camera.up).unit();
-    const auto map = transform.baseMap();
+    const auto map = transform.baseMap(); // it may mirror, so all three directions are mapped
     eye = map->applyInverseMap(camera.eye) - middle.asVec3d();
     forward = map->applyInverseJacobian(ahead).unit();
     right = map->applyInverseJacobian(sideways).unit();
     up = map->applyInverseJacobian(sideways.cross(ahead)).unit();
 }
 
-CameraRays::CameraRays(const CameraFrame& frame, double fovDegrees, int width, int height)
-    : mFrame(frame), mPixel(2 * std::tan(fovDegrees * kPi / 360) / height),
-      mHalfWidth(mPixel * width / 2), mHalfHeight(mPixel * height / 2)
-{}
-
-Light::Light(const CameraFrame& frame)
-    : lamp((-0.55 * frame.right + 0.8 * frame.up - 0.6 * frame.forward).unit()),
-      zenith((frame.up - 0.35 * frame.forward).unit())
+Light::Light(const CameraRays& camera)
+    : lamp((-0.55 * camera.right + 0.8 * camera.up - 0.6 * camera.forward).unit()),
+      zenith((camera.up - 0.35 * camera.forward).unit())
 {
     makeBasis(lamp, lampAcross, lampAlong);
 }

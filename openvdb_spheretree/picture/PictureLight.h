@@ -10,37 +10,30 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// A camera's place and directions in index space about @a middle. Each of the three directions is
-/// mapped by itself, because a transform may mirror.
-struct CameraFrame {
-    openvdb::Vec3d eye;
-    openvdb::Vec3d forward, right, up; ///< unit vectors
-
-    CameraFrame(const Camera& camera, const openvdb::math::Transform& transform,
-        const openvdb::Coord& middle);
-};
-
 /// The rays of a picture's pixels.
-class CameraRays {
-public:
-    CameraRays(const CameraFrame& frame, double fovDegrees, int width, int height);
-    /// The ray through a point of the picture, in pixels from its upper left corner.
+struct CameraRays {
+    openvdb::Vec3d eye;
+    openvdb::Vec3d forward, right, up;   ///< unit vectors
+    double pixel, halfWidth, halfHeight; ///< lengths in the plane at distance 1
+
+    /// @param middle         the origin of the scene, in index space
+    /// @param width, height  of the picture, in pixels
+    CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
+        const openvdb::Coord& middle, int width, int height);
+
+    /// @return the ray through a point of the picture, in pixels from its upper left corner.
     Ray through(double x, double y) const
     {
-        const openvdb::Vec3d direction = mFrame.forward + (x * mPixel - mHalfWidth) * mFrame.right
-            + (mHalfHeight - y * mPixel) * mFrame.up;
-        return Ray(mFrame.eye, direction.unit());
+        const openvdb::Vec3d direction =
+            forward + (x * pixel - halfWidth) * right + (halfHeight - y * pixel) * up;
+        return Ray(eye, direction.unit());
     }
-
-private:
-    CameraFrame mFrame;
-    double mPixel, mHalfWidth, mHalfHeight; ///< lengths in the plane at distance 1
 };
 
 /// A lamp behind the viewer's left shoulder, a sky, and a weak light from behind the object that
 /// makes dark edges visible. All of them move with the camera, so every view is lit well.
 struct Light {
-    explicit Light(const CameraFrame& frame);
+    explicit Light(const CameraRays& camera);
 
     openvdb::Vec3d lamp;                  ///< unit, towards the middle of the lamp
     openvdb::Vec3d lampAcross, lampAlong; ///< an orthonormal basis with `lamp`

@@ -42,13 +42,12 @@ openvdb::Coord middleOf(const openvdb::CoordBBox& box)
 struct View {
     View(const Camera& camera, const PictureSettings& pictureSettings,
         const openvdb::math::Transform& transform, const openvdb::CoordBBox& object)
-        : settings(pictureSettings), frame(camera, transform, middleOf(object)),
-          rays(frame, camera.fovDegrees, settings.width, settings.height), light(frame),
+        : settings(pictureSettings),
+          rays(camera, transform, middleOf(object), settings.width, settings.height), light(rays),
           occlusionReach(0.25 * (object.max().asVec3d() - object.min().asVec3d()).length() + 2)
     {}
 
     const PictureSettings& settings;
-    detail::CameraFrame frame;
     detail::CameraRays rays;
     Light light;
     double occlusionReach; ///< in voxels; what is further away shades nothing

@@ -73,7 +73,7 @@ struct ActionSpec {
     bool once = false;         ///< may stand on the line only once
     bool quiet = false;        ///< gets no timing line
     bool isSource = false;     ///< puts something new on the stack, as -read does
-    bool needsInput = true;    ///< works on the stack, so a source has to come before
+    bool needsInput = true;    ///< a source has to come before; a source itself needs none
     ExitCode failure = kInput; ///< exit code for an exception that has none
 
     /// Checks what can be checked before any work; may be empty.

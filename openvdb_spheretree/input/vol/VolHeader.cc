@@ -71,22 +71,19 @@ std::uint64_t sideOf(const HeaderFields& fields, const std::string& key)
         + ", not a whole number from 1 to " + std::to_string(kMaxSide));
 }
 
-int versionOf(const HeaderFields& fields)
+int versionOf(const std::string& text)
 {
-    const auto it = fields.find("Version");
-    if (it == fields.end() || it->second == "2") return 2;
-    if (it->second == "3") return 3;
-    throw IoError("header key 'Version' is " + inQuotes(it->second)
+    if (text == "2") return 2;
+    if (text == "3") return 3;
+    throw IoError("header key 'Version' is " + inQuotes(text)
         + "; versions 2 (raw) and 3 (zlib) can be read");
 }
 
-double voxelSizeOf(const HeaderFields& fields)
+double voxelSizeOf(const std::string& text)
 {
-    const auto it = fields.find("Voxel-Size");
-    if (it == fields.end()) return 1;
-    const auto size = parseNumber<double>(it->second);
+    const auto size = parseNumber<double>(text);
     if (size && std::isfinite(*size) && *size > 0) return *size;
-    throw IoError("header key 'Voxel-Size' is " + inQuotes(it->second) + ", not a number above 0");
+    throw IoError("header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
 }
 
 /// Refuses a header whose file cannot hold the values, or holds more.
@@ -118,10 +115,11 @@ VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint6
 
     VolHeader header;
     try {
-        const HeaderFields fields = splitHeader(text, header.dataOffset);
+        HeaderFields fields = splitHeader(text, header.dataOffset);
+        fields.insert({{"Version", "2"}, {"Voxel-Size", "1"}}); // where they are not given
         header.dim = {sideOf(fields, "X"), sideOf(fields, "Y"), sideOf(fields, "Z")};
-        header.version = versionOf(fields);
-        header.voxelSize = voxelSizeOf(fields);
+        header.version = versionOf(fields["Version"]);
+        header.voxelSize = voxelSizeOf(fields["Voxel-Size"]);
         header.bytesPerValue = lowerExtension(path) == ".longvol" ? 8 : 1;
         header.dataBytes = fileBytes - header.dataOffset;
         checkSize(header);
