@@ -58,7 +58,26 @@ struct BallShape {
 /// orders with 8 signs, in pairs of opposite faces. There are 3 pairs for l-infinity, 4 for l1 and 12
 /// for chamfer:3,4,5.
 struct NormFaces {
-    explicit NormFaces(const Distance& norm);
+    explicit NormFaces(const Distance& norm)
+    {
+        const double unit = norm.unit();
+        reach = std::max(
+            1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
+        std::array<int, 3> weights{
+            norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
+        do {
+            for (int signs = 0; signs < 8; ++signs) {
+                openvdb::Vec3d normal;
+                for (int axis = 0; axis < 3; ++axis) {
+                    normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
+                }
+                const auto isSame = [&](const openvdb::Vec3d& o) {
+                    return o == normal || o == -normal;
+                };
+                if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
+            }
+        } while (std::next_permutation(weights.begin(), weights.end()));
+    }
 
     std::vector<openvdb::Vec3d> normals; ///< one for each pair of faces; not of length 1
     double reach;                        ///< Euclidean distance of the farthest corner
@@ -112,27 +131,6 @@ private:
         return begin > end || begin < 0 ? Crossing() : Crossing{begin, entered};
     }
 };
-
-inline NormFaces::NormFaces(const Distance& norm)
-{
-    const double unit = norm.unit();
-    reach = std::max(
-        1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
-    std::array<int, 3> weights{
-        norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
-    do {
-        for (int signs = 0; signs < 8; ++signs) {
-            openvdb::Vec3d normal;
-            for (int axis = 0; axis < 3; ++axis) {
-                normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
-            }
-            const auto isSame = [&](const openvdb::Vec3d& o) {
-                return o == normal || o == -normal;
-            };
-            if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
-        }
-    } while (std::next_permutation(weights.begin(), weights.end()));
-}
 
 /// The active voxels of a leaf node, or a tile, as cubes between half-integers. Hits do not depend on
 /// whether voxels are stored as a tile or one by one.
