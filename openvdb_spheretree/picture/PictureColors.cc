@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Spheres get one of twelve colours of about the same lightness, one after the other: each takes
-/// one that its nearest neighbours do not have yet, so that what lies side by side differs.
+/// There are twelve colours of about the same lightness. Spheres get theirs in the order of their
+/// ids: one that the nearest neighbours do not have yet, so that what lies side by side differs.
 
 #include "PictureColors.h"
 
@@ -74,7 +74,8 @@ int colorOf(int32_t i, const std::vector<Bound>& bounds, const BoundingTree& bod
 std::vector<int> coloring(const SphereTree& tree, const SphereTreeLevel& level,
     openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<Bound> bounds; // of half the radius: overlapping spheres would all be neighbours
+    // Of half the radius, and a voxel: with the whole radius there would be too many neighbours.
+    std::vector<Bound> bounds;
     for (int32_t id = level.begin; id < level.end; ++id) {
         bounds.push_back(Bound::ofBall(tree.spheres.center[id], tree.spheres.radius[id] / 2 + 1));
     }

@@ -66,8 +66,10 @@ TerrainShape::TerrainShape(
 {
     int enough = 1; // as a side, since no column is thinner
     while (int64_t(enough) * enough * kThickness < voxels) enough += 1 + enough / 64;
-    const int nodes = enough / kNodeDim + 1;                                // along a side
-    std::vector<std::atomic<int64_t>> rings(std::size_t(nodes) * kNodeDim); // max(x, y) = n
+    const int nodes = enough / kNodeDim + 1; // along a side
+
+    // Voxels of the columns with max(x, y) = n, for every n.
+    std::vector<std::atomic<int64_t>> rings(std::size_t(nodes) * kNodeDim);
     parallelFor(std::size_t(nodes) * std::size_t(nodes), interrupter, [&](std::size_t i) {
         const int x0 = int(i) / nodes * kNodeDim, y0 = int(i) % nodes * kNodeDim;
         const std::vector<Column> columns = columnsOf(mHeights, x0, y0);
