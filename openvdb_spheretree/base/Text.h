@@ -6,19 +6,26 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace openvdb_spheretree::detail {
 
+inline std::string lowerCase(std::string_view text)
+{
+    std::string lower(text);
+    for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+}
+
 /// @return `.obj` of `path/Part.OBJ`.
 inline std::string lowerExtension(const std::string& path)
 {
-    std::string text = std::filesystem::path(path).extension().string();
-    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return text;
+    return lowerCase(std::filesystem::path(path).extension().string());
 }
 
 /// @return the text on one line, its control characters replaced; where it is longer than @a
@@ -58,4 +65,16 @@ inline std::string messageOf(const std::exception& error)
     return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
 }
 
+/// @return the number that the whole text is; nothing if it is none, or out of the type's range.
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text)
+{
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end) return {};
+    return number;
+}
+
 } // namespace openvdb_spheretree::detail
+} // namespace openvdb_spheretree

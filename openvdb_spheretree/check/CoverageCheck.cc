@@ -8,6 +8,8 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
+#include <openvdb/math/Math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,8 +46,9 @@ bool ballsTooLarge(CheckReport& check, const SphereTreeLevel& level, int64_t vox
     const int dim = check.tree.settings.dim;
     const Distance& distance = check.tree.settings.dist();
     // A ball of any norm holds the l1 ball of its radius.
+    constexpr double kPi = openvdb::math::pi<double>();
     const double unitBall =
-        distance.isEuclidean() ? (dim == 3 ? 4 * M_PI / 3 : M_PI) : (dim == 3 ? 4.0 / 3 : 2);
+        distance.isEuclidean() ? (dim == 3 ? 4 * kPi / 3 : kPi) : (dim == 3 ? 4.0 / 3 : 2);
     const double cube = distance.length(0.5, 0.5, dim == 3 ? 0.5 : 0);
     Offenders large;
     for (int32_t id = level.begin; id < level.end; ++id) {

@@ -3,6 +3,8 @@
 
 #include <openvdb_spheretree/base/Parallel.h>
 
+#include <openvdb/math/Math.h>
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -63,7 +65,7 @@ struct Extent {
         const double ofBox = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
         const Vec3d spread(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
         const double radius = spread.length() / 2 + hi[3];
-        return std::min(ofBox, 2 * M_PI * radius * radius);
+        return std::min(ofBox, 2 * openvdb::math::pi<double>() * radius * radius);
     }
 };
 

@@ -5,6 +5,8 @@
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 
+#include <openvdb/math/Math.h>
+
 #include <atomic>
 #include <cmath>
 
@@ -25,7 +27,7 @@ double drawnRows(const SphereTree& tree, const SphereTreeLevel& level)
 {
     double rows = 0;
     for (int32_t id = level.begin; id < level.end; ++id) {
-        rows += 1 + M_PI / 4 * double(tree.spheres.coverRadiusSq[id]);
+        rows += 1 + openvdb::math::pi<double>() / 4 * double(tree.spheres.coverRadiusSq[id]);
     }
     return rows;
 }

@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
+#include <openvdb/math/Math.h>
 #include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
@@ -17,11 +18,10 @@ using openvdb::Vec3d;
 
 void requireFinite(const char* name, const Vec3d& v)
 {
-    if (std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2])) return;
-    OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
+    if (!v.isFinite()) OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
 }
 
-/// The unit vector to a viewer of things that stand upright along @a up.
+/// @return the unit vector towards a viewer in front, to the right and above.
 Vec3d frontRightAbove(const Vec3d& up)
 {
     const Vec3d above = up.unit();
@@ -63,7 +63,7 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
     const Vec3d lo = transform.indexToWorld(box.min().asVec3d() - Vec3d(0.5));
     const Vec3d hi = transform.indexToWorld(box.max().asVec3d() + Vec3d(0.5));
     camera.lookAt = (lo + hi) / 2;
-    const double half = std::tan(fovDegrees * M_PI / 360);
+    const double half = std::tan(fovDegrees * openvdb::math::pi<double>() / 360);
     const double narrower = std::atan(half * std::min(aspect, 1.0));
     const double distance = (hi - lo).length() / 2 / std::sin(narrower);
     const int flat = flatAxisOf(box);
@@ -77,8 +77,8 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
         return transform.baseMap()->applyJacobian(index).unit();
     };
     camera.eye = camera.lookAt + distance * worldAxis(flat);
-    const bool upright = worldAxis(flat).cross(up.unit()).length() > 1e-3;
-    if (!upright) camera.up = worldAxis(flat == 2 ? 1 : 2); // it cannot be
+    const bool isAcross = worldAxis(flat).cross(up.unit()).length() > 1e-3;
+    if (!isAcross) camera.up = worldAxis(flat == 2 ? 1 : 2);
     return camera;
 }
 

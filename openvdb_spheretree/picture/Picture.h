@@ -12,13 +12,12 @@ namespace openvdb_spheretree {
 
 struct Picture {
     int width = 0, height = 0; ///< pixels
-    std::vector<uint8_t> rgb;  ///< sRGB, three bytes a pixel, rows from the top, no padding
+    std::vector<uint8_t> rgb;  ///< sRGB, three bytes for a pixel, rows from the top, no padding
 };
 
-/// @brief Write a .png of 8 bits a channel, marked as sRGB. The same picture gives the same bytes
-/// (for one version of libpng and zlib).
-/// @throw openvdb::ValueError if the picture is empty, or its pixels are not width x height x 3
-/// bytes
+/// @brief Write a .png with 8 bits for a channel, marked as sRGB. With the same versions of libpng
+/// and zlib, the same picture gives the same bytes.
+/// @throw openvdb::ValueError if the picture is empty, or does not have width x height x 3 bytes
 /// @throw openvdb::IoError if the stream fails
 void writePng(const Picture& picture, std::ostream& out);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file PictureColors.cc
-/// @brief Twelve colours of about one lightness are handed out so that what lies side by side
-/// differs: greedily, by id, avoiding the colours of the nearest neighbours that have one.
+/// There are twelve colours of about the same lightness. Spheres get theirs in the order of their
+/// ids: one that the nearest neighbours do not have yet, so that what lies side by side differs.
 
 #include "PictureColors.h"
 
@@ -9,9 +8,12 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/index/BoundingTree.h>
 
+#include <openvdb/math/Math.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -22,105 +24,68 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 constexpr int kHues = 12;
+constexpr int kPlain = 8; ///< blue: for spheres that all have one colour
 
-/// Oklab (Ottosson 2020): equal steps look equal, so that no hue shouts.
-Vec3d linearOfOklab(double lightness, double a, double b)
+/// Colours of Oklab (Ottosson 2020), where hues of one lightness look equally light. Every second
+/// one is a little darker, to tell neighbours on the circle apart.
+Vec3f paletteColor(int index)
 {
+    const double hue = 2 * openvdb::math::pi<double>() * (index + 0.6) / kHues;
+    const double lightness = index % 2 ? 0.70 : 0.80, chroma = 0.115;
+    const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
     const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
     const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
     const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
-    return Vec3d(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+    Vec3d color(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
         -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
         -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s);
-}
-
-/// Every second one a little darker, to tell neighbours on the circle apart.
-Vec3f paletteColor(int index)
-{
-    const double hue = 2 * M_PI * (index + 0.6) / kHues;
-    const double lightness = index % 2 ? 0.70 : 0.80, chroma = 0.115;
-    Vec3d color = linearOfOklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
     for (int c = 0; c < 3; ++c) color[c] = std::min(std::max(color[c], 0.01), 1.0);
     return Vec3f(color);
 }
 
-constexpr int kPlain = 8; ///< the blue one, where one colour is all there is
-
-/// The nodes in [begin, end) of a tree, each with the index of a colour.
-class Coloring {
-public:
-    Coloring(const SphereTree& tree, int32_t begin, int32_t end,
-        openvdb::util::NullInterrupter* interrupter)
-        : mTree(tree), mBegin(begin), mBounds(boundsOf(begin, end), interrupter)
-    {
-        mColors.resize(end - begin, -1);
-        for (int32_t i = 0; i < end - begin; ++i) {
-            if (i % 1024 == 0) checkInterrupt(interrupter);
-            mColors[i] = choose(i);
-        }
-    }
-    int colorOf(int32_t id) const { return mColors[id - mBegin]; }
-
-private:
-    struct Neighbour {
-        double distanceSq;
-        int32_t index;
-        bool operator<(const Neighbour& o) const
-        {
-            return distanceSq != o.distanceSq ? distanceSq < o.distanceSq : index < o.index;
-        }
-    };
-
-    /// Half as large as the sphere, and a voxel: overlapping spheres would all be neighbours.
-    Bound boundOf(int32_t id) const
-    {
-        return Bound::ofBall(mTree.spheres.center[id], mTree.spheres.radius[id] / 2 + 1);
-    }
-    std::vector<Bound> boundsOf(int32_t begin, int32_t end) const
-    {
-        std::vector<Bound> bounds;
-        for (int32_t id = begin; id < end; ++id) bounds.push_back(boundOf(id));
-        return bounds;
-    }
-
-    /// A colour that none of the nearest kHues - 1 neighbours has.
-    int choose(int32_t i) const
-    {
-        std::array<Neighbour, kHues - 1> nearest;
-        int count = 0;
-        mBounds.visitMeeting(boundOf(mBegin + i), [&](int32_t place) {
-            const int32_t other = mBounds.order()[place];
-            if (other >= i) return; // has no colour yet
-            const Vec3d apart =
-                mTree.spheres.center[mBegin + other] - mTree.spheres.center[mBegin + i];
-            const Neighbour neighbour{apart.lengthSqr(), other};
-            const double reach = boundOf(mBegin + other).radius + boundOf(mBegin + i).radius;
-            if (neighbour.distanceSq > reach * reach) return; // bounds are not exact
-            if (count == kHues - 1 && !(neighbour < nearest[count - 1])) return;
-            const int last = count < kHues - 1 ? count++ : count - 1;
-            nearest[last] = neighbour;
-            std::sort(nearest.begin(), nearest.begin() + count);
-        });
-        std::array<bool, kHues> used = {};
-        for (int n = 0; n < count; ++n) used[mColors[nearest[n].index]] = true;
-        int color = int(hash(uint64_t(i)) % kHues);
-        while (used[color]) color = (color + 5) % kHues; // 5 and 12 have no divisor in common
-        return color;
-    }
-
-    const SphereTree& mTree;
-    const int32_t mBegin;
-    BoundingTree mBounds;
-    std::vector<int> mColors;
-};
-
-/// The level whose nodes are the parents of @a level, or null.
-const SphereTreeLevel* levelAbove(const SphereTree& tree, const SphereTreeLevel& level)
+/// @return a colour that none of the nearest kHues - 1 neighbours of body @a i has, of those with a
+///         smaller number: these have their @a colors already.
+int colorOf(int32_t i, const std::vector<Bound>& bounds, const BoundingTree& bodies,
+    const std::vector<int>& colors)
 {
-    for (const SphereTreeLevel& other : tree.levels) {
-        if (other.end == level.begin && other.size() > 0) return &other;
+    using Neighbour = std::pair<double, int32_t>; // squared distance, number
+    std::array<Neighbour, kHues - 1> nearest;
+    int count = 0;
+    bodies.visitMeeting(bounds[i], [&](int32_t place) {
+        const int32_t other = bodies.order()[place];
+        if (other >= i) return;
+        const double distanceSq = (bounds[other].center - bounds[i].center).lengthSqr();
+        const double reach = bounds[other].radius + bounds[i].radius;
+        if (distanceSq > reach * reach) return; // BoundingTree rounds bounds outwards
+        const Neighbour neighbour(distanceSq, other);
+        if (count == kHues - 1 && !(neighbour < nearest[count - 1])) return;
+        const int last = count < kHues - 1 ? count++ : count - 1;
+        nearest[last] = neighbour;
+        std::sort(nearest.begin(), nearest.begin() + count);
+    });
+    std::array<bool, kHues> used = {};
+    for (int n = 0; n < count; ++n) used[colors[nearest[n].second]] = true;
+    int color = int(hash(uint64_t(i)) % kHues);
+    while (used[color]) color = (color + 5) % kHues; // 5 and 12 have no divisor in common
+    return color;
+}
+
+/// @return for each node of a level the index of a colour.
+std::vector<int> coloring(const SphereTree& tree, const SphereTreeLevel& level,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    // Of half the radius, and a voxel: with the whole radius there would be too many neighbours.
+    std::vector<Bound> bounds;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        bounds.push_back(Bound::ofBall(tree.spheres.center[id], tree.spheres.radius[id] / 2 + 1));
     }
-    return nullptr;
+    const BoundingTree bodies(bounds, interrupter);
+    std::vector<int> colors(level.size(), -1);
+    for (int32_t i = 0; i < level.size(); ++i) {
+        if (i % 1024 == 0) checkInterrupt(interrupter);
+        colors[i] = colorOf(i, bounds, bodies, colors);
+    }
+    return colors;
 }
 
 } // namespace
@@ -147,21 +112,22 @@ std::vector<Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& le
 {
     Vec3f one = paletteColor(kPlain);
     if (settings.color == PictureColor::Fixed) one = Vec3f(linearOf(settings.fixed));
-    if (settings.color == PictureColor::Level)
+    if (settings.color == PictureColor::Level) {
         one = paletteColor((kPlain + 5 * level.level) % kHues);
+    }
     std::vector<Vec3f> colors(level.size(), one);
     if (settings.color == PictureColor::Id) {
-        const Coloring own(tree, level.begin, level.end, interrupter);
-        for (int32_t id = level.begin; id < level.end; ++id) {
-            colors[id - level.begin] = paletteColor(own.colorOf(id));
-        }
+        const std::vector<int> own = coloring(tree, level, interrupter);
+        std::transform(own.begin(), own.end(), colors.begin(), paletteColor);
     }
-    const SphereTreeLevel* const above = levelAbove(tree, level);
-    if (settings.color != PictureColor::Parent || !above) return colors;
-    const Coloring ofParents(tree, above->begin, above->end, interrupter);
-    for (int32_t id = level.begin; id < level.end; ++id) {
-        const int32_t parent = tree.spheres.parent[id];
-        if (parent >= 0) colors[id - level.begin] = paletteColor(ofParents.colorOf(parent));
+    if (settings.color == PictureColor::Parent && tree.hasLevel(level.level + 1)) {
+        const SphereTreeLevel& above = tree.level(level.level + 1);
+        const std::vector<int> ofParents = coloring(tree, above, interrupter);
+        for (int32_t id = level.begin; id < level.end; ++id) {
+            const int32_t parent = tree.spheres.parent[id];
+            if (parent < 0) continue;
+            colors[id - level.begin] = paletteColor(ofParents[parent - above.begin]);
+        }
     }
     return colors;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PictureColors.h
-/// @brief Colours of a picture: how sRGB is coded, and which colour a sphere gets.
+/// @brief Colours of a picture: the coding of sRGB, and which sphere gets which colour.
 
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// @return linear light of a colour coded as sRGB, 0 to 1 each.
+/// @return the linear light of an sRGB colour; all components are 0 to 1.
 openvdb::Vec3d linearOf(const openvdb::Vec3d& srgb);
-/// @return the sRGB byte of a linear value; what is out of [0, 1] is clamped.
+/// @return the sRGB byte of a linear value, which is clamped to [0, 1].
 uint8_t srgbByte(double linear);
 
 /// @return the colour of every sphere of @a level, in linear light.

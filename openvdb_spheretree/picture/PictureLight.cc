@@ -3,6 +3,7 @@
 
 #include "PictureColors.h"
 
+#include <openvdb/math/Math.h>
 #include <openvdb/math/Transform.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ using openvdb::Vec3d;
 
 namespace {
 
+constexpr double kPi = openvdb::math::pi<double>();
+
 /// Two unit vectors across a third (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
 {
@@ -26,26 +29,23 @@ void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
 
 } // namespace
 
-CameraFrame::CameraFrame(
-    const Camera& camera, const openvdb::math::Transform& transform, const openvdb::Coord& middle)
+CameraRays::CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
+    const openvdb::Coord& middle, int width, int height)
+    : pixel(2 * std::tan(camera.fovDegrees * kPi / 360) / height), halfWidth(pixel * width / 2),
+      halfHeight(pixel * height / 2)
 {
     const Vec3d ahead = (camera.lookAt - camera.eye).unit();
     const Vec3d sideways = ahead.cross(camera.up).unit();
-    const auto map = transform.baseMap();
+    const auto map = transform.baseMap(); // it may mirror, so all three directions are mapped
     eye = map->applyInverseMap(camera.eye) - middle.asVec3d();
     forward = map->applyInverseJacobian(ahead).unit();
     right = map->applyInverseJacobian(sideways).unit();
     up = map->applyInverseJacobian(sideways.cross(ahead)).unit();
 }
 
-CameraRays::CameraRays(const CameraFrame& frame, double fovDegrees, int width, int height)
-    : mFrame(frame), mPixel(2 * std::tan(fovDegrees * M_PI / 360) / height),
-      mHalfWidth(mPixel * width / 2), mHalfHeight(mPixel * height / 2)
-{}
-
-Light::Light(const CameraFrame& frame)
-    : lamp((-0.55 * frame.right + 0.8 * frame.up - 0.6 * frame.forward).unit()),
-      zenith((frame.up - 0.35 * frame.forward).unit())
+Light::Light(const CameraRays& camera)
+    : lamp((-0.55 * camera.right + 0.8 * camera.up - 0.6 * camera.forward).unit()),
+      zenith((camera.up - 0.35 * camera.forward).unit())
 {
     makeBasis(lamp, lampAcross, lampAlong);
 }
@@ -53,7 +53,7 @@ Light::Light(const CameraFrame& frame)
 Vec3d Light::towardsLamp(double u, double v) const
 {
     constexpr double kRadius = 0.14; // seen from the scene: some 8 degrees
-    const double r = kRadius * std::sqrt(u), angle = 2 * M_PI * v;
+    const double r = kRadius * std::sqrt(u), angle = 2 * kPi * v;
     return (lamp + r * std::cos(angle) * lampAcross + r * std::sin(angle) * lampAlong).unit();
 }
 
@@ -61,7 +61,7 @@ Vec3d Light::towardsSky(const Vec3d& normal, double u, double v)
 {
     Vec3d across, along;
     makeBasis(normal, across, along);
-    const double r = std::sqrt(u), angle = 2 * M_PI * v;
+    const double r = std::sqrt(u), angle = 2 * kPi * v;
     return r * std::cos(angle) * across + r * std::sin(angle) * along + std::sqrt(1 - u) * normal;
 }
 

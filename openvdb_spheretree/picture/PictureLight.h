@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PictureLight.h
-/// @brief The rays of a camera, and the light in front of it, in the space of a scene.
+/// @brief The rays of a camera and the light of a scene, in index space about its middle.
 
 #pragma once
 
@@ -10,56 +10,52 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// A camera's place and directions in index space about @a middle. All three directions are mapped,
-/// rather than the third made from two: a transform may mirror.
-struct CameraFrame {
-    openvdb::Vec3d eye, forward, right, up; ///< unit vectors, but for eye
-
-    CameraFrame(const Camera& camera, const openvdb::math::Transform& transform,
-        const openvdb::Coord& middle);
-};
-
 /// The rays of a picture's pixels.
-class CameraRays {
-public:
-    CameraRays(const CameraFrame& frame, double fovDegrees, int width, int height);
-    /// The ray through a point of the picture, in pixels from its upper left corner.
+struct CameraRays {
+    openvdb::Vec3d eye;
+    openvdb::Vec3d forward, right, up;   ///< unit vectors
+    double pixel, halfWidth, halfHeight; ///< lengths in the plane at distance 1
+
+    /// @param middle         the origin of the scene, in index space
+    /// @param width, height  of the picture, in pixels
+    CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
+        const openvdb::Coord& middle, int width, int height);
+
+    /// @return the ray through a point of the picture, in pixels from its upper left corner.
     Ray through(double x, double y) const
     {
-        const openvdb::Vec3d direction = mFrame.forward + (x * mPixel - mHalfWidth) * mFrame.right
-            + (mHalfHeight - y * mPixel) * mFrame.up;
-        return Ray(mFrame.eye, direction.unit());
+        const openvdb::Vec3d direction =
+            forward + (x * pixel - halfWidth) * right + (halfHeight - y * pixel) * up;
+        return Ray(eye, direction.unit());
     }
-
-private:
-    CameraFrame mFrame;
-    double mPixel, mHalfWidth, mHalfHeight; ///< in a plane at distance 1
 };
 
-/// A lamp behind the viewer's left shoulder, a sky, and a weak light from behind that parts dark
-/// edges from each other. All of it goes with the camera, so that every view is lit well.
+/// A lamp behind the viewer's left shoulder, a sky, and a weak light from behind the object that
+/// makes dark edges visible. All of them move with the camera, so every view is lit well.
 struct Light {
-    explicit Light(const CameraFrame& frame);
+    explicit Light(const CameraRays& camera);
 
-    openvdb::Vec3d lamp, lampAcross, lampAlong; ///< unit: towards its middle, and two across that
-    openvdb::Vec3d zenith;                      ///< unit
+    openvdb::Vec3d lamp;                  ///< unit, towards the middle of the lamp
+    openvdb::Vec3d lampAcross, lampAlong; ///< an orthonormal basis with `lamp`
+    openvdb::Vec3d zenith;                ///< unit
 
     /// @return the direction to a point of the lamp; @a u and @a v in [0, 1).
     openvdb::Vec3d towardsLamp(double u, double v) const;
-    /// @return a direction above a surface, the likelier the more light from there counts.
+    /// @return a direction above a surface; for even u and v they are distributed by the cosine of
+    ///         their angle to the normal, which is how much light from there counts.
     static openvdb::Vec3d towardsSky(const openvdb::Vec3d& normal, double u, double v);
-    /// @return linear light of the sky; brightest above.
+    /// @return the linear light of the sky, which is brightest at the zenith.
     openvdb::Vec3d sky(const openvdb::Vec3d& direction) const;
-    /// @return linear light that a surface sends to the viewer.
+    /// @return the linear light that a surface sends to the viewer.
     /// @param albedo   of the surface, linear
     /// @param normal   unit
     /// @param toEye    unit
-    /// @param lampShare 1 where the lamp is seen, 0 where something stands before it
-    /// @param ambient  mean light from above the surface
+    /// @param lampShare  how much of the lamp is visible from there, 0 to 1
+    /// @param ambient  mean light of the sky above the surface
     openvdb::Vec3d reflected(const openvdb::Vec3d& albedo, const openvdb::Vec3d& normal,
         const openvdb::Vec3d& toEye, double lampShare, const openvdb::Vec3d& ambient) const;
-    /// @return linear light behind everything; @a y is 0 at the picture's upper edge, 1 at the
-    /// lower.
+    /// @return the linear light of the background.
+    /// @param y  0 at the picture's upper edge, 1 at its lower edge
     static openvdb::Vec3d background(double y);
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayScene.h
-/// @brief Many shapes of one kind, and the two questions a ray-cast picture asks of them: what does
-/// a ray hit first, and does anything stand in its way.
+/// @brief Many shapes of one kind: which of them a ray hits first, and whether it hits any.
 ///
-/// Shapes are stored in the order of the leaves of a BoundingTree. The answer does not depend on
+/// Shapes are stored in the order of the leaves of a BoundingTree. The result does not depend on
 /// that tree: of shapes hit at the same distance the first is taken. Tests: TestRayScene.cc.
 
 #pragma once
@@ -23,7 +22,7 @@ namespace detail {
 
 struct Hit {
     double distance;       ///< along the ray
-    int32_t shape;         ///< its index among the shapes the scene was made of
+    int32_t shape;         ///< index among the shapes that the scene was made of
     openvdb::Vec3d normal; ///< unit, outwards
 };
 

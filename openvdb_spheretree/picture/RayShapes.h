@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayShapes.h
-/// @brief What a ray can hit: balls, those of norms too, and the voxels of a leaf node or a tile.
+/// @brief What a ray can hit: Euclidean balls, balls of norms, and the voxels of a leaf node or tile.
 ///
-/// A shape has three functions: bound(), a ball and a box it lies in; entry(), where a ray enters
-/// it, negative where it does not, or where it starts inside: what holds the eye is looked out of;
-/// and normal(), the unit normal, outwards, where a ray enters. A shape with these three can be put
-/// in a RayScene, and no other file need know it. Coordinates are doubles, in voxels.
+/// A shape has three functions:
+/// - bound(): a ball and a box that it lies in;
+/// - entry(): the distance at which a ray enters it, or a negative number if it does not, or starts
+///   inside (a camera looks out of the shape that holds it);
+/// - normal(): the unit normal where a ray enters, outwards.
+///
+/// A RayScene takes any shape that has these. Coordinates are doubles, in voxels.
 
 #pragma once
 
@@ -37,8 +40,8 @@ struct BallShape {
         bound.behind = 0; // entry() is none where the centre is behind
         return bound;
     }
-    /// The discriminant comes from the distance of centre and line, which does not cancel for balls
-    /// far away (Haines et al., Precision improvements for ray/sphere intersection, 2019).
+    /// The discriminant comes from the distance of the centre to the line, so that there is no
+    /// cancellation for balls far away (Haines et al., Precision improvements for ray/sphere intersection, 2019).
     double entry(const Ray& ray) const
     {
         const openvdb::Vec3d toCenter = center - ray.origin;
@@ -50,22 +53,41 @@ struct BallShape {
     openvdb::Vec3d normal(const Ray& ray, double t) const { return (ray.at(t) - center).unit(); }
 };
 
-/// The faces of the unit ball of a norm: |normal . x| <= 1 for all of them. The norm is the largest
-/// of these products over the orders and signs of three weights (Distance.h), so there are at most
-/// 6 orders with 8 signs, in pairs of opposite faces: 3 for l-infinity, 4 for l1, 12 for
-/// chamfer:3,4,5.
+/// The faces of the unit ball of a norm, { x : |normal . x| <= 1 for all of them }. The norm is the
+/// largest of these products over all orders and signs of three weights (Distance.h): at most 6
+/// orders with 8 signs, in pairs of opposite faces. There are 3 pairs for l-infinity, 4 for l1 and 12
+/// for chamfer:3,4,5.
 struct NormFaces {
-    explicit NormFaces(const Distance& norm);
+    explicit NormFaces(const Distance& norm)
+    {
+        const double unit = norm.unit();
+        reach = std::max(
+            1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
+        std::array<int, 3> weights{
+            norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
+        do {
+            for (int signs = 0; signs < 8; ++signs) {
+                openvdb::Vec3d normal;
+                for (int axis = 0; axis < 3; ++axis) {
+                    normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
+                }
+                const auto isSame = [&](const openvdb::Vec3d& o) {
+                    return o == normal || o == -normal;
+                };
+                if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
+            }
+        } while (std::next_permutation(weights.begin(), weights.end()));
+    }
 
-    std::vector<openvdb::Vec3d> normals; ///< one a pair of faces; not of length 1
-    double reach;                        ///< Euclidean, of the corner furthest from the middle
+    std::vector<openvdb::Vec3d> normals; ///< one for each pair of faces; not of length 1
+    double reach;                        ///< Euclidean distance of the farthest corner
 };
 
-/// A ball of a norm: a convex polyhedron, which is where the slabs between opposite faces meet.
+/// A ball of a norm: a convex polyhedron, the intersection of the slabs between opposite faces.
 struct NormBallShape {
     openvdb::Vec3d center;
-    double radius;          ///< where an axis leaves it, so half the width of its box
-    const NormFaces* faces; ///< not null; owned by who made the shape
+    double radius;          ///< along each axis, so half the width of its box
+    const NormFaces* faces; ///< not null; owned by the caller
 
     Bound bound() const
     {
@@ -87,9 +109,9 @@ struct NormBallShape {
 private:
     struct Crossing {
         double begin = kNoEntry;
-        openvdb::Vec3d normal{0, 0, 1}; ///< of the face that is entered by
+        openvdb::Vec3d normal{0, 0, 1}; ///< of the face by which the ray enters
     };
-    /// The latest entry into a slab is the polyhedron's, if it comes before the first exit.
+    /// The ray enters the polyhedron with the last slab, if that is before it leaves the first.
     Crossing crossing(const Ray& ray) const
     {
         const openvdb::Vec3d toCenter = center - ray.origin;
@@ -110,34 +132,13 @@ private:
     }
 };
 
-inline NormFaces::NormFaces(const Distance& norm)
-{
-    const double unit = norm.unit();
-    reach = std::max(
-        1.0, std::max(std::sqrt(2) * unit / norm.edge(), std::sqrt(3) * unit / norm.corner()));
-    std::array<int, 3> weights{
-        norm.corner() - norm.edge(), norm.edge() - norm.face(), norm.face()}; // smallest first
-    do {
-        for (int signs = 0; signs < 8; ++signs) {
-            openvdb::Vec3d normal;
-            for (int axis = 0; axis < 3; ++axis) {
-                normal[axis] = (signs >> axis & 1 ? -weights[axis] : weights[axis]) / unit;
-            }
-            const auto isSame = [&](const openvdb::Vec3d& o) {
-                return o == normal || o == -normal;
-            };
-            if (std::none_of(normals.begin(), normals.end(), isSame)) normals.push_back(normal);
-        }
-    } while (std::next_permutation(weights.begin(), weights.end()));
-}
-
-/// The active voxels of a leaf node, or a tile, as cubes between half-integers. What is hit does
-/// not depend on whether a cube of voxels is a tile or written out.
+/// The active voxels of a leaf node, or a tile, as cubes between half-integers. Hits do not depend on
+/// whether voxels are stored as a tile or one by one.
 struct VoxelShape {
     using LeafNode = openvdb::BoolTree::LeafNodeType;
 
     openvdb::Vec3d lo, hi;          ///< around the active voxels
-    openvdb::Vec3d corner;          ///< the lowest one of the leaf
+    openvdb::Vec3d corner;          ///< the lowest corner of the leaf; of a tile unused
     const LeafNode* leaf = nullptr; ///< null for a tile; owned by the tree it is in
 
     Bound bound() const { return Bound::ofBox(Box(lo, hi)); }
@@ -149,7 +150,7 @@ struct VoxelShape {
         return leaf ? entryOfVoxels(ray, span) : span.begin;
     }
 
-    /// The axis along which the point lies on a face, which is between voxels: at a half-integer.
+    /// Faces are at half-integers, so it is along the axis whose coordinate is nearest to one.
     openvdb::Vec3d normal(const Ray& ray, double t) const
     {
         const openvdb::Vec3d point = ray.at(t) - openvdb::Vec3d(0.5);
@@ -164,7 +165,7 @@ struct VoxelShape {
     }
 
 private:
-    /// The part of a ray in a box; empty where begin > end.
+    /// The part of a ray in a box; empty if begin > end.
     struct Span {
         double begin, end;
         Span(const Ray& ray, const openvdb::Vec3d& lo, const openvdb::Vec3d& hi)
@@ -179,7 +180,7 @@ private:
         }
     };
 
-    /// The walk only finds the voxel; where the ray enters it is computed as for a tile.
+    /// The walk only finds the voxel. Where the ray enters it is computed as for a tile.
     double entryOfVoxels(const Ray& ray, const Span& span) const
     {
         using DdaRay = openvdb::math::Ray<double>;

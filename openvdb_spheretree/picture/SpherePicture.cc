@@ -41,23 +41,21 @@ openvdb::Coord middleOf(const openvdb::CoordBBox& box)
 
 /// What a picture needs besides shapes and their colours.
 struct View {
-    View(const Camera& camera, const PictureSettings& settings,
+    View(const Camera& camera, const PictureSettings& pictureSettings,
         const openvdb::math::Transform& transform, const openvdb::CoordBBox& object)
-        : settings(settings), frame(camera, transform, middleOf(object)),
-          rays(frame, camera.fovDegrees, settings.width, settings.height), light(frame),
+        : settings(pictureSettings),
+          rays(camera, transform, middleOf(object), settings.width, settings.height), light(rays),
           occlusionReach(0.25 * (object.max().asVec3d() - object.min().asVec3d()).length() + 2)
     {}
 
-    PictureSettings settings;
-    detail::CameraFrame frame;
+    const PictureSettings& settings;
     detail::CameraRays rays;
     Light light;
-    double occlusionReach; ///< in voxels; what is further away takes no light from the sky
+    double occlusionReach; ///< in voxels; what is further away shades nothing
 };
 
-/// Point @a i of @a count of a set that fills the unit square evenly (Hammersley's), moved around
-/// by
-/// @a seed with wrapping.
+/// Point @a i of Hammersley's @a count points, which fill the unit square evenly. All are moved by
+/// the same random vector, and wrap around at the edges.
 struct PlanePoint {
     double u, v;
     PlanePoint(uint32_t i, uint32_t count, uint64_t seed)
@@ -75,18 +73,16 @@ struct PlanePoint {
 template <typename Shape>
 class Painter {
 public:
-    /// @param colors  linear, one a shape
-    Painter(
-        const detail::RayScene<Shape>& scene, const std::vector<Vec3f>& colors, const View& view)
-        : mScene(scene), mColors(colors), mView(view)
+    /// @param colors  linear, one for each shape
+    Painter(const std::vector<Shape>& shapes, const std::vector<Vec3f>& colors, const View& view,
+        openvdb::util::NullInterrupter* interrupter)
+        : mScene(shapes, interrupter), mColors(colors), mView(view)
     {}
 
-    /// Tiles rather than rows, as neighbouring rays ask for the same shapes.
+    /// By tiles, not by rows: rays side by side need the same shapes.
     Picture paint(openvdb::util::NullInterrupter* interrupter) const
     {
-        Picture picture;
-        picture.width = mView.settings.width;
-        picture.height = mView.settings.height;
+        Picture picture{mView.settings.width, mView.settings.height, {}};
         picture.rgb.resize(std::size_t(picture.width) * picture.height * 3);
         const std::size_t across = (picture.width + kTile - 1) / kTile;
         const std::size_t tiles = across * ((picture.height + kTile - 1) / kTile);
@@ -97,30 +93,34 @@ public:
     }
 
 private:
-    static constexpr int kTile = 64;  ///< pixels a side
+    static constexpr int kTile = 64;  ///< pixels along a side
     static constexpr int kBlur = 2;   ///< light is the mean of that many pixels to each side
-    static constexpr int kProbes = 2; ///< samples a side of a pixel that every pixel has
+    static constexpr int kProbes = 2; ///< every pixel has kProbes x kProbes samples or more
 
     struct Sample {
         Ray ray;
         double y; ///< in pixels
         std::optional<detail::Hit> hit;
+        Vec3d start{0.0}; ///< where rays to the light start, if there is a hit
     };
     using Probes = std::array<Sample, kProbes * kProbes>;
 
-    /// A pixel that shows one smooth surface, and what light falls on it.
+    struct Incident {
+        double lamp = 0;    ///< how much of the lamp is visible, 0 to 1
+        Vec3d ambient{0.0}; ///< mean light of the sky
+    };
+    /// What a pixel shows of one smooth surface, and the light on it: means of the samples.
     struct Surface {
         int32_t shape;
-        Vec3d point, normal, toEye;
-        double lamp;
-        Vec3d ambient;
+        Vec3d point{0.0}, normal{0.0}, toEye{0.0};
+        Incident light = {};
     };
     struct Pixel {
-        Vec3d color{0.0}; ///< linear; of a surface unused
+        Vec3d color{0.0}; ///< linear; not used where there is a surface
         std::optional<Surface> surface;
     };
 
-    /// The pixels of a tile and kBlur more around it, which other tiles compute once more.
+    /// The pixels of a tile and kBlur more on each side, which belong to other tiles as well.
     struct Patch {
         int left, top, right, bottom; ///< the last two exclusive
         std::vector<Pixel> pixels;
@@ -147,40 +147,41 @@ private:
         }
         for (int y = top; y < bottom; ++y) {
             for (int x = left; x < right; ++x) {
-                const Pixel& pixel = patch.at(x, y);
-                const Vec3d light = pixel.surface ? blurred(patch, x, y) : pixel.color;
+                const Pixel& shown = patch.at(x, y);
+                const Vec3d light = shown.surface ? blurred(patch, x, y) : shown.color;
                 uint8_t* const rgb = &picture.rgb[3 * (std::size_t(y) * picture.width + x)];
                 for (int c = 0; c < 3; ++c) rgb[c] = detail::srgbByte(light[c]);
             }
         }
     }
 
-    /// What a surface looks like in the mean light of the pixels around that show the same plane,
-    /// nearly: a few rays a pixel then leave no grain, and edges stay sharp.
+    /// The color of a surface in the mean light of those pixels around it that show nearly the same
+    /// plane. So a few rays for each pixel leave no grain, and edges stay sharp.
     Vec3d blurred(Patch& patch, int x, int y) const
     {
         const Surface& here = *patch.at(x, y).surface;
-        double lamp = 0;
-        Vec3d ambient(0.0);
+        const int left = std::max(patch.left, x - kBlur);
+        const int right = std::min(patch.right, x + kBlur + 1);
+        const int top = std::max(patch.top, y - kBlur);
+        const int bottom = std::min(patch.bottom, y + kBlur + 1);
+        Incident sum;
         int count = 0;
-        for (int v = std::max(patch.top, y - kBlur); v < std::min(patch.bottom, y + kBlur + 1);
-             ++v) {
-            for (int u = std::max(patch.left, x - kBlur); u < std::min(patch.right, x + kBlur + 1);
-                 ++u) {
+        for (int v = top; v < bottom; ++v) {
+            for (int u = left; u < right; ++u) {
                 const auto& other = patch.at(u, v).surface;
                 if (!other) continue;
                 if (!isSmooth(here.point, here.normal, other->point, other->normal)) continue;
-                lamp += other->lamp;
-                ambient += other->ambient;
+                sum.lamp += other->light.lamp;
+                sum.ambient += other->light.ambient;
                 ++count;
             }
         }
-        return mView.light.reflected(
-            Vec3d(mColors[here.shape]), here.normal, here.toEye, lamp / count, ambient / count);
+        return mView.light.reflected(Vec3d(mColors[here.shape]), here.normal, here.toEye,
+            sum.lamp / count, sum.ambient / count);
     }
 
-    /// Where four samples see one smooth surface, or nothing, they are enough.
-    /// @param isInTile  if not, it is only asked for a surface
+    /// Four samples are enough where they all see one smooth surface, or all see nothing.
+    /// @param isInTile  if not, only a surface is needed, and no color
     Pixel pixel(int x, int y, bool isInTile) const
     {
         const uint64_t seed = detail::hash(uint64_t(y) << 32 | uint64_t(x));
@@ -203,32 +204,36 @@ private:
 
     Surface surfaceOf(const Probes& probes, uint64_t seed) const
     {
-        Surface mean{probes[0].hit->shape, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), 0, Vec3d(0.0)};
+        Surface mean{probes[0].hit->shape};
         const auto count = int(probes.size());
         for (int s = 0; s < count; ++s) {
-            const Vec3d normal = probes[s].hit->normal, from = startOf(probes[s]);
-            mean.point += from / count;
-            mean.normal += normal;
+            const Incident light = incidentOn(probes[s], s, count, seed);
+            mean.point += probes[s].start / count;
+            mean.normal += probes[s].hit->normal;
             mean.toEye -= probes[s].ray.direction;
-            mean.lamp += lampShare(from, normal, s, count, seed) / count;
-            mean.ambient += ambient(from, normal, s, count, seed) / count;
+            mean.light.lamp += light.lamp / count;
+            mean.light.ambient += light.ambient / count;
         }
         mean.normal.normalize();
         mean.toEye.normalize();
         return mean;
     }
 
-    /// Sample @a s of @a side x @a side, somewhere in its part of the pixel.
+    /// @return sample @a s of @a side x @a side, at a random place in its part of the pixel.
     Sample trace(int x, int y, int s, int side, uint64_t seed) const
     {
         const uint64_t jitter = detail::hash(seed + uint64_t(s));
         const double u = x + (s % side + detail::unitInterval(jitter)) / side;
         const double v = y + (s / side + detail::unitInterval(jitter << 32)) / side;
         const Ray ray = mView.rays.through(u, v);
-        return {ray, v, mScene.nearest(ray)};
+        Sample sample{ray, v, mScene.nearest(ray)};
+        if (!sample.hit) return sample;
+        constexpr double kClear = 1e-4; // off the surface, so that no ray hits it where it starts
+        sample.start = ray.at(sample.hit->distance) + kClear * sample.hit->normal;
+        return sample;
     }
 
-    /// Whether one plane shows both points, nearly.
+    /// Whether both points lie in nearly the same plane.
     static bool isSmooth(const Vec3d& p, const Vec3d& normalP, const Vec3d& q, const Vec3d& normalQ)
     {
         constexpr double kCosine = 0.97;  // of some 14 degrees
@@ -238,78 +243,55 @@ private:
             && std::abs(apart.dot(normalP)) <= kOffPlane * apart.length();
     }
 
-    /// Spheres of one colour that merge are one surface.
+    /// Whether all samples see one smooth surface of one color, perhaps of several spheres that
+    /// overlap; or all see nothing.
     bool areAlike(const Probes& samples) const
     {
         const auto& first = samples.front().hit;
         return std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& other) {
             if (!first || !other.hit) return !first && !other.hit;
             return mColors[first->shape] == mColors[other.hit->shape]
-                && isSmooth(
-                    startOf(samples.front()), first->normal, startOf(other), other.hit->normal);
+                && isSmooth(samples[0].start, first->normal, other.start, other.hit->normal);
         });
     }
 
-    /// Off the surface, so that rays from there do not find it; no shape is as small as that.
-    static Vec3d startOf(const Sample& sample)
-    {
-        constexpr double kClear = 1e-4;
-        return sample.ray.at(sample.hit->distance) + kClear * sample.hit->normal;
-    }
-
-    /// @param s, count  this is sample s of that many of its pixel
+    /// @param s, count  this is sample s of the count samples of its pixel
     Vec3d lightOf(const Sample& sample, int s, int count, uint64_t seed) const
     {
         if (!sample.hit) return Light::background(sample.y / mView.settings.height);
-        const Vec3d normal = sample.hit->normal, from = startOf(sample);
-        const double lamp = lampShare(from, normal, s, count, seed);
-        return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), normal,
-            -sample.ray.direction, lamp, ambient(from, normal, s, count, seed));
+        const Incident light = incidentOn(sample, s, count, seed);
+        return mView.light.reflected(Vec3d(mColors[sample.hit->shape]), sample.hit->normal,
+            -sample.ray.direction, light.lamp, light.ambient);
     }
 
-    /// The samples of a pixel share one set of points, so that they look at all of the lamp.
-    double lampShare(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
+    /// The samples of a pixel share one set of points of the lamp and one of the sky, so that they
+    /// look at all of both.
+    Incident incidentOn(const Sample& sample, int s, int count, uint64_t seed) const
     {
-        const int rays = std::max(1, mView.settings.lightRays / 2 / count);
+        const Vec3d &from = sample.start, &normal = sample.hit->normal;
+        const int lampRays = std::max(1, mView.settings.lightRays / 2 / count);
         int seen = 0;
-        for (int k = 0; k < rays; ++k) {
-            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x1a));
+        for (int k = 0; k < lampRays; ++k) {
+            const PlanePoint point(k * count + s, lampRays * count, detail::hash(seed ^ 0x1a));
             const Vec3d towards = mView.light.towardsLamp(point.u, point.v);
             seen += towards.dot(normal) > 0 && !mScene.isBlocked(Ray(from, towards));
         }
-        return double(seen) / rays;
-    }
-
-    /// The same for the sky.
-    Vec3d ambient(const Vec3d& from, const Vec3d& normal, int s, int count, uint64_t seed) const
-    {
-        constexpr double kBounce = 0.12; // what blocks the sky is lit itself
-        const int rays = std::max(1, mView.settings.lightRays / count);
-        Vec3d sum(0.0);
-        for (int k = 0; k < rays; ++k) {
-            const PlanePoint point(k * count + s, rays * count, detail::hash(seed ^ 0x5c));
+        constexpr double kBounce = 0.12; // what blocks the sky reflects some light itself
+        const int skyRays = std::max(1, mView.settings.lightRays / count);
+        Vec3d sky(0.0);
+        for (int k = 0; k < skyRays; ++k) {
+            const PlanePoint point(k * count + s, skyRays * count, detail::hash(seed ^ 0x5c));
             const Vec3d towards = Light::towardsSky(normal, point.u, point.v);
             const bool open = !mScene.isBlocked(Ray(from, towards), mView.occlusionReach);
-            sum += (open ? 1.0 : kBounce) * mView.light.sky(towards);
+            sky += (open ? 1.0 : kBounce) * mView.light.sky(towards);
         }
-        return sum / rays;
+        return {double(seen) / lampRays, sky / skyRays};
     }
 
-    const detail::RayScene<Shape>& mScene;
+    const detail::RayScene<Shape> mScene;
     const std::vector<Vec3f>& mColors;
     const View& mView;
 };
-
-const SphereTreeLevel& levelOf(const SphereTree& tree, int level)
-{
-    for (const SphereTreeLevel& found : tree.levels) {
-        if (found.level == level) return found;
-    }
-    OPENVDB_THROW(openvdb::ValueError,
-        "the tree has no level " << level << ": it has levels "
-                                 << (tree.levels.empty() ? 0 : tree.levels.front().level) << " to "
-                                 << (tree.levels.empty() ? -1 : tree.root().level));
-}
 
 /// @return makeBall(center, radius) of every sphere, in index space about the object's middle.
 template <typename MakeBall>
@@ -326,28 +308,15 @@ auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBal
     return balls;
 }
 
-template <typename Shape>
-Picture painted(const std::vector<Shape>& shapes, const std::vector<Vec3f>& colors,
-    const View& view, openvdb::util::NullInterrupter* interrupter)
-{
-    const detail::RayScene<Shape> scene(shapes, interrupter);
-    return Painter<Shape>(scene, colors, view).paint(interrupter);
-}
-
-/// The leaf nodes and tiles of an object that have voxels.
-std::vector<detail::VoxelShape> voxelShapesOf(
-    const openvdb::BoolTree& tree, const openvdb::Coord& middle)
+/// @return the leaf nodes and tiles of an object that have voxels.
+std::vector<detail::VoxelShape> voxelShapesOf(const openvdb::BoolTree& tree, const Vec3d& middle)
 {
     std::vector<detail::VoxelShape> shapes;
     const Vec3d half(0.5);
-    const auto add = [&](const openvdb::CoordBBox& box,
-                         const openvdb::BoolTree::LeafNodeType* leaf) {
-        detail::VoxelShape shape;
-        shape.lo = box.min().asVec3d() - middle.asVec3d() - half;
-        shape.hi = box.max().asVec3d() - middle.asVec3d() + half;
-        shape.leaf = leaf;
-        if (leaf) shape.corner = leaf->origin().asVec3d() - middle.asVec3d() - half;
-        shapes.push_back(shape);
+    const auto add = [&](const openvdb::CoordBBox& box, const detail::VoxelShape::LeafNode* leaf) {
+        const Vec3d lo = box.min().asVec3d() - middle - half;
+        const Vec3d hi = box.max().asVec3d() - middle + half;
+        shapes.push_back({lo, hi, leaf ? leaf->origin().asVec3d() - middle - half : lo, leaf});
     };
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
         openvdb::CoordBBox box;
@@ -378,16 +347,16 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
 {
     camera.validate();
     settings.validate();
-    const SphereTreeLevel& drawn = levelOf(tree, level);
+    const SphereTreeLevel& drawn = tree.level(level);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
     if (tree.settings.dist().isEuclidean()) {
         const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
-        return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+        return Painter(ballsOf(tree, drawn, ball), colors, view, interrupter).paint(interrupter);
     }
     const detail::NormFaces faces(tree.settings.dist());
     const auto ball = [&](const Vec3d& c, double r) { return detail::NormBallShape{c, r, &faces}; };
-    return painted(ballsOf(tree, drawn, ball), colors, view, interrupter);
+    return Painter(ballsOf(tree, drawn, ball), colors, view, interrupter).paint(interrupter);
 }
 
 Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
@@ -398,12 +367,12 @@ Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
     requireUniformVoxels(object);
     if (object.empty()) OPENVDB_THROW(openvdb::ValueError, "the object has no active voxels");
     const openvdb::CoordBBox box = object.evalActiveVoxelBoundingBox();
-    const auto shapes = voxelShapesOf(object.tree(), middleOf(box));
+    const auto shapes = voxelShapesOf(object.tree(), middleOf(box).asVec3d());
     const Vec3d color =
         settings.color == PictureColor::Fixed ? settings.fixed : PictureSettings().fixed;
     const std::vector<Vec3f> colors(shapes.size(), Vec3f(detail::linearOf(color)));
     const View view(camera, settings, object.transform(), box);
-    return painted(shapes, colors, view, interrupter);
+    return Painter(shapes, colors, view, interrupter).paint(interrupter);
 }
 
 } // namespace openvdb_spheretree

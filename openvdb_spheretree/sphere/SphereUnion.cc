@@ -6,6 +6,8 @@
 #include "ClippedSphere.h"
 #include "SphereRaster.h"
 
+#include <openvdb/math/Math.h>
+
 #include <cmath>
 #include <limits>
 
@@ -44,7 +46,8 @@ double crossedRows(const std::vector<ExactSphere>& spheres, const openvdb::Coord
     if (box.empty()) return 0;
     double discs = 0; // of a norm: squares, at least as large
     const double unit = double(metric.subdivision) * metric.distance.unit();
-    const double area = (metric.distance.isEuclidean() ? M_PI : 4) / (unit * unit);
+    const double area =
+        (metric.distance.isEuclidean() ? openvdb::math::pi<double>() : 4) / (unit * unit);
     for (const ExactSphere& s : spheres) discs += s.radiusSq < 0 ? 0 : area * double(s.radiusSq);
     const auto side = [&box](int a) { return double(box.max()[a]) - box.min()[a] + 1; };
     return std::min(discs, side(0) * side(1));

@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kColumns = 80;
 constexpr size_t kIndent = 17;
 
-/// @a text after what is already on the line, broken at words.
+/// Prints words until a line is full, then goes on in the next one, indented.
 void printWrapped(std::ostream& out, const std::string& text, size_t indent)
 {
     std::istringstream words(text);
@@ -44,11 +44,6 @@ std::string padded(const std::string& text, size_t width)
     return text.size() < width ? text + std::string(width - text.size(), ' ') : text + " ";
 }
 
-std::string titleOf(const ActionSpec& action)
-{
-    return "-" + action.name + (action.alias.empty() ? "" : ",-" + action.alias);
-}
-
 std::string docOf(const ActionSpec& action, const OptionSpec& option)
 {
     std::string doc = option.doc;
@@ -62,7 +57,8 @@ std::string docOf(const ActionSpec& action, const OptionSpec& option)
 
 void printBrief(std::ostream& out, const ActionSpec& action)
 {
-    out << padded(titleOf(action), kIndent);
+    const std::string alias = action.alias.empty() ? "" : ",-" + action.alias;
+    out << padded("-" + action.name + alias, kIndent);
     printWrapped(out, action.doc, kIndent);
 }
 
@@ -100,21 +96,13 @@ void runHelp(const ActionCall& call, Session& session)
 {
     std::ostringstream out;
     const std::vector<std::string> names = call.list("actions");
-    if (names.empty()) printGrammar(out);
     const auto print = call.flag("brief") ? printBrief : printAction;
     if (names.empty()) {
+        printGrammar(out);
         for (const ActionSpec& action : actionTable()) print(out, action);
     }
     for (const std::string& name : names) print(out, *findAction(name));
     session.print(out.str());
-}
-
-ActionSpec textAction(const std::string& name, const std::string& doc)
-{
-    ActionSpec action{name, "", "", doc};
-    action.once = action.quiet = true;
-    action.needsInput = false;
-    return action;
 }
 
 } // namespace
@@ -128,7 +116,8 @@ void printUsage(std::ostream& out)
 
 ActionSpec helpAction()
 {
-    ActionSpec action = textAction("help", "explain all actions, or those that are named");
+    ActionSpec action = smallAction("help", "explain all actions, or those that are named");
+    action.once = true;
     action.mainOption = "actions";
     action.options = {list("actions", "", "names of actions, without a dash"),
         flag("brief", false, "only one line about each")};
@@ -139,7 +128,8 @@ ActionSpec helpAction()
 
 ActionSpec versionAction()
 {
-    ActionSpec action = textAction("version", "print the versions of this command and of OpenVDB");
+    ActionSpec action = smallAction("version", "print the versions of this command and of OpenVDB");
+    action.once = true;
     action.run = [](const ActionCall&, Session& session) {
         session.print(std::string("vdb_spheretree ") + SPHERETREE_VERSION + " (OpenVDB "
             + openvdb::getLibraryVersionString() + ")\n");
@@ -149,7 +139,8 @@ ActionSpec versionAction()
 
 ActionSpec examplesAction()
 {
-    ActionSpec action = textAction("examples", "print some command lines");
+    ActionSpec action = smallAction("examples", "print some command lines");
+    action.once = true;
     action.run = [](const ActionCall&, Session& session) {
         session.print(
             "The sphere-tree of a grid, as VDB points, with a table of its levels:\n"

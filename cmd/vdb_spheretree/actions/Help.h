@@ -8,7 +8,7 @@
 
 namespace command {
 
-/// A few lines, for somebody who typed nothing.
+/// Prints a few lines for a user who gave no arguments.
 void printUsage(std::ostream& out);
 
 } // namespace command

@@ -12,25 +12,13 @@ namespace {
 
 ActionSpec modeAction(const std::string& name, Verbosity verbosity, const std::string& doc)
 {
-    ActionSpec action{name, "", "", doc};
-    action.once = action.quiet = true;
-    action.needsInput = false;
+    ActionSpec action = smallAction(name, doc);
+    action.once = true;
     action.run = [verbosity](const ActionCall&, Session& session) {
         session.verbosity = verbosity;
         session.progress.setEnabled(verbosity != Verbosity::Quiet);
     };
     return action;
-}
-
-void checkThreads(const ActionCall& call, Plan&)
-{
-    if (!call.given("threads")) throwUsage("a number of threads is missing");
-}
-
-void runThreads(const ActionCall& call, Session& session)
-{
-    session.threads = std::make_unique<tbb::global_control>(
-        tbb::global_control::max_allowed_parallelism, size_t(call.integer("threads")));
 }
 
 } // namespace
@@ -52,21 +40,24 @@ ActionSpec debugAction()
 
 ActionSpec threadsAction()
 {
-    ActionSpec action{"threads", "", "threads",
-        "use this many threads (by default one for each core); results do not depend on it"};
+    ActionSpec action = smallAction("threads",
+        "use this many threads (by default one for each core); results do not depend on it");
+    action.mainOption = "threads";
     action.options = {integer("threads", "", 1, 1024, "number of threads")};
-    action.once = action.quiet = true;
-    action.needsInput = false;
-    action.check = checkThreads;
-    action.run = runThreads;
+    action.once = true;
+    action.check = [](const ActionCall& call, Plan&) {
+        if (!call.given("threads")) throwUsage("a number of threads is missing");
+    };
+    action.run = [](const ActionCall& call, Session& session) {
+        session.threads = std::make_unique<tbb::global_control>(
+            tbb::global_control::max_allowed_parallelism, size_t(call.integer("threads")));
+    };
     return action;
 }
 
 ActionSpec clearAction()
 {
-    ActionSpec action{"clear", "", "", "remove everything from the stack"};
-    action.quiet = true;
-    action.needsInput = false;
+    ActionSpec action = smallAction("clear", "remove everything from the stack");
     action.run = [](const ActionCall&, Session& session) { session.stack.clear(); };
     return action;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ObjectChoice.h
-/// @brief Which grid of the stack is the object that an action needs, and a tree's errors against
-/// it.
+/// @brief The object that an action needs, from the stack; and the errors of a tree.
 
 #pragma once
 
@@ -11,15 +10,18 @@
 
 namespace command {
 
-/// @throw CommandError (input) if there is none, or more than one; for a mesh, it tells the remedy
+/// @return the grid of the stack that an action makes its object of.
+/// @param ageOrName  as for Stack::select()
+/// @throw CommandError (input) if there is none, or more than one. If there is only a mesh, the
+///        message says what to do.
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName);
 
-/// @brief The object of a grid of the stack, whose values may still be in its file.
-/// @throw CommandError (input) as objectOf() throws; what is wrong with the file names it
+/// @return the object of a grid of the stack. The grid's values may still be in its file.
+/// @throw CommandError (input) if the library's objectOf() fails; the message names the grid
 openvdb::BoolGrid::Ptr objectOf(
     const StackItem& item, const openvdb_spheretree::ObjectSettings& settings, Session& session);
 
-/// @brief Fill in the errors of a tree whose object is known, and count the time.
+/// @brief Compute the errors of a tree whose object is known, and add up the time.
 void computeErrors(StackItem& item, Session& session);
 
 } // namespace command

@@ -157,7 +157,6 @@ ActionSpec readAction()
             "leave the values of a .vdb in the file until they are needed, and read them node by "
             "node: grids may be larger than memory then; auto does so from 64 MiB on")};
     action.isSource = true;
-    action.needsInput = false;
     action.check = check;
     action.run = run;
     return action;

@@ -14,44 +14,21 @@
 
 namespace command {
 
-using openvdb_spheretree::SphereTree;
-
 namespace {
-
-void checkStats(const ActionCall& call, Plan& plan)
-{
-    if (call.given("json")) plan.addOutput(call.text("json"));
-}
-
-bool lacksErrors(const SphereTree& tree)
-{
-    return std::any_of(tree.levels.begin(), tree.levels.end(),
-        [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
-}
-
-void writeText(const std::string& path, const std::string& text)
-{
-    AtomicFile file(path);
-    try {
-        file.stream() << text;
-        file.finish();
-    } catch (const std::ios_base::failure&) {
-        throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
-    }
-    file.commit();
-}
 
 void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
-    if (item.object && lacksErrors(*item.tree)) computeErrors(item, session);
-    if (!call.given("json")) {
-        session.print(statsTable(*item.tree, session));
-    } else if (call.text("json") == "-") {
-        session.print(statsJson(*item.tree, session), std::cout);
-    } else {
-        writeText(call.text("json"), statsJson(*item.tree, session));
-    }
+    const auto& levels = item.tree->levels;
+    const bool lacksErrors = std::any_of(levels.begin(), levels.end(),
+        [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
+    if (item.object && lacksErrors) computeErrors(item, session);
+    if (!call.given("json")) return session.print(statsTable(*item.tree, session));
+    const std::string json = statsJson(*item.tree, session), path = call.text("json");
+    if (path == "-") return session.print(json, std::cout);
+    AtomicFile file(path);
+    file.write([&](std::ostream& out) { out << json; });
+    file.commit();
 }
 
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
@@ -101,16 +78,17 @@ ActionSpec statsAction()
     action.options = {
         text("json", "", "write the same as JSON to this file, or to stdout (-), and no table"),
         vdbOption("the tree")};
-    action.check = checkStats;
+    action.check = [](const ActionCall& call, Plan& plan) {
+        if (call.given("json")) plan.addOutput(call.text("json"));
+    };
     action.run = runStats;
     return action;
 }
 
 ActionSpec printAction()
 {
-    ActionSpec action{"print", "p", "", "list what is on the stack, newest first"};
-    action.needsInput = false;
-    action.quiet = true;
+    ActionSpec action = smallAction("print", "list what is on the stack, newest first");
+    action.alias = "p";
     action.run = runPrint;
     return action;
 }

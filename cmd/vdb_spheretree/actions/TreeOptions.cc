@@ -26,14 +26,14 @@ OptionSpec optionOf(const Setting& setting)
     return option;
 }
 
-/// An option that would change nothing is a mistake: whoever typed it expects something of it.
+/// An option that would change nothing is an error: the user expects that it does.
 void refuse(const ActionCall& call, const std::string& option, const std::string& why)
 {
     if (!call.given(option)) return;
     throwUsage(call.label() + " " + option + "=" + call.text(option) + " " + why);
 }
 
-/// What only one of the pyramid's trees has, the other one takes and has no use for.
+/// An option of either kind of pyramid tree is accepted for both.
 void refuseOptionsOfOtherTrees(const ActionCall& call)
 {
     const std::string tree = call.text("tree");

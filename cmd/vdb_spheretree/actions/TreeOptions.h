@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TreeOptions.h
-/// @brief The options of -spheretree, and the settings of the library that they stand for.
+/// @brief The options of -spheretree, and the library's settings that follow from them.
 
 #pragma once
 
@@ -12,10 +12,10 @@ namespace command {
 
 std::vector<OptionSpec> spheretreeOptions();
 
-/// @throw openvdb::ValueError naming a value that is out of range, or contradicts another one
+/// @throw openvdb::ValueError naming a value that is out of range, or that contradicts another
 openvdb_spheretree::SphereTreeSettings settingsOf(const ActionCall& call);
 
-/// @brief Everything that can be wrong with the options, before any work.
+/// @brief Check all options before any work.
 /// @throw CommandError (usage), openvdb::ValueError
 void checkTreeOptions(const ActionCall& call);
 

@@ -12,6 +12,7 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/picture/Picture.h>
 #include <openvdb_spheretree/store/SphereTreeCsv.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -27,15 +29,6 @@
 namespace command {
 
 namespace {
-
-bool isLaterFormat(const std::string& path)
-{
-    const std::string extension = extensionOf(path);
-    for (const char* known : {".ply", ".usda", ".sph", ".html"}) {
-        if (extension == known) return true;
-    }
-    return false;
-}
 
 uint32_t compressionOf(const ActionCall& call)
 {
@@ -50,8 +43,8 @@ uint32_t compressionOf(const ActionCall& call)
         | (zip ? openvdb::io::COMPRESS_ZIP : openvdb::io::COMPRESS_BLOSC);
 }
 
-/// Where the edges of the tree in @a csv go: x_dag.csv beside x.csv. Whether there will be any is
-/// not known before the work is done, so the place is always kept free for them.
+/// @return x_dag.csv of x.csv: the file for the edges of the tree. Whether there will be any is not
+/// known before the work is done, so its place is always checked.
 std::string dagPath(const std::string& csv)
 {
     const std::string extension = std::filesystem::path(csv).extension().string();
@@ -63,7 +56,8 @@ void check(const ActionCall& call, Plan& plan)
     if (!call.given("files")) throwUsage("names no file");
     compressionOf(call);
     for (const std::string& path : call.list("files")) {
-        if (isLaterFormat(path)) {
+        for (const char* later : {".ply", ".usda", ".sph", ".html"}) {
+            if (openvdb_spheretree::detail::lowerExtension(path) != later) continue;
             throwUsage(path + ": files of this kind are not available in this version");
         }
         const FileKind kind = fileKind(path);
@@ -78,8 +72,8 @@ void check(const ActionCall& call, Plan& plan)
     checkPictureOptions(call);
 }
 
-/// @param giveUp  whether trees are not needed any more: a tree and its grid together would be
-///                twice as much memory
+/// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
+///                and its grid together take twice the memory
 openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
 {
     namespace st = openvdb_spheretree;
@@ -112,8 +106,8 @@ const openvdb_spheretree::SphereTree& onlyTree(
     return *tree->tree;
 }
 
-/// Two trees of one name could not be told apart when the file is read, nor a tree from the edges
-/// or cuts of another.
+/// Who reads the file could not tell apart two trees of one name, or a tree from the edges or cuts
+/// of another.
 void requireDistinctTrees(const std::vector<StackItem*>& items)
 {
     std::set<std::string> names;
@@ -175,17 +169,10 @@ public:
     }
 
 private:
-    template <typename Write>
-    void writeFile(const std::string& path, const Write& write)
+    void writeFile(const std::string& path, const std::function<void(std::iostream&)>& write)
     {
         mFiles.push_back(std::make_unique<AtomicFile>(path));
-        AtomicFile& file = *mFiles.back();
-        try {
-            write(file.stream());
-            file.finish();
-        } catch (const std::ios_base::failure&) {
-            throwOutput("cannot write " + path + ": the disk is full, or a limit is reached");
-        }
+        mFiles.back()->write(write);
     }
 
     void writeTables(const std::string& path)

@@ -48,7 +48,7 @@ PictureSettings settingsOf(const ActionCall& call)
     return settings;
 }
 
-/// @param view  what is taken for all that the user has not chosen
+/// @param view  has the values of what the user has not chosen
 Camera cameraOf(const ActionCall& call, const Camera& view)
 {
     Camera camera = view;
@@ -66,7 +66,7 @@ Camera cameraOf(const ActionCall& call, const Camera& view)
     return camera;
 }
 
-/// The view of @a object, with what the user has chosen.
+/// @return the view of @a object, changed by what the user has chosen.
 Camera cameraOf(const ActionCall& call, const openvdb::CoordBBox& object,
     const openvdb::math::Transform& transform)
 {
@@ -88,8 +88,7 @@ StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& p
 Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& session)
 {
     const int level = call.given("level") ? int(call.integer("level")) : tree.levels.front().level;
-    const auto has = [level](const auto& l) { return l.level == level; };
-    if (std::none_of(tree.levels.begin(), tree.levels.end(), has)) {
+    if (!tree.hasLevel(level)) {
         throwInput("the tree has no level " + call.text("level") + ": it has levels "
             + std::to_string(tree.levels.front().level) + " to "
             + std::to_string(tree.root().level));

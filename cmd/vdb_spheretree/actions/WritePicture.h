@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WritePicture.h
-/// @brief The pictures of -write: its camera options, and what is drawn.
+/// @brief The pictures of -write: their options, and what is drawn.
 
 #pragma once
 
@@ -15,14 +15,13 @@ namespace command {
 
 std::vector<OptionSpec> pictureOptions();
 
-/// @brief What can be said about these options before any work.
+/// @brief Check these options as far as possible before any work.
 /// @throw CommandError (usage)
 void checkPictureOptions(const ActionCall& call);
 
-/// @brief Draw the only sphere-tree of @a items or, where there is none, the object of the only
-/// grid.
+/// @brief Draw the only sphere-tree of @a items or, if there is none, the object of the only grid.
 /// @param path  for messages
-/// @throw CommandError (input, or usage for a camera that does not work out)
+/// @throw CommandError (input, or usage if the camera is not valid)
 openvdb_spheretree::Picture pictureOf(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Errors.h
-/// @brief How the command fails: its exit codes, the exception that carries one, and the one place
-/// where the exceptions of the library, of OpenVDB and of the system become a line of text and a
-/// code.
+/// @brief How the command fails: its exit codes, and the exception that carries one. All exceptions
+/// of the library, of OpenVDB and of the system become a line of text and an exit code here.
 
 #pragma once
 
@@ -22,7 +21,7 @@ enum ExitCode {
     kCheckFailed = 6
 };
 
-/// What ends the command with a given code. The message names the action, file or option.
+/// Ends the command with a given code. The message names the action, file or option.
 class CommandError : public std::runtime_error {
 public:
     CommandError(ExitCode code, const std::string& message)
@@ -38,21 +37,21 @@ private:
 [[noreturn]] void throwInput(const std::string& message);
 [[noreturn]] void throwOutput(const std::string& message);
 
-/// @return @a text on one line, control characters replaced, cut where it is longer than @a limit:
-/// names and messages may come from a damaged file (OpenVDB has thrown gigabytes of them).
+/// @return @a text on one line and without control characters, cut to @a limit characters. Names and
+/// messages may come from a damaged file: OpenVDB has thrown messages of gigabytes.
 std::string oneLine(const std::string& text, size_t limit = 400);
 
-/// @return `path: reason` of the system's last error.
+/// @return `path: reason`, with the reason of the last system call that failed.
 std::string systemError(const std::string& path);
 
-/// @brief Rethrow the exception being handled as a CommandError, whatever it is; an interruption
-/// stays one.
-/// @param where     the action or file that the message is to name
-/// @param fallback  the code of an exception that carries none
+/// @brief Rethrow the exception that is being handled as a CommandError. Interrupted is rethrown as
+/// it is.
+/// @param where     the action or file that the message names; may be empty
+/// @param fallback  exit code for an exception that has none
 [[noreturn]] void rethrowNamed(const std::string& where, ExitCode fallback);
 
 /// @brief Print the exception to stderr.
-/// @return the exit code for it
+/// @return its exit code
 int reportError(std::exception_ptr error);
 
 } // namespace command

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Progress.h
-/// @brief The interrupter that the command passes to all long work: Ctrl-C stops it cleanly, and a
-/// terminal shows how far it is.
+/// @brief The interrupter that all long work gets: Ctrl-C stops it cleanly, and a terminal shows its
+/// progress.
 
 #pragma once
 
@@ -14,28 +14,28 @@
 
 namespace command {
 
-/// @brief Let Ctrl-C, SIGTERM and a closed terminal ask for a clean stop, and let a closed pipe or
-/// a full file be an error that is reported rather than a signal that kills.
+/// @brief Install signal handlers. Ctrl-C, SIGTERM and a closed terminal request a clean stop. A
+/// closed pipe and a full file become errors that are reported, not signals that kill.
 void catchSignals();
 
-/// @return whether the user has asked for a stop.
+/// @return whether a stop has been requested.
 bool stopRequested();
 
-/// @throw openvdb_spheretree::Interrupted if the user has asked for a stop
+/// @throw openvdb_spheretree::Interrupted if a stop has been requested
 void throwIfStopped();
 
-/// Work asks from many threads, many times a second: asking is one relaxed load unless there is a
-/// bar to draw, and the bar is drawn at most ten times a second.
+/// Many threads call wasInterrupted() many times a second. It costs one relaxed load unless there is
+/// a bar to draw, and the bar is drawn at most ten times a second.
 class Progress : public openvdb::util::NullInterrupter {
 public:
     Progress();
 
-    /// @name What stands before the bar; begin shows nothing before half a second has gone
+    /// @name The text before the bar. Nothing is shown in the first half second of an action.
     /// @{
     void beginAction(const std::string& label);
     void endAction();
     /// @}
-    void clearLine(); ///< before something else is printed; the bar comes back by itself
+    void clearLine(); ///< call before printing something else; the bar comes back by itself
     void setEnabled(bool enabled) { mEnabled = enabled && mTerminal; }
 
     void start(const char* name = nullptr) override;

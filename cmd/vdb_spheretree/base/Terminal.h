@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Terminal.h
-/// @brief Whether a stream is a terminal, and colour for those that are.
+/// @brief Whether a stream is a terminal, colours for terminals, and numbers for people.
 
 #pragma once
 
@@ -14,13 +14,13 @@ enum class Colour { Red, Green, Yellow, Bold };
 /// @return whether std::cout or std::cerr (no other stream) is a terminal.
 bool isTerminal(const std::ostream& stream);
 
-/// @return @a text, coloured where @a stream is a terminal and the user has not set NO_COLOR.
+/// @return @a text, coloured if @a stream is a terminal and NO_COLOR is not set.
 std::string coloured(const std::ostream& stream, Colour colour, const std::string& text);
 
-/// @return a duration as people read it: `3.1 ms`, `12.6 s`.
+/// @return a duration such as `3.1 ms` or `12.60 s`.
 std::string prettySeconds(double seconds);
 
-/// @return a whole number with a comma between thousands.
+/// @return a whole number with commas between thousands.
 std::string withCommas(long long number);
 
 } // namespace command

@@ -7,7 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,11 +27,9 @@ std::string folderOf(const std::string& path)
 /// A link is followed, so that the file it names is replaced and not the link.
 std::string followed(const std::string& path)
 {
-    char* const resolved = realpath(path.c_str(), nullptr);
-    if (!resolved) return path;
-    const std::string result = resolved;
-    std::free(resolved);
-    return result;
+    std::error_code error;
+    const auto resolved = std::filesystem::canonical(path, error);
+    return error ? path : resolved.string();
 }
 
 /// @return the name of a new, empty file in @a folder; empty (and errno) if it could not be made.
@@ -105,10 +104,15 @@ AtomicFile::~AtomicFile()
     if (!mCommitted) unlink(mTemporary.c_str());
 }
 
-void AtomicFile::finish()
+void AtomicFile::write(const std::function<void(std::iostream&)>& content)
 {
-    mStream.flush();
-    mStream.close();
+    try {
+        content(mStream);
+        mStream.flush();
+        mStream.close();
+    } catch (const std::ios_base::failure&) {
+        throwOutput("cannot write " + mPath + ": the disk is full, or a limit is reached");
+    }
 }
 
 void AtomicFile::commit()

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FdBuffer.h
-/// @brief Files and pipes that Ctrl-C wakes from waiting: one to read from as a C++ stream, which
-/// ends every short read with an exception, and one to write to.
+/// @brief Reading from and writing to files and pipes, where Ctrl-C ends the waiting.
 ///
-/// OpenVDB does not ask its stream whether a read succeeded, and works on with what happened to be
-/// in memory. Its reader is therefore given a stream that throws: a truncated file then fails where
-/// it ends, whatever it ends in.
+/// OpenVDB does not check whether a read succeeded, and goes on with what happens to be in memory.
+/// So it should read through a stream with exceptions on: then a truncated file fails where it ends.
 
 #pragma once
 
@@ -16,11 +14,11 @@
 
 namespace command {
 
-/// @brief Writes all that is left in @a data to a file descriptor.
+/// @brief Write all that is left in @a data to a file descriptor.
 /// @throw Interrupted, CommandError (output) naming @a what and the reason
 void writeToFd(int fd, std::streambuf& data, const std::string& what);
 
-/// Reads from a file descriptor, which it does not own. Can tell its position, but not seek.
+/// Reads from a file descriptor, which it does not own. It knows its position, but cannot seek.
 class FdBuffer : public std::streambuf {
 public:
     explicit FdBuffer(int fd);

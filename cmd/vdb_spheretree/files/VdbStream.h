@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file VdbStream.h
-/// @brief Grids from and to `.vdb` files and pipes, with the failures that OpenVDB lets pass.
+/// @brief Grids from and to `.vdb` files and pipes. Failures that OpenVDB ignores are errors here.
 
 #pragma once
 
@@ -12,32 +12,31 @@
 
 namespace command {
 
-/// Whether the values of grids are read with their nodes, or stay in the file until they are asked
-/// for. Then the file must stay as it is, too; one that is renamed over it does no harm.
+/// When the values of grids are read.
 enum class Loading {
-    Auto, ///< delayed, of files of kLargeFile and more
-    Delayed,
-    Whole
+    Auto,    ///< Delayed for files of kLargeFile and more, else Whole
+    Delayed, ///< when they are first used; the file must not change, but may be replaced by rename
+    Whole    ///< together with the nodes
 };
 
-/// Bytes. Reading leaf by leaf takes longer than reading through: that is for files that may not
-/// fit into memory, in which values are several times as large, and for little else.
+/// Bytes. Values take several times as much in memory as in the file. Delayed reading, leaf by leaf,
+/// is slower, and pays only where values may not fit into memory.
 constexpr int64_t kLargeFile = int64_t(1) << 26;
 
-/// @brief Every grid of a `.vdb`, in the file's order.
-/// @param path     a file, or `stdin.vdb`, which is read whole whatever @a loading says; so are
-///                 files that do not say where their grids are
-/// @throw CommandError (input) naming the file: missing, not a .vdb, truncated, damaged, empty, or
-///        with another number of voxels than it says. Damaged values that stay in the file are
-///        found later, by who asks for them.
-/// @throw Interrupted if the user has asked for a stop
+/// @brief Read every grid of a `.vdb`, in the file's order.
+/// @param path     a file, or `stdin.vdb`. Standard input is always read whole, and so are files
+///                 that do not say where their grids are.
+/// @throw CommandError (input) naming the file, if it is missing, no .vdb, truncated, damaged or
+///        empty, or if a grid has another number of voxels than the file says. With delayed loading,
+///        damaged values are found when they are first used.
+/// @throw Interrupted if a stop has been requested
 openvdb::GridPtrVec readVdb(const std::string& path, Loading loading = Loading::Auto);
 
-/// @brief Write grids as a `.vdb`; the same grids give the same bytes: the random identifier that
-/// OpenVDB puts in the header is replaced by one computed from the rest.
+/// @brief Write grids as a `.vdb`. The same grids give the same bytes: the random identifier that
+/// OpenVDB puts in the header is replaced by one computed from the rest of the file.
 /// @param out          at its start, open for reading too
 /// @param compression  flags of openvdb::io
-/// @param seekable     a file, which gets the offsets of its grids; or a pipe
+/// @param seekable     whether to write the offsets of the grids; false for a pipe
 void writeVdb(
     std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable);
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Action.h"
 
+#include <openvdb_spheretree/base/Text.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 namespace command {
+
+using openvdb_spheretree::detail::parseNumber;
 
 namespace {
 
@@ -19,16 +23,6 @@ std::optional<bool> parseFlag(const std::string& value)
         if (value == no) return false;
     }
     return {};
-}
-
-template <typename T>
-std::optional<T> parseNumber(const std::string& value)
-{
-    T number{};
-    const char* const end = value.data() + value.size();
-    const auto [stop, error] = std::from_chars(value.data(), end, number);
-    if (error != std::errc() || stop != end) return {};
-    return number;
 }
 
 std::string numberText(double number)
@@ -137,6 +131,14 @@ OptionSpec keepOption() { return flag("keep", false, "leave the input on the sta
 OptionSpec nameOption(const std::string& fallback, const std::string& doc)
 {
     return text("name", fallback, doc);
+}
+
+ActionSpec smallAction(const std::string& name, const std::string& doc)
+{
+    ActionSpec action{name, "", "", doc};
+    action.quiet = true;
+    action.needsInput = false;
+    return action;
 }
 
 const OptionSpec* ActionSpec::option(const std::string& optionName) const

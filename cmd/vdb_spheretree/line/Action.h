@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Action.h
-/// @brief What an action is (its name, options and documentation, how it is checked and run), and
-/// one call of it on a command line. The parser and -help read nothing else.
+/// @brief What an action is, and one call of it on a command line.
+///
+/// The specification of an action has its name, options and documentation, how it is checked and how
+/// it is run. The parser and -help need nothing else.
 
 #pragma once
 
@@ -24,19 +26,19 @@ struct Session;
 
 enum class OptionKind {
     Text,
-    List,    ///< texts, a comma between; a main option of this kind takes any number of tokens.
-             ///< What names a file that exists is one text, commas and all.
+    List,    ///< texts with commas between; a main option of this kind takes any number of tokens.
+             ///< The name of a file that exists is one text, even if it has commas.
     Flag,    ///< 1|0|true|false|yes|no|on|off
     Integer, ///< within [lowest, highest]
     Real,    ///< within [lowest, highest]
-    Vector,  ///< three numbers, a comma between
+    Vector,  ///< three numbers with commas between
     Choice   ///< one of `choices`
 };
 
 struct OptionSpec {
     std::string name;
     OptionKind kind = OptionKind::Text;
-    std::string fallback; ///< the default as it would be typed; empty: there is none
+    std::string fallback; ///< the default as it would be typed; empty if there is none
     std::string doc;
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
@@ -55,7 +57,7 @@ OptionSpec real(const std::string& name, const std::string& fallback, double low
 OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc);
 OptionSpec choice(const std::string& name, const std::vector<std::string>& choices,
     const std::string& doc); ///< the first choice is the default
-/// The options that nearly every action has.
+/// Options of nearly every action.
 OptionSpec vdbOption(const std::string& what);
 OptionSpec keepOption();
 OptionSpec nameOption(const std::string& fallback, const std::string& doc);
@@ -68,33 +70,36 @@ struct ActionSpec {
     std::string doc;
     std::vector<OptionSpec> options = {};
 
-    bool once = false;         ///< a second one on the line is a mistake
-    bool quiet = false;        ///< too small for a timing line
-    bool isSource = false;     ///< puts on the stack what was not there, as -read does
-    bool needsInput = true;    ///< works on the stack, so a source has to come before
-    ExitCode failure = kInput; ///< the code of an exception that carries none
+    bool once = false;         ///< may stand on the line only once
+    bool quiet = false;        ///< gets no timing line
+    bool isSource = false;     ///< puts something new on the stack, as -read does
+    bool needsInput = true;    ///< a source has to come before; a source itself needs none
+    ExitCode failure = kInput; ///< exit code for an exception that has none
 
-    /// Everything that can be found out before any work; may be empty.
+    /// Checks what can be checked before any work; may be empty.
     std::function<void(const ActionCall&, Plan&)> check = {};
     std::function<void(const ActionCall&, Session&)> run = {};
 
     const OptionSpec* option(const std::string& optionName) const;
 };
 
-/// One action of a command line, with values that have been checked against its options.
+/// @return an action that needs no input and gets no timing line; its `run` is still empty.
+ActionSpec smallAction(const std::string& name, const std::string& doc);
+
+/// One action of a command line. Its values have been checked against its options.
 class ActionCall {
 public:
     explicit ActionCall(const ActionSpec& spec) : mSpec(&spec) {}
 
     const ActionSpec& spec() const { return *mSpec; }
-    /// `-name`, for messages.
+    /// @return `-name`, for messages.
     std::string label() const { return "-" + mSpec->name; }
-    /// The action as it was typed, in one line.
+    /// @return the action as it was typed, on one line.
     std::string typed() const;
 
     bool given(const std::string& option) const { return mValues.count(option) > 0; }
     void set(const std::string& option, const std::string& value) { mValues[option] = {value}; }
-    /// Splits @a value at its commas.
+    /// Splits @a value at its commas, unless it names a file that exists.
     void appendToList(const std::string& option, const std::string& value);
 
     /// @name The value of an option, or its default
@@ -109,7 +114,7 @@ public:
 
 private:
     const ActionSpec* mSpec;
-    std::map<std::string, std::vector<std::string>> mValues; ///< one, or the items of a list
+    std::map<std::string, std::vector<std::string>> mValues; ///< one value, or those of a list
 };
 
 /// @return the three numbers of a text such as `1,0.5,-2`, or nothing if it is none.
@@ -119,7 +124,7 @@ std::optional<std::array<double, 3>> parseVector(const std::string& text);
 /// @throw CommandError (usage) naming the action, the option, the value and what is allowed
 void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value);
 
-/// @return every action there is, in the order in which -help lists them.
+/// @return all actions, in the order in which -help lists them.
 const std::vector<ActionSpec>& actionTable();
 
 /// @return the action of that name or alias, or null.

@@ -108,7 +108,7 @@ void addMain(ActionCall& call, const std::string& token)
     call.set(option.name, token);
 }
 
-/// What can be said about the order of the actions alone.
+/// Checks the order of the actions.
 void checkOrder(const std::vector<ActionCall>& calls)
 {
     bool anythingThere = false;

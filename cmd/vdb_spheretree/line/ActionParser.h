@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ActionParser.h
-/// @brief The grammar of the command line, which is vdb_tool's: a chain of actions, each with
-/// options, `-action option=value option=value`.
+/// @brief The grammar of the command line, which is that of vdb_tool: a chain of actions, each with
+/// its options, `-action option=value option=value`.
 ///
 /// - An action starts with any number of dashes.
 /// - An option may be shortened to a prefix that no other option of its action starts with.
 /// - A token without `=` goes to the action's main option.
 ///
-/// Stricter than vdb_tool: what is unknown, ambiguous, empty or given twice is an error, and every
-/// value is checked against its range. The whole line is parsed before any of it runs.
+/// It is stricter than vdb_tool: what is unknown, ambiguous, empty or given twice is an error, and
+/// every value is checked against its range. The whole line is parsed before any action runs.
 
 #pragma once
 
@@ -22,7 +22,7 @@ namespace command {
 /// @throw CommandError (usage; or input, where a file of -config cannot be read)
 std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens);
 
-/// @return " (did you mean ...?)" with the candidates nearest to @a word; empty if none is near.
+/// @return " (did you mean ...?)" with the candidates similar to @a word; empty if there are none.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 
 } // namespace command

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Actions.h
-/// @brief Every action of the command; the table in ActionTable.cc lists them. Each is documented
-/// by its own specification, which -help prints.
+/// @brief The specifications of all actions, which ActionTable.cc lists. They are documented in the
+/// specifications themselves, and -help prints that.
 
 #pragma once
 

@@ -3,18 +3,15 @@
 
 #include "Actions.h"
 #include "base/Errors.h"
+#include "Plan.h"
 
 #include <fstream>
-
-#include <sys/stat.h>
 
 namespace command {
 
 namespace {
 
-constexpr size_t kLongestLine = 1 << 20; // a file of another kind has no lines
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+constexpr size_t kLongestLine = 1 << 20; // a line of a binary file may be longer
 
 /// @return the words of a line. @throw CommandError (usage) if a quote is not closed
 std::vector<std::string> wordsOf(const std::string& line, const std::string& where)
@@ -31,7 +28,7 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
             }
             continue;
         }
-        if (isBlank(c)) {
+        if (c == ' ' || c == '\t' || c == '\r') {
             inWord = false;
             continue;
         }
@@ -52,10 +49,9 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
 
 std::vector<std::string> readConfigFile(const std::string& path)
 {
-    struct stat info;
+    checkReadable(path);
     std::ifstream in(path, std::ios::binary);
-    if (stat(path.c_str(), &info) != 0 || !in) throwInput("cannot read " + systemError(path));
-    if (S_ISDIR(info.st_mode)) throwInput("cannot read " + path + ": it is a folder");
+    if (!in) throwInput("cannot read " + systemError(path));
     std::vector<std::string> tokens;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
@@ -73,11 +69,11 @@ std::vector<std::string> readConfigFile(const std::string& path)
 
 ActionSpec configAction()
 {
-    ActionSpec action{"config", "c", "files",
-        "run the actions in a file, one a line, dashes left out or not, # for comments"};
+    ActionSpec action = smallAction(
+        "config", "run the actions in a file, one a line, dashes left out or not, # for comments");
+    action.alias = "c";
+    action.mainOption = "files";
     action.options = {list("files", "", "files of actions")};
-    action.needsInput = false;
-    action.quiet = true;
     return action; // the parser puts the actions of the files in its place
 }
 

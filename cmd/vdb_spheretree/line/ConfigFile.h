@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ConfigFile.h
-/// @brief -config: actions from a file, one a line, as vdb_tool has them.
+/// @brief -config: actions from a file, one on each line, as in vdb_tool.
 ///
-/// A line is an action and its options, with or without dashes before its name. What follows a `#`
-/// at the start of a word is a comment. Words are split at blanks; quotes, single or double, keep
-/// blanks. A first line `vdb_spheretree VERSION` is allowed.
+/// A line has an action and its options; dashes before its name may be left out. A `#` at the start
+/// of a word begins a comment. Words are split at blanks, except within single or double quotes. The
+/// first line may be `vdb_spheretree VERSION`.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace command {
 
-/// @return the file's tokens, as if they had been typed.
+/// @return the words of the file, as if they had been typed.
 /// @throw CommandError (input) if it cannot be read, (usage) if a quote is not closed
 std::vector<std::string> readConfigFile(const std::string& path);
 

@@ -5,11 +5,10 @@
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 
@@ -27,6 +26,8 @@ std::string absolute(const std::string& path)
     return error ? path : resolved.string();
 }
 
+} // namespace
+
 void checkReadable(const std::string& path)
 {
     struct stat info;
@@ -35,18 +36,9 @@ void checkReadable(const std::string& path)
     if (access(path.c_str(), R_OK) != 0) throwInput("cannot read " + systemError(path));
 }
 
-} // namespace
-
-std::string extensionOf(const std::string& path)
-{
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
 FileKind fileKind(const std::string& path)
 {
-    const std::string extension = extensionOf(path);
+    const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
     if (extension == ".vdb") return FileKind::Vdb;
     if (extension == ".csv") return FileKind::Csv;
     if (extension == ".png") return FileKind::Png;

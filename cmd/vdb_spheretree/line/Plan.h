@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Plan.h
-/// @brief The files of a command line, looked at before any work: inputs are there and of a known
-/// kind, outputs can be written, and nothing is written to one place twice.
+/// @brief Checks the files of a command line before any work: inputs exist and are of a known kind,
+/// outputs can be written, and no two outputs go to one place.
 
 #pragma once
 
@@ -12,10 +12,10 @@ namespace command {
 
 enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Unknown };
 
-/// @return `.vdb` of `path/Tree.VDB`.
-std::string extensionOf(const std::string& path);
+/// @throw CommandError (input) if the file is not there, is a folder, or may not be read
+void checkReadable(const std::string& path);
 
-/// By extension, in any case.
+/// By the extension, in upper or lower case.
 FileKind fileKind(const std::string& path);
 
 class Plan {
@@ -30,7 +30,7 @@ public:
     bool stdoutIsTaken() const { return mStdoutTaken; }
 
 private:
-    std::set<std::string> mOutputs; ///< as absolute paths, as far as they can be resolved
+    std::set<std::string> mOutputs; ///< absolute paths, as far as they can be resolved
     bool mStdinTaken = false, mStdoutTaken = false;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StatsReport.h"
 
-#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
@@ -70,24 +69,6 @@ void writeDag(JsonWriter& json, const SphereTree& tree)
     json.endObject();
 }
 
-void writeSeconds(JsonWriter& json, const Session& session)
-{
-    const StageSeconds& seconds = session.seconds;
-    json.beginObject("seconds");
-    json.value("read", seconds.read);
-    json.value("mask", seconds.mask);
-    json.value("pyramid", seconds.build.pyramid);
-    json.value("distance", seconds.build.distance);
-    json.value("power", seconds.build.power);
-    json.value("medial", seconds.build.medial);
-    json.value("tree", seconds.build.tree);
-    json.value("topology", seconds.build.topology);
-    json.value("error", seconds.error);
-    json.value("write", seconds.write);
-    json.value("total", session.total.seconds());
-    json.endObject();
-}
-
 } // namespace
 
 std::string statsJson(const SphereTree& tree, const Session& session)
@@ -102,7 +83,10 @@ std::string statsJson(const SphereTree& tree, const Session& session)
     json.endObject();
     writeLevels(json, tree);
     writeDag(json, tree);
-    writeSeconds(json, session);
+    json.beginObject("seconds");
+    for (const auto& [name, seconds] : stageSeconds(session)) json.value(name, seconds);
+    json.value("total", session.total.seconds());
+    json.endObject();
     json.value("peak_bytes", peakBytes());
     json.endObject();
     return json.text();

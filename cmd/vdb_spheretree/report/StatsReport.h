@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file StatsReport.h
-/// @brief What -stats tells about a sphere-tree: as a table for people, as JSON for programs.
+/// @brief What -stats says about a sphere-tree: as a table for people, and as JSON for programs.
 
 #pragma once
 
 #include "session/Session.h"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace command {
 
@@ -17,9 +19,12 @@ struct LevelRadii {
 LevelRadii radiiOf(
     const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
 
-/// @return how much of the object a level covers whose error has been counted.
+/// @return how much of the object a level covers. Its error must have been counted.
 double coveredPercent(
     const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
+
+/// @return the seconds of every stage of the command line, by its name.
+std::vector<std::pair<const char*, double>> stageSeconds(const Session& session);
 
 /// @return the most memory that the process has held so far, in bytes.
 int64_t peakBytes();

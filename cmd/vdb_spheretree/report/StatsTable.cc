@@ -3,7 +3,6 @@
 
 #include "base/Terminal.h"
 
-#include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 #include <algorithm>
@@ -21,14 +20,11 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// Where spheres lie inside the object, what counts is how much of it they cover.
-bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
-
 Row headerOf(const SphereTree& tree)
 {
     Row row = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
         "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
-    if (isInner(tree)) row.push_back("covered %");
+    if (tree.settings.isInner()) row.push_back("covered %");
     return row;
 }
 
@@ -60,7 +56,7 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
     row.insert(row.end(),
         {withCommas(error.covered), withCommas(error.excess), withCommas(error.missing),
             fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
-    if (isInner(tree)) row.push_back(fixed(coveredPercent(tree, level), 2));
+    if (tree.settings.isInner()) row.push_back(fixed(coveredPercent(tree, level), 2));
     return row;
 }
 
@@ -78,7 +74,7 @@ void printRows(std::ostream& out, const std::vector<Row>& rows)
     }
 }
 
-/// The same reason is said once, for all the levels it holds for.
+/// Levels one after the other that have the same reason share a line.
 void printReasons(std::ostream& out, const SphereTree& tree)
 {
     std::string last;
@@ -125,17 +121,34 @@ void printDag(std::ostream& out, const SphereTree& tree)
 
 void printSeconds(std::ostream& out, const Session& session)
 {
-    const StageSeconds& s = session.seconds;
-    const std::vector<std::pair<const char*, double>> stages = {{"read", s.read}, {"mask", s.mask},
-        {"pyramid", s.build.pyramid}, {"distance", s.build.distance}, {"power", s.build.power},
-        {"medial", s.build.medial}, {"tree", s.build.tree}, {"topology", s.build.topology},
-        {"error", s.error}, {"write", s.write}};
     out << "seconds:";
-    for (const auto& [name, seconds] : stages) {
+    for (const auto& [name, seconds] : stageSeconds(session)) {
         if (seconds > 0) out << " " << name << " " << fixed(seconds, 3) << ",";
     }
     out << " total " << fixed(session.total.seconds(), 3) << "; peak memory "
         << withCommas(peakBytes() >> 20) << " MiB\n";
+}
+
+/// The kind of a tree, and all settings that are not the default and change the numbers.
+std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
+{
+    using namespace openvdb_spheretree;
+    const auto* tight = settings.find<TightOptions>();
+    const auto* pyramid = settings.find<PyramidOptions>();
+    std::string text = toString(settings.type());
+    if (pyramid) text += ", factor " + std::to_string(pyramid->factor);
+    if (settings.isInner()) text += ", side inner";
+    if (tight) text += std::string(", quality ") + toString(tight->quality);
+    if (tight && tight->cover == Cover::Balls) text += ", cover balls";
+    if (tight && tight->leaves == Leaves::Medial) text += ", leaves medial";
+    if (pyramid && pyramid->center == Center::Miniball) text += ", center miniball";
+    if (settings.dim == 2) text += ", dim 2";
+    if (!settings.dist().isEuclidean()) text += ", dist " + toString(settings.dist());
+    if (!pyramid) return text;
+    const std::string model = modelToString(*pyramid);
+    if (model != "or") text += ", model " + model;
+    if (pyramid->scale == RadiusScale::Paper) text += ", scale paper";
+    return text;
 }
 
 } // namespace
@@ -160,31 +173,14 @@ double coveredPercent(const SphereTree& tree, const SphereTreeLevel& level)
     return 100.0 * double(inside) / double(tree.object.voxels);
 }
 
-namespace {
-
-/// What kind of tree it is, and what else shapes the numbers, where it is not the default.
-std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
+std::vector<std::pair<const char*, double>> stageSeconds(const Session& session)
 {
-    using namespace openvdb_spheretree;
-    const auto* tight = settings.find<TightOptions>();
-    const auto* pyramid = settings.find<PyramidOptions>();
-    std::string text = toString(settings.type());
-    if (pyramid) text += ", factor " + std::to_string(pyramid->factor);
-    if (settings.isInner()) text += ", side inner";
-    if (tight) text += std::string(", quality ") + toString(tight->quality);
-    if (tight && tight->cover == Cover::Balls) text += ", cover balls";
-    if (tight && tight->leaves == Leaves::Medial) text += ", leaves medial";
-    if (pyramid && pyramid->center == Center::Miniball) text += ", center miniball";
-    if (settings.dim == 2) text += ", dim 2";
-    if (!settings.dist().isEuclidean()) text += ", dist " + toString(settings.dist());
-    if (!pyramid) return text;
-    const std::string model = modelToString(*pyramid);
-    if (model != "or") text += ", model " + model;
-    if (pyramid->scale == RadiusScale::Paper) text += ", scale paper";
-    return text;
+    const StageSeconds& s = session.seconds;
+    return {{"read", s.read}, {"mask", s.mask}, {"pyramid", s.build.pyramid},
+        {"distance", s.build.distance}, {"power", s.build.power}, {"medial", s.build.medial},
+        {"tree", s.build.tree}, {"topology", s.build.topology}, {"error", s.error},
+        {"write", s.write}};
 }
-
-} // namespace
 
 std::string statsTable(const SphereTree& tree, const Session& session)
 {

@@ -46,7 +46,9 @@ void Session::runOne(const ActionCall& call)
         rethrowNamed(call.label(), call.spec().failure);
     }
     finish();
-    if (!silent) reportTime(call.typed(), watch.seconds());
+    if (silent) return;
+    std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
+              << std::endl;
 }
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
@@ -60,31 +62,17 @@ void Session::print(const std::string& text, std::ostream& out)
     mReaderIsGone = true;
 }
 
-void Session::note(const std::string& line)
-{
-    if (verbosity == Verbosity::Quiet) return;
-    progress.clearLine();
-    std::cerr << "vdb_spheretree: note: " << oneLine(line) << std::endl;
-}
-
 void Session::warn(const std::string& line)
 {
-    if (verbosity == Verbosity::Quiet) return;
-    progress.clearLine();
-    std::cerr << "vdb_spheretree: " << coloured(std::cerr, Colour::Yellow, "warning: ")
-              << oneLine(line) << std::endl;
+    say(Verbosity::Normal, "vdb_spheretree: " + coloured(std::cerr, Colour::Yellow, "warning: "),
+        line);
 }
 
-void Session::remark(const std::string& line)
+void Session::say(Verbosity least, const std::string& start, const std::string& line)
 {
-    if (verbosity < Verbosity::Verbose) return;
+    if (verbosity < least) return;
     progress.clearLine();
-    std::cerr << "    " << oneLine(line) << std::endl;
-}
-
-void Session::reportTime(const std::string& what, double seconds)
-{
-    std::cerr << what << " ... completed in " << prettySeconds(seconds) << std::endl;
+    std::cerr << start << oneLine(line) << std::endl;
 }
 
 } // namespace command

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Session.h
-/// @brief One run of a command line: the stack, and what its actions share.
+/// @brief One run of a command line: the stack, and all else that its actions share.
 
 #pragma once
 
@@ -30,27 +30,26 @@ struct StageSeconds {
 enum class Verbosity { Quiet, Normal, Verbose, Debug };
 
 struct Session {
-    explicit Session(const Plan& plan) : plan(plan) {}
+    explicit Session(const Plan& linePlan) : plan(linePlan) {}
 
     /// @throw CommandError, Interrupted: by the first action that fails
     void run(const std::vector<ActionCall>& line);
 
-    /// @return whether the action that runs is the line's last: nothing can ask for what is on the
-    /// stack any more.
+    /// @return whether the running action is the last of the line, so that nothing will need the
+    ///         stack after it.
     bool isLastAction() const { return mIsLast; }
 
-    /// Where tables and lists go: stdout, unless that carries data.
+    /// Tables and lists go to stdout, or to stderr if data goes to stdout.
     std::ostream& textOut() const;
-    /// Puts @a text there, or to another stream. A reader that has seen enough (`| head`) is no
-    /// error.
+    /// Prints @a text there, or to another stream. A reader that stops reading (`| head`) is no error.
     /// @throw CommandError (output)
     void print(const std::string& text) { print(text, textOut()); }
     void print(const std::string& text, std::ostream& out);
-    /// A line on stderr, where -verbose or -debug has been given.
-    void remark(const std::string& line);
-    /// A line on stderr, unless -quiet has been given.
-    void note(const std::string& line);
-    /// The same, of what may be wrong.
+    /// Prints a line on stderr if -verbose or -debug has been given.
+    void remark(const std::string& line) { say(Verbosity::Verbose, "    ", line); }
+    /// Prints a line on stderr unless -quiet has been given.
+    void note(const std::string& line) { say(Verbosity::Normal, "vdb_spheretree: note: ", line); }
+    /// The same, for what may be a mistake.
     void warn(const std::string& line);
 
     const Plan& plan;
@@ -63,12 +62,13 @@ struct Session {
 
 private:
     void runOne(const ActionCall& call);
-    void reportTime(const std::string& what, double seconds);
+    /// @param least  the verbosity from which on the line is printed
+    void say(Verbosity least, const std::string& start, const std::string& line);
 
     bool mReaderIsGone = false, mIsLast = false;
 };
 
-/// @brief Look at everything that can be checked before any work.
+/// @brief Check everything that can be checked before any work.
 /// @throw CommandError
 Plan checkLine(const std::vector<ActionCall>& line);
 

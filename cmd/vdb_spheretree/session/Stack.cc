@@ -17,15 +17,7 @@ bool isNumber(const std::string& text)
         && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-bool isTree(const StackItem& item) { return bool(item.tree); }
-
 } // namespace
-
-std::string shortType(const openvdb::GridBase& grid)
-{
-    if (grid.isType<openvdb::points::PointDataGrid>()) return "points";
-    return grid.valueType();
-}
 
 std::string StackItem::name() const
 {
@@ -40,7 +32,8 @@ std::string StackItem::description() const
         kind = "sphere-tree";
     } else if (grid) {
         kind = "grid";
-        details = shortType(*grid);
+        const bool isPoints = grid->isType<openvdb::points::PointDataGrid>();
+        details = isPoints ? "points" : grid->valueType();
         if (grid->getGridClass() != openvdb::GRID_UNKNOWN) {
             details += ", " + openvdb::GridBase::gridClassToMenuName(grid->getGridClass());
         }
@@ -107,7 +100,7 @@ std::string Stack::listing() const
     return shown < mItems.size() ? all + ", ..." : all;
 }
 
-StackItem& Stack::selectAmong(
+StackItem& Stack::select(
     const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes)
 {
     if (!ageOrName.empty()) {
@@ -132,20 +125,16 @@ StackItem& Stack::selectAmong(
         + (meshes ? " with geo=" : ": here with vdb=, or with grids= of -read"));
 }
 
-StackItem& Stack::select(const std::string& what, const Suits& suits, const std::string& ageOrName)
-{
-    return selectAmong(what, suits, ageOrName, false);
-}
-
 StackItem& Stack::selectTree(const std::string& ageOrName)
 {
-    return selectAmong("a sphere-tree", isTree, ageOrName, false);
+    const auto isTree = [](const StackItem& item) { return bool(item.tree); };
+    return select("a sphere-tree", isTree, ageOrName);
 }
 
 StackItem& Stack::selectMesh(const std::string& ageOrName)
 {
-    return selectAmong(
-        "a mesh", [](const StackItem&) { return true; }, ageOrName, true);
+    const auto any = [](const StackItem&) { return true; };
+    return select("a mesh", any, ageOrName, /*meshes=*/true);
 }
 
 std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNames)
@@ -158,9 +147,9 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
             chosen.erase(std::remove_if(chosen.begin(), chosen.end(), isWritten), chosen.end());
         }
     } else {
-        for (const std::string& wanted : agesOrNames) {
-            StackItem* const item = find(wanted, false);
-            if (!item) throwInput("there is no '" + wanted + "'; " + listing());
+        for (const std::string& ageOrName : agesOrNames) {
+            StackItem* const item = find(ageOrName, false);
+            if (!item) throwInput("there is no '" + ageOrName + "'; " + listing());
             chosen.push_back(item);
         }
     }

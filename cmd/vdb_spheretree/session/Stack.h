@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Stack.h
-/// @brief What the actions of a line pass on: grids, sphere-trees and meshes, the newest first.
+/// @brief The stack of grids, sphere-trees and meshes that the actions of a line work on.
 ///
-/// Grids and trees are counted together, by age: 0 is the newest; meshes have ages of their own. An
-/// action consumes its input unless keep=1. What -write has written goes as well, but not before
-/// the next thing arrives, so that a tree can be written, looked at and written again.
+/// Items have an age, and the newest has age 0. Grids and trees are counted together, meshes by
+/// themselves. An action removes its input unless keep=1. What -write has written is removed when
+/// the next item arrives, so that a tree can be written, looked at and written again.
 
 #pragma once
 
@@ -25,14 +25,14 @@ struct StackItem {
     std::shared_ptr<openvdb_spheretree::SphereTree> tree = {};
     std::shared_ptr<openvdb_spheretree::TriangleMesh> mesh = {};
 
-    openvdb::SharedPtr<const openvdb::BoolGrid> object =
-        {};                  ///< with a tree: what it was built from, where known
+    /// That a tree was built from; null if not known.
+    openvdb::SharedPtr<const openvdb::BoolGrid> object = {};
     std::string source = {}; ///< the file or action that it comes from
-    int batch = 0;           ///< items of one action have one number
+    int batch = 0;           ///< the same number for all items of one action
     bool written = false;    ///< to be dropped when the next item arrives
 
     std::string name() const;
-    /// As in `grid 'density' (float, fog volume, from smoke.vdb)`.
+    /// @return for instance `grid 'density' (float, fog volume, from smoke.vdb)`.
     std::string description() const;
 };
 
@@ -40,26 +40,27 @@ class Stack {
 public:
     using Suits = std::function<bool(const StackItem&)>;
 
-    /// The items pushed from now on come from one action, and from @a source (a file, say).
+    /// From now on, items that are pushed belong to one action, and come from @a source.
     void beginBatch(const std::string& source);
     void setSource(const std::string& source) { mSource = source; }
     void push(StackItem item);
     void drop(const StackItem* item);
     void clear() { mItems.clear(); }
 
-    /// @return every item of a list of ages and names, oldest first; all grids and trees if it is
-    ///         empty or `*`, less those already written as long as there are others.
+    /// @return the items of a list of ages and names, oldest first. If the list is empty or `*`, they
+    ///         are all grids and trees that are not written yet; or all, if all are written.
     /// @throw CommandError (input) if there is none
     std::vector<StackItem*> several(const std::vector<std::string>& agesOrNames);
 
     /// @brief The grid or tree that an action is to work on.
     /// @param what      what the action needs, for messages: "a sphere-tree"
     /// @param suits     whether an item is that
-    /// @param ageOrName the user's choice; empty: the only item that suits among those of the
-    ///                  newest action that made one
-    /// @throw CommandError (input), with a list of the stack, if there is no such item, or more
-    ///        than one
-    StackItem& select(const std::string& what, const Suits& suits, const std::string& ageOrName);
+    /// @param ageOrName the user's choice. If it is empty, the newest action that made an item that
+    ///                  suits must have made only one such item, which is taken.
+    /// @param meshes    whether it is looked for among the meshes, not among grids and trees
+    /// @throw CommandError (input) if there is no such item, or more than one
+    StackItem& select(const std::string& what, const Suits& suits, const std::string& ageOrName,
+        bool meshes = false);
     StackItem& selectTree(const std::string& ageOrName);
     StackItem& selectMesh(const std::string& ageOrName);
 
@@ -70,16 +71,11 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
-    StackItem& selectAmong(
-        const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes);
     std::string listing() const;
 
     std::vector<std::unique_ptr<StackItem>> mItems;
     std::string mSource;
     int mBatch = 0;
 };
-
-/// @return `float`, `points`, `bool` ...: the part of a grid's type that people know.
-std::string shortType(const openvdb::GridBase& grid);
 
 } // namespace command

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MeshFile.h
-/// @brief Reader of mesh files, and mesh to level set (by OpenVDB's tools::meshToVolume).
+/// @brief Reads mesh files, and makes level sets of meshes (by OpenVDB's tools::meshToVolume).
 ///
-/// `.obj .off .ply .stl` are read by strict readers of our own, in every build; the other formats
-/// (`.gltf .glb .fbx .dae .3ds ...`) by assimp, in builds that have it.
+/// `.obj .off .ply .stl` are read in every build, by strict readers of our own. Other formats
+/// (`.gltf .glb .fbx .dae .3ds ...`) are read by assimp, in builds that have it.
 
 #pragma once
 
@@ -24,23 +24,24 @@ struct TriangleMesh {
     std::vector<openvdb::Vec3I> triangles;
 };
 
-/// @return whether this build reads more than `.obj .off .ply .stl`: it was built with assimp.
+/// @return whether this build reads more than `.obj .off .ply .stl`, because it has assimp.
 bool readsOtherMeshFormats();
 
-/// @return whether the reader knows files with this name's extension. Builds without assimp know
-/// its best-known formats too, so that readMeshFile() can say what is missing.
+/// @return whether the extension is that of a mesh file. Builds without assimp also know its most
+/// common formats, so that readMeshFile() can say what is missing.
 bool isMeshFileName(const std::string& path);
 
-/// @brief Read every mesh of a file, placed by its scene's transforms, as one set of triangles,
-/// named after the file. Polygons are cut into triangles, points and lines ignored, points at the
-/// same place joined, points of no triangle dropped.
+/// @brief Read every mesh of a file as one set of triangles, named after the file.
+///
+/// Transforms of the file's scene are applied. Polygons are cut into triangles; points and lines are
+/// ignored. Equal points are joined, and points of no triangle dropped.
 /// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no triangle; the
 ///        message names the file. (An OBJ does not say how much it holds: one cut between two lines
 ///        is read as the smaller mesh that it is.)
 TriangleMesh readMeshFile(const std::string& path);
 
-/// @return edges that belong to an odd number of triangles. Where there are any, the mesh has a
-/// hole or a fin, and its inside is a matter of luck. Cost: sorting the edges.
+/// @return how many edges belong to an odd number of triangles. If any do, the mesh has a hole or a
+/// fin, and its inside is not well defined. Cost: sorting the edges.
 int64_t openEdges(const TriangleMesh& mesh);
 
 /// @brief Narrow-band level set of @a mesh.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file MeshFormats.cc
-/// @brief Strict readers of OBJ, OFF and STL files. (PLY has a file of its own.)
-///
-/// OFF and STL say how much they hold, so that any cut is found out. An OBJ does not: one that
-/// ends early at a line's end is a smaller mesh to any reader. What is checked there: every number,
-/// every index, and that no face has fewer than three corners.
+/// OFF and STL files say how much they hold, so any cut is found. An OBJ does not: one that is cut
+/// at the end of a line is a smaller mesh to any reader. Checked are every number, every index, and
+/// that no face has fewer than three corners. The reader of PLY is in PlyFormat.cc.
 
 #include "MeshFormats.h"
 
@@ -15,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 
 namespace openvdb_spheretree {
@@ -27,21 +25,7 @@ using openvdb::Vec3s;
 constexpr std::size_t kStlHeaderBytes = 84; // 80 of text, and the number of facets
 constexpr std::size_t kStlFacetBytes = 50;  // a normal, three corners, and two bytes of colour
 
-std::string lower(std::string_view word)
-{
-    std::string text(word);
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 // OBJ
-
-/// A file's faces may name points that follow them, so indices are checked at its end.
-struct ObjIndices {
-    std::int64_t largest = -1;
-    std::uint64_t line = 0;
-    std::vector<std::int64_t> corners;
-};
 
 /// @param word  "point", "point/uv", "point//normal" or "point/uv/normal", each counted from 1, or
 ///              backwards from -1
@@ -63,22 +47,23 @@ std::int64_t objCorner(const MeshText& text, std::string_view word, std::size_t 
     return index;
 }
 
-void objFace(MeshText& text, PolygonSoup& soup, ObjIndices& indices)
+/// @return the largest index of a corner, of which soup.corners gets the lower 32 bits. Faces may
+/// name points that follow them, so indices are checked at the end of the file.
+std::int64_t objFace(MeshText& text, PolygonSoup& soup)
 {
     std::uint32_t count = 0;
+    std::int64_t largest = -1;
     for (std::string_view word = text.word(); !word.empty(); word = text.word(), ++count) {
         const std::int64_t index = objCorner(text, word, soup.points.size());
-        if (index > indices.largest) {
-            indices.largest = index;
-            indices.line = text.lineNumber();
-        }
-        indices.corners.push_back(index);
+        largest = std::max(largest, index);
+        soup.corners.push_back(std::uint32_t(index));
     }
     if (count < 3) text.fail("a face has only " + std::to_string(count) + " points");
     soup.counts.push_back(count);
+    return largest;
 }
 
-/// A backslash at a line's end goes on with the next line.
+/// A backslash at the end of a line joins it with the next one.
 void joinLines(std::string& text)
 {
     for (std::size_t at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
@@ -91,21 +76,17 @@ void joinLines(std::string& text)
 
 // STL
 
-float floatAt(const char* bytes) // little-endian on every machine
+std::uint32_t littleEndian(const char* bytes)
 {
     std::uint32_t bits = 0;
     for (int i = 0; i < 4; ++i) bits |= std::uint32_t(std::uint8_t(bytes[i])) << (8 * i);
-    float value;
-    std::memcpy(&value, &bits, 4);
-    return value;
+    return bits;
 }
 
 /// @return how many bytes a binary STL of this header has.
 std::uint64_t binaryStlSize(const std::string& bytes)
 {
-    std::uint64_t facets = 0;
-    for (int i = 0; i < 4; ++i) facets |= std::uint64_t(std::uint8_t(bytes[80 + i])) << (8 * i);
-    return kStlHeaderBytes + facets * kStlFacetBytes;
+    return kStlHeaderBytes + littleEndian(bytes.data() + 80) * std::uint64_t(kStlFacetBytes);
 }
 
 void addTriangle(PolygonSoup& soup)
@@ -120,8 +101,11 @@ PolygonSoup parseBinaryStl(const std::string& bytes)
     PolygonSoup soup;
     for (std::size_t at = kStlHeaderBytes; at < bytes.size(); at += kStlFacetBytes) {
         for (int corner = 1; corner <= 3; ++corner) { // the normal, at 0, is not needed
-            const char* p = bytes.data() + at + 12 * corner;
-            const Vec3s point(floatAt(p), floatAt(p + 4), floatAt(p + 8));
+            Vec3s point;
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::uint32_t bits = littleEndian(bytes.data() + at + 12 * corner + 4 * axis);
+                std::memcpy(&point[axis], &bits, sizeof(bits));
+            }
             if (!point.isFinite()) {
                 throw IoError("facet " + std::to_string((at - kStlHeaderBytes) / kStlFacetBytes)
                     + ": a coordinate is not finite");
@@ -133,28 +117,14 @@ PolygonSoup parseBinaryStl(const std::string& bytes)
     return soup;
 }
 
-void needWord(MeshText& text, const char* expected)
+void needWords(MeshText& text, std::initializer_list<const char*> expectedWords)
 {
-    const std::string_view word = text.wordOnAnyLine();
-    if (lower(word) == expected) return;
-    text.fail(word.empty() ? std::string("the file ends before '") + expected + "'"
-                           : inQuotes(word) + " instead of '" + expected + "'");
-}
-
-/// One facet, after its first word.
-void asciiFacet(MeshText& text, PolygonSoup& soup)
-{
-    needWord(text, "normal");
-    for (int i = 0; i < 3; ++i) text.wordOnAnyLine(); // some write nan there
-    needWord(text, "outer");
-    needWord(text, "loop");
-    for (int corner = 0; corner < 3; ++corner) {
-        needWord(text, "vertex");
-        soup.points.push_back(text.point());
+    for (const char* expected : expectedWords) {
+        const std::string_view word = text.wordOnAnyLine();
+        if (lowerCase(word) == expected) continue;
+        text.fail(word.empty() ? std::string("the file ends before '") + expected + "'"
+                               : inQuotes(word) + " instead of '" + expected + "'");
     }
-    addTriangle(soup);
-    needWord(text, "endloop");
-    needWord(text, "endfacet");
 }
 
 PolygonSoup parseAsciiStl(const std::string& bytes)
@@ -163,14 +133,22 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
     MeshText text(bytes);
     for (std::string_view solid = text.wordOnAnyLine(); !solid.empty();
          solid = text.wordOnAnyLine()) {
-        if (lower(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
+        if (lowerCase(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
         text.nextLine(); // the rest of the line is the solid's name
         for (;;) {
-            const std::string word = lower(text.wordOnAnyLine());
+            const std::string word = lowerCase(text.wordOnAnyLine());
             if (word == "endsolid") break;
             if (word.empty()) text.fail("the file ends before 'endsolid'; it is truncated");
             if (word != "facet") text.fail(inQuotes(word) + " instead of 'facet' or 'endsolid'");
-            asciiFacet(text, soup);
+            needWords(text, {"normal"});
+            for (int i = 0; i < 3; ++i) text.wordOnAnyLine(); // some write nan there
+            needWords(text, {"outer", "loop"});
+            for (int corner = 0; corner < 3; ++corner) {
+                needWords(text, {"vertex"});
+                soup.points.push_back(text.point());
+            }
+            addTriangle(soup);
+            needWords(text, {"endloop", "endfacet"});
         }
         text.nextLine();
     }
@@ -178,19 +156,6 @@ PolygonSoup parseAsciiStl(const std::string& bytes)
 }
 
 // OFF
-
-/// The file's first word: OFF, perhaps after letters for what each point carries besides its place.
-void offKeyword(MeshText& text)
-{
-    text.needLine("the keyword OFF");
-    std::string_view word = text.word();
-    for (const std::string_view prefix : {"ST", "C", "N"}) {
-        if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
-    }
-    if (word != "OFF") {
-        text.fail("the file does not begin with OFF (points in four or n dimensions are not read)");
-    }
-}
 
 std::uint64_t offCount(MeshText& text, std::string_view word, const char* what)
 {
@@ -208,7 +173,7 @@ void offFace(MeshText& text, PolygonSoup& soup)
     if (count == 0) text.fail("a face has no points");
     const std::size_t begin = soup.corners.size();
     for (std::uint64_t i = 0; i < count; ++i) {
-        const std::int64_t index = text.integer("the number of a face's point");
+        const std::int64_t index = text.toInteger(text.word(), "the number of a face's point");
         if (index < 0 || std::uint64_t(index) >= soup.points.size()) {
             text.fail("a face names point " + std::to_string(index) + " of "
                 + std::to_string(soup.points.size()) + "; they are counted from 0");
@@ -216,33 +181,37 @@ void offFace(MeshText& text, PolygonSoup& soup)
         soup.corners.push_back(std::uint32_t(index));
     }
     if (count >= 3) soup.counts.push_back(std::uint32_t(count));
-    else soup.corners.resize(begin); // a point or a line: holds nothing
+    else soup.corners.resize(begin); // a point or a line has no area
 }
-
-} // namespace
 
 PolygonSoup parseObj(std::string bytes)
 {
     joinLines(bytes);
     PolygonSoup soup;
-    ObjIndices indices;
+    std::int64_t largest = -1; // index, and where it is
+    std::uint64_t line = 0;
+    const auto isStrange = [](unsigned char c) {
+        return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
+    };
     MeshText text(bytes);
     while (text.nextLine()) {
         text.dropComment();
         const std::string_view word = text.word();
-        if (word == "v") soup.points.push_back(text.point());
-        else if (word == "f" || word == "fo") objFace(text, soup, indices);
-        else if (std::any_of(word.begin(), word.end(), [](unsigned char c) {
-                     return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
-                 }))
+        if (word == "v") {
+            soup.points.push_back(text.point());
+        } else if (word == "f" || word == "fo") {
+            const std::int64_t index = objFace(text, soup);
+            if (index > largest) line = text.lineNumber();
+            largest = std::max(largest, index);
+        } else if (std::any_of(word.begin(), word.end(), isStrange)) {
             text.fail(inQuotes(word) + " begins no line of an OBJ file");
+        }
     }
-    if (indices.largest >= std::int64_t(soup.points.size())) {
-        throw IoError("line " + std::to_string(indices.line) + ": a face names point "
-            + std::to_string(indices.largest + 1) + ", but there are "
+    if (largest >= std::int64_t(soup.points.size())) {
+        throw IoError("line " + std::to_string(line) + ": a face names point "
+            + std::to_string(largest + 1) + ", but there are "
             + std::to_string(soup.points.size()));
     }
-    soup.corners.assign(indices.corners.begin(), indices.corners.end());
     return soup;
 }
 
@@ -250,8 +219,15 @@ PolygonSoup parseOff(const std::string& bytes)
 {
     PolygonSoup soup;
     MeshText text(bytes);
-    offKeyword(text);
+    text.needLine("the keyword OFF");
     std::string_view word = text.word();
+    for (const std::string_view prefix : {"ST", "C", "N"}) { // what points have besides coordinates
+        if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
+    }
+    if (word != "OFF") {
+        text.fail("the file does not begin with OFF (points in four or n dimensions are not read)");
+    }
+    word = text.word();
     if (word.empty()) {
         text.needLine("the number of points");
         word = text.word();
@@ -275,13 +251,15 @@ PolygonSoup parseStl(const std::string& bytes)
     const bool hasHeader = bytes.size() >= kStlHeaderBytes;
     if (hasHeader && bytes.size() == binaryStlSize(bytes)) return parseBinaryStl(bytes);
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-    const bool isAscii = first != bytes.npos && lower(bytes.substr(first, 5)) == "solid";
+    const bool isAscii = first != bytes.npos && lowerCase(bytes.substr(first, 5)) == "solid";
     if (isAscii) return parseAsciiStl(bytes);
     if (!hasHeader) throw IoError("too short for an STL file; it is truncated");
     throw IoError("neither an ASCII STL nor a whole binary one: its header asks for "
         + std::to_string(binaryStlSize(bytes)) + " bytes, the file holds "
         + std::to_string(bytes.size()));
 }
+
+} // namespace
 
 bool isStrictFormat(const std::string& extension)
 {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MeshFormats.h
-/// @brief Strict readers of the four mesh formats met most: OBJ, OFF, PLY, STL.
+/// @brief Strict readers of the four most common mesh formats: OBJ, OFF, PLY, STL.
 ///
-/// Why not by assimp, which reads them too: given damaged files of these formats, assimp 5.2.5
-/// loops for ever (a PLY cut in its header), aborts the process (an OFF cut in its first line;
+/// Assimp reads them too, but given damaged files of these formats, assimp 5.2.5 loops for ever (a PLY cut in its header), aborts the process (an OFF cut in its first line;
 /// Debian builds it with assertions) or quietly returns less than the file promised (a cut OBJ).
 
 #pragma once
@@ -17,27 +16,23 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// What a file holds: polygons of any number of corners, not welded.
+/// The polygons of a file, of any number of corners. Equal points are not joined.
 struct PolygonSoup {
     std::vector<openvdb::Vec3s> points;
     std::vector<std::uint32_t> corners; ///< indices into points, polygon after polygon
-    std::vector<std::uint32_t> counts;  ///< corners of each polygon, >= 3
+    std::vector<std::uint32_t> counts;  ///< number of corners of each polygon, >= 3
 };
 
 /// @param extension  lower case, with its dot
 bool isStrictFormat(const std::string& extension);
 
 /// @param bytes  the whole file
-/// @throw openvdb::IoError if anything is wrong with it; says where, but does not name the file
+/// @throw openvdb::IoError if anything is wrong with it; the message says where, but does not name
+///        the file
 PolygonSoup parseMesh(const std::string& extension, std::string bytes);
 
-/// @name The formats
-/// @{
-PolygonSoup parseObj(std::string text);
-PolygonSoup parseOff(const std::string& text);
+/// The reader of PLY, in PlyFormat.cc.
 PolygonSoup parsePly(const std::string& bytes);
-PolygonSoup parseStl(const std::string& bytes);
-/// @}
 
 } // namespace detail
 } // namespace openvdb_spheretree

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file MeshText.cc
-/// @brief Lines, words and numbers of a text file.
-
 #include "MeshText.h"
 
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 namespace openvdb_spheretree {
@@ -17,13 +12,12 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
+/// Unlike parseNumber(), allows a plus sign.
 template <typename Number>
-bool parse(std::string_view word, Number& number)
+std::optional<Number> parse(std::string_view word)
 {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    const char* const last = word.data() + word.size();
-    const auto [end, error] = std::from_chars(word.data(), last, number);
-    return error == std::errc() && end == last;
+    return parseNumber<Number>(word);
 }
 
 } // namespace
@@ -69,35 +63,29 @@ std::string_view MeshText::wordOnAnyLine()
 
 double MeshText::toNumber(std::string_view word, const char* what) const
 {
-    double number = 0;
     if (word.empty()) fail(std::string("ends before ") + what);
-    if (parse(word, number)) return number;
-    // Too small or too large for a double: 0 is near enough to the one, and the other an error.
+    if (const auto number = parse<double>(word)) return *number;
+    // What is too small for a double is read as 0. What is too large is an error.
     if (word.find("e-") != word.npos || word.find("E-") != word.npos) {
-        const std::string_view mantissa = word.substr(0, word.find_first_of("eE"));
-        std::int64_t exponent = 0;
-        if (parse(mantissa, number) && parse(word.substr(mantissa.size() + 1), exponent)) return 0;
+        const std::size_t e = word.find_first_of("eE");
+        if (parse<double>(word.substr(0, e)) && parse<std::int64_t>(word.substr(e + 1))) return 0;
     }
     fail(inQuotes(word) + " is not " + what);
 }
 
 std::int64_t MeshText::toInteger(std::string_view word, const char* what) const
 {
-    std::int64_t number = 0;
     if (word.empty()) fail(std::string("ends before ") + what);
-    if (!parse(word, number)) fail(inQuotes(word) + " is not " + what);
-    return number;
+    const auto number = parse<std::int64_t>(word);
+    if (!number) fail(inQuotes(word) + " is not " + what);
+    return *number;
 }
-
-double MeshText::number(const char* what) { return toNumber(word(), what); }
-
-std::int64_t MeshText::integer(const char* what) { return toInteger(word(), what); }
 
 openvdb::Vec3s MeshText::point()
 {
     openvdb::Vec3s p;
     for (int axis = 0; axis < 3; ++axis) {
-        p[axis] = static_cast<float>(number("a coordinate"));
+        p[axis] = static_cast<float>(toNumber(word(), "a coordinate"));
         if (!std::isfinite(p[axis])) fail("a coordinate is not finite, or too large for a float");
     }
     return p;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MeshText.h
-/// @brief Lines, words and numbers of a text file, with errors that say in which line.
+/// @brief Lines, words and numbers of a text file. Errors name the line.
 
 #pragma once
 
@@ -15,31 +15,33 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Walks through a text line by line, word by word.
+/// Goes through a text line by line and word by word.
 class MeshText {
 public:
     explicit MeshText(std::string_view text) : mRest(text) {}
 
     /// Go to the next line. @return false at the end of the text.
     bool nextLine();
-    /// Go to the next line that has a word before any @a comment character; none is an error.
+    /// Go to the next line that has a word before its first '#', and drop what follows that.
+    /// @throw openvdb::IoError "the file ends before what"
     void needLine(const char* what);
     /// Cut the line off at its first '#'.
     void dropComment();
 
-    /// @return the next word of the line, empty at its end.
+    /// @return the next word of the line; empty at its end.
     std::string_view word();
-    /// @return the same, going on to following lines; empty at the end of the text.
+    /// @return the next word of this line or of those that follow; empty at the end of the text.
     std::string_view wordOnAnyLine();
-
-    /// @return the next word of the line as a number; none, or no number, is an error.
-    double number(const char* what);
-    std::int64_t integer(const char* what);
-    /// @return the next three words as a point; coordinates that are not finite are an error.
+    /// @return the next three words of the line as a point.
+    /// @throw openvdb::IoError if a coordinate is missing, or is not finite
     openvdb::Vec3s point();
 
+    /// @name A word of this line as a number
+    /// @throw openvdb::IoError if it is empty, or is not @a what
+    /// @{
     double toNumber(std::string_view word, const char* what) const;
     std::int64_t toInteger(std::string_view word, const char* what) const;
+    /// @}
 
     /// @return what follows the current line.
     std::string_view rest() const { return mRest; }

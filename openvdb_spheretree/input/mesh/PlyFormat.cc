@@ -2,9 +2,10 @@
 /// @file PlyFormat.cc
 /// @brief Strict reader of PLY files, ASCII and binary of either byte order (G. Turk, 1994).
 ///
-/// A header lists elements (of which `vertex` and `face` matter here), how many there are of each,
-/// and the properties of one; their values follow in that order. Nothing is allocated by a count of
-/// the header: values are appended as they are read, so a lying count ends as "the file ends".
+/// A header lists elements, how many there are of each, and their properties. The values follow in
+/// that order. Only the elements `vertex` and `face` matter here. No memory is reserved by a count
+/// of the header: values are appended as they are read, so a count too large fails with "the file
+/// ends".
 
 #include "MeshFormats.h"
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -90,14 +90,12 @@ Encoding encodingOf(MeshText& text)
 
 PlyElement elementOf(MeshText& text)
 {
-    PlyElement element;
-    element.name = text.word();
-    const std::int64_t count = text.integer("the number of elements");
+    const std::string_view name = text.word();
+    const std::int64_t count = text.toInteger(text.word(), "the number of elements");
     if (count < 0 || count > std::numeric_limits<std::uint32_t>::max()) {
         text.fail(std::to_string(count) + " is not a number of elements that can be read");
     }
-    element.count = std::uint64_t(count);
-    return element;
+    return {std::string(name), std::uint64_t(count), {}};
 }
 
 PlyProperty propertyOf(MeshText& text)
@@ -140,7 +138,7 @@ PlyHeader headerOf(MeshText& text)
 
 // Values
 
-/// The values after the header, one after the other.
+/// Reads the values after the header in their order.
 class PlyValues {
 public:
     PlyValues(Encoding encoding, const MeshText& text)
@@ -186,16 +184,12 @@ private:
             const int unused = 64 - 8 * type.bytes;
             return double(std::int64_t(bits << unused) >> unused);
         }
-        return size == 4 ? double(bitsAs<float>(std::uint32_t(bits))) : bitsAs<double>(bits);
-    }
-
-    template <typename Real, typename Bits>
-    static Real bitsAs(Bits bits)
-    {
-        static_assert(sizeof(Real) == sizeof(Bits), "the same bytes");
-        Real value;
+        float single;
+        double value;
+        const auto lower = std::uint32_t(bits);
+        std::memcpy(&single, &lower, sizeof(single));
         std::memcpy(&value, &bits, sizeof(value));
-        return value;
+        return size == sizeof(single) ? double(single) : value;
     }
 
     Encoding mEncoding;
@@ -203,7 +197,8 @@ private:
     std::string_view mBytes;
 };
 
-/// Reads one property; @a use(value) is called with each of its values.
+/// Reads one property, and calls use(value) for each of its values.
+/// @return how many there are
 template <typename Use>
 std::uint32_t readProperty(PlyValues& values, const PlyProperty& property, const Use& use)
 {
@@ -219,9 +214,9 @@ std::uint32_t readProperty(PlyValues& values, const PlyProperty& property, const
     return count;
 }
 
-void readOther(PlyValues& values, const PlyElement& element)
+void skip(PlyValues& values, const PlyElement& element)
 {
-    if (element.properties.empty()) return; // whatever the count: there is nothing to read
+    if (element.properties.empty()) return; // nothing to read, however large the count
     for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties) {
             readProperty(values, property, [](double) {});
@@ -246,8 +241,7 @@ void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& sou
                 if (axes[axis] == i) point[axis] = static_cast<float>(value);
             }
         }
-        for (int axis = 0; axis < 3; ++axis) {
-            if (std::isfinite(point[axis])) continue;
+        if (!point.isFinite()) {
             values.fail("a coordinate of vertex " + std::to_string(n)
                 + " is not finite, or too large for a float");
         }
@@ -255,7 +249,7 @@ void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& sou
     }
 }
 
-/// Corners are checked against the number of vertices later: these may follow the faces.
+/// The vertices may follow, so corners are not compared to their number yet.
 void readFaces(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
 {
     const int list = std::max(element.find("vertex_indices"), element.find("vertex_index"));
@@ -276,17 +270,8 @@ void readFaces(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
                 });
             if (i != list) continue;
             if (count >= 3) soup.counts.push_back(count);
-            else soup.corners.resize(begin); // a point or a line: holds nothing
+            else soup.corners.resize(begin); // a point or a line has no area
         }
-    }
-}
-
-void checkCorners(const PolygonSoup& soup)
-{
-    for (const std::uint32_t corner : soup.corners) {
-        if (corner < soup.points.size()) continue;
-        throw IoError("a face names vertex " + std::to_string(corner) + " of "
-            + std::to_string(soup.points.size()) + "; they are counted from 0");
     }
 }
 
@@ -301,10 +286,14 @@ PolygonSoup parsePly(const std::string& bytes)
     for (const PlyElement& element : header.elements) {
         if (element.name == "vertex") readVertices(values, element, soup);
         else if (element.name == "face") readFaces(values, element, soup);
-        else readOther(values, element);
+        else skip(values, element);
     }
     if (!values.atEnd()) values.fail("more follows than the elements of the header");
-    checkCorners(soup);
+    for (const std::uint32_t corner : soup.corners) {
+        if (corner < soup.points.size()) continue;
+        throw IoError("a face names vertex " + std::to_string(corner) + " of "
+            + std::to_string(soup.points.size()) + "; they are counted from 0");
+    }
     return soup;
 }
 

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Polygon.cc
-/// @brief Triangles of a polygon, by cutting off ears (G. Meisters, "Polygons have ears", 1975).
-
 #include "Polygon.h"
 
 #include <openvdb/Exceptions.h>
@@ -23,7 +20,7 @@ double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c)
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The polygon seen along the axis that its (Newell) normal follows most, turning left.
+/// @return the polygon, counterclockwise, without the axis that is nearest to its (Newell) normal.
 std::vector<Vec2d> flattened(
     const std::vector<Vec3s>& points, const std::vector<std::uint32_t>& corners)
 {
@@ -34,9 +31,7 @@ std::vector<Vec2d> flattened(
         normal += a.cross(Vec3d(points[corners[i + 1]]) - origin);
     }
     int axis = 0;
-    for (int i = 1; i < 3; ++i) {
-        if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
-    }
+    for (int i = 1; i < 3; ++i) axis = std::abs(normal[i]) > std::abs(normal[axis]) ? i : axis;
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const double side = normal[axis] < 0 ? -1 : 1;
     std::vector<Vec2d> flat;
@@ -56,7 +51,7 @@ bool isConvex(const std::vector<Vec2d>& flat)
     return true;
 }
 
-/// Whether no other remaining corner lies in the triangle before, at and after remaining[at].
+/// Whether remaining[at] is convex, and no other corner is in its triangle with its neighbours.
 bool isEar(
     const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& remaining, std::size_t at)
 {
@@ -80,7 +75,7 @@ void cutEars(const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& c
     std::size_t at = 0, tried = 0;
     while (remaining.size() > 3) {
         const std::size_t n = remaining.size();
-        // Where no corner is an ear the polygon crosses itself: any corner goes, so this ends.
+        // If no corner is an ear, the polygon crosses itself. Then any corner goes, so this ends.
         if (tried < n && !isEar(flat, remaining, at)) {
             at = (at + 1) % n;
             ++tried;

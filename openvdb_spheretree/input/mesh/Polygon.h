@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Polygon.h
-/// @brief A polygon in space, concave ones included, as triangles.
+/// @brief Cuts a polygon in space into triangles (G. Meisters, "Polygons have ears", 1975).
 
 #pragma once
 
@@ -13,12 +13,13 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-/// Cutting ears takes quadratic time, or worse where the polygon is made for it.
+/// Cutting ears takes quadratic time, in the worst case cubic.
 constexpr std::size_t kMaxConcaveCorners = 2000;
 
-/// @brief Append the triangles of a polygon, n - 2 of them, turning the way it turns.
-/// A convex polygon becomes a fan; of any other one ears are cut off in the plane it lies in best.
-/// One that crosses itself gets triangles too, as good as may be.
+/// @brief Append the n - 2 triangles of a polygon, with its orientation.
+/// A convex polygon becomes a fan. From any other one, ears are cut off in the axis plane that is
+/// nearest to its own. A polygon that crosses itself becomes n - 2 triangles as well, though no
+/// result is right.
 /// @param corners  at least three indices into @a points
 /// @throw openvdb::ValueError if it is concave and has more than kMaxConcaveCorners
 void triangulate(const std::vector<openvdb::Vec3s>& points,

@@ -13,8 +13,8 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-/// The largest radiusSq with (4 pi / 3)^2 radiusSq^3 <= voxels^2. Products alone, which every
-/// machine rounds alike; a cube root is not.
+/// The largest radiusSq with (4 pi / 3)^2 radiusSq^3 <= voxels^2. It needs only products, which
+/// every machine rounds alike; cube roots are not.
 int64_t radiusSqOf(int64_t voxels)
 {
     constexpr double kVolumeSq = 17.545963379714415; // of the unit ball, squared
@@ -53,10 +53,9 @@ Filling SolidBall::filling(const CoordBBox& cube) const
 LeafMask SolidBall::leaf(const Coord& origin) const
 {
     LeafMask mask{};
-    for (int n = 0; n < kLeafVoxels; ++n) {
-        const Coord q = origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
-        const bool on = square(q[0]) + square(q[1]) + square(q[2]) < mRadiusSq;
-        mask[n >> 6] |= uint64_t(on) << (n & 63);
+    for (uint32_t n = 0; n < kLeafVoxels; ++n) {
+        const Coord q = origin.offsetBy(int(n >> 6), int(n >> 3 & 7), int(n & 7));
+        if (square(q[0]) + square(q[1]) + square(q[2]) < mRadiusSq) mask.setOn(n);
     }
     return mask;
 }

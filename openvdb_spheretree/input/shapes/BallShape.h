@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallShape.h
-/// @brief The digital ball { q : |q|^2 < radiusSq } around the origin. Nodes that lie inside are
-/// tiles, so that its cost is that of its surface.
+/// @brief The digital ball { q : |q|^2 < radiusSq } around the origin. Nodes inside it are tiles, so
+/// that time and memory are proportional to its surface.
 
 #pragma once
 
@@ -14,7 +14,7 @@ namespace detail {
 
 class SolidBall : public LeafwiseRule {
 public:
-    /// Of a volume as near to @a voxels as can be, from below.
+    /// The largest ball whose volume is no more than @a voxels.
     explicit SolidBall(int64_t voxels);
 
     int64_t radiusSq() const { return mRadiusSq; }

@@ -24,34 +24,13 @@ constexpr std::array<detail::Named<Shape>, 5> kShapes{
     {{Shape::Gyroid, "gyroid"}, {Shape::Menger, "menger"}, {Shape::Terrain, "terrain"},
         {Shape::Noise, "noise"}, {Shape::Ball, "ball"}}};
 
-/// About how many leaf nodes an object has, as measured.
+/// @return about how many leaf nodes an object has, as measured; a ball has them at its surface.
 double leafCount(const GeneratedObjectSettings& settings)
 {
     const double voxels = double(settings.voxels);
-    switch (settings.shape) {
-    case Shape::Gyroid: return voxels / 170;
-    case Shape::Menger: return voxels / 160;
-    case Shape::Terrain: return voxels / 120;
-    case Shape::Noise: return voxels / 5;
-    case Shape::Ball: break;
-    }
-    return 0.12 * std::pow(voxels, 2.0 / 3.0); // those of its surface
-}
-
-void requireRoom(const GeneratedObjectSettings& settings)
-{
-    constexpr double kMostLeaves = 2147483648.0; // LeafLayout's
-    // With its share of the nodes above it: they hold few leaves each, of those along a surface.
-    const bool surface = settings.shape == Shape::Terrain || settings.shape == Shape::Ball;
-    const double bytesPerLeaf = surface ? 320 : 176;
-    const double leaves = leafCount(settings);
-    const std::string what =
-        "voxels=" + std::to_string(settings.voxels) + " of shape=" + toString(settings.shape);
-    if (leaves > kMostLeaves) {
-        OPENVDB_THROW(
-            openvdb::ValueError, what << " are more than 2^31 leaf nodes: ask for fewer voxels");
-    }
-    detail::requireMemory(leaves * bytesPerLeaf, what, "ask for fewer voxels");
+    if (settings.shape == Shape::Ball) return 0.12 * std::pow(voxels, 2.0 / 3.0);
+    constexpr std::array<double, 4> kVoxelsPerLeaf{170, 160, 120, 5}; // in the order of Shape
+    return voxels / kVoxelsPerLeaf[std::size_t(settings.shape)];
 }
 
 std::unique_ptr<detail::VoxelRule> shapeOf(
@@ -82,7 +61,17 @@ void GeneratedObjectSettings::validate() const
             "voxel=" << voxelSize << " is out of range: it must be " << kSmallestVoxel << " to "
                      << kLargestVoxel << " world units");
     }
-    requireRoom(*this);
+    constexpr double kMostLeaves = 2147483648.0; // LeafLayout's
+    const double leaves = leafCount(*this);
+    const std::string what = "voxels=" + std::to_string(voxels) + " of shape=" + toString(shape);
+    if (leaves > kMostLeaves) {
+        OPENVDB_THROW(
+            openvdb::ValueError, what << " are more than 2^31 leaf nodes: ask for fewer voxels");
+    }
+    // A leaf with its share of the nodes above it. Those along a surface hold few leaves each.
+    const bool surface = shape == Shape::Terrain || shape == Shape::Ball;
+    const double bytesPerLeaf = surface ? 320 : 176;
+    detail::requireMemory(leaves * bytesPerLeaf, what, "ask for fewer voxels");
 }
 
 openvdb::BoolGrid::Ptr generateObject(

@@ -12,7 +12,9 @@ namespace {
 
 using openvdb::Coord;
 
-constexpr int kLeaves = kGyroidPeriod / kLeafDim; ///< of a period, along an axis
+constexpr int kPeriod = 64;                 ///< voxels
+constexpr int kLeaves = kPeriod / kLeafDim; ///< of a period, along an axis
+constexpr int kSides = kPeriod + 1;         ///< 0 to kPeriod
 
 /// round(4096 sin(2 pi i / 64)) of the first quarter.
 constexpr std::array<int, 17> kQuarterSine{0, 401, 799, 1189, 1567, 1931, 2276, 2598, 2896, 3166,
@@ -20,78 +22,14 @@ constexpr std::array<int, 17> kQuarterSine{0, 401, 799, 1189, 1567, 1931, 2276, 
 
 int64_t sine(int i)
 {
-    const int at = i & (kGyroidPeriod - 1), half = at & 31;
+    const int at = i & (kPeriod - 1), half = at & 31;
     const int value = kQuarterSine[half <= 16 ? half : 32 - half];
     return at < 32 ? value : -value;
 }
 
-int64_t cosine(int i) { return sine(i + kGyroidPeriod / 4); }
-
-/// How many voxels of the gyroid lie in a box that starts at the origin.
-class GyroidCounts {
-public:
-    explicit GyroidCounts(const std::vector<LeafMask>& period)
-        : mCounts(std::size_t(kSide) * kSide * kSide)
-    {
-        for (int x = 1; x < kSide; ++x) {
-            for (int y = 1; y < kSide; ++y) {
-                int row = 0; // voxels of this x and y
-                for (int z = 1; z < kSide; ++z) {
-                    const Coord at(x - 1, y - 1, z - 1);
-                    const int leaf =
-                        ((at[0] >> 3) * kLeaves + (at[1] >> 3)) * kLeaves + (at[2] >> 3);
-                    row += period[std::size_t(leaf)].isOn(leafIndex(at));
-                    count(x, y, z) =
-                        row + count(x - 1, y, z) + count(x, y - 1, z) - count(x - 1, y - 1, z);
-                }
-            }
-        }
-    }
-
-    int64_t inBox(const Coord& sides) const
-    {
-        int64_t sum = 0;
-        for (int choice = 0; choice < 8; ++choice) { // along each axis: whole periods, or the rest
-            int64_t times = 1;
-            Coord part;
-            for (int axis = 0; axis < 3; ++axis) {
-                const bool rest = choice >> axis & 1;
-                times *= rest ? 1 : sides[axis] / kGyroidPeriod;
-                part[axis] = rest ? sides[axis] % kGyroidPeriod : kGyroidPeriod;
-            }
-            sum += times * mCounts[index(part[0], part[1], part[2])];
-        }
-        return sum;
-    }
-
-private:
-    static constexpr int kSide = kGyroidPeriod + 1;
-    static std::size_t index(int x, int y, int z)
-    {
-        return std::size_t((x * kSide + y) * kSide + z);
-    }
-    int& count(int x, int y, int z) { return mCounts[index(x, y, z)]; }
-
-    std::vector<int> mCounts; ///< in the box of sides x, y, z of the period
-};
-
-std::vector<LeafMask> onePeriod()
-{
-    std::vector<LeafMask> leaves(std::size_t(kLeaves) * kLeaves * kLeaves, LeafMask{});
-    for (uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
-        const Coord origin(leaf / 64 * 8, leaf / 8 % 8 * 8, leaf % 8 * 8);
-        for (uint32_t n = 0; n < kLeafVoxels; ++n) {
-            const bool on = isOnGyroid(origin.offsetBy(n >> 6, n >> 3 & 7, n & 7));
-            leaves[leaf][n >> 6] |= uint64_t(on) << (n & 63);
-        }
-    }
-    return leaves;
-}
-
-} // namespace
-
 bool isOnGyroid(const Coord& ijk)
 {
+    const auto cosine = [](int i) { return sine(i + kPeriod / 4); };
     const int64_t sx = sine(ijk[0]), sy = sine(ijk[1]), sz = sine(ijk[2]);
     const int64_t cx = cosine(ijk[0]), cy = cosine(ijk[1]), cz = cosine(ijk[2]);
     const int64_t f = sx * cy + sy * cz + sz * cx; // below 2^26
@@ -100,17 +38,58 @@ bool isOnGyroid(const Coord& ijk)
     return 1024 * f * f <= 89 * (gx * gx + gy * gy + gz * gz); // below 2^62
 }
 
-GyroidShape::GyroidShape(int64_t voxels) : mPeriod(onePeriod())
+/// @return the index in a period of the leaf that holds a voxel.
+std::size_t leafInPeriod(const Coord& ijk)
 {
-    const GyroidCounts counts(mPeriod);
-    mBox = boxOfSides(nearCubeOf(voxels, [&](const Coord& sides) { return counts.inBox(sides); }));
+    const auto at = [&](int axis) { return ijk[axis] / kLeafDim % kLeaves; };
+    return std::size_t((at(0) * kLeaves + at(1)) * kLeaves + at(2));
 }
 
-LeafMask GyroidShape::leaf(const Coord& origin) const
+std::size_t indexOfSides(int x, int y, int z) { return std::size_t((x * kSides + y) * kSides + z); }
+
+/// @return by indexOfSides(), how many voxels the box of these sides has at the origin.
+std::vector<int> countsOf(const std::vector<LeafMask>& period)
 {
-    const auto at = [&](int axis) { return origin[axis] / kLeafDim % kLeaves; };
-    return mPeriod[std::size_t((at(0) * kLeaves + at(1)) * kLeaves + at(2))];
+    std::vector<int> counts(std::size_t(kSides) * kSides * kSides);
+    for (int x = 1; x <= kPeriod; ++x) {
+        for (int y = 1; y <= kPeriod; ++y) {
+            int row = 0; // voxels of this x and y
+            for (int z = 1; z <= kPeriod; ++z) {
+                const Coord at(x - 1, y - 1, z - 1);
+                row += period[leafInPeriod(at)].isOn(leafIndex(at));
+                counts[indexOfSides(x, y, z)] = row + counts[indexOfSides(x - 1, y, z)]
+                    + counts[indexOfSides(x, y - 1, z)] - counts[indexOfSides(x - 1, y - 1, z)];
+            }
+        }
+    }
+    return counts;
 }
+
+} // namespace
+
+GyroidShape::GyroidShape(int64_t voxels) : mPeriod(kLeaves * kLeaves * kLeaves, LeafMask{})
+{
+    for (const Coord& ijk : openvdb::CoordBBox(Coord(0), Coord(kPeriod - 1))) {
+        if (isOnGyroid(ijk)) mPeriod[leafInPeriod(ijk)].setOn(leafIndex(ijk));
+    }
+    const std::vector<int> counts = countsOf(mPeriod);
+    mBox = nearCubeOf(voxels, [&](const Coord& sides) {
+        int64_t sum = 0;
+        for (int choice = 0; choice < 8; ++choice) { // along each axis: whole periods, or the rest
+            int64_t times = 1;
+            Coord part;
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool rest = choice >> axis & 1;
+                times *= rest ? 1 : sides[axis] / kPeriod;
+                part[axis] = rest ? sides[axis] % kPeriod : kPeriod;
+            }
+            sum += times * counts[indexOfSides(part[0], part[1], part[2])];
+        }
+        return sum;
+    });
+}
+
+LeafMask GyroidShape::leaf(const Coord& origin) const { return mPeriod[leafInPeriod(origin)]; }
 
 } // namespace detail
 } // namespace openvdb_spheretree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Corners have 12 bits and the weights of both axes 8, so that all fits in 28 bits; the octaves
-/// are halved one after the other, and their sum is below 2^29. 64 voxels, the height of the
-/// largest octave, are 2^28.
+/// Corners have 12 bits and the weight along each axis 8, so a blend has 28 bits. It is halved once
+/// for each octave below the largest, so the sum of all is below 2^29. The largest octave is 64
+/// voxels high, which are 2^28.
 #include "HeightField.h"
 
 #include <openvdb_spheretree/base/Hash.h>
@@ -17,19 +17,15 @@ constexpr int kCornerBits = 12, kWeightBits = 8;
 constexpr int kWhole = 1 << kWeightBits;
 constexpr int kVoxelBits = kCornerBits + 2 * kWeightBits - 6;
 
-/// 3 t^2 - 2 t^3 of t = at / 2^bits, in parts of kWhole.
-int weight(int at, int bits)
-{
-    const int64_t t = at;
-    return int(t * t * (3 * (int64_t(1) << bits) - 2 * t) << kWeightBits >> (3 * bits));
-}
-
 } // namespace
 
 HeightField::HeightField(uint64_t seed) : mKey(hash(seed)), mWeights()
 {
     for (int bits = kFewestBits; bits <= kMostBits; ++bits) {
-        for (int at = 0; at < 1 << bits; ++at) mWeights[bits][at] = weight(at, bits);
+        const int64_t dim = int64_t(1) << bits;
+        for (int64_t t = 0; t < dim; ++t) { // 3 (t / dim)^2 - 2 (t / dim)^3, in parts of kWhole
+            mWeights[bits][t] = int(t * t * (3 * dim - 2 * t) << kWeightBits >> (3 * bits));
+        }
     }
 }
 

@@ -2,9 +2,9 @@
 /// @file HeightField.h
 /// @brief Hills of every size from 8 to 128 voxels: value noise, in integers.
 ///
-/// An octave has a random number at every corner of a square lattice of L = 8, 16, ..., 128 voxels,
-/// and between them blends by 3 t^2 - 2 t^3 along x and y (K. Perlin's smoothstep); it is L / 2
-/// voxels high. The field is the sum of the five. It has no border and no period.
+/// The field is the sum of five octaves. Each has a random number at every corner of a square
+/// lattice of L = 8, 16, ..., 128 voxels, and blends between them by 3 t^2 - 2 t^3 along x and y
+/// (K. Perlin's smoothstep). It is L / 2 voxels high. The field has no border and no period.
 
 #pragma once
 
@@ -30,8 +30,9 @@ private:
         int x0, y0, side;
         std::vector<int>& sums;
     };
+    /// @return the random number at a corner of the octave of L = 2^bits.
     int corner(int bits, int i, int j) const;
-    /// Adds the octave of L = 2^bits within cell i, j of its lattice.
+    /// Adds this octave between the corners i, j and i + 1, j + 1.
     void addCell(int bits, int i, int j, const Window& window) const;
 
     uint64_t mKey;

@@ -14,19 +14,11 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-uint32_t onesOf(int coordinate)
-{
-    uint32_t ones = 0;
-    for (int place = 0; coordinate > 0; ++place, coordinate /= 3) {
-        ones |= uint32_t(coordinate % 3 == 1) << place;
-    }
-    return ones;
-}
-
-/// Coordinates of one digit more, by what is known of them so far: bit i is set while the digits of
-/// axis i are those of the box's side, so that the next may not be greater.
+/// How many voxels there are, by the first digits of their coordinates. Bit i of the index is set
+/// if the digits along axis i are those of the box's side, so that the next may not be greater.
 using PrefixCounts = std::array<int64_t, 8>;
 
+/// @param limit  the next digits of the box's sides
 PrefixCounts withNextDigit(const PrefixCounts& before, const std::array<int, 3>& limit)
 {
     PrefixCounts after{};
@@ -47,8 +39,7 @@ PrefixCounts withNextDigit(const PrefixCounts& before, const std::array<int, 3>&
     return after;
 }
 
-} // namespace
-
+/// @return how many voxels of the sponge lie in the box of these sides, at its corner.
 int64_t mengerCount(const Coord& sides)
 {
     constexpr int kHighest = 1162261467; // 3^19, the largest power of 3 within 31 bits
@@ -61,11 +52,15 @@ int64_t mengerCount(const Coord& sides)
     return counts[0]; // below the side along each axis
 }
 
-MengerShape::MengerShape(int64_t voxels) : mBox(boxOfSides(nearCubeOf(voxels, mengerCount)))
+} // namespace
+
+MengerShape::MengerShape(int64_t voxels) : mBox(nearCubeOf(voxels, mengerCount))
 {
     const int end = (mBox.max()[0] / kLeafDim + 1) * kLeafDim; // x is the longest side
-    mOnes.resize(std::size_t(end));
-    for (int i = 0; i < end; ++i) mOnes[std::size_t(i)] = onesOf(i);
+    mOnes.resize(std::size_t(end), 0);
+    for (int i = 1; i < end; ++i) { // the digits of i / 3, and a last one
+        mOnes[std::size_t(i)] = mOnes[std::size_t(i / 3)] << 1 | uint32_t(i % 3 == 1);
+    }
 }
 
 Filling MengerShape::filling(const CoordBBox& cube) const

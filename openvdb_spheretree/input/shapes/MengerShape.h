@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MengerShape.h
-/// @brief A Menger sponge (K. Menger 1926) of voxels that goes on growing from a corner, clipped to
-/// a box as near to a cube as can be.
+/// @brief A Menger sponge (K. Menger 1926) of voxels without end from a corner on, clipped to a
+/// near-cube (NearCube.h).
 ///
-/// With coordinates from 0 on written in base 3, a voxel is off if two of its coordinates have the
-/// digit 1 in one place. The first 3^k voxels along each axis are a whole sponge of level k, of
-/// 20^k voxels; between two of these the number wished for cuts the next one off.
+/// Coordinates are 0 or more. A voxel is off if, written in base 3, two of its coordinates have the
+/// digit 1 in the same place. The first 3^k voxels along each axis are a whole sponge of level k,
+/// of 20^k voxels. A box of any other size cuts through a larger sponge.
 
 #pragma once
 
@@ -16,9 +16,6 @@
 
 namespace openvdb_spheretree {
 namespace detail {
-
-/// @return how many voxels of the sponge lie in the box of these sides, at its corner.
-int64_t mengerCount(const openvdb::Coord& sides);
 
 class MengerShape : public LeafwiseRule {
 public:

@@ -19,37 +19,30 @@ public:
     static constexpr int kVoxelsPerOne = 100; ///< of the box, for one that is on
 
     NoiseShape(int64_t voxels, uint64_t seed)
-        : mKey(hash(seed)), mBox(boxOfSides(nearCubeOf(voxels, [](const openvdb::Coord& sides) {
+        : mKey(hash(seed)), mBox(nearCubeOf(voxels, [](const openvdb::Coord& sides) {
               return int64_t(sides[0]) * sides[1] * sides[2] / kVoxelsPerOne;
-          })))
+          }))
     {}
 
     openvdb::CoordBBox box() const override { return mBox; }
-
-    bool isOn(const openvdb::Coord& ijk) const { return isOn(placeOf(ijk[0], ijk[1], ijk[2])); }
-
     LeafMask leaf(const openvdb::Coord& origin) const override
     {
-        LeafMask mask;
-        for (int x = 0; x < kLeafDim; ++x) {
-            const uint64_t first = placeOf(origin[0] + x, origin[1], origin[2]);
-            uint64_t word = 0;
-            for (int n = 0; n < 64; ++n) {
-                word |= uint64_t(isOn(first | placeOf(0, n >> 3, n & 7))) << n;
-            }
-            mask[x] = word;
+        const uint64_t first = placeOf(origin[0], origin[1], origin[2]);
+        LeafMask mask{};
+        for (uint32_t n = 0; n < kLeafVoxels; ++n) {
+            const uint64_t place = first | placeOf(n >> 6, n >> 3 & 7, n & 7);
+            if (hash(mKey ^ place) < ~uint64_t(0) / kVoxelsPerOne) mask.setOn(n);
         }
         return mask;
     }
 
 private:
     /// Coordinates side by side: 0 to 2^21 - 1 each.
-    static uint64_t placeOf(int x, int y, int z)
+    static uint64_t placeOf(uint32_t x, uint32_t y, uint32_t z)
     {
         constexpr int kBits = 21;
         return uint64_t(x) << (2 * kBits) | uint64_t(y) << kBits | uint64_t(z);
     }
-    bool isOn(uint64_t place) const { return hash(mKey ^ place) < ~uint64_t(0) / kVoxelsPerOne; }
 
     uint64_t mKey;
     openvdb::CoordBBox mBox;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TerrainShape.h
-/// @brief A square sheet along a height field: the voxels from the lowest of a column and its eight
-/// neighbours up to two above its own height.
+/// @brief A square sheet along a height field. A column begins at the lowest height among its own
+/// and those of its eight neighbours, and ends two voxels above its own height.
 ///
-/// So each column is three voxels or more, overlaps with its neighbours (the sheet is one part, by
-/// faces), and begins no higher than any neighbour's height: nothing comes through, not even by
-/// corners. Columns at the border are as if the sheet went on.
+/// So a column has three voxels or more, and overlaps with its neighbours: the sheet is connected
+/// by faces. It begins no higher than any neighbour's height: no path of voxels leads through the
+/// sheet, not even by corners. At the border, heights beyond it count as well.
 ///
-/// The side is found by counting: columns of the squares that begin at the origin, ring by ring,
-/// over the largest square that may be needed. Then the sheet is made anew, a block at a time.
+/// The side of the square is found by counting. The voxels of all columns with max(x, y) = n are
+/// counted for every n that may be needed, and added up until there are enough.
 
 #pragma once
 
@@ -31,7 +31,7 @@ public:
     TerrainShape(int64_t voxels, uint64_t seed, openvdb::util::NullInterrupter* interrupter);
 
     openvdb::CoordBBox box() const override;
-    void paint(BoolBlockNode& block) const override;
+    void paint(BoolLowerNode& node) const override;
 
 private:
     HeightField mHeights;

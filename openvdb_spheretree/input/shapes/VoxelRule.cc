@@ -15,15 +15,15 @@ namespace {
 using openvdb::BoolTree;
 using openvdb::Coord;
 using openvdb::CoordBBox;
+using BoolUpperNode = BoolTree::RootNodeType::ChildNodeType; ///< 4096^3
 
-constexpr int kCellDim = BoolCellNode::DIM;
-constexpr int kBlockDim = BoolBlockNode::DIM;
-
-/// Calls f(cube) for all cubes of the grid of this side (a power of two) that meet the box, in the
-/// order of their coordinates.
+/// Calls f(cube) for the cubes of a lattice that meet both boxes, in the order of their
+/// coordinates.
+/// @param side  of the cubes: a power of two
 template <typename F>
-void forEachCube(const CoordBBox& box, int side, const F& f)
+void forEachCube(CoordBBox box, const CoordBBox& bounds, int side, const F& f)
 {
+    box.intersect(bounds);
     const Coord first = box.min() & ~(side - 1), &last = box.max();
     for (int x = first[0]; x <= last[0]; x += side) {
         for (int y = first[1]; y <= last[1]; y += side) {
@@ -34,108 +34,86 @@ void forEachCube(const CoordBBox& box, int side, const F& f)
     }
 }
 
-CoordBBox common(CoordBBox a, const CoordBBox& b)
+/// @return the voxels of the leaf at @a origin that lie in the box.
+LeafMask voxelsInBox(const Coord& origin, const CoordBBox& box)
 {
-    a.intersect(b);
-    return a;
-}
-
-/// The eight coordinates along one axis that lie within the box, as bits.
-uint64_t axisBits(int origin, int first, int last)
-{
-    const int from = std::clamp(first - origin, 0, kLeafDim);
-    const int to = std::clamp(last + 1 - origin, 0, kLeafDim);
-    return ((uint64_t(1) << to) - 1) & ~((uint64_t(1) << from) - 1);
-}
-
-LeafMask clipped(LeafMask mask, const Coord& origin, const CoordBBox& box)
-{
-    const auto bits = [&](int i) { return axisBits(origin[i], box.min()[i], box.max()[i]); };
-    const uint64_t xs = bits(0), ys = bits(1), zs = bits(2);
-    uint64_t plane = 0;
-    for (int y = 0; y < kLeafDim; ++y) plane |= (ys >> y & 1 ? zs : 0) << (8 * y);
-    for (int x = 0; x < kLeafDim; ++x) mask[x] &= xs >> x & 1 ? plane : 0;
+    const auto isIn = [&](int axis, int i) {
+        return origin[axis] + i >= box.min()[axis] && origin[axis] + i <= box.max()[axis];
+    };
+    uint64_t row = 0, plane = 0;
+    for (int z = 0; z < kLeafDim; ++z) row |= uint64_t(isIn(2, z)) << z;
+    for (int y = 0; y < kLeafDim; ++y) plane |= (isIn(1, y) ? row : 0) << (8 * y);
+    LeafMask mask;
+    for (int x = 0; x < kLeafDim; ++x) mask[x] = isIn(0, x) ? plane : 0;
     return mask;
 }
 
-/// @return the blocks to be painted; full nodes have become tiles of @a tree.
-std::vector<Coord> tilesAndBlocks(
+/// @return the origins of the nodes to be painted; full ones have become tiles of @a tree. Their
+/// levels are as OpenVDB counts them: 3 is a tile of 4096^3 voxels, 2 of 128^3, 1 of 8^3.
+std::vector<Coord> tilesAndParts(
     const VoxelRule& shape, BoolTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
-    constexpr openvdb::Index kRootTile = 3, kCellTile = 2; // levels, as OpenVDB counts them
-    std::vector<Coord> blocks;
-    forEachCube(shape.box(), kCellDim, [&](const CoordBBox& cell) {
+    std::vector<Coord> parts;
+    const CoordBBox box = shape.box();
+    forEachCube(box, box, BoolUpperNode::DIM, [&](const CoordBBox& upper) {
         checkInterrupt(interrupter);
-        const Filling inCell = shape.filling(cell);
-        if (inCell == Filling::All) tree.addTile(kRootTile, cell.min(), true, true);
-        if (inCell != Filling::Part) return;
-        forEachCube(common(cell, shape.box()), kBlockDim, [&](const CoordBBox& block) {
-            const Filling inBlock = shape.filling(block);
-            if (inBlock == Filling::All) tree.addTile(kCellTile, block.min(), true, true);
-            if (inBlock == Filling::Part) blocks.push_back(block.min());
+        const Filling inUpper = shape.filling(upper);
+        if (inUpper == Filling::All) tree.addTile(3, upper.min(), true, true);
+        if (inUpper != Filling::Part) return;
+        forEachCube(upper, box, BoolLowerNode::DIM, [&](const CoordBBox& lower) {
+            const Filling inLower = shape.filling(lower);
+            if (inLower == Filling::All) tree.addTile(2, lower.min(), true, true);
+            if (inLower == Filling::Part) parts.push_back(lower.min());
         });
     });
-    return blocks;
-}
-
-/// @return null where the block holds nothing.
-std::unique_ptr<BoolBlockNode> paintedBlock(const VoxelRule& shape, const Coord& origin)
-{
-    auto block = std::make_unique<BoolBlockNode>(origin, false);
-    shape.paint(*block);
-    if (block->isInactive() && block->leafCount() == 0) block.reset();
-    return block;
-}
-
-void hang(BoolTree& tree, std::unique_ptr<BoolBlockNode> block)
-{
-    auto* cell = tree.probeNode<BoolCellNode>(block->origin());
-    if (!cell) {
-        cell = new BoolCellNode(block->origin(), false);
-        tree.root().addChild(cell);
-    }
-    cell->addChild(block.release());
+    return parts;
 }
 
 } // namespace
 
 Filling VoxelRule::filling(const CoordBBox&) const { return Filling::Part; }
 
-void LeafwiseRule::paint(BoolBlockNode& block) const
+void LeafwiseRule::paint(BoolLowerNode& node) const
 {
-    constexpr openvdb::Index kBlockTile = 1;
     const CoordBBox bounds = box();
-    const CoordBBox cubes = common(CoordBBox::createCube(block.origin(), kBlockDim), bounds);
-    forEachCube(cubes, kLeafDim, [&](const CoordBBox& cube) {
-        const Filling inLeaf = filling(cube);
-        if (inLeaf == Filling::All) block.addTile(kBlockTile, cube.min(), true, true);
-        if (inLeaf != Filling::Part) return;
-        addLeaf(block, cube.min(), clipped(leaf(cube.min()), cube.min(), bounds));
+    const CoordBBox cube = CoordBBox::createCube(node.origin(), BoolLowerNode::DIM);
+    forEachCube(cube, bounds, kLeafDim, [&](const CoordBBox& voxels) {
+        const Coord& origin = voxels.min();
+        const Filling inLeaf = filling(voxels);
+        if (inLeaf == Filling::All) node.addTile(1, origin, true, true);
+        if (inLeaf == Filling::Part) {
+            addLeaf(node, origin, leaf(origin) & voxelsInBox(origin, bounds));
+        }
     });
 }
 
-void addLeaf(BoolBlockNode& block, const Coord& origin, const LeafMask& mask)
+void addLeaf(BoolLowerNode& node, const Coord& origin, const LeafMask& mask)
 {
-    if (std::all_of(mask.begin(), mask.end(), [](uint64_t word) { return word == 0; })) return;
-    auto leaf = std::make_unique<BoolLeafNode>(origin, false);
-    BoolLeafNode::NodeMaskType bits;
-    for (int word = 0; word < kLeafDim; ++word) {
-        bits.getWord<uint64_t>(openvdb::Index(word)) = mask[word];
-        leaf->buffer().data()[word] = mask[word]; // values are bits as well
-    }
-    leaf->setValueMask(bits);
-    block.addLeaf(leaf.release());
+    if (mask.none()) return;
+    auto leaf = std::make_unique<BoolTree::LeafNodeType>(origin, false);
+    std::copy(mask.begin(), mask.end(), leaf->buffer().data()); // values are bits as well
+    mask.copyTo(leaf->getValueMask());
+    node.addLeaf(leaf.release());
 }
 
 BoolTree::Ptr treeOf(const VoxelRule& shape, openvdb::util::NullInterrupter* interrupter)
 {
     const auto tree = std::make_shared<BoolTree>(false);
-    const std::vector<Coord> blocks = tilesAndBlocks(shape, *tree, interrupter);
-    std::vector<std::unique_ptr<BoolBlockNode>> nodes(blocks.size());
-    parallelFor(blocks.size(), interrupter,
-        [&](std::size_t i) { nodes[i] = paintedBlock(shape, blocks[i]); });
+    const std::vector<Coord> origins = tilesAndParts(shape, *tree, interrupter);
+    std::vector<std::unique_ptr<BoolLowerNode>> nodes(origins.size()); // null where empty
+    parallelFor(origins.size(), interrupter, [&](std::size_t i) {
+        auto node = std::make_unique<BoolLowerNode>(origins[i], false);
+        shape.paint(*node);
+        if (!node->isInactive()) nodes[i] = std::move(node);
+    });
     for (auto& node : nodes) {
-        if (node) hang(*tree, std::move(node));
+        if (!node) continue;
+        auto* upper = tree->probeNode<BoolUpperNode>(node->origin());
+        if (!upper) {
+            upper = new BoolUpperNode(node->origin(), false);
+            tree->root().addChild(upper);
+        }
+        upper->addChild(node.release());
     }
     return tree;
 }

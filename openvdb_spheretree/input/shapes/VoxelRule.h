@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file VoxelRule.h
-/// @brief A set of voxels given by a rule, and the tree of it: tiles where a node is full, leaf
-/// nodes made as masks, nothing where there is nothing.
+/// @brief A shape given by a rule, and the tree of its voxels. Nodes that are full become tiles.
 ///
-/// 1. `tilesAndBlocks`: nodes of 4096^3 and of 128^3 voxels that are full become tiles; those of
-///    128^3 that may hold a part of the shape are listed;
-/// 2. these are painted in parallel, each by one call of VoxelRule::paint();
-/// 3. `hang`: those that have got something go into the tree, in their order.
+/// 1. `tilesAndParts`: full nodes of 4096^3 and of 128^3 voxels become tiles; nodes of 128^3 that
+///    may hold a part of the shape are listed.
+/// 2. VoxelRule::paint() fills these in parallel.
+/// 3. Those that are not empty go into the tree, in their order.
 ///
-/// Cost: a call of filling() for every node of the box, one of leaf() for every leaf that may be
-/// neither full nor empty. Memory: the tree, and 20 bytes a node of 128^3.
+/// Cost: a call of filling() for every node of the box, and one of leaf() for every leaf that may
+/// be neither full nor empty. Memory: the tree, and 20 bytes for each node of 128^3.
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -21,9 +20,7 @@
 namespace openvdb_spheretree {
 namespace detail {
 
-using BoolLeafNode = openvdb::BoolTree::LeafNodeType;                ///< 8^3 voxels
-using BoolCellNode = openvdb::BoolTree::RootNodeType::ChildNodeType; ///< 4096^3
-using BoolBlockNode = BoolCellNode::ChildNodeType;                   ///< 128^3
+using BoolLowerNode = openvdb::BoolTree::RootNodeType::ChildNodeType::ChildNodeType; ///< 128^3
 
 /// How much of a cube is on.
 enum class Filling {
@@ -32,7 +29,7 @@ enum class Filling {
     All
 };
 
-/// A shape. Asked by many threads at once; all coordinates are voxels.
+/// A shape. Many threads call it at once. All coordinates are voxels.
 class VoxelRule {
 public:
     virtual ~VoxelRule() = default;
@@ -40,24 +37,24 @@ public:
     /// @return a box that holds the whole shape; inclusive.
     virtual openvdb::CoordBBox box() const = 0;
 
-    /// @param cube  a node: of 4096^3, 128^3 or 8^3 voxels, reaching out of box() perhaps
+    /// @param cube  the voxels of a node (4096^3, 128^3 or 8^3); it may reach beyond box()
     virtual Filling filling(const openvdb::CoordBBox& cube) const;
 
-    /// Adds the shape's leaves and tiles to @a block, which is empty.
-    virtual void paint(BoolBlockNode& block) const = 0;
+    /// Adds the shape's leaves and tiles to @a node, which is empty.
+    virtual void paint(BoolLowerNode& node) const = 0;
 };
 
-/// One of which every leaf can be told by itself.
+/// A shape whose leaves do not depend on each other.
 class LeafwiseRule : public VoxelRule {
 public:
     /// @return the voxels of the leaf at @a origin; those beyond box() do not count.
     virtual LeafMask leaf(const openvdb::Coord& origin) const = 0;
 
-    void paint(BoolBlockNode& block) const final;
+    void paint(BoolLowerNode& node) const final;
 };
 
-/// A new leaf node, unless the mask is empty.
-void addLeaf(BoolBlockNode& block, const openvdb::Coord& origin, const LeafMask& mask);
+/// Adds a leaf of these voxels, unless there are none.
+void addLeaf(BoolLowerNode& node, const openvdb::Coord& origin, const LeafMask& mask);
 
 /// @return the tree of the shape's voxels: on and true; the background is off and false.
 /// @throw Interrupted if the interrupter (may be null) said so

@@ -6,25 +6,20 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <system_error>
 
 namespace openvdb_spheretree {
 namespace detail {
 
 namespace {
 
+using openvdb::IoError;
+
 constexpr std::size_t kMaxHeaderBytes = 1 << 16;
 constexpr std::uint64_t kMaxSide = 1 << 20;      // so X*Y*Z values of eight bytes stay below 2^64
 constexpr std::uint64_t kMaxDeflateRatio = 1032; // 258 bytes in two bits, as zlib documents it
 constexpr std::uint64_t kDeflateSlack = 64; // bytes of the stream, for rounding and block headers
-
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-    throw openvdb::IoError(path + ": " + what);
-}
 
 std::string trimmed(const std::string& text)
 {
@@ -35,98 +30,78 @@ std::string trimmed(const std::string& text)
 
 using HeaderFields = std::map<std::string, std::string>;
 
-void addField(const std::string& path, const std::string& line, HeaderFields& fields)
-{
-    const auto colon = line.find(':');
-    const std::string key = trimmed(line.substr(0, colon));
-    if (colon == std::string::npos || key.empty()) {
-        fail(path, "header line " + inQuotes(line) + " is not 'Key: value'; is this a .vol file?");
-    }
-    if (!fields.emplace(key, trimmed(line.substr(colon + 1))).second) {
-        fail(path, "header key " + inQuotes(key) + " is given twice");
-    }
-}
-
-/// @return the fields, and in @a offset where the values start.
-HeaderFields splitHeader(const std::string& path, const std::string& text, std::uint64_t& offset)
+/// @return the fields; @a offset becomes that of the first value.
+HeaderFields splitHeader(const std::string& text, std::uint64_t& offset)
 {
     HeaderFields fields;
-    std::size_t begin = 0;
-    for (;;) {
+    for (std::size_t begin = 0;;) {
         const std::size_t end = text.find('\n', begin);
         if (end == std::string::npos) {
-            fail(path,
-                "header has no line '.' to end it"
-                    + std::string(text.size() < kMaxHeaderBytes
-                            ? "; the file is truncated or no .vol file"
-                            : " within " + std::to_string(kMaxHeaderBytes) + " bytes"));
+            throw IoError("header has no line '.' to end it"
+                + std::string(text.size() < kMaxHeaderBytes
+                        ? "; the file is truncated or no .vol file"
+                        : " within " + std::to_string(kMaxHeaderBytes) + " bytes"));
         }
         std::string line = text.substr(begin, end - begin);
         begin = end + 1;
         if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (line == ".") break;
-        addField(path, line, fields);
+        if (line == ".") {
+            offset = begin;
+            return fields;
+        }
+        const auto colon = line.find(':');
+        const std::string key = trimmed(line.substr(0, colon));
+        if (colon == std::string::npos || key.empty()) {
+            throw IoError(
+                "header line " + inQuotes(line) + " is not 'Key: value'; is this a .vol file?");
+        }
+        if (!fields.emplace(key, trimmed(line.substr(colon + 1))).second) {
+            throw IoError("header key " + inQuotes(key) + " is given twice");
+        }
     }
-    offset = begin;
-    return fields;
 }
 
-std::uint64_t sideOf(const std::string& path, const HeaderFields& fields, const std::string& key)
+std::uint64_t sideOf(const HeaderFields& fields, const std::string& key)
 {
     const auto it = fields.find(key);
-    if (it == fields.end()) fail(path, "header has no key '" + key + "'");
-    const std::string& text = it->second;
-    std::uint64_t side = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), side);
-    if (error != std::errc() || end != text.data() + text.size() || side < 1 || side > kMaxSide) {
-        fail(path,
-            "header key '" + key + "' is " + inQuotes(text) + ", not a whole number from 1 to "
-                + std::to_string(kMaxSide));
-    }
-    return side;
+    if (it == fields.end()) throw IoError("header has no key '" + key + "'");
+    const auto side = parseNumber<std::uint64_t>(it->second);
+    if (side && *side >= 1 && *side <= kMaxSide) return *side;
+    throw IoError("header key '" + key + "' is " + inQuotes(it->second)
+        + ", not a whole number from 1 to " + std::to_string(kMaxSide));
 }
 
-int versionOf(const std::string& path, const HeaderFields& fields)
+int versionOf(const std::string& text)
 {
-    const auto it = fields.find("Version");
-    if (it == fields.end() || it->second == "2") return 2;
-    if (it->second == "3") return 3;
-    fail(path,
-        "header key 'Version' is " + inQuotes(it->second)
-            + "; versions 2 (raw) and 3 (zlib) can be read");
+    if (text == "2") return 2;
+    if (text == "3") return 3;
+    throw IoError("header key 'Version' is " + inQuotes(text)
+        + "; versions 2 (raw) and 3 (zlib) can be read");
 }
 
-double voxelSizeOf(const std::string& path, const HeaderFields& fields)
+double voxelSizeOf(const std::string& text)
 {
-    const auto it = fields.find("Voxel-Size");
-    if (it == fields.end()) return 1;
-    const std::string& text = it->second;
-    double size = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(size)
-        || size <= 0) {
-        fail(path, "header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
-    }
-    return size;
+    const auto size = parseNumber<double>(text);
+    if (size && std::isfinite(*size) && *size > 0) return *size;
+    throw IoError("header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
 }
 
-/// Refuse what cannot fit before anything of its size is allocated.
-void checkSize(const std::string& path, const VolHeader& header)
+/// Refuses a header whose file cannot hold the values, or holds more.
+void checkSize(const VolHeader& header)
 {
     const std::string claim = "header keys X, Y, Z ask for " + std::to_string(header.volumeBytes())
         + " bytes of values, but the file holds " + std::to_string(header.dataBytes);
     if (header.version == 2 && header.dataBytes < header.volumeBytes()) {
-        fail(path, claim + "; it is truncated, or its header wrong");
+        throw IoError(claim + "; it is truncated, or its header wrong");
     }
     if (header.version == 2 && header.dataBytes > header.volumeBytes()) {
-        fail(path, claim + "; nothing may follow the values");
+        throw IoError(claim + "; nothing may follow the values");
     }
     if (header.version == 3
         && header.volumeBytes() / kMaxDeflateRatio > header.dataBytes + kDeflateSlack) {
-        fail(path,
-            claim
-                + " compressed bytes, which cannot expand to that many; it is truncated, "
-                  "or its header wrong");
+        throw IoError(claim
+            + " compressed bytes, which cannot expand to that many; it is truncated, "
+              "or its header wrong");
     }
 }
 
@@ -139,14 +114,18 @@ VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint6
     text.resize(static_cast<std::size_t>(file.gcount()));
 
     VolHeader header;
-    const HeaderFields fields = splitHeader(path, text, header.dataOffset);
-    header.dim = {sideOf(path, fields, "X"), sideOf(path, fields, "Y"), sideOf(path, fields, "Z")};
-    header.version = versionOf(path, fields);
-    header.voxelSize = voxelSizeOf(path, fields);
-    header.bytesPerValue = lowerExtension(path) == ".longvol" ? 8 : 1;
-    header.dataBytes = fileBytes - header.dataOffset;
-    checkSize(path, header);
-
+    try {
+        HeaderFields fields = splitHeader(text, header.dataOffset);
+        fields.insert({{"Version", "2"}, {"Voxel-Size", "1"}}); // where they are not given
+        header.dim = {sideOf(fields, "X"), sideOf(fields, "Y"), sideOf(fields, "Z")};
+        header.version = versionOf(fields["Version"]);
+        header.voxelSize = voxelSizeOf(fields["Voxel-Size"]);
+        header.bytesPerValue = lowerExtension(path) == ".longvol" ? 8 : 1;
+        header.dataBytes = fileBytes - header.dataOffset;
+        checkSize(header);
+    } catch (const IoError& error) {
+        throw IoError(path + ": " + messageOf(error));
+    }
     file.clear(); // reading a short file to its end has set eofbit
     file.seekg(static_cast<std::streamoff>(header.dataOffset));
     return header;

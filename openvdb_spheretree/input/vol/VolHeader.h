@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file VolHeader.h
-/// @brief The text at the start of a `.vol` or `.longvol` file: lines `Key: value` up to a line
-/// `.`.
+/// @brief The text at the start of a `.vol` or `.longvol` file: lines `Key: value`, then a line `.`.
 ///
-/// Strict: nothing is to be allocated for a header that asks for more than its file can hold (raw:
-/// its bytes; zlib: deflate expands no more than 1032 times).
+/// Strict: a header that asks for more than its file can hold is refused before memory is
+/// allocated. A raw file holds its bytes; deflate expands no more than 1032 times.
 
 #pragma once
 

@@ -7,6 +7,8 @@
 #include <openvdb_spheretree/base/Hash.h>
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
 
+#include <openvdb/math/Math.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -40,7 +42,8 @@ inline ExactSphere grown(const ExactSphere& ball, Dice& dice)
 inline ExactSphere shifted(const ExactSphere& ball, double step, bool flat, Dice& dice)
 {
     const double z = flat ? 0 : 2 * dice.uniform() - 1;
-    const double angle = 2 * M_PI * dice.uniform(), xy = std::sqrt(1 - z * z);
+    const double angle = 2 * openvdb::math::pi<double>() * dice.uniform();
+    const double xy = std::sqrt(1 - z * z);
     ExactSphere result = ball;
     result.center[0] += std::lrint(step * xy * std::cos(angle));
     result.center[1] += std::lrint(step * xy * std::sin(angle));

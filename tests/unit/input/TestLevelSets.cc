@@ -6,6 +6,7 @@
 
 #include "support/ObjectGrids.h"
 
+#include <openvdb/math/Math.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <gtest/gtest.h>
@@ -77,7 +78,8 @@ TEST(LevelSets, TheDeepInteriorOfALevelSetStaysTiles)
     const auto object = objectOf(*grid);
     EXPECT_GT(object->tree().activeTileCount(), 100u);
     EXPECT_LE(object->tree().leafCount(), grid->tree().leafCount());
-    EXPECT_NEAR(double(object->activeVoxelCount()), 4.0 / 3 * M_PI * 1e6, 4e4);
+    EXPECT_NEAR(
+        double(object->activeVoxelCount()), 4.0 / 3 * openvdb::math::pi<double>() * 1e6, 4e4);
 }
 
 TEST(LevelSets, InteriorTilesFarFromAnyLeafCount)

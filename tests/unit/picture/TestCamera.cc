@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/picture/Camera.h>
 
+#include <openvdb/math/Math.h>
 #include <openvdb/Exceptions.h>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,8 @@ using openvdb::Vec3d;
 using openvdb::math::Transform;
 
 namespace {
+
+constexpr double kPi = openvdb::math::pi<double>();
 
 std::string whyNot(const Camera& camera)
 {
@@ -68,11 +71,11 @@ TEST(Camera, TheViewOfAnObjectJustHoldsTheSphereAroundItsBox)
     for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(0, 0, 2), Vec3d(-1, 0, 0), Vec3d(1, 1, 1)}) {
         const Camera wide = viewOf(box, *transform, up, 40, 2);
         EXPECT_NO_THROW(wide.validate());
-        EXPECT_NEAR(sineOfReach(wide, center, radius), std::sin(20 * M_PI / 180), 1e-9);
+        EXPECT_NEAR(sineOfReach(wide, center, radius), std::sin(20 * kPi / 180), 1e-9);
         EXPECT_GT((wide.eye - wide.lookAt).dot(up), 0) << "from above";
         const Camera narrow = viewOf(box, *transform, up, 40, 0.5);
         EXPECT_NEAR(std::tan(std::asin(sineOfReach(narrow, center, radius))),
-            std::tan(20 * M_PI / 180) / 2, 1e-9);
+            std::tan(20 * kPi / 180) / 2, 1e-9);
     }
 }
 

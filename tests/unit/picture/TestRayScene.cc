@@ -280,14 +280,14 @@ TEST(VoxelShape, ALeafIsEnteredWhereTheFirstOfItsVoxelsIs)
         }
         openvdb::CoordBBox box;
         leaf.evalActiveBoundingBox(box);
-        const Vec3d half(0.5);
+        const Vec3d halfVoxel(0.5);
         VoxelShape shape{
-            box.min().asVec3d() - half, box.max().asVec3d() + half, Vec3d(-0.5), &leaf};
+            box.min().asVec3d() - halfVoxel, box.max().asVec3d() + halfVoxel, Vec3d(-0.5), &leaf};
         for (int i = 0; i < 3000; ++i) {
             const Ray ray = randomRay(random, 20);
             double nearest = kNoEntry;
             for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel) {
-                const Vec3d low = voxel.getCoord().asVec3d() - half;
+                const Vec3d low = voxel.getCoord().asVec3d() - halfVoxel;
                 const double t = VoxelShape{low, low + Vec3d(1.0), low, nullptr}.entry(ray);
                 if (t >= 0 && (nearest < 0 || t < nearest)) nearest = t;
             }

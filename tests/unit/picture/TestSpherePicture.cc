@@ -16,6 +16,8 @@
 #include <png.h>
 #include <tbb/global_control.h>
 
+#include <openvdb/math/Math.h>
+
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -25,6 +27,8 @@ namespace {
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 using openvdb::Vec3d;
+
+constexpr double kPi = openvdb::math::pi<double>();
 
 PictureSettings small(PictureColor color = PictureColor::Parent)
 {
@@ -69,8 +73,8 @@ int darkPixels(const Picture& picture)
 double outlineArea(double theta, double phi, const PictureSettings& settings, double fovDegrees)
 {
     const double s = std::sin(theta), cosSq = std::cos(phi) * std::cos(phi) - s * s;
-    const double pixel = 2 * std::tan(fovDegrees * M_PI / 360) / settings.height;
-    return M_PI * (s * std::cos(theta) / cosSq) * (s / std::sqrt(cosSq)) / (pixel * pixel);
+    const double pixel = 2 * std::tan(fovDegrees * kPi / 360) / settings.height;
+    return kPi * (s * std::cos(theta) / cosSq) * (s / std::sqrt(cosSq)) / (pixel * pixel);
 }
 
 Picture decoded(const std::string& file)
@@ -161,7 +165,7 @@ TEST(SpherePicture, BallsOfNormsAreThePolyhedraThatTheyAre)
     Camera camera;
     camera.eye = Vec3d(0, 0, 1000); // so far off that what is seen is a projection
     camera.fovDegrees = 0.8;
-    const double pixel = 2 * 1000 * std::tan(0.4 * M_PI / 180) / settings.height;
+    const double pixel = 2 * 1000 * std::tan(0.4 * kPi / 180) / settings.height;
     SphereTree tree = treeOf({{Vec3d(0.0), 6}}, 2); // three voxels
     const auto areaOf = [&](const char* dist) {
         tree.settings.pyramid().dist = distanceFromString(dist);
@@ -172,9 +176,9 @@ TEST(SpherePicture, BallsOfNormsAreThePolyhedraThatTheyAre)
     EXPECT_NEAR(areaOf("linf"), 144, 3);
     EXPECT_NEAR(areaOf("l1"), 72, 2);
     EXPECT_NEAR(areaOf("chamfer:3,4,5"), 8 * 6 * (6 * 0.75) / 2, 3);
-    EXPECT_NEAR(areaOf("l2"), M_PI * 36, 3);
+    EXPECT_NEAR(areaOf("l2"), kPi * 36, 3);
     // Turned by 45 degrees the cube shows two of its sides, and the octahedron two tips.
-    tree.transform->postRotate(M_PI / 4, openvdb::math::Y_AXIS);
+    tree.transform->postRotate(kPi / 4, openvdb::math::Y_AXIS);
     EXPECT_NEAR(areaOf("linf"), 144 * std::sqrt(2), 4);
     EXPECT_NEAR(areaOf("l1"), 72 / std::sqrt(2), 2);
 }

@@ -3,6 +3,8 @@
 
 #include "support/FineBalls.h"
 
+#include <openvdb/math/Math.h>
+
 #include <cmath>
 
 namespace {
@@ -78,7 +80,7 @@ TEST(CoveringFit, CountsWhatLargeBallsCostOnSamples)
     const Voxels voxels = shapes::box(Coord(3));
     const SampledObject object = sampled(voxels);
     const ExactSphere large{{7, 5, -3}, 1600 * 1600};
-    const double volume = 4 / 3.0 * M_PI * 100 * 100 * 100;
+    const double volume = 4 / 3.0 * openvdb::math::pi<double>() * 100 * 100 * 100;
     CoveringFit fit;
     fit.open(object, voxels, {large}, 16);
     EXPECT_EQ(std::fmod(fit.costOf({large}), 512), 0);
