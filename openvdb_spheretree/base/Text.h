@@ -77,4 +77,3 @@ std::optional<Number> parseNumber(std::string_view text)
 }
 
 } // namespace openvdb_spheretree::detail
-} // namespace openvdb_spheretree
