@@ -3,6 +3,7 @@
 
 #include "PointLeaves.h"
 #include "SphereTreePoints.h"
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include <cmath>
@@ -145,6 +146,18 @@ bool mayLack(const Setting& setting, bool beforeTight)
     return beforeTight && (!setting.isForPyramids() || name == "center");
 }
 
+/// Files record the settings of all kinds of trees: one that this kind has not is at its default.
+/// But version 0.1 recorded any final_fit and reconstruct of reversible trees, which use neither.
+void requireDefault(
+    const Setting& setting, const SphereTreeSettings& settings, const std::string& text)
+{
+    if (setting.isFor(settings) || text == setting.get(settings)) return;
+    if (setting.isForPyramids() && settings.find<PyramidOptions>()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        setting.name << "=" << onOneLine(text, 60) << " is not for tree="
+                     << toString(settings.type()) << (settings.isInner() ? " side=inner" : ""));
+}
+
 SphereTreeSettings readSettings(const GridBase& grid)
 {
     const Setting &tree = settingNamed("tree"), &side = settingNamed("side");
@@ -159,8 +172,12 @@ SphereTreeSettings readSettings(const GridBase& grid)
         const std::string text = readSetting(grid, setting);
         auto* pyramid = settings.find<PyramidOptions>();
         const bool custom = setting.name == "model" && text == "custom" && pyramid;
-        if (custom) pyramid->customModel = unknownModel();
-        else setting.set(settings, text);
+        if (custom) {
+            pyramid->customModel = unknownModel();
+            continue;
+        }
+        setting.set(settings, text);
+        requireDefault(setting, settings, text);
     }
     settings.name = grid.getName();
     settings.validate();
