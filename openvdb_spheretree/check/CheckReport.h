@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CheckReport.h
-/// @brief What the checks of a sphere-tree share: what is checked, and the sentences for what
-/// failed.
+/// @brief What the checks of a sphere-tree share: what is checked, and the faults found.
 
 #pragma once
 
+#include "TreeCheck.h"
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
@@ -26,14 +26,15 @@ struct CheckReport {
     const openvdb::MaskTree& mask; ///< the object's topology
     openvdb::CoordBBox box;        ///< of its voxels
     openvdb::util::NullInterrupter* interrupter;
-    std::vector<std::string> failures;
+    FaultKind kind = FaultKind::Shape; ///< of what is found: each check begins by setting it
+    std::vector<TreeFault> faults = {};
 
     template <typename... Parts>
     void fail(const Parts&... parts)
     {
         std::ostringstream sentence;
         (sentence << ... << parts);
-        failures.push_back(sentence.str());
+        faults.push_back({kind, sentence.str()});
     }
 };
 

@@ -176,6 +176,7 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
 
 void checkDigitalBalls(CheckReport& check)
 {
+    check.kind = FaultKind::DigitalBalls;
     for (const SphereTreeLevel& level : check.tree.levels) {
         if (!hasDigitalBalls(check.tree, level)) {
             checkNoVolume(check, level);
@@ -197,6 +198,7 @@ void checkDigitalBalls(CheckReport& check)
 
 void checkCoverage(CheckReport& check)
 {
+    check.kind = FaultKind::Coverage;
     for (const SphereTreeLevel& level : check.tree.levels) {
         const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
         const MaskDifference missed = uncovered(check, exact);

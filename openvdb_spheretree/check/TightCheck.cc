@@ -154,6 +154,7 @@ void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, in
 
 bool checkChains(CheckReport& check)
 {
+    check.kind = FaultKind::Chains;
     const SphereTree& tree = check.tree;
     const std::vector<ExactSphere> exact = allSpheres(tree, levelSpheres);
     std::vector<ExactSphere> stored = allSpheres(tree, storedSpheres);
@@ -176,6 +177,7 @@ bool checkChains(CheckReport& check)
 
 void checkCutChains(CheckReport& check)
 {
+    check.kind = FaultKind::Chains;
     const SphereCuts& cuts = check.tree.cuts;
     const SphereTree nodes = asOneLevel(check.tree);
     const std::vector<int32_t> counts = checkedCuts(leavesOf(cuts));
@@ -189,6 +191,7 @@ void checkCutChains(CheckReport& check)
 
 void checkInside(CheckReport& check)
 {
+    check.kind = FaultKind::Inside;
     for (const SphereTreeLevel& level : check.tree.levels) {
         const std::string name = "level " + std::to_string(level.level);
         checkWithin(check, levelSpheres(check.tree, level), level.begin, name);

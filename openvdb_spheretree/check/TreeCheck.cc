@@ -94,6 +94,7 @@ void checkNodes(Check& check)
 /// that no corner of the object's box moves by a thousandth of a voxel.
 void checkTransform(Check& check)
 {
+    check.kind = FaultKind::Place;
     const SphereTree& tree = check.tree;
     const openvdb::CoordBBox& box = check.box;
     double farthest = 0;
@@ -114,6 +115,7 @@ void checkTransform(Check& check)
 /// What is recorded of the object is so.
 void checkObject(Check& check)
 {
+    check.kind = FaultKind::Counts;
     const ObjectInfo& info = check.tree.object;
     const auto compare = [&](const char* what, int64_t recorded, int64_t actual) {
         if (recorded == actual) return;
@@ -131,6 +133,7 @@ void checkObject(Check& check)
 /// What is recorded of level 0, whose voxels are the object's, is so.
 void checkTopology(Check& check)
 {
+    check.kind = FaultKind::Topology;
     const SphereTreeLevel& finest = check.tree.levels.front();
     if (finest.level != 0 || !finest.topology) return;
     const LevelTopology& recorded = *finest.topology;
@@ -173,6 +176,7 @@ void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTr
 /// Errors that are recorded are right; levels without one are not measured.
 void checkErrors(Check& check)
 {
+    check.kind = FaultKind::Errors;
     SphereTree copy = check.tree;
     const auto hasNone = [](const SphereTreeLevel& level) { return !level.error; };
     const auto end = std::remove_if(copy.levels.begin(), copy.levels.end(), hasNone);
@@ -192,6 +196,7 @@ void checkErrors(Check& check)
 /// @param where  what sentences about them begin with
 void checkRadii(Check& check, const Spheres& nodes, const char* where)
 {
+    check.kind = FaultKind::Radii;
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
@@ -218,6 +223,7 @@ void checkRadii(Check& check, const Spheres& nodes, const char* where)
 /// Every node but the root has a parent, on the next level up.
 void checkParents(Check& check)
 {
+    check.kind = FaultKind::Links;
     const SphereTree& tree = check.tree;
     reportAll(check, "", detail::parentDamage(tree));
     const bool endsAnywhere = isTight(tree); // at as many spheres as the settings say
@@ -230,6 +236,7 @@ void checkParents(Check& check)
 /// Edges are sorted, unique, and lead from a level to the one below it.
 void checkDag(Check& check)
 {
+    check.kind = FaultKind::Edges;
     reportAll(check, "", detail::edgeLevelDamage(check.tree.dag, check.tree));
     reportAll(check, "", detail::edgeOrderDamage(check.tree.dag));
 }
@@ -239,6 +246,7 @@ void checkDag(Check& check)
 /// model is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
 void checkDagEdges(Check& check)
 {
+    check.kind = FaultKind::Edges;
     const SphereTree& tree = check.tree;
     const PyramidOptions& options = tree.settings.pyramid();
     const bool shared = options.edges == DagEdges::Shared;
@@ -264,6 +272,7 @@ void checkDagEdges(Check& check)
 /// Extended and tight trees: every node above level 0 has a child.
 void checkChildren(Check& check)
 {
+    check.kind = FaultKind::Links;
     const SphereTree& tree = check.tree;
     std::vector<char> hasChild(tree.size(), 0);
     for (const int32_t parent : tree.spheres.parent) {
@@ -282,6 +291,7 @@ void checkChildren(Check& check)
 /// in world space.
 void checkLeavesContained(Check& check)
 {
+    check.kind = FaultKind::LeafBalls;
     const SphereTree& tree = check.tree;
     const detail::WorldDistance distance(tree);
     std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
@@ -311,12 +321,12 @@ bool containsLeaves(const SphereTree& tree)
 /// @return whether they are
 bool checkLinks(Check& check)
 {
-    const std::size_t before = check.failures.size();
+    const std::size_t before = check.faults.size();
     checkParents(check);
-    const bool parentsRight = check.failures.size() == before;
+    const bool parentsRight = check.faults.size() == before;
     checkDag(check);
     const SphereTree& tree = check.tree;
-    if (check.failures.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
+    if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
     if (tree.settings.type() != TreeType::Reversible) checkChildren(check);
     if (containsLeaves(tree)) checkLeavesContained(check);
@@ -340,17 +350,24 @@ void checkCovering(Check& check, bool parentsRight)
 
 } // namespace
 
-std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
+std::string toString(FaultKind kind)
+{
+    static const char* const kNames[] = {"shape", "place", "counts", "topology", "radii", "links",
+        "edges", "leaf balls", "digital balls", "coverage", "chains", "inside", "errors"};
+    return kNames[int(kind)];
+}
+
+std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree mask = detail::maskOf(object.tree());
     openvdb::CoordBBox box;
     mask.evalActiveVoxelBoundingBox(box);
-    Check check{tree, object, mask, box, interrupter, {}};
+    Check check{tree, object, mask, box, interrupter};
     checkShape(check);
     checkCutsLayout(check);
-    if (check.failures.empty()) checkNodes(check);
-    if (!check.failures.empty()) return check.failures;
+    if (check.faults.empty()) checkNodes(check);
+    if (!check.faults.empty()) return check.faults;
 
     checkTransform(check);
     checkObject(check);
@@ -361,7 +378,7 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     detail::checkDigitalBalls(check);
     checkCovering(check, parentsRight);
     checkErrors(check);
-    return check.failures;
+    return check.faults;
 }
 
 } // namespace openvdb_spheretree
