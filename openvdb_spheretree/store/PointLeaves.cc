@@ -4,6 +4,8 @@
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/LargeArray.h>
 
+#include <openvdb/points/PointGroup.h>
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -63,8 +65,8 @@ void checkRange(const std::vector<Vec3d>& positions)
 {
     if (positions.size() > std::size_t(std::numeric_limits<int32_t>::max())) {
         OPENVDB_THROW(openvdb::ValueError,
-            positions.size() << " points are more than a file can "
-                                "hold (2^31 - 1): use a larger voxel, or split the object");
+            positions.size() << " points are more than a file can hold (2^31 - 1): use a larger "
+                                "voxel, or split the object");
     }
     const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
     const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
@@ -79,19 +81,12 @@ void checkRange(const std::vector<Vec3d>& positions)
 
 } // namespace
 
-int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
-{
-    int scale = 1;
-    while (scale < kMaxPointScale && isTooFine(positions, scale)) scale *= 2;
-    return scale;
-}
-
 PointWriter::PointWriter(const std::vector<Vec3d>& positions)
     : mTree(std::make_shared<points::PointDataTree>())
 {
     openvdb::initialize(); // attribute types are made by name, from OpenVDB's registry
     checkRange(positions);
-    mScale = chooseScale(positions);
+    while (mScale < kMaxPointScale && isTooFine(positions, mScale)) mScale *= 2;
     const std::vector<Place> sorted = places(positions);
     buildLeaves(sorted);
 
@@ -161,17 +156,22 @@ void PointWriter::writeLeaf(
     mLeaves[leaf]->setOffsets(ends);
 }
 
-void PointWriter::setGroups(
-    PointLeaf& leaf, const std::vector<std::string>& names, const std::vector<int>& groups) const
+void PointWriter::addGroups(
+    const std::vector<std::string>& names, const std::function<int(uint32_t)>& groupOf)
 {
-    for (int group = 0; group < int(names.size()); ++group) {
-        if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;
-        points::GroupWriteHandle handle = leaf.groupWriteHandle(names[group]);
-        for (std::size_t n = 0; n < groups.size(); ++n) {
-            if (groups[n] == group) handle.set(Index(n), true);
+    points::appendGroups(*mTree, names);
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        std::vector<int> groups(countOf(i));
+        for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);
+        for (int group = 0; group < int(names.size()); ++group) {
+            if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;
+            points::GroupWriteHandle handle = mLeaves[i]->groupWriteHandle(names[group]);
+            for (std::size_t n = 0; n < groups.size(); ++n) {
+                if (groups[n] == group) handle.set(Index(n), true);
+            }
+            handle.compact();
         }
-        handle.compact();
-    }
+    });
 }
 
 points::PointDataGrid::Ptr PointWriter::finish(const openvdb::math::Transform& source) const

@@ -29,9 +29,10 @@ constexpr int kPointsFormat = 1;
 ///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 
-/// @brief The same grid, in about half the memory: the tree's arrays of nodes are released one by
-/// one, as soon as they are in the grid. What else the tree has stays: levels, settings, edges and
-/// cuts (whose grids are to be made before, since they take positions from the nodes).
+/// @brief The same grid, in about half the memory: the tree loses its nodes. Each of their arrays
+/// (`spheres`, `ijk`, `radiusSq`) is freed as soon as the grid has it, and is empty afterwards.
+/// Levels, settings, edges and cuts stay, but dagToPoints() and cutsToPoints() need the nodes: call
+/// them before.
 /// @throw openvdb::ValueError as above; the tree is then unchanged
 openvdb::points::PointDataGrid::Ptr releaseToPoints(SphereTree& tree);
 
