@@ -3,7 +3,6 @@
 
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
-#include <openvdb_spheretree/store/SphereTreeJson.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 namespace command {
