@@ -13,7 +13,6 @@
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,9 +31,7 @@ struct CheckReport {
     template <typename... Parts>
     void fail(const Parts&... parts)
     {
-        std::ostringstream sentence;
-        (sentence << ... << parts);
-        faults.push_back({kind, sentence.str()});
+        faults.push_back({kind, sentence(parts...)});
     }
 };
 
@@ -59,7 +56,7 @@ void checkCoverage(CheckReport& check);
 bool checkChains(CheckReport& check);
 
 /// The same for chains from the leaves of the cuts up to the cuts of 1, 2, 4, ... and all spheres.
-/// The arrays must be in order (CutsLayout.h).
+/// The arrays must be in order (cutsDamage()).
 void checkCutChains(CheckReport& check);
 
 /// No sphere of a level or a cut holds a voxel that the object has not.

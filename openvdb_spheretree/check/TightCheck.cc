@@ -6,7 +6,6 @@
 #include "ChainCheck.h"
 #include "CheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
-#include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
@@ -91,11 +90,8 @@ std::vector<ExactSphere> allSpheres(const SphereTree& tree, const SpheresOfLevel
 /// All nodes of the cuts as one level, which is how spheres are taken from a tree.
 SphereTree asOneLevel(const SphereTree& tree)
 {
-    SphereTree nodes;
+    SphereTree nodes = describedLike(tree);
     nodes.spheres = tree.cuts.spheres;
-    nodes.subdivision = tree.subdivision;
-    nodes.settings = tree.settings;
-    nodes.transform = tree.transform;
     nodes.levels.resize(1);
     nodes.levels[0].end = nodes.size();
     return nodes;

@@ -23,7 +23,6 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
-#include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>

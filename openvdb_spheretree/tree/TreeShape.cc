@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeShape.h"
 
-#include "CutsLayout.h"
-
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace openvdb_spheretree {
@@ -19,14 +16,6 @@ namespace {
 constexpr double kMaxCoordinate = 2147483648.0;
 /// A sum of two such squares, as distances have them, is of 63 bits.
 constexpr int64_t kMaxRadiusSq = int64_t(1) << 62;
-
-template <typename... Parts>
-std::string sentence(const Parts&... parts)
-{
-    std::ostringstream text;
-    (text << ... << parts);
-    return text.str();
-}
 
 /// A rule that one thing breaks.
 template <typename... Parts>
@@ -79,27 +68,10 @@ private:
     DagEdge mFirst;
 };
 
-bool inRange(const openvdb::Vec3d& center)
+template <typename Is>
+bool allAre(const openvdb::Vec3d& center, const Is& is)
 {
-    const auto is = [](double x) { return std::abs(x) <= kMaxCoordinate; }; // false of a NaN
     return is(center[0]) && is(center[1]) && is(center[2]);
-}
-
-bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
-{
-    const auto is = [&](double x) { return subdivision * x == std::floor(subdivision * x); };
-    return is(center[0]) && is(center[1]) && is(center[2]);
-}
-
-/// The place of every node's level among the levels.
-std::vector<int32_t> levelPlaces(const SphereTree& tree)
-{
-    std::vector<int32_t> places(std::size_t(tree.size()));
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        std::fill(
-            places.begin() + tree.levels[k].begin, places.begin() + tree.levels[k].end, int32_t(k));
-    }
-    return places;
 }
 
 void append(std::vector<Damage>& all, std::vector<Damage>&& more)
@@ -165,14 +137,16 @@ std::vector<Damage> levelDamage(const SphereTree& tree)
 
 std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision)
 {
+    const auto inRange = [](double x) { return std::abs(x) <= kMaxCoordinate; }; // false of a NaN
+    const auto isOfUnits = [&](double x) { return subdivision * x == std::floor(subdivision * x); };
     Breach centers, radii, stored;
     for (int32_t id = 0; id < spheres.size(); ++id) {
         const openvdb::Vec3d& center = spheres.center[id];
         const double radius = spheres.radius[id], world = spheres.radiusWorld[id];
         const int64_t radiusSq = spheres.coverRadiusSq[id];
-        if (!inRange(center)) {
+        if (!allAre(center, inRange)) {
             centers.add(id, " has the position ", center, ", which no sphere has");
-        } else if (!isOfUnits(center, subdivision)) {
+        } else if (!allAre(center, isOfUnits)) {
             centers.add(id, " has the position ", center, ", which is no multiple of 1/",
                 subdivision, " voxel");
         }
@@ -251,7 +225,11 @@ std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges)
 std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
 {
     if (edges.empty()) return {};
-    const std::vector<int32_t> places = levelPlaces(tree);
+    std::vector<int32_t> places(std::size_t(tree.size())); // of nodes' levels among the levels
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        std::fill(places.begin() + level.begin, places.begin() + level.end, int32_t(k));
+    }
     const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
     EdgeBreach wrong;
     for (const DagEdge& edge : edges) {

@@ -4,7 +4,7 @@
 ///
 /// A rule finds all that break it. Errors name the first of them with its values; reports count
 /// them. SphereTree::validate(), the readers and writers of files, the check of a tree and the rows
-/// of its DAG use these and no others. The rules of the cuts are those of CutsLayout.h.
+/// of its DAG use these and no others.
 
 #pragma once
 
@@ -12,11 +12,20 @@
 
 #include <cstdint>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 namespace openvdb_spheretree {
 namespace detail {
+
+template <typename... Parts>
+std::string sentence(const Parts&... parts)
+{
+    std::ostringstream text;
+    (text << ... << parts);
+    return text.str();
+}
 
 /// Nodes that break a rule: how many, and the first.
 class Offenders {
@@ -67,9 +76,18 @@ std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges);
 std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
 /// @}
 
-/// @return what is wrong by all rules above, those of cuts not asked; where the ranges of levels are
-///         wrong, nothing else is looked at.
+/// @return what is wrong by all rules above; where the ranges of levels are wrong, nothing else is
+///         looked at.
 std::vector<Damage> treeDamage(const SphereTree& tree);
+
+/// @brief The rules of cuts, spheres aside: arrays are alike in length; a node's parent comes after
+/// it, and begins with the cut of one sphere less than the node ends with; every node above the
+/// leaves has a child; and there is a cut of N nodes for every N from 1 to the number of leaves.
+/// @return what is wrong first, as the end of a sentence about the cuts; empty if all holds. Cost:
+///         linear.
+std::string cutsDamage(const SphereCuts& cuts);
+/// @return the number of spheres of the largest cut, which is that of the leaves; 0 of none.
+int32_t leavesOf(const SphereCuts& cuts);
 
 /// @throw openvdb::ValueError with the first, if there is any
 void throwFirst(const std::vector<Damage>& damage);
@@ -79,6 +97,10 @@ void requireCuts(const SphereCuts& cuts, int subdivision);
 
 /// @throw openvdb::ValueError naming the first edge that breaks a rule
 void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree);
+
+/// @return a tree without nodes and levels, and all else that @a tree knows beside them, edges and
+///         cuts.
+SphereTree describedLike(const SphereTree& tree);
 
 } // namespace detail
 } // namespace openvdb_spheretree
