@@ -20,21 +20,7 @@ using openvdb::MaskTree;
 
 std::string voxelsOf(const MaskDifference& difference)
 {
-    std::ostringstream text;
-    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels")
-         << " (first: " << difference.cubes.front().first() << ')';
-    return text.str();
-}
-
-/// The balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid.
-std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
-{
-    std::vector<ExactSphere> balls;
-    for (int32_t id = level.begin; id < level.end; ++id) {
-        balls.push_back(ExactSphere::around(
-            tree.ijk[id], 4 * tree.settings.dist().closedSq(tree.radiusSq[id])));
-    }
-    return balls;
+    return voxelsText(difference.voxels, difference.cubes.front().first());
 }
 
 /// @return whether some ball alone has more voxels than its level, which is reported. A damaged
@@ -74,15 +60,21 @@ double implausibleVoxels(const CheckReport& check, const SphereTreeLevel& level)
     return voxels;
 }
 
-/// Union of a level's digital balls; in 2-D, in their plane.
+/// Union of the balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid; in 2-D, in their
+/// plane.
 MaskTree::Ptr drawDigitalBalls(const CheckReport& check, const SphereTreeLevel& level)
 {
-    const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
-    const Distance& distance = check.tree.settings.dist();
+    const SphereTree& tree = check.tree;
+    const Distance& distance = tree.settings.dist();
+    std::vector<ExactSphere> balls;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        balls.push_back(
+            ExactSphere::around(tree.ijk[id], 4 * distance.closedSq(tree.radiusSq[id])));
+    }
     CoordBBox box = boundingBox(balls, distance);
-    if (check.tree.settings.dim == 2 && !box.empty()) {
-        const int flat = check.tree.flatAxis;
-        box.min()[flat] = box.max()[flat] = check.tree.ijk[level.begin][flat];
+    if (tree.settings.dim == 2 && !box.empty()) {
+        const int flat = tree.flatAxis;
+        box.min()[flat] = box.max()[flat] = tree.ijk[level.begin][flat];
     }
     return sphereUnion(balls, box, distance, check.interrupter);
 }
@@ -100,14 +92,8 @@ void checkRebuiltObject(CheckReport& check, const MaskTree& rebuilt)
     }
 }
 
-/// @return whether the nodes of a level are digital balls. In tight trees they may be spheres that
-/// are none, which have no volume to rebuild.
-bool hasDigitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
-{
-    const auto begin = tree.radiusSq.begin();
-    return std::find(begin + level.begin, begin + level.end, -1) == begin + level.end;
-}
-
+/// In tight trees, nodes of a level may be spheres that are no digital balls: there is no volume to
+/// rebuild.
 void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
 {
     if (level.pyramidVoxels != 0) {
@@ -131,16 +117,6 @@ void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
     }
 }
 
-/// Balls rebuild all voxels of their level, but for an extended tree, which above level 0 drops
-/// balls without children.
-void checkPyramidVoxels(CheckReport& check, const SphereTreeLevel& level, int64_t rebuilt)
-{
-    const bool all = level.level == 0 || check.tree.settings.type() != TreeType::Extended;
-    if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
-    check.fail("level ", level.level, " records ", level.pyramidVoxels,
-        " pyramid voxels, but its digital balls rebuild ", rebuilt);
-}
-
 /// @return object voxels that no sphere covers. Draws only where the object is.
 MaskDifference uncovered(const CheckReport& check, const std::vector<ExactSphere>& spheres)
 {
@@ -151,8 +127,7 @@ MaskDifference uncovered(const CheckReport& check, const std::vector<ExactSphere
 
 } // namespace
 
-/// The division by the voxel size may round down what was exact; hence the factor, far finer than
-/// floats.
+/// Dividing by the voxel size may round down what was exact. Hence the factor, far finer than floats.
 std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);
@@ -178,7 +153,8 @@ void checkDigitalBalls(CheckReport& check)
 {
     check.kind = FaultKind::DigitalBalls;
     for (const SphereTreeLevel& level : check.tree.levels) {
-        if (!hasDigitalBalls(check.tree, level)) {
+        const auto ids = check.tree.radiusSq.begin();
+        if (std::find(ids + level.begin, ids + level.end, -1) != ids + level.end) {
             checkNoVolume(check, level);
             continue;
         }
@@ -192,7 +168,12 @@ void checkDigitalBalls(CheckReport& check)
         if (ballsTooLarge(check, level, voxels)) continue;
         const MaskTree::Ptr rebuilt = drawDigitalBalls(check, level);
         if (finest) checkRebuiltObject(check, *rebuilt);
-        checkPyramidVoxels(check, level, countVoxels(*rebuilt));
+        // An extended tree drops balls without children above level 0.
+        const int64_t count = countVoxels(*rebuilt);
+        const bool fewer = !finest && check.tree.settings.type() == TreeType::Extended;
+        if (count == level.pyramidVoxels || (fewer && count < level.pyramidVoxels)) continue;
+        check.fail("level ", level.level, " records ", level.pyramidVoxels,
+            " pyramid voxels, but its digital balls rebuild ", count);
     }
 }
 

@@ -16,17 +16,6 @@ namespace openvdb_spheretree {
 namespace detail {
 namespace {
 
-const char kInExact[] = "the exact radii";
-const char kInStored[] = "the stored radii less their padding";
-
-std::string voxelsOf(const ChainLoss& loss)
-{
-    std::ostringstream text;
-    text << loss.voxels << (loss.voxels == 1 ? " voxel" : " voxels") << " (first: " << loss.first
-         << ')';
-    return text.str();
-}
-
 /// Calls report(section, loss) for sections that break chains, first in exact spheres and then in
 /// stored ones, unless those hold as much.
 /// @return whether any does
@@ -44,10 +33,10 @@ bool findBroken(CheckReport& check, ChainForest& forest, const std::vector<Exact
             anyBroken = true;
         }
     };
-    find(kInExact);
+    find("the exact radii");
     if (!anyBroken && noneSmaller(stored, forest.spheres)) return false;
     forest.spheres = stored;
-    find(kInStored);
+    find("the stored radii less their padding");
     return anyBroken;
 }
 
@@ -97,16 +86,6 @@ SphereTree asOneLevel(const SphereTree& tree)
     return nodes;
 }
 
-/// The cut of all leaves, and those of every power of two of spheres: finest first.
-std::vector<int32_t> checkedCuts(int32_t leaves)
-{
-    std::vector<int32_t> counts{leaves};
-    for (int64_t count = 1; count < leaves; count *= 2) {
-        counts.insert(counts.begin() + 1, int32_t(count));
-    }
-    return counts;
-}
-
 ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>& spheres,
     const std::vector<int32_t>& counts)
 {
@@ -142,7 +121,7 @@ void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, in
     const auto drawn = sphereUnion(spheres, check.box, metric, check.interrupter);
     const MaskDifference extra = maskDifference(*drawn, check.mask, check.interrupter);
     if (extra.voxels == 0) return;
-    check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cubes.front().first()}),
+    check.fail(name, " holds ", voxelsText(extra.voxels, extra.cubes.front().first()),
         " that the object has not, but its spheres lie inside");
 }
 
@@ -163,8 +142,8 @@ bool checkChains(CheckReport& check)
         const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
             if (section == 0 && first > 1) return; // told before
             const std::size_t level = section == 0 ? 0 : first + std::size_t(section) - 1;
-            check.fail("level ", level, " breaks the chain of spheres of ", voxelsOf(loss),
-                " of the object, in ", radii);
+            check.fail("level ", level, " breaks the chain of spheres of ",
+                voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
         };
         broken |= findBroken(check, forest, stored, report);
     }
@@ -176,11 +155,14 @@ void checkCutChains(CheckReport& check)
     check.kind = FaultKind::Chains;
     const SphereCuts& cuts = check.tree.cuts;
     const SphereTree nodes = asOneLevel(check.tree);
-    const std::vector<int32_t> counts = checkedCuts(leavesOf(cuts));
+    std::vector<int32_t> counts{leavesOf(cuts)}; // of all leaves, then powers of two: finest first
+    for (int64_t count = 1; count < counts[0]; count *= 2) {
+        counts.insert(counts.begin() + 1, int32_t(count));
+    }
     ChainForest forest = forestOfCuts(cuts, levelSpheres(nodes, nodes.levels[0]), counts);
     const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
         check.fail("the cut of ", counts[section], " spheres breaks the chain of spheres of ",
-            voxelsOf(loss), " of the object, in ", radii);
+            voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
     };
     findBroken(check, forest, storedSpheres(nodes, nodes.levels[0]), report);
 }

@@ -5,7 +5,7 @@
 /// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage draw
 /// it, without them.)
 ///
-/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
+/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on. If these
 ///    fail, nothing else is looked at
 /// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
 /// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
@@ -18,7 +18,6 @@
 #include "TreeCheck.h"
 
 #include "CheckReport.h"
-#include "WorldDistance.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
@@ -27,6 +26,7 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,35 +42,25 @@ bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }
 bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
 
+const char kInCuts[] = "in the cuts, ";
+
 void reportAll(Check& check, const char* where, const std::vector<detail::Damage>& damage)
 {
     for (const detail::Damage& rule : damage) check.fail(where, rule.all);
 }
 
-/// Arrays and levels, without which nothing else can be looked at.
+/// Arrays, levels and cuts, without which nothing else can be looked at. Cuts are there where the
+/// settings say so, and each is of as many spheres as it should be.
 void checkShape(Check& check)
 {
-    reportAll(check, "", detail::arrayDamage(check.tree));
-    reportAll(check, "", detail::unitDamage(check.tree.subdivision));
-    reportAll(check, "", detail::transformDamage(check.tree));
-    reportAll(check, "", detail::levelDamage(check.tree));
-}
-
-/// Cuts are there where the settings say so, and each is of as many spheres as it should be.
-void checkCutsLayout(Check& check)
-{
     const SphereTree& tree = check.tree;
+    reportAll(check, "", detail::arrayDamage(tree));
+    reportAll(check, "", detail::unitDamage(tree.subdivision));
+    reportAll(check, "", detail::transformDamage(tree));
+    reportAll(check, "", detail::levelDamage(tree));
     if (tree.hasCuts && tree.cuts.empty()) check.fail("the tree lacks the cuts it was made with");
     const std::string damage = detail::cutsDamage(tree.cuts);
-    if (!damage.empty()) check.fail("in the cuts, ", damage);
-}
-
-const char kInCuts[] = "in the cuts, ";
-
-bool isSquare(int32_t value)
-{
-    const int64_t root = detail::floorSqrt(value);
-    return root * root == value;
+    if (!damage.empty()) check.fail(kInCuts, damage);
 }
 
 void checkNodes(Check& check)
@@ -81,7 +71,8 @@ void checkNodes(Check& check)
     for (int32_t id = 0; id < tree.size(); ++id) {
         if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
         if (tree.radiusSq[id] < 1) balls.add(id);
-        else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
+        else if (norm && detail::square(detail::floorSqrt(tree.radiusSq[id])) != tree.radiusSq[id])
+            roots.add(id);
     }
     if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
     reportAll(check, "", detail::sphereDamage(tree.spheres, tree.subdivision));
@@ -146,11 +137,6 @@ void checkTopology(Check& check)
     compare("cavities", recorded.cavities, actual.cavities);
 }
 
-bool nearlyEqual(double a, double b)
-{
-    return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b));
-}
-
 void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
 {
     if (!actual.error) {
@@ -159,17 +145,19 @@ void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTr
     }
     const LevelError& r = *recorded.error;
     const LevelError& a = *actual.error;
-    const auto compare = [&](const char* what, auto was, auto is, bool same) {
+    const auto compare = [&](const char* what, auto was, auto is) {
+        bool same = was == is;
+        if constexpr (std::is_floating_point_v<decltype(is)>) {
+            same = std::abs(was - is) <= 1e-9 * std::max(1.0, std::abs(is));
+        }
         if (same) return;
         check.fail("level ", recorded.level, " records ", was, ' ', what, ", but it is ", is);
     };
-    compare("voxels covered", r.covered, a.covered, r.covered == a.covered);
-    compare("voxels of excess", r.excess, a.excess, r.excess == a.excess);
-    compare("voxels missing", r.missing, a.missing, r.missing == a.missing);
-    compare("% Hamming error", r.hammingPercent, a.hammingPercent,
-        nearlyEqual(r.hammingPercent, a.hammingPercent));
-    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff,
-        nearlyEqual(r.hausdorff, a.hausdorff));
+    compare("voxels covered", r.covered, a.covered);
+    compare("voxels of excess", r.excess, a.excess);
+    compare("voxels missing", r.missing, a.missing);
+    compare("% Hamming error", r.hammingPercent, a.hammingPercent);
+    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff);
 }
 
 /// Errors that are recorded are right; levels without one are not measured.
@@ -287,17 +275,25 @@ void checkChildren(Check& check)
 }
 
 /// Where nodes contain their leaf balls: the stored spheres contain those of the leaves below them,
-/// in world space.
+/// in world space. Distances are those of centers in the world, as a reader of the file has them.
+/// Norms have the axes of index space, whatever way the transform turns it: their lengths are scaled.
 void checkLeavesContained(Check& check)
 {
     check.kind = FaultKind::LeafBalls;
     const SphereTree& tree = check.tree;
-    const detail::WorldDistance distance(tree);
+    const Distance& distance = tree.settings.dist();
+    const bool euclidean = distance.isEuclidean();
+    const double scale = euclidean ? 1 : largestStretch(*tree.transform) / distance.unit();
+    const auto place = [&](int32_t id) {
+        return euclidean ? tree.centerWorld(id) : tree.spheres.center[id];
+    };
     std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
         for (int32_t t = tree.spheres.parent[leaf]; t >= 0; t = tree.spheres.parent[t]) {
-            const double needed = distance(leaf, t) + double(tree.spheres.radiusWorld[leaf]);
+            const openvdb::Vec3d d = place(leaf) - place(t);
+            const double apart = distance.length(d[0], d[1], d[2]) * scale;
+            const double needed = apart + double(tree.spheres.radiusWorld[leaf]);
             if (double(tree.spheres.radiusWorld[t]) < needed) sticksOut[t] = 1;
         }
     }
@@ -364,7 +360,6 @@ std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::Bo
     mask.evalActiveVoxelBoundingBox(box);
     Check check{tree, object, mask, box, interrupter};
     checkShape(check);
-    checkCutsLayout(check);
     if (check.faults.empty()) checkNodes(check);
     if (!check.faults.empty()) return check.faults;
 
