@@ -62,22 +62,14 @@ class ChainSearch {
 public:
     ChainSearch(const ChainForest& forest, const SphereMetric& metric);
 
-    Part whole(std::vector<VoxelCube>& cubes) const;
     /// @return the parts that are to be looked at in place of one; losses are added up.
     std::vector<Part> step(const Part& part, std::vector<ChainLoss>& losses) const;
 
 private:
     bool isLeaf(int32_t node) const { return mForest.sections[node] & 1; }
-    bool isLast(int32_t node) const
-    {
-        return mForest.sections[node] >> (mForest.sectionCount - 1) & 1;
-    }
-    bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const;
     Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const;
     void searchLeaf(
         const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
-    LeafMask chainedVoxels(
-        const Candidate& candidate, const LeafMask& below, const Coord& origin) const;
 
     const ChainForest& mForest;
     std::vector<ClippedSphere> mBalls;
@@ -96,16 +88,7 @@ ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) 
     }
 }
 
-Part ChainSearch::whole(std::vector<VoxelCube>& cubes) const
-{
-    auto all = std::make_shared<Candidates>();
-    for (int32_t node = 0; node < int32_t(mBalls.size()); ++node) {
-        all->push_back({node, mForest.parent[node], false, false});
-    }
-    return {cubes.data(), cubes.data() + cubes.size(), nullptr, all};
-}
-
-bool ChainSearch::reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box) const
+bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box)
 {
     for (int a = 0; a < 3; ++a) {
         if (ball.lo[a] > ball.hi[a]) return false;
@@ -166,34 +149,29 @@ std::vector<Part> ChainSearch::step(const Part& part, std::vector<ChainLoss>& lo
 {
     const openvdb::CoordBBox box = part.box();
     auto candidates = std::make_shared<Candidates>(narrowed(*part.candidates, box));
-    const bool done = std::any_of(candidates->begin(), candidates->end(),
-        [&](const Candidate& c) { return c.chainedAll && isLast(c.node); });
-    if (done) return {};
+    for (const Candidate& candidate : *candidates) {
+        const uint64_t sections = mForest.sections[candidate.node];
+        if (candidate.chainedAll && sections >> (mForest.sectionCount - 1) & 1) return {};
+    }
     if (part.end - part.begin > 1 || part.begin->size > kLeafDim)
         return split(part, box, candidates);
     searchLeaf(*part.begin, *candidates, losses);
     return {};
 }
 
-/// @param below  S of the children, of a leaf the object's voxels
-LeafMask ChainSearch::chainedVoxels(
-    const Candidate& candidate, const LeafMask& below, const Coord& origin) const
-{
-    if (candidate.holdsAll || below.none()) return below;
-    LeafMask held{};
-    addVoxelsOf(mBalls[candidate.node], origin, held);
-    return held & below;
-}
-
 void ChainSearch::searchLeaf(
     const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const
 {
-    std::vector<LeafMask> below(candidates.size(), LeafMask{});
+    std::vector<LeafMask> below(candidates.size(), LeafMask{}); // S of the children
     std::array<LeafMask, ChainForest::kMaxSections> chained{};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
-        const LeafMask& under = isLeaf(candidate.node) ? leaf.mask : below[i];
-        const LeafMask voxels = chainedVoxels(candidate, under, leaf.origin);
+        LeafMask voxels = isLeaf(candidate.node) ? leaf.mask : below[i];
+        if (!candidate.holdsAll && !voxels.none()) {
+            LeafMask held{};
+            addVoxelsOf(mBalls[candidate.node], leaf.origin, held);
+            voxels &= held;
+        }
         if (candidate.parent >= 0) below[candidate.parent] |= voxels;
         for (uint64_t rest = mForest.sections[candidate.node]; rest != 0; rest &= rest - 1) {
             chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))] |= voxels;
@@ -223,11 +201,16 @@ std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetri
     std::vector<ChainLoss> losses(std::size_t(forest.sectionCount));
     std::vector<VoxelCube> cubes = maskDifference(object, openvdb::MaskTree(), interrupter).cubes;
     if (cubes.empty() || forest.sectionCount == 0) return losses;
+    auto all = std::make_shared<Candidates>();
+    for (int32_t node = 0; node < int32_t(forest.spheres.size()); ++node) {
+        all->push_back({node, forest.parent[node], false, false});
+    }
+    const Part whole{cubes.data(), cubes.data() + cubes.size(), nullptr, all};
     const ChainSearch search(forest, metric);
     const auto step = [&](const Part& part, std::vector<ChainLoss>& lost) {
         return search.step(part, lost);
     };
-    for (const auto& some : divideRegions(search.whole(cubes), losses, step, interrupter)) {
+    for (const auto& some : divideRegions(whole, losses, step, interrupter)) {
         for (std::size_t s = 0; s < losses.size(); ++s) losses[s].add(some[s]);
     }
     return losses;

@@ -86,23 +86,6 @@ SphereTree asOneLevel(const SphereTree& tree)
     return nodes;
 }
 
-ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>& spheres,
-    const std::vector<int32_t>& counts)
-{
-    ChainForest forest;
-    forest.spheres = spheres;
-    forest.parent = cuts.spheres.parent;
-    forest.sectionCount = int(counts.size());
-    forest.sections.assign(spheres.size(), 0);
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        for (std::size_t s = 0; s < counts.size(); ++s) {
-            const bool in = cuts.first[i] <= counts[s] && counts[s] <= cuts.last[i];
-            if (in) forest.sections[i] |= uint64_t(1) << s;
-        }
-    }
-    return forest;
-}
-
 /// Spheres reaching beyond the object's box would be drawn at any size.
 /// @param firstId  of the spheres
 void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, int32_t firstId,
@@ -159,7 +142,17 @@ void checkCutChains(CheckReport& check)
     for (int64_t count = 1; count < counts[0]; count *= 2) {
         counts.insert(counts.begin() + 1, int32_t(count));
     }
-    ChainForest forest = forestOfCuts(cuts, levelSpheres(nodes, nodes.levels[0]), counts);
+    ChainForest forest;
+    forest.spheres = levelSpheres(nodes, nodes.levels[0]);
+    forest.parent = cuts.spheres.parent;
+    forest.sectionCount = int(counts.size());
+    forest.sections.assign(forest.spheres.size(), 0);
+    for (std::size_t i = 0; i < forest.spheres.size(); ++i) {
+        for (std::size_t s = 0; s < counts.size(); ++s) {
+            const bool in = cuts.first[i] <= counts[s] && counts[s] <= cuts.last[i];
+            if (in) forest.sections[i] |= uint64_t(1) << s;
+        }
+    }
     const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
         check.fail("the cut of ", counts[section], " spheres breaks the chain of spheres of ",
             voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
