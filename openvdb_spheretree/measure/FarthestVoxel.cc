@@ -5,7 +5,7 @@
 /// A box of voxels with center c and half diagonal r is dismissed when an object voxel lies within
 /// B - r of c, for then no voxel of the box is farther than B.
 ///
-/// 1. seed: the exact distances of some samples, then all of the cube that the farthest one is in.
+/// 1. The exact distances of some samples, then all of the cube that the farthest one is in.
 /// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any larger
 ///    cube stand together. The box of such a cube is dismissed, or the cube is split in eight, down
 ///    to single leaves. Tiles are split likewise.
@@ -78,7 +78,11 @@ public:
     void visitGroup(const PlacedLeaf* begin, const PlacedLeaf* end, int32_t size, LeafReach& reach)
     {
         if (end - begin == 1) return visit(*begin->leaf, reach);
-        if (dismissed(boxOf(begin, end))) return;
+        CoordBBox box;
+        for (const PlacedLeaf* placed = begin; placed != end; ++placed) {
+            box.expand(CoordBBox::createCube(placed->leaf->origin, kLeafDim));
+        }
+        if (dismissed(box)) return;
         while (begin != end) {
             const uint32_t part = begin->partOf(size);
             const PlacedLeaf* const first = begin;
@@ -104,15 +108,6 @@ private:
         return mObject.anyWithin(center2, int64_t(reach * reach * kLess));
     }
 
-    static CoordBBox boxOf(const PlacedLeaf* begin, const PlacedLeaf* end)
-    {
-        CoordBBox box;
-        for (; begin != end; ++begin) {
-            box.expand(CoordBBox::createCube(begin->leaf->origin, kLeafDim));
-        }
-        return box;
-    }
-
     /// Visits voxels of a leaf until none is left, each with all that are within B of the object
     /// voxel nearest to it: one search settles many voxels.
     void visitLeaf(const Coord& origin, LeafMask left, LeafReach& reach)
@@ -123,17 +118,11 @@ private:
             const Coord voxel = VoxelCube{origin, kLeafDim, left}.first();
             Coord nearest;
             raiseTo(mBestSq2, mObject.nearest(voxel, nearest));
-            LeafMask settled = voxelsWithin(nearest, origin);
+            const ExactSphere near = ExactSphere::around(nearest, bestSq2());
+            LeafMask settled = voxelsOf(near, /*shift=*/1, origin, mObject.distance());
             settled.setOn(leafIndex(voxel)); // however far it is
             left -= settled;
         }
-    }
-
-    /// @return the voxels of a leaf within B of an object voxel.
-    LeafMask voxelsWithin(const Coord& voxel, const Coord& origin) const
-    {
-        const ExactSphere near = ExactSphere::around(voxel, bestSq2());
-        return voxelsOf(near, /*shift=*/1, origin, mObject.distance());
     }
 
     const openvdb::MaskTree& mMask;
@@ -208,45 +197,22 @@ private:
     LeafReach mReach;
 };
 
-void seed(
-    FarthestSearch& search, const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples)
-{
-    constexpr std::size_t kSamples = 512;
-    const std::size_t step = samples.size() / kSamples + 1;
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-        const int64_t before = search.bestSq2();
-        if (search.visitVoxel(samples[i].voxel) > before) best = i;
-    }
-    NodeSearch().visit(search, set, samples[best]);
-}
-
-/// Counts nodes. Memory of one thread.
-class NodeCount {
-public:
-    void count(const MaskMinus& set, std::size_t node, VoxelCount& result)
-    {
-        set.cubes(node, mCubes);
-        uint32_t seen = 0; // eighths
-        for (const VoxelCube& cube : mCubes) {
-            result.voxels += cube.voxels();
-            const uint32_t eighth = 1u << (mortonOf(cube.origin) >> 9);
-            if (!(seen & eighth)) result.samples.push_back({node, cube.first()});
-            seen |= eighth;
-        }
-    }
-
-private:
-    std::vector<VoxelCube> mCubes;
-};
-
 } // namespace
 
 VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<VoxelCount> counts(set.nodeCount());
-    parallelForWithScratch<NodeCount>(counts.size(), interrupter,
-        [&](std::size_t node, NodeCount& scratch) { scratch.count(set, node, counts[node]); });
+    using Cubes = std::vector<VoxelCube>;
+    parallelForWithScratch<Cubes>(counts.size(), interrupter, [&](std::size_t node, Cubes& cubes) {
+        set.cubes(node, cubes);
+        uint32_t seen = 0; // eighths
+        for (const VoxelCube& cube : cubes) {
+            counts[node].voxels += cube.voxels();
+            const uint32_t eighth = 1u << (mortonOf(cube.origin) >> 9);
+            if (!(seen & eighth)) counts[node].samples.push_back({node, cube.first()});
+            seen |= eighth;
+        }
+    });
     VoxelCount all;
     for (const VoxelCount& count : counts) {
         all.voxels += count.voxels;
@@ -261,7 +227,14 @@ int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sampl
 {
     if (samples.empty()) return 0;
     FarthestSearch search(mask, object);
-    seed(search, set, samples);
+    constexpr std::size_t kSamples = 512; // whose distances are the seed
+    const std::size_t step = samples.size() / kSamples + 1;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+        const int64_t before = search.bestSq2();
+        if (search.visitVoxel(samples[i].voxel) > before) best = i;
+    }
+    NodeSearch().visit(search, set, samples[best]);
     parallelForWithScratch<NodeSearch>(set.nodeCount(), interrupter,
         [&](std::size_t node, NodeSearch& scratch) { scratch.visit(search, set, node); });
     return search.bestSq2() / 4;

@@ -48,7 +48,6 @@ private:
     void order(const Distance& distance, int64_t limitSq);
     bool gather(const openvdb::MaskTree& object, const openvdb::Coord& origin);
     void widen();
-    uint64_t slice(int x, const Offset& offset) const;
 
     Distance mDistance;
     int64_t mLimitSq = -1;
