@@ -14,18 +14,6 @@
 
 namespace openvdb_spheretree {
 
-namespace {
-
-/// Norms have everything in memory, always.
-void planNorm(const LeafLayout& layout, MemoryPlan& plan)
-{
-    plan.needed = normBytes(layout);
-    plan.slabsAtATime = plan.slabs;
-    detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
-}
-
-} // namespace
-
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
 {
@@ -33,8 +21,10 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
     plan.slabs = layout.slabCount();
-    if (!settings.dist().isEuclidean()) {
-        planNorm(layout, plan);
+    if (!settings.dist().isEuclidean()) { // norms have everything in memory, always
+        plan.needed = normBytes(layout);
+        plan.slabsAtATime = plan.slabs;
+        detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
         return plan;
     }
     slab::LabelStream stream(layout, settings.dim);

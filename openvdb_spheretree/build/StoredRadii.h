@@ -19,7 +19,7 @@ namespace detail {
 void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter);
 
 /// @brief Make stored spheres contain the stored leaf spheres below them.
-/// @param radii  of nodes: they contain the leaf balls below; of leaves, they do not matter
+/// @param radii  of nodes, in voxels: they contain the leaf balls below. Those of leaves are not read
 /// @throw openvdb::ValueError if a radius does not fit a float
 void containStoredLeaves(SphereTree& tree, const std::vector<double>& radii,
     openvdb::util::NullInterrupter* interrupter);
