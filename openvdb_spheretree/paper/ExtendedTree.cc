@@ -72,38 +72,14 @@ LevelNodes keepParents(
     return kept;
 }
 
-/// The largest of some sums of two roots, exactly. Roots of doubles tell nearly always which of two
-/// sums is the larger: exact arithmetic is for those that may be.
-class LargestSum {
-public:
-    void add(const RootSum& sum)
-    {
-        mLeast = std::max(mLeast, nearly(sum) * (1 - kDoubt));
-        mRadius = std::max(mRadius, sum.radius());
-        mCoverSq = std::max(mCoverSq, sum.coverSq());
-    }
-    /// A smaller double is of a smaller sum, which need not be added.
-    double least() const { return mLeast; }
-    double radius() const { return mRadius; }
-    int64_t coverSq() const { return mCoverSq; }
-
-    /// @return twice the radius.
-    static double nearly(const RootSum& sum)
-    {
-        return std::sqrt(double(sum.a)) + std::sqrt(double(sum.b));
-    }
-    static constexpr double kDoubt = 1e-12; ///< of a root, and of a sum, 1e-15
-
-private:
-    double mLeast = 0, mRadius = 0;
-    int64_t mCoverSq = 0;
-};
-
-/// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
+/// The smallest radii, around the nodes' own centers, that contain the leaf balls below them. Roots
+/// of doubles tell nearly always which of two leaf balls reaches farther: exact arithmetic is for
+/// those that may be the farthest.
 /// @param levels  those below, and the nodes' own at the end
 void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>& below,
     const BuildContext& context)
 {
+    constexpr double kDoubt = 1e-12; // of a sum of roots, whose error is 1e-15
     const int level = int(levels.size()) - 1;
     LevelNodes& nodes = levels.back();
     std::vector<LevelFrame> frames;
@@ -120,45 +96,33 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>
     resizeLarge(nodes.coverSq, nodes.balls.size());
     const auto fit = [&](std::size_t t, FarthestLeaves& leaves) {
         const Doubled center = centerOf(level, int32_t(t));
-        const auto sumOf = [&](int32_t leaf) -> RootSum {
-            const int64_t apart = distanceSq(centerOf(0, leaf), center, distance);
-            return {apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // it has no b
-        };
         const auto reach = [&](int k, int32_t node) {
             const Doubled c = centerOf(k, node);
             const double apart = distance.length(
                 double(c.x - center.x), double(c.y - center.y), double(c.z - center.z));
             const double width =
                 k == 0 ? widthOf(levels[0].balls[node]) : 2 * levels[k].radius[node];
-            return (apart + width) * (1 + LargestSum::kDoubt);
+            return (apart + width) * (1 + kDoubt);
         };
-        LargestSum largest;
+        double most = 0; // twice the radius: a smaller double is of a smaller sum
         leaves.search(level, int32_t(t), reach, [&](int32_t leaf) {
-            largest.add(sumOf(leaf));
-            return largest.least();
+            const int64_t apart = distanceSq(centerOf(0, leaf), center, distance);
+            const RootSum sum{apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // no b
+            most = std::max(
+                most, (std::sqrt(double(sum.a)) + std::sqrt(double(sum.b))) * (1 - kDoubt));
+            nodes.radius[t] = std::max(nodes.radius[t], sum.radius());
+            nodes.coverSq[t] = std::max(nodes.coverSq[t], sum.coverSq());
+            return most;
         });
-        nodes.radius[t] = largest.radius();
-        nodes.coverSq[t] = largest.coverSq();
     };
     parallelForWith(
         nodes.balls.size(), context.interrupter, [&] { return FarthestLeaves(below); }, fit);
-}
-
-CoordBBox parentBox(const CoordBBox& box, const PyramidStep& step)
-{
-    return CoordBBox(step.parentVoxel(box.min()), step.parentVoxel(box.max()));
 }
 
 /// The boxes that bound a level.
 struct Boxes {
     CoordBBox pyramid; ///< of the object's own OR pyramid
     CoordBBox clip;    ///< the same, unless a custom model has added voxels outside of it
-
-    void coarsen(const PyramidStep& step)
-    {
-        pyramid = parentBox(pyramid, step);
-        clip = parentBox(clip, step);
-    }
 };
 
 /// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9
@@ -173,9 +137,8 @@ MaskTree::Ptr reconstruct(
     parallelFor(spheres.size(), context.interrupter, [&](std::size_t i) {
         const double limit = nodes.radius[i] / scale * (1 + 1e-9);
         const auto whole = int64_t(limit);
-        const Coord& c = nodes.balls[i].center;
-        spheres[i] = {{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)};
+        spheres[i] = ExactSphere::around(nodes.balls[i].center,
+            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole));
     });
     if (context.settings.extended().reconstruct == Reconstruction::Free) {
         const CoordBBox free = boundingBox(spheres, distance);
@@ -210,7 +173,10 @@ void useReconstructionRadii(std::vector<LevelNodes>& levels, const BuildContext&
 MaskTree::Ptr nextVoxels(
     const MaskTree& voxels, int level, const BuildContext& context, Boxes& boxes)
 {
-    boxes.coarsen(context.stepFrom(level));
+    const PyramidStep step = context.stepFrom(level);
+    for (CoordBBox* box : {&boxes.pyramid, &boxes.clip}) {
+        *box = CoordBBox(step.parentVoxel(box->min()), step.parentVoxel(box->max()));
+    }
     const bool last = boxes.pyramid.volume() == 1;
     if (context.settings.extended().reconstruct == Reconstruction::Free && last) {
         auto single = std::make_shared<MaskTree>(false);

@@ -30,13 +30,6 @@ double reach(const Vec3d& from, const RealBall& ball)
     return (ball.center - from).length() + ball.radius;
 }
 
-double farthestReach(const Vec3d& from, const Few& few)
-{
-    double most = 0;
-    for (int i = 0; i < few.count; ++i) most = std::max(most, reach(from, few.balls[i]));
-    return most;
-}
-
 /// Solves symmetric systems of up to three equations by elimination. With two right-hand sides.
 struct Equations {
     double matrix[3][3], right[3][2];
@@ -121,7 +114,8 @@ Decision decide(const Few& few)
     Decision best;
     best.ball.radius = std::numeric_limits<double>::infinity();
     const auto tryCenter = [&](const Vec3d& center, const Few& deciding) {
-        const double radius = farthestReach(center, few);
+        double radius = 0;
+        for (int i = 0; i < few.count; ++i) radius = std::max(radius, reach(center, few.balls[i]));
         if (radius < best.ball.radius) best = {{center, radius}, deciding};
     };
     for (int subset = 0; subset < 1 << others; ++subset) {

@@ -88,7 +88,6 @@ public:
     }
 
 private:
-    void findLeaves(int32_t x);
     template <typename MaskOf>
     uint64_t spread(const MaskOf& maskOf) const;
 
