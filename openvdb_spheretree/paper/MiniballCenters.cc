@@ -26,9 +26,6 @@ struct FittedSphere {
     double radius = 0;               ///< voxels
 };
 
-/// RootSum is made for halves of voxels: sums of units come out twice as large.
-double voxelsOf(const RootSum& sum) { return sum.radius() * 2 / double(kUnits); }
-
 /// Which leaf balls are below which node of a level.
 class LeafBalls {
 public:
@@ -87,7 +84,8 @@ void measure(
         if (reach(leaf) < most * (1 - 1e-12)) continue;
         const RootSum needed{apartSq(tree, leaf, sphere.exact), leaves.fineRadiusSq(leaf)};
         sphere.exact.radiusSq = std::max(sphere.exact.radiusSq, needed.coverSq());
-        sphere.radius = std::max(sphere.radius, voxelsOf(needed));
+        // RootSum is made for halves of voxels.
+        sphere.radius = std::max(sphere.radius, needed.radius() * 2 / double(kUnits));
     }
 }
 
@@ -108,36 +106,6 @@ FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves, con
     }
     measure(sphere, tree, leaves, below);
     return sphere;
-}
-
-/// The medial centre of a node; around it the radius that the leaf balls below need.
-FittedSphere aroundMedialCentre(
-    const SphereTree& tree, int32_t id, const LeafBalls& leaves, const NodeSpan& below)
-{
-    FittedSphere sphere;
-    for (int axis = 0; axis < 3; ++axis) {
-        sphere.exact.center[axis] = std::llround(double(kUnits) * tree.spheres.center[id][axis]);
-    }
-    measure(sphere, tree, leaves, below);
-    return sphere;
-}
-
-void store(SphereTree& tree, int32_t id, const FittedSphere& sphere)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        tree.spheres.center[id][axis] = double(sphere.exact.center[axis]) / double(kUnits);
-    }
-    tree.spheres.coverRadiusSq[id] = sphere.exact.radiusSq;
-    tree.spheres.radius[id] = sphere.radius;
-}
-
-/// The node's own sphere, in finer units: the same voxels.
-void refineOwn(SphereTree& tree, int32_t id, const LevelFrame& frame)
-{
-    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
-    const RootSum own = frame.radius(tree.radiusSq[id]);
-    const RootSum fine{own.a * kFiner, own.b * kFiner};
-    tree.spheres.coverRadiusSq[id] = fine.coverSq();
 }
 
 /// In the finer units squares are 64 times as large.
@@ -163,6 +131,8 @@ void requireRoom(const SphereTree& tree)
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
     requireRoom(tree);
+    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
+    Spheres& spheres = tree.spheres;
     const bool extended = tree.settings.type() == TreeType::Extended;
     LeafBalls leaves(tree);
     for (const SphereTreeLevel& level : tree.levels) {
@@ -173,13 +143,26 @@ void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interru
             level.size(), interrupter, [&](std::size_t place, std::vector<RealBall>& scratch) {
                 const int32_t id = level.begin + int32_t(place);
                 const auto below = inner ? leaves.below(int32_t(place)) : NodeSpan{};
-                if (below.empty()) return refineOwn(tree, id, frame);
+                if (below.empty()) { // its own sphere in finer units: the same voxels
+                    const RootSum own = frame.radius(tree.radiusSq[id]);
+                    spheres.coverRadiusSq[id] = RootSum{own.a * kFiner, own.b * kFiner}.coverSq();
+                    return;
+                }
                 FittedSphere best = smallestSphere(tree, leaves, below, scratch);
+                openvdb::Vec3d& center = spheres.center[id];
                 if (extended) {
-                    const FittedSphere medial = aroundMedialCentre(tree, id, leaves, below);
+                    FittedSphere medial; // around the medial center
+                    for (int a = 0; a < 3; ++a) {
+                        medial.exact.center[a] = std::llround(double(kUnits) * center[a]);
+                    }
+                    measure(medial, tree, leaves, below);
                     if (medial.exact.radiusSq < best.exact.radiusSq) best = medial;
                 }
-                store(tree, id, best);
+                for (int a = 0; a < 3; ++a) {
+                    center[a] = double(best.exact.center[a]) / double(kUnits);
+                }
+                spheres.coverRadiusSq[id] = best.exact.radiusSq;
+                spheres.radius[id] = best.radius;
             });
     }
     tree.subdivision = kMiniballSubdivision;

@@ -154,9 +154,8 @@ openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, 
     if (options.customModel && scale > LevelFrame::kMaxScale) {
         OPENVDB_THROW(openvdb::ValueError,
             "the tree does not end: level "
-                << level
-                << " still has several spheres, since the "
-                   "pyramid model adds voxels as fast as levels shrink");
+                << level << " still has several spheres, since the pyramid model adds voxels as "
+                << "fast as levels shrink");
     }
     const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
     openvdb::CoordBBox box;
