@@ -9,7 +9,6 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>
-#include <memory>
 #include <sstream>
 
 namespace openvdb_spheretree {

@@ -24,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 
 namespace openvdb_spheretree {

@@ -8,7 +8,7 @@
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on. If these
 ///    fail, nothing else is looked at
 /// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
-/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
+/// 3. checkRadii, checkParents, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (CoverageCheck.cc), and
 ///    checkChains, checkCutChains, checkInside: those of tight trees (TightCheck.cc)
@@ -220,20 +220,11 @@ void checkParents(Check& check)
     }
 }
 
-/// Edges are sorted, unique, and lead from a level to the one below it.
-void checkDag(Check& check)
-{
-    check.kind = FaultKind::Edges;
-    reportAll(check, "", detail::edgeLevelDamage(check.tree.dag, check.tree));
-    reportAll(check, "", detail::edgeOrderDamage(check.tree.dag));
-}
-
 /// The edges are those of the object, none more and none less. What a voxel witnesses is found by
 /// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom
-/// model is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
+/// model is not at hand (files hold none) cannot be built again: its edges are not looked at here.
 void checkDagEdges(Check& check)
 {
-    check.kind = FaultKind::Edges;
     const SphereTree& tree = check.tree;
     const PyramidOptions& options = tree.settings.pyramid();
     const bool shared = options.edges == DagEdges::Shared;
@@ -312,15 +303,17 @@ bool containsLeaves(const SphereTree& tree)
     return pyramid && (settings.find<ExtendedOptions>() || pyramid->center == Center::Miniball);
 }
 
-/// The checks of links, those that follow parents only if parents are in order.
+/// The checks of links and edges. Those that follow parents need parents in order.
 /// @return whether they are
 bool checkLinks(Check& check)
 {
+    const SphereTree& tree = check.tree;
     const std::size_t before = check.faults.size();
     checkParents(check);
     const bool parentsRight = check.faults.size() == before;
-    checkDag(check);
-    const SphereTree& tree = check.tree;
+    check.kind = FaultKind::Edges;
+    reportAll(check, "", detail::edgeLevelDamage(tree.dag, tree));
+    reportAll(check, "", detail::edgeOrderDamage(tree.dag));
     if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
     if (tree.settings.type() != TreeType::Reversible) checkChildren(check);

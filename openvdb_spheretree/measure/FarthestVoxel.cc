@@ -146,13 +146,22 @@ public:
     void visit(FarthestSearch& search, const MaskMinus& set, std::size_t node)
     {
         set.cubes(node, mCubes);
-        for (std::size_t begin = 0, end; begin < mCubes.size(); begin = end) {
-            end = endOfNode(begin);
-            if (mCubes[begin].size > kLeafDim) {
-                search.visit(mCubes[begin], mReach);
+        const auto nodeOf = [](const VoxelCube& leaf) { return leaf.origin & ~127; };
+        for (std::size_t i = 0; i < mCubes.size();) {
+            if (mCubes[i].size > kLeafDim) {
+                search.visit(mCubes[i++], mReach);
                 continue;
             }
-            sort(begin, end);
+            // The leaves that are in one node of 128.
+            const Coord node = nodeOf(mCubes[i]);
+            mAt.assign(kPlaces, nullptr);
+            for (; i < mCubes.size() && mCubes[i].size == kLeafDim && nodeOf(mCubes[i]) == node;
+                 ++i)
+                mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
+            mPlaced.clear();
+            for (uint32_t place = 0; place < kPlaces; ++place) {
+                if (mAt[place]) mPlaced.push_back({mAt[place], place});
+            }
             search.visitGroup(mPlaced.data(), mPlaced.data() + mPlaced.size(), 128, mReach);
         }
     }
@@ -167,29 +176,6 @@ public:
     }
 
 private:
-    /// @return behind the leaves that are in one node of 128; or behind one larger cube.
-    std::size_t endOfNode(std::size_t begin) const
-    {
-        const auto nodeOf = [](const VoxelCube& leaf) { return leaf.origin & ~127; };
-        std::size_t end = begin + 1;
-        if (mCubes[begin].size > kLeafDim) return end;
-        while (end < mCubes.size() && mCubes[end].size == kLeafDim
-            && nodeOf(mCubes[end]) == nodeOf(mCubes[begin])) {
-            ++end;
-        }
-        return end;
-    }
-
-    void sort(std::size_t begin, std::size_t end)
-    {
-        mAt.assign(kPlaces, nullptr);
-        for (std::size_t i = begin; i < end; ++i) mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
-        mPlaced.clear();
-        for (uint32_t place = 0; place < kPlaces; ++place) {
-            if (mAt[place]) mPlaced.push_back({mAt[place], place});
-        }
-    }
-
     static constexpr uint32_t kPlaces = 16 * 16 * 16;
     std::vector<VoxelCube> mCubes;
     std::vector<const VoxelCube*> mAt; ///< by place

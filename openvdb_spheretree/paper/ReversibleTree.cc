@@ -14,8 +14,6 @@
 #include "TreeLevels.h"
 #include <openvdb_spheretree/base/Stage.h>
 
-#include <memory>
-
 namespace openvdb_spheretree {
 namespace detail {
 

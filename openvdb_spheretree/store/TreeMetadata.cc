@@ -6,7 +6,6 @@
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
-#include <cmath>
 #include <limits>
 
 namespace openvdb_spheretree {

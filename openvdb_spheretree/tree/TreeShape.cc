@@ -46,38 +46,28 @@ private:
     std::string mFirst;
 };
 
-/// What breaks one rule about edges.
-class EdgeBreach {
-public:
-    void add(const DagEdge& edge)
-    {
-        if (mCount++ == 0) mFirst = edge;
+/// @param isWrong  of an edge's place
+/// @param all      what the edges do that break the rule; @a first: what the first of them does
+template <typename IsWrong>
+std::vector<Damage> edgeDamage(
+    const std::vector<DagEdge>& edges, const IsWrong& isWrong, const char* all, const char* first)
+{
+    int64_t count = 0;
+    DagEdge edge; // the first
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (isWrong(i) && count++ == 0) edge = edges[i];
     }
-
-    void report(std::vector<Damage>& damage, const char* all, const char* first) const
-    {
-        if (mCount == 0) return;
-        damage.push_back({sentence(mCount, " edges of the DAG ", all, " (first: ", mFirst.parent,
-                              " to ", mFirst.child, ')'),
-            sentence("the edge of the DAG from node ", mFirst.parent, " to node ", mFirst.child,
-                ' ', first)});
-    }
-
-private:
-    int64_t mCount = 0;
-    DagEdge mFirst;
-};
+    if (count == 0) return {};
+    return {{sentence(count, " edges of the DAG ", all, " (first: ", edge.parent, " to ",
+                 edge.child, ')'),
+        sentence(
+            "the edge of the DAG from node ", edge.parent, " to node ", edge.child, ' ', first)}};
+}
 
 template <typename Is>
 bool allAre(const openvdb::Vec3d& center, const Is& is)
 {
     return is(center[0]) && is(center[1]) && is(center[2]);
-}
-
-void append(std::vector<Damage>& all, std::vector<Damage>&& more)
-{
-    all.insert(
-        all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 } // namespace
@@ -213,13 +203,9 @@ std::vector<Damage> parentDamage(const SphereTree& tree)
 
 std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges)
 {
-    EdgeBreach unsorted;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        if (!(edges[i - 1] < edges[i])) unsorted.add(edges[i]);
-    }
-    std::vector<Damage> damage;
-    unsorted.report(damage, "are out of order or repeated", "is out of order or there twice");
-    return damage;
+    return edgeDamage(
+        edges, [&](std::size_t i) { return i > 0 && !(edges[i - 1] < edges[i]); },
+        "are out of order or repeated", "is out of order or there twice");
 }
 
 std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
@@ -231,30 +217,30 @@ std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const Sph
         std::fill(places.begin() + level.begin, places.begin() + level.end, int32_t(k));
     }
     const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
-    EdgeBreach wrong;
-    for (const DagEdge& edge : edges) {
-        const bool right = exists(edge.parent) && exists(edge.child)
-            && places[edge.parent] == places[edge.child] + 1;
-        if (!right) wrong.add(edge);
-    }
-    std::vector<Damage> damage;
-    wrong.report(damage, "do not lead to the next level down",
+    const auto isWrong = [&](std::size_t i) {
+        const int32_t parent = edges[i].parent, child = edges[i].child;
+        return !exists(parent) || !exists(child) || places[parent] != places[child] + 1;
+    };
+    return edgeDamage(edges, isWrong, "do not lead to the next level down",
         "does not lead to a node of the next level down");
-    return damage;
 }
 
 std::vector<Damage> treeDamage(const SphereTree& tree)
 {
-    std::vector<Damage> damage = arrayDamage(tree);
-    append(damage, unitDamage(tree.subdivision));
-    append(damage, transformDamage(tree));
-    append(damage, levelDamage(tree));
+    std::vector<Damage> damage;
+    const auto add = [&](const std::vector<Damage>& more) {
+        damage.insert(damage.end(), more.begin(), more.end());
+    };
+    add(arrayDamage(tree));
+    add(unitDamage(tree.subdivision));
+    add(transformDamage(tree));
+    add(levelDamage(tree));
     if (!damage.empty()) return damage;
-    append(damage, sphereDamage(tree.spheres, tree.subdivision));
-    append(damage, digitalBallDamage(tree));
-    append(damage, parentDamage(tree));
-    append(damage, edgeLevelDamage(tree.dag, tree));
-    append(damage, edgeOrderDamage(tree.dag));
+    add(sphereDamage(tree.spheres, tree.subdivision));
+    add(digitalBallDamage(tree));
+    add(parentDamage(tree));
+    add(edgeLevelDamage(tree.dag, tree));
+    add(edgeOrderDamage(tree.dag));
     return damage;
 }
 
