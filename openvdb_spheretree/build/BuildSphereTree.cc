@@ -43,7 +43,7 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
                 << info.name << "' has " << size[0] << " x " << size[1] << " x " << size[2]
                 << " voxels: use dim=3");
     }
-    // Twice the centres, and radii beyond the object's own size: four times its extent is enough.
+    // Twice the centers, and radii beyond the object's own size: four times its extent is enough.
     const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
     if (settings.dist().lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
         OPENVDB_THROW(openvdb::ValueError,

@@ -24,8 +24,9 @@ void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter);
 void containStoredLeaves(SphereTree& tree, const std::vector<double>& radii,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @return the radii of a tight tree that contain the balls of its level 0, which may be a cut:
-///         nodes were made to contain the leaves below it. Such trees are small.
+/// @return radii, in voxels, with which the nodes of a tight tree contain the balls of level 0 below
+///         them. (Level 0 may be a cut; nodes were made to contain the leaves below the cut.) Such
+///         trees are small.
 std::vector<double> radiiAroundCut(const SphereTree& tree);
 
 } // namespace detail

@@ -6,7 +6,7 @@
 /// transforms do. So the medial balls of the object are found anew, and compared. Where they are
 /// the level's spheres, the union is the object, voxel by voxel: every voxel has a label, a medial
 /// ball that holds it, and no ball reaches beyond the object, as its radius is the distance of its
-/// centre (docs/algorithm.md, "Medial balls").
+/// center (docs/algorithm.md, "Medial balls").
 
 #pragma once
 

@@ -5,19 +5,19 @@
 ///
 /// Level 0 is the medial balls of the object. Then, from each level to the one above:
 /// 1. `nextVoxels`: coarsen the level's voxels by the pyramid model; take their medial balls and
-///    labels; every node's parent is the label of the parent voxel of its centre (`linkLevels`);
+///    labels; every node's parent is the label of the parent voxel of its center (`linkLevels`);
 /// 2. `keepParents`: a ball without children is dropped;
 /// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s
 ///    below it; it may be smaller than the medial ball it came from;
-/// 4. `reconstruct`: the level's voxels become those within R of a kept centre. They are clipped to
+/// 4. `reconstruct`: the level's voxels become those within R of a kept center. They are clipped to
 ///    the box of the object's own pyramid level: the paper's images have borders, and without the
 ///    clip levels swell from step to step (Al.100: 630 % error with 9 spheres, against 419 % with
 ///    12).
 ///
 /// It ends: the clip box of the pyramid's last level is one voxel. Without the clip (`free`), all
 /// nodes left at that level get one parent there. Closings stay in the box; where a custom model
-/// leaves it, the box grows to what the model made, so that kept centres stay on, and a model that
-/// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
+/// leaves it, the box grows to what the model made, so that kept centers stay on, and a model that
+/// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centers
 /// alone, so every level covers the object whatever the model. Radii are integers under square
 /// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for the
 /// radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
@@ -125,7 +125,7 @@ struct Boxes {
     CoordBBox clip;    ///< the same, unless a custom model has added voxels outside of it
 };
 
-/// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9
+/// Every voxel of the level whose center lies within the radius of a node. The factor 1 + 1e-9
 /// keeps voxels at the very distance in: it is far above the rounding of R / f^k, 1e-15 of it.
 MaskTree::Ptr reconstruct(
     const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
@@ -184,7 +184,7 @@ MaskTree::Ptr nextVoxels(
         return single;
     }
     MaskTree::Ptr next = context.coarsened(voxels, level);
-    if (context.model) { // kept centres have to be inside, or their parent voxels might be off
+    if (context.model) { // kept centers have to be inside, or their parent voxels might be off
         CoordBBox box;
         next->evalActiveVoxelBoundingBox(box);
         boxes.clip.expand(box);

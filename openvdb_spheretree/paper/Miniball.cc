@@ -48,22 +48,16 @@ struct Equations {
             if (!(std::abs(matrix[pivot][column]) > 1e-13 * largest)) return false;
             std::swap(matrix[pivot], matrix[column]);
             std::swap(right[pivot], right[column]);
-            eliminate(column);
+            for (double& value : right[column]) value /= matrix[column][column];
+            for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
+            for (int row = 0; row < count; ++row) {
+                const double times = matrix[row][column];
+                if (row == column || times == 0) continue;
+                for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
+                for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
+            }
         }
         return true;
-    }
-
-private:
-    void eliminate(int column)
-    {
-        for (double& value : right[column]) value /= matrix[column][column];
-        for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
-        for (int row = 0; row < count; ++row) {
-            const double times = matrix[row][column];
-            if (row == column || times == 0) continue;
-            for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
-            for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
-        }
     }
 };
 

@@ -69,7 +69,7 @@ int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
         kUnits * c[2] - sphere.center[2]);
 }
 
-/// The smallest radius around the sphere's centre that contains the leaf balls. Only those that
+/// The smallest radius around the sphere's center that contains the leaf balls. Only those that
 /// reach farthest in floating point are measured exactly.
 void measure(
     FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leaves, const NodeSpan& below)

@@ -7,7 +7,7 @@
 /// witnessed by a voxel, and every voxel whose parent is on witnesses an edge.
 ///
 /// 1. The ball that labels each voxel of the coarser level, and where that changes
-///    (ParentLabels.h); which ball is centred at which voxel (medial/BallIndex.h).
+///    (ParentLabels.h); which ball is centered at which voxel (medial/BallIndex.h).
 /// 2. `scanRun`: each run of leaves along x of the finer level, in words of 64 voxels. Labels are
 ///    looked up where they may differ from those before along x (RunLabels.h); a pair of
 ///    labels is looked at where it differs from those before along x, y and z, on word bits alone.

@@ -36,10 +36,10 @@ bool needsDag(const PyramidOptions& options)
 
 namespace {
 
-/// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
+/// The paper's rule: the label of the parent voxel of the ball's center. A single ball is
 /// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
 /// the clip).
-std::vector<int32_t> parentsByCentre(MedialLevel& coarse)
+std::vector<int32_t> parentsByCenter(MedialLevel& coarse)
 {
     std::vector<int32_t> parent = std::move(coarse.queriedLabel);
     if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
@@ -81,23 +81,6 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
         if (power >= least[edge.child]) continue;
         least[edge.child] = power;
         parent[edge.child] = edge.parent;
-    }
-}
-
-/// Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
-void requireRoom(const openvdb::CoordBBox& box, int level, const BuildContext& context)
-{
-    const int64_t scale = context.frame(level).scale();
-    for (int axis = 0; axis < context.settings.dim; ++axis) {
-        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
-        const int64_t extent = int64_t(context.bbox.max()[axis]) - context.bbox.min()[axis] + 1;
-        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
-        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
-        OPENVDB_THROW(openvdb::ValueError,
-            "the pyramid model grows level "
-                << level << " to " << side << " voxels of " << scale << " along "
-                << "xyz"[axis] << ", too far from an object of " << extent
-                << ": let it add fewer voxels");
     }
 }
 
@@ -150,8 +133,8 @@ LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
 openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
 {
     if (!model) return coarsen(voxels, stepFrom(level), interrupter);
-    const int64_t scale = frame(level).scale() * options.factor;
-    if (options.customModel && scale > LevelFrame::kMaxScale) {
+    const int64_t nextScale = frame(level).scale() * options.factor;
+    if (options.customModel && nextScale > LevelFrame::kMaxScale) {
         OPENVDB_THROW(openvdb::ValueError,
             "the tree does not end: level "
                 << level << " still has several spheres, since the pyramid model adds voxels as "
@@ -160,7 +143,19 @@ openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, 
     const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
     openvdb::CoordBBox box;
     result->evalActiveVoxelBoundingBox(box);
-    requireRoom(box, level + 1, *this);
+    // Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
+    const int64_t scale = frame(level + 1).scale();
+    for (int axis = 0; axis < settings.dim; ++axis) {
+        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
+        const int64_t extent = int64_t(bbox.max()[axis]) - bbox.min()[axis] + 1;
+        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
+        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
+        OPENVDB_THROW(openvdb::ValueError,
+            "the pyramid model grows level "
+                << level + 1 << " to " << side << " voxels of " << scale << " along "
+                << "xyz"[axis] << ", too far from an object of " << extent
+                << ": let it add fewer voxels");
+    }
     return result;
 }
 
@@ -169,7 +164,7 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
 {
     const PyramidStep step = context.stepFrom(level);
     Links links;
-    links.parent = parentsByCentre(coarse);
+    links.parent = parentsByCenter(coarse);
     if (!needsDag(context.options)) return links;
     links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
     if (context.options.parent == ParentRule::Dag) {

@@ -23,7 +23,7 @@ namespace detail {
 
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {
-    std::vector<MedialBall> balls; ///< ordered by centre
+    std::vector<MedialBall> balls; ///< ordered by center
     std::vector<double> radius;    ///< units of the distance, on level 0; empty: as the balls are
     std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
     std::vector<int32_t> parent;   ///< node of the next level; empty at the root

@@ -88,7 +88,17 @@ PointWriter::PointWriter(const std::vector<Vec3d>& positions)
     checkRange(positions);
     while (mScale < kMaxPointScale && isTooFine(positions, mScale)) mScale *= 2;
     const std::vector<Place> sorted = places(positions);
-    buildLeaves(sorted);
+    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(*mTree);
+    mOrder.reserve(sorted.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const Coord origin = leafOrigin(sorted[i].voxel);
+        if (i == 0 || leafOrigin(sorted[i - 1].voxel) != origin) {
+            mLeaves.push_back(accessor.touchLeaf(origin));
+            mBegin.push_back(uint32_t(i));
+        }
+        mOrder.push_back(sorted[i].point);
+    }
+    mBegin.push_back(uint32_t(sorted.size()));
 
     const auto descriptor = points::AttributeSet::Descriptor::create(
         points::TypedAttributeArray<Vec3f>::attributeType());
@@ -123,21 +133,6 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
         return a.point < b.point;
     });
     return places;
-}
-
-void PointWriter::buildLeaves(const std::vector<Place>& places)
-{
-    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(*mTree);
-    mOrder.reserve(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Coord origin = leafOrigin(places[i].voxel);
-        if (i == 0 || leafOrigin(places[i - 1].voxel) != origin) {
-            mLeaves.push_back(accessor.touchLeaf(origin));
-            mBegin.push_back(uint32_t(i));
-        }
-        mOrder.push_back(places[i].point);
-    }
-    mBegin.push_back(uint32_t(places.size()));
 }
 
 void PointWriter::writeLeaf(

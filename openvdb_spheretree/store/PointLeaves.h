@@ -58,7 +58,6 @@ private:
         uint32_t point;
     };
     std::vector<Place> places(const std::vector<openvdb::Vec3d>& positions) const;
-    void buildLeaves(const std::vector<Place>& places);
     void writeLeaf(std::size_t leaf, const std::vector<Place>& places,
         const std::vector<openvdb::Vec3d>& positions);
     uint32_t countOf(std::size_t leaf) const { return mBegin[leaf + 1] - mBegin[leaf]; }

@@ -257,7 +257,6 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
     std::vector<Vec3d> positions;
     positions.reserve(tree.dag.size());
     for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
-
     detail::PointWriter writer(positions);
     writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
     writer.addAttribute<int32_t>("child", [&](uint32_t i) { return tree.dag[i].child; });

@@ -8,7 +8,7 @@
 /// (int64), and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys
 /// that start with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where
 /// there are any, travel as a second point grid named `<name>_dag`: one point an edge, at its
-/// parent's centre, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
+/// parent's center, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
 /// grid named `<name>_cuts`: one point a node, with `pscale`, `id`, `parent`, `radius`, `cover_sq`
 /// as above and int32 attributes `first`, `last`.
 
@@ -25,7 +25,7 @@ constexpr int kPointsFormat = 1;
 
 /// @brief The tree as a point grid, named settings.name. The grid is the same for any number of
 /// threads.
-/// @throw openvdb::ValueError if the tree is inconsistent, or a centre is no multiple of the
+/// @throw openvdb::ValueError if the tree is inconsistent, or a center is no multiple of the
 ///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 

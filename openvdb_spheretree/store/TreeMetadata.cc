@@ -44,6 +44,7 @@ bool identical(const Transform& a, const Transform& b)
     return a.mapType() == b.mapType() && matrixOf(a) == matrixOf(b);
 }
 
+/// @return the transform of a grid whose voxels are @a scale times as wide.
 Transform::Ptr scaled(const Transform& transform, double scale)
 {
     const Transform::Ptr result = transform.copy();
@@ -102,18 +103,6 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
 
 // ---- Settings, object, levels
 
-void writeSetting(GridBase& grid, const Setting& setting, const std::string& text)
-{
-    switch (setting.type) {
-    case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
-    case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
-    case SettingType::Real:
-        if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
-        break;
-    default: setMeta<std::string>(grid, setting.key, text);
-    }
-}
-
 std::string readSetting(const GridBase& grid, const Setting& setting)
 {
     switch (setting.type) {
@@ -128,7 +117,16 @@ void writeSettings(GridBase& grid, const SphereTree& tree)
 {
     const SphereTreeSettings settings = recordedSettings(tree);
     for (const Setting& setting : settingsTable()) {
-        if (!setting.key.empty()) writeSetting(grid, setting, setting.get(settings));
+        if (setting.key.empty()) continue;
+        const std::string text = setting.get(settings);
+        switch (setting.type) {
+        case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
+        case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
+        case SettingType::Real:
+            if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
+            break;
+        default: setMeta<std::string>(grid, setting.key, text);
+        }
     }
     if (settings.dim == 2) setMeta<int32_t>(grid, kFlatAxisKey, tree.flatAxis);
 }
