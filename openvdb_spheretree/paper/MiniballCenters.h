@@ -4,7 +4,7 @@
 /// smallest ones around the leaf balls below them, which Broutta et al. 2009 name as future work.
 ///
 /// Parents, levels and digital balls stay as they are; only centers and radii change. Per level:
-/// 1. `LeafBalls::ascend`: which leaf balls are below which node;
+/// 1. which leaf balls are below which node;
 /// 2. `smallestSphere`, a node each: the smallest ball in floating point (Miniball.h), its center
 ///    rounded to 1/16 voxel, and the radius around *that* measured exactly, rounded up;
 /// 3. an extended tree keeps the medial center where rounding has made its sphere the smaller one.
