@@ -46,15 +46,6 @@ struct Part {
     VoxelCube *begin, *end;
     std::shared_ptr<VoxelCube> own; ///< holds the cube of a part that is an eighth of a tile
     std::shared_ptr<const Candidates> candidates; ///< of the part that this is part of
-
-    openvdb::CoordBBox box() const
-    {
-        openvdb::CoordBBox result;
-        for (const VoxelCube* cube = begin; cube != end; ++cube) {
-            result.expand(openvdb::CoordBBox::createCube(cube->origin, cube->size));
-        }
-        return result;
-    }
 };
 
 class ChainSearch {
@@ -126,36 +117,33 @@ Candidates ChainSearch::narrowed(const Candidates& from, const openvdb::CoordBBo
     return kept;
 }
 
-/// Halves along the longest side of the box, or cuts a tile in eight.
-std::vector<Part> split(
-    const Part& part, const openvdb::CoordBBox& box, std::shared_ptr<const Candidates> candidates)
-{
-    if (part.end - part.begin > 1) {
-        VoxelCube* const middle = halve(part.begin, part.end, box,
-            [](const VoxelCube& some) -> const Coord& { return some.origin; });
-        return {
-            {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
-    }
-    std::vector<Part> parts;
-    for (int i = 0; i < 8; ++i) {
-        auto cube = std::make_shared<VoxelCube>(part.begin->eighth(i));
-        parts.push_back({cube.get(), cube.get() + 1, cube, candidates});
-    }
-    return parts;
-}
-
 std::vector<Part> ChainSearch::step(const Part& part, std::vector<ChainLoss>& losses) const
 {
-    const openvdb::CoordBBox box = part.box();
+    openvdb::CoordBBox box;
+    for (const VoxelCube* cube = part.begin; cube != part.end; ++cube) {
+        box.expand(openvdb::CoordBBox::createCube(cube->origin, cube->size));
+    }
     auto candidates = std::make_shared<Candidates>(narrowed(*part.candidates, box));
     for (const Candidate& candidate : *candidates) {
         const uint64_t sections = mForest.sections[candidate.node];
         if (candidate.chainedAll && sections >> (mForest.sectionCount - 1) & 1) return {};
     }
-    if (part.end - part.begin > 1 || part.begin->size > kLeafDim)
-        return split(part, box, candidates);
-    searchLeaf(*part.begin, *candidates, losses);
-    return {};
+    if (part.end - part.begin > 1) { // in halves along the longest side
+        VoxelCube* const middle = halve(part.begin, part.end, box,
+            [](const VoxelCube& some) -> const Coord& { return some.origin; });
+        return {
+            {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
+    }
+    if (part.begin->size == kLeafDim) {
+        searchLeaf(*part.begin, *candidates, losses);
+        return {};
+    }
+    std::vector<Part> parts; // of a tile
+    for (int i = 0; i < 8; ++i) {
+        auto cube = std::make_shared<VoxelCube>(part.begin->eighth(i));
+        parts.push_back({cube.get(), cube.get() + 1, cube, candidates});
+    }
+    return parts;
 }
 
 void ChainSearch::searchLeaf(

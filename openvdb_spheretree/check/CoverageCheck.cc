@@ -81,14 +81,12 @@ MaskTree::Ptr drawDigitalBalls(const CheckReport& check, const SphereTreeLevel& 
 
 void checkRebuiltObject(CheckReport& check, const MaskTree& rebuilt)
 {
+    const std::string text = "level 0 does not rebuild the object: its digital balls ";
     const MaskDifference extra = maskDifference(rebuilt, check.mask, check.interrupter);
     const MaskDifference lost = maskDifference(check.mask, rebuilt, check.interrupter);
-    if (extra.voxels > 0) {
-        check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
-            " that the object has not");
-    }
+    if (extra.voxels > 0) check.fail(text, "hold ", voxelsOf(extra), " that the object has not");
     if (lost.voxels > 0 && !check.tree.settings.isInner()) {
-        check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
+        check.fail(text, "lack ", voxelsOf(lost));
     }
 }
 
@@ -115,14 +113,6 @@ void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
         check.fail(
             "level ", level.level, ": ijk is not the voxel nearest to the centre for ", elsewhere);
     }
-}
-
-/// @return object voxels that no sphere covers. Draws only where the object is.
-MaskDifference uncovered(const CheckReport& check, const std::vector<ExactSphere>& spheres)
-{
-    const MaskTree::Ptr covered =
-        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
-    return maskDifference(check.mask, *covered, check.interrupter);
 }
 
 } // namespace
@@ -181,19 +171,20 @@ void checkCoverage(CheckReport& check)
 {
     check.kind = FaultKind::Coverage;
     for (const SphereTreeLevel& level : check.tree.levels) {
+        // Whether the spheres miss an object voxel. Draws only where the object is.
+        const auto misses = [&](const std::vector<ExactSphere>& spheres, const char* radii) {
+            const MaskTree::Ptr covered = rasterSpheres(
+                spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
+            const MaskDifference missed = maskDifference(check.mask, *covered, check.interrupter);
+            if (missed.voxels == 0) return false;
+            check.fail(
+                "level ", level.level, " misses ", voxelsOf(missed), " of the object, in ", radii);
+            return true;
+        };
         const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
-        const MaskDifference missed = uncovered(check, exact);
-        if (missed.voxels > 0) {
-            check.fail("level ", level.level, " misses ", voxelsOf(missed),
-                " of the object, in the exact radii");
-        }
         const std::vector<ExactSphere> stored = storedSpheres(check.tree, level);
-        if (missed.voxels == 0 && noneSmaller(stored, exact)) continue; // covers as much, or more
-        const MaskDifference missedStored = uncovered(check, stored);
-        if (missedStored.voxels > 0) {
-            check.fail("level ", level.level, " misses ", voxelsOf(missedStored),
-                " of the object, in the stored radii less their padding");
-        }
+        if (!misses(exact, "the exact radii") && noneSmaller(stored, exact)) continue;
+        misses(stored, "the stored radii less their padding");
     }
 }
 

@@ -43,7 +43,23 @@ private:
     template <typename Reach, typename Visit>
     void descend(int level, int32_t node, const Reach& reach, const Visit& visit)
     {
-        if (level == 1) return lookAtLeaves(node, reach, visit);
+        if (level == 1) {
+            // The leaf that reaches farthest, then those that the visit leaves in doubt.
+            const NodeSpan leaves = mBelow[0][node];
+            const std::size_t count = leaves.size();
+            if (mReaches.size() < count) mReaches.resize(count);
+            std::size_t farthest = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                mReaches[i] = reach(0, leaves[i]);
+                if (mReaches[i] > mReaches[farthest]) farthest = i;
+            }
+            if (count == 0 || mReaches[farthest] <= mMost) return;
+            mMost = visit(leaves[farthest]);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves[i]);
+            }
+            return;
+        }
         // The child that reaches farthest comes first: its leaf balls rule out most others.
         const std::size_t begin = mChildren.size();
         std::size_t farthest = begin;
@@ -60,25 +76,6 @@ private:
             if (child.reach > mMost) descend(level - 1, child.node, reach, visit);
         }
         mChildren.resize(begin);
-    }
-
-    /// The leaf that reaches farthest, then those that the visit leaves in doubt.
-    template <typename Reach, typename Visit>
-    void lookAtLeaves(int32_t node, const Reach& reach, const Visit& visit)
-    {
-        const NodeSpan leaves = mBelow[0][node];
-        const std::size_t count = leaves.size();
-        if (mReaches.size() < count) mReaches.resize(count);
-        std::size_t farthest = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            mReaches[i] = reach(0, leaves[i]);
-            if (mReaches[i] > mReaches[farthest]) farthest = i;
-        }
-        if (count == 0 || mReaches[farthest] <= mMost) return;
-        mMost = visit(leaves[farthest]);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves[i]);
-        }
     }
 
     const std::vector<CompressedRows>& mBelow;
