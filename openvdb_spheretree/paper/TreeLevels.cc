@@ -47,21 +47,6 @@ std::vector<int32_t> parentsByCenter(MedialLevel& coarse)
     OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
 }
 
-/// Edges between balls of both levels to edges between coarser balls and nodes.
-std::vector<DagEdge> edgesToNodes(
-    std::vector<DagEdge> edges, const LevelNodes& nodes, const MedialLevel& fine)
-{
-    std::vector<int32_t> nodeOfBall(fine.balls.size(), -1);
-    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
-        nodeOfBall[fine.ballAt(nodes.balls[i].center)] = int32_t(i);
-    }
-    for (DagEdge& edge : edges) edge.child = nodeOfBall[edge.child];
-    edges.erase(std::remove_if(
-                    edges.begin(), edges.end(), [](const DagEdge& edge) { return edge.child < 0; }),
-        edges.end());
-    return edges;
-}
-
 /// Among a node's parents in the DAG, the one of least covering power: the distance by which the
 /// node sticks out of it, both as spheres in the frame of level 0. A node without an edge (it
 /// labels no voxel whose parent is on) keeps the parent it has.
@@ -166,7 +151,16 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
     Links links;
     links.parent = parentsByCenter(coarse);
     if (!needsDag(context.options)) return links;
-    links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
+    // Edges between balls of both levels become edges between coarser balls and nodes.
+    std::vector<int32_t> nodeOfBall(fine->balls.size(), -1);
+    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+        nodeOfBall[fine->ballAt(nodes.balls[i].center)] = int32_t(i);
+    }
+    std::vector<DagEdge>& dag = links.dag;
+    dag = sphereDag(*fine, coarse, step, context.interrupter);
+    for (DagEdge& edge : dag) edge.child = nodeOfBall[edge.child];
+    const auto isNoNode = [](const DagEdge& edge) { return edge.child < 0; };
+    dag.erase(std::remove_if(dag.begin(), dag.end(), isNoNode), dag.end());
     if (context.options.parent == ParentRule::Dag) {
         preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
     }

@@ -95,22 +95,4 @@ void JsonWriter::value(const std::string& key, double number)
     mText.append(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
 }
 
-void JsonWriter::value(const std::string& key, int64_t number)
-{
-    item(key);
-    mText += std::to_string(number);
-}
-
-void JsonWriter::value(const std::string& key, bool truth)
-{
-    item(key);
-    mText += truth ? "true" : "false";
-}
-
-void JsonWriter::null(const std::string& key)
-{
-    item(key);
-    mText += "null";
-}
-
 } // namespace openvdb_spheretree

@@ -33,10 +33,10 @@ public:
     void value(const std::string& key, const std::string& text);
     void value(const std::string& key, const char* text) { value(key, std::string(text)); }
     void value(const std::string& key, double number);
-    void value(const std::string& key, int64_t number);
-    void value(const std::string& key, int number) { value(key, int64_t(number)); }
-    void value(const std::string& key, bool truth);
-    void null(const std::string& key);
+    void value(const std::string& key, int64_t number) { token(key, std::to_string(number)); }
+    void value(const std::string& key, int number) { token(key, std::to_string(number)); }
+    void value(const std::string& key, bool truth) { token(key, truth ? "true" : "false"); }
+    void null(const std::string& key) { token(key, "null"); }
     /// @}
 
     /// What has been written since the last clearText(): whole tokens.
@@ -49,6 +49,11 @@ private:
     void open(const std::string& key, char bracket);
     void close(char bracket);
     void quote(const std::string& text);
+    void token(const std::string& key, const std::string& text)
+    {
+        item(key);
+        mText += text;
+    }
 
     std::string mText;
     int mDepth = 0;

@@ -26,9 +26,6 @@ namespace points = openvdb::points;
 
 Coord leafOrigin(const Coord& voxel) { return voxel & ~int32_t(PointLeaf::DIM - 1); }
 
-/// Division by a power of two is exact.
-Vec3d pointSpace(const Vec3d& position, int scale) { return position / double(scale); }
-
 /// @return the lowest index that is wrong, or @a count: of several it is always the same one.
 template <typename Wrong>
 std::size_t firstWrong(std::size_t count, const Wrong& wrong)
@@ -40,23 +37,18 @@ std::size_t firstWrong(std::size_t count, const Wrong& wrong)
     return first;
 }
 
-/// @return how many voxels the first @a count points are in.
-std::size_t countVoxels(const std::vector<Vec3d>& positions, std::size_t count, int scale)
-{
-    const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
-    parallelFor(count, nullptr,
-        [&](std::size_t i) { voxels[i] = Coord::round(pointSpace(positions[i], scale)); });
-    tbb::parallel_sort(voxels.get(), voxels.get() + count);
-    return std::size_t(std::unique(voxels.get(), voxels.get() + count) - voxels.get());
-}
-
 /// Whether a voxel holds too few points on average. On fine scales some of the points have more
 /// voxels than all of them should, and need no others to be counted.
 bool isTooFine(const std::vector<Vec3d>& positions, int scale)
 {
     constexpr std::size_t kPointsPerVoxel = 4;
-    const auto tooMany = [&](std::size_t count) {
-        return countVoxels(positions, count, scale) * kPointsPerVoxel > positions.size();
+    const auto tooMany = [&](std::size_t count) { // voxels that the first points are in
+        const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
+        Coord *const begin = voxels.get(), *const end = begin + count;
+        parallelFor(count, nullptr,
+            [&](std::size_t i) { begin[i] = Coord::round(positions[i] / double(scale)); });
+        tbb::parallel_sort(begin, end);
+        return std::size_t(std::unique(begin, end) - begin) * kPointsPerVoxel > positions.size();
     };
     return tooMany(positions.size() / 3) || tooMany(positions.size());
 }
@@ -115,7 +107,7 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
 {
     std::vector<Place> places(positions.size());
     const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
-        const Vec3d position = pointSpace(positions[i], mScale);
+        const Vec3d position = positions[i] / double(mScale); // exact: a power of two
         const Coord voxel = Coord::round(position);
         const Vec3f offset(position - voxel.asVec3d());
         places[i] = {voxel, uint32_t(i)};
@@ -142,7 +134,7 @@ void PointWriter::writeLeaf(
     std::vector<PointLeaf::ValueType> ends(PointLeaf::SIZE, PointLeaf::ValueType(0));
     for (uint32_t n = 0; n < countOf(leaf); ++n) {
         const Place& place = places[mBegin[leaf] + n];
-        const Vec3d position = pointSpace(positions[place.point], mScale);
+        const Vec3d position = positions[place.point] / double(mScale);
         handle.set(n, Vec3f(position - place.voxel.asVec3d()));
         ends[PointLeaf::coordToOffset(place.voxel)] = PointLeaf::ValueType(n + 1);
     }
