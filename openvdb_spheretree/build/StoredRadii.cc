@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace openvdb_spheretree {
 namespace detail {
@@ -30,27 +31,21 @@ float storedRadius(double radius)
                           "padding");
 }
 
-/// @return radii in world units: padding added, voxels to world units, rounded up to floats.
-std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const double padding = tree.settings.paddingVoxels();
-    const double voxel = largestStretch(*tree.transform);
-    std::vector<float> stored;
-    resizeLarge(stored, radii.size());
-    parallelFor(radii.size(), interrupter, [&](std::size_t i) {
-        const double padded = addUp(radii[i], padding);
-        stored[i] = storedRadius(multiplyUp(padded, voxel));
-    });
-    return stored;
-}
-
 } // namespace
 
 void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
-    tree.spheres.radiusWorld = storedRadii(tree, tree.spheres.radius, interrupter);
-    tree.cuts.spheres.radiusWorld = storedRadii(tree, tree.cuts.spheres.radius, interrupter);
+    const double padding = tree.settings.paddingVoxels();
+    const double voxel = largestStretch(*tree.transform);
+    for (Spheres* spheres : {&tree.spheres, &tree.cuts.spheres}) {
+        std::vector<float> stored;
+        resizeLarge(stored, spheres->radius.size());
+        parallelFor(stored.size(), interrupter, [&](std::size_t i) {
+            const double padded = addUp(spheres->radius[i], padding);
+            stored[i] = storedRadius(multiplyUp(padded, voxel));
+        });
+        spheres->radiusWorld = std::move(stored);
+    }
 }
 
 /// Stored leaf spheres were rounded up, and centers in the world are rounded. So a node's stored

@@ -54,10 +54,7 @@ void reportAll(Check& check, const char* where, const std::vector<detail::Damage
 void checkShape(Check& check)
 {
     const SphereTree& tree = check.tree;
-    reportAll(check, "", detail::arrayDamage(tree));
-    reportAll(check, "", detail::unitDamage(tree.subdivision));
-    reportAll(check, "", detail::transformDamage(tree));
-    reportAll(check, "", detail::levelDamage(tree));
+    reportAll(check, "", detail::shapeDamage(tree));
     if (tree.hasCuts && tree.cuts.empty()) check.fail("the tree lacks the cuts it was made with");
     const std::string damage = detail::cutsDamage(tree.cuts);
     if (!damage.empty()) check.fail(kInCuts, damage);

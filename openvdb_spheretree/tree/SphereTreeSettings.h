@@ -160,9 +160,21 @@ struct SphereTreeSettings {
 
     /// @return the options, if the kind is or shares these; else null.
     template <typename Options>
-    const Options* find() const;
+    const Options* find() const
+    {
+        return std::visit(
+            [](const auto& options) -> const Options* {
+                using Own = std::decay_t<decltype(options)>;
+                if constexpr (std::is_base_of_v<Options, Own>) return &options;
+                else return nullptr;
+            },
+            kind);
+    }
     template <typename Options>
-    Options* find();
+    Options* find()
+    {
+        return const_cast<Options*>(std::as_const(*this).template find<Options>());
+    }
     /// @name The options of a kind, or that it shares
     /// @throw openvdb::ValueError if the tree is of another kind
     /// @{
@@ -195,24 +207,6 @@ private:
         return *options;
     }
 };
-
-template <typename Options>
-const Options* SphereTreeSettings::find() const
-{
-    return std::visit(
-        [](const auto& options) -> const Options* {
-            using Own = std::decay_t<decltype(options)>;
-            if constexpr (std::is_base_of_v<Options, Own>) return &options;
-            else return nullptr;
-        },
-        kind);
-}
-
-template <typename Options>
-Options* SphereTreeSettings::find()
-{
-    return const_cast<Options*>(std::as_const(*this).find<Options>());
-}
 
 /// @return whether @a model stands for one that a file could not record: it throws when called.
 bool isUnknown(const PyramidModel& model);

@@ -72,55 +72,45 @@ bool allAre(const openvdb::Vec3d& center, const Is& is)
 
 } // namespace
 
-std::vector<Damage> arrayDamage(const SphereTree& tree)
-{
-    std::vector<Damage> damage;
-    const std::size_t count = tree.spheres.center.size();
-    if (count == 0) damage.push_back(single("the tree has no nodes"));
-    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.spheres.radius.size()},
-        {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
-        {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
-        {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
-    for (const auto& [name, size] : arrays) {
-        if (size == count) continue;
-        damage.push_back(
-            single("the tree has ", count, " centres, but ", size, " entries in ", name));
-    }
-    return damage;
-}
-
 std::vector<Damage> unitDamage(int subdivision)
 {
     if (subdivision == 2 || subdivision == 16) return {};
     return {single("centres are in units of 1/", subdivision, " of a voxel, not 1/2 or 1/16")};
 }
 
-std::vector<Damage> transformDamage(const SphereTree& tree)
-{
-    if (!tree.transform) return {single("the tree has no transform")};
-    if (!tree.transform->isLinear()) return {single("the tree's transform is not linear")};
-    return {};
-}
-
-std::vector<Damage> levelDamage(const SphereTree& tree)
+std::vector<Damage> shapeDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage;
-    if (tree.levels.empty()) damage.push_back(single("the tree has no levels"));
+    const auto add = [&](const auto&... parts) { damage.push_back(single(parts...)); };
+    const std::size_t count = tree.spheres.center.size();
+    if (count == 0) add("the tree has no nodes");
+    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.spheres.radius.size()},
+        {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
+        {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
+        {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
+    for (const auto& [name, size] : arrays) {
+        if (size != count)
+            add("the tree has ", count, " centres, but ", size, " entries in ", name);
+    }
+    for (const Damage& unit : unitDamage(tree.subdivision)) damage.push_back(unit);
+    if (!tree.transform) add("the tree has no transform");
+    else if (!tree.transform->isLinear()) add("the tree's transform is not linear");
+
+    if (tree.levels.empty()) add("the tree has no levels");
     int32_t next = 0;
     for (std::size_t k = tree.levels.size(); k-- > 0;) {
         const SphereTreeLevel& level = tree.levels[k];
         if (level.level < 0 || (tree.levels.size() > 1 && level.level != int(k))) {
-            damage.push_back(single("level ", level.level, " stands where level ", k, " belongs"));
+            add("level ", level.level, " stands where level ", k, " belongs");
         }
         if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
-            damage.push_back(single("level ", level.level, " is nodes ", level.begin, " to ",
-                level.end, " (exclusive), where nodes from ", next, " on are expected"));
+            add("level ", level.level, " is nodes ", level.begin, " to ", level.end,
+                " (exclusive), where nodes from ", next, " on are expected");
         }
         next = level.end;
     }
     if (next != tree.size()) {
-        damage.push_back(
-            single("the levels have ", next, " nodes, but the tree has ", tree.size()));
+        add("the levels have ", next, " nodes, but the tree has ", tree.size());
     }
     return damage;
 }
@@ -227,15 +217,11 @@ std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const Sph
 
 std::vector<Damage> treeDamage(const SphereTree& tree)
 {
-    std::vector<Damage> damage;
+    std::vector<Damage> damage = shapeDamage(tree);
+    if (!damage.empty()) return damage;
     const auto add = [&](const std::vector<Damage>& more) {
         damage.insert(damage.end(), more.begin(), more.end());
     };
-    add(arrayDamage(tree));
-    add(unitDamage(tree.subdivision));
-    add(transformDamage(tree));
-    add(levelDamage(tree));
-    if (!damage.empty()) return damage;
     add(sphereDamage(tree.spheres, tree.subdivision));
     add(digitalBallDamage(tree));
     add(parentDamage(tree));
