@@ -48,36 +48,6 @@ struct Part {
     std::shared_ptr<const Candidates> candidates; ///< of the part that this is part of
 };
 
-class ChainSearch {
-public:
-    ChainSearch(const ChainForest& forest, const SphereMetric& metric);
-
-    /// @return the parts that are to be looked at in place of one; losses are added up.
-    std::vector<Part> step(const Part& part, std::vector<ChainLoss>& losses) const;
-
-private:
-    bool isLeaf(int32_t node) const { return mForest.sections[node] & 1; }
-    Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const;
-    void searchLeaf(
-        const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const;
-
-    const ChainForest& mForest;
-    std::vector<ClippedSphere> mBalls;
-};
-
-ChainSearch::ChainSearch(const ChainForest& forest, const SphereMetric& metric) : mForest(forest)
-{
-    const openvdb::CoordBBox everywhere(Coord::min(), Coord::max());
-    const int shift = shiftOf(metric);
-    mBalls.resize(forest.spheres.size());
-    for (std::size_t i = 0; i < mBalls.size(); ++i) {
-        ClippedSphere& ball = mBalls[i];
-        if (clipSphere(forest.spheres[i], metric.distance, shift, everywhere, ball)) continue;
-        ball.lo[0] = 1; // an empty box
-        ball.hi[0] = 0;
-    }
-}
-
 bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box)
 {
     for (int a = 0; a < 3; ++a) {
@@ -87,91 +57,114 @@ bool reachesInto(const ClippedSphere& ball, const openvdb::CoordBBox& box)
     return ball.touches(box.min().data(), box.max().data());
 }
 
-/// Those that reach into the box, and have a leaf below them that does.
-Candidates ChainSearch::narrowed(const Candidates& from, const openvdb::CoordBBox& box) const
-{
-    constexpr int32_t kGone = -1;
-    std::vector<int32_t> place(from.size(), kGone);
-    std::vector<char> hasChild(from.size(), 0), hasChained(from.size(), 0);
-    Candidates kept;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        Candidate candidate = from[i];
-        const ClippedSphere& ball = mBalls[candidate.node];
-        const bool leaf = isLeaf(candidate.node);
-        if (!leaf && !hasChild[i]) continue;
-        if (!candidate.holdsAll) {
-            if (!reachesInto(ball, box)) continue;
-            candidate.holdsAll = ball.contains(box.min().data(), box.max().data());
+class ChainSearch {
+public:
+    ChainSearch(const ChainForest& forest, const SphereMetric& metric) : mForest(forest)
+    {
+        const openvdb::CoordBBox everywhere(Coord::min(), Coord::max());
+        const int shift = shiftOf(metric);
+        mBalls.resize(forest.spheres.size());
+        for (std::size_t i = 0; i < mBalls.size(); ++i) {
+            ClippedSphere& ball = mBalls[i];
+            if (clipSphere(forest.spheres[i], metric.distance, shift, everywhere, ball)) continue;
+            ball.lo[0] = 1; // an empty box
+            ball.hi[0] = 0;
         }
-        candidate.chainedAll = candidate.holdsAll && (leaf || hasChained[i]);
-        place[i] = int32_t(kept.size());
-        if (candidate.parent >= 0) {
-            hasChild[candidate.parent] = 1;
-            hasChained[candidate.parent] |= char(candidate.chainedAll);
-        }
-        kept.push_back(candidate);
     }
-    for (Candidate& candidate : kept) {
-        if (candidate.parent >= 0) candidate.parent = place[candidate.parent];
-    }
-    return kept;
-}
 
-std::vector<Part> ChainSearch::step(const Part& part, std::vector<ChainLoss>& losses) const
-{
-    openvdb::CoordBBox box;
-    for (const VoxelCube* cube = part.begin; cube != part.end; ++cube) {
-        box.expand(openvdb::CoordBBox::createCube(cube->origin, cube->size));
+    /// @return the parts that are to be looked at in place of one; losses are added up.
+    std::vector<Part> step(const Part& part, std::vector<ChainLoss>& losses) const
+    {
+        openvdb::CoordBBox box;
+        for (const VoxelCube* cube = part.begin; cube != part.end; ++cube) {
+            box.expand(openvdb::CoordBBox::createCube(cube->origin, cube->size));
+        }
+        auto candidates = std::make_shared<Candidates>(narrowed(*part.candidates, box));
+        for (const Candidate& candidate : *candidates) {
+            const uint64_t sections = mForest.sections[candidate.node];
+            if (candidate.chainedAll && sections >> (mForest.sectionCount - 1) & 1) return {};
+        }
+        if (part.end - part.begin > 1) { // in halves along the longest side
+            VoxelCube* const middle = halve(part.begin, part.end, box,
+                [](const VoxelCube& some) -> const Coord& { return some.origin; });
+            return {{part.begin, middle, part.own, candidates},
+                {middle, part.end, part.own, candidates}};
+        }
+        if (part.begin->size == kLeafDim) {
+            searchLeaf(*part.begin, *candidates, losses);
+            return {};
+        }
+        std::vector<Part> parts; // of a tile
+        for (int i = 0; i < 8; ++i) {
+            auto cube = std::make_shared<VoxelCube>(part.begin->eighth(i));
+            parts.push_back({cube.get(), cube.get() + 1, cube, candidates});
+        }
+        return parts;
     }
-    auto candidates = std::make_shared<Candidates>(narrowed(*part.candidates, box));
-    for (const Candidate& candidate : *candidates) {
-        const uint64_t sections = mForest.sections[candidate.node];
-        if (candidate.chainedAll && sections >> (mForest.sectionCount - 1) & 1) return {};
-    }
-    if (part.end - part.begin > 1) { // in halves along the longest side
-        VoxelCube* const middle = halve(part.begin, part.end, box,
-            [](const VoxelCube& some) -> const Coord& { return some.origin; });
-        return {
-            {part.begin, middle, part.own, candidates}, {middle, part.end, part.own, candidates}};
-    }
-    if (part.begin->size == kLeafDim) {
-        searchLeaf(*part.begin, *candidates, losses);
-        return {};
-    }
-    std::vector<Part> parts; // of a tile
-    for (int i = 0; i < 8; ++i) {
-        auto cube = std::make_shared<VoxelCube>(part.begin->eighth(i));
-        parts.push_back({cube.get(), cube.get() + 1, cube, candidates});
-    }
-    return parts;
-}
 
-void ChainSearch::searchLeaf(
-    const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const
-{
-    std::vector<LeafMask> below(candidates.size(), LeafMask{}); // S of the children
-    std::array<LeafMask, ChainForest::kMaxSections> chained{};
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const Candidate& candidate = candidates[i];
-        LeafMask voxels = isLeaf(candidate.node) ? leaf.mask : below[i];
-        if (!candidate.holdsAll && !voxels.none()) {
-            LeafMask held{};
-            addVoxelsOf(mBalls[candidate.node], leaf.origin, held);
-            voxels &= held;
+private:
+    bool isLeaf(int32_t node) const { return mForest.sections[node] & 1; }
+
+    /// Those that reach into the box, and have a leaf below them that does.
+    Candidates narrowed(const Candidates& from, const openvdb::CoordBBox& box) const
+    {
+        constexpr int32_t kGone = -1;
+        std::vector<int32_t> place(from.size(), kGone);
+        std::vector<char> hasChild(from.size(), 0), hasChained(from.size(), 0);
+        Candidates kept;
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            Candidate candidate = from[i];
+            const ClippedSphere& ball = mBalls[candidate.node];
+            const bool leaf = isLeaf(candidate.node);
+            if (!leaf && !hasChild[i]) continue;
+            if (!candidate.holdsAll) {
+                if (!reachesInto(ball, box)) continue;
+                candidate.holdsAll = ball.contains(box.min().data(), box.max().data());
+            }
+            candidate.chainedAll = candidate.holdsAll && (leaf || hasChained[i]);
+            place[i] = int32_t(kept.size());
+            if (candidate.parent >= 0) {
+                hasChild[candidate.parent] = 1;
+                hasChained[candidate.parent] |= char(candidate.chainedAll);
+            }
+            kept.push_back(candidate);
         }
-        if (candidate.parent >= 0) below[candidate.parent] |= voxels;
-        for (uint64_t rest = mForest.sections[candidate.node]; rest != 0; rest &= rest - 1) {
-            chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))] |= voxels;
+        for (Candidate& candidate : kept) {
+            if (candidate.parent >= 0) candidate.parent = place[candidate.parent];
+        }
+        return kept;
+    }
+
+    void searchLeaf(
+        const VoxelCube& leaf, const Candidates& candidates, std::vector<ChainLoss>& losses) const
+    {
+        std::vector<LeafMask> below(candidates.size(), LeafMask{}); // S of the children
+        std::array<LeafMask, ChainForest::kMaxSections> chained{};
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const Candidate& candidate = candidates[i];
+            LeafMask voxels = isLeaf(candidate.node) ? leaf.mask : below[i];
+            if (!candidate.holdsAll && !voxels.none()) {
+                LeafMask held{};
+                addVoxelsOf(mBalls[candidate.node], leaf.origin, held);
+                voxels &= held;
+            }
+            if (candidate.parent >= 0) below[candidate.parent] |= voxels;
+            for (uint64_t rest = mForest.sections[candidate.node]; rest != 0; rest &= rest - 1) {
+                chained[openvdb::util::FindLowestOn(openvdb::Index64(rest))] |= voxels;
+            }
+        }
+        const LeafMask* before = &leaf.mask;
+        for (int section = 0; section < mForest.sectionCount; ++section) {
+            const VoxelCube lost{leaf.origin, kLeafDim, *before - chained[section]};
+            before = &chained[section];
+            const int64_t voxels = lost.voxels();
+            if (voxels > 0) losses[section].add({voxels, lost.first()});
         }
     }
-    const LeafMask* before = &leaf.mask;
-    for (int section = 0; section < mForest.sectionCount; ++section) {
-        const VoxelCube lost{leaf.origin, kLeafDim, *before - chained[section]};
-        before = &chained[section];
-        const int64_t voxels = lost.voxels();
-        if (voxels > 0) losses[section].add({voxels, lost.first()});
-    }
-}
+
+    const ChainForest& mForest;
+    std::vector<ClippedSphere> mBalls;
+};
 
 } // namespace
 

@@ -64,18 +64,6 @@ ChainForest forestOfLevels(const SphereTree& tree, const std::vector<ExactSphere
     return forest;
 }
 
-/// The spheres of all nodes, by id.
-template <typename SpheresOfLevel>
-std::vector<ExactSphere> allSpheres(const SphereTree& tree, const SpheresOfLevel& spheresOf)
-{
-    std::vector<ExactSphere> spheres;
-    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
-        const std::vector<ExactSphere> some = spheresOf(tree, *level);
-        spheres.insert(spheres.end(), some.begin(), some.end());
-    }
-    return spheres;
-}
-
 /// All nodes of the cuts as one level, which is how spheres are taken from a tree.
 SphereTree asOneLevel(const SphereTree& tree)
 {
@@ -114,8 +102,10 @@ bool checkChains(CheckReport& check)
 {
     check.kind = FaultKind::Chains;
     const SphereTree& tree = check.tree;
-    const std::vector<ExactSphere> exact = allSpheres(tree, levelSpheres);
-    std::vector<ExactSphere> stored = allSpheres(tree, storedSpheres);
+    SphereTreeLevel all; // nodes, by id
+    all.end = tree.size();
+    const std::vector<ExactSphere> exact = levelSpheres(tree, all);
+    std::vector<ExactSphere> stored = storedSpheres(tree, all);
     std::reverse(stored.begin(), stored.end());
     constexpr std::size_t kRoom = ChainForest::kMaxSections - 1;
     bool broken = false;
