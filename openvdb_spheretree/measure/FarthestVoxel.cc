@@ -146,18 +146,20 @@ public:
     void visit(FarthestSearch& search, const MaskMinus& set, std::size_t node)
     {
         set.cubes(node, mCubes);
-        const auto nodeOf = [](const VoxelCube& leaf) { return leaf.origin & ~127; };
         for (std::size_t i = 0; i < mCubes.size();) {
             if (mCubes[i].size > kLeafDim) {
                 search.visit(mCubes[i++], mReach);
                 continue;
             }
             // The leaves that are in one node of 128.
-            const Coord node = nodeOf(mCubes[i]);
+            const Coord node = mCubes[i].origin & ~127;
             mAt.assign(kPlaces, nullptr);
-            for (; i < mCubes.size() && mCubes[i].size == kLeafDim && nodeOf(mCubes[i]) == node;
-                 ++i)
+            const auto isLeafThere = [&](const VoxelCube& cube) {
+                return cube.size == kLeafDim && (cube.origin & ~127) == node;
+            };
+            for (; i < mCubes.size() && isLeafThere(mCubes[i]); ++i) {
                 mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
+            }
             mPlaced.clear();
             for (uint32_t place = 0; place < kPlaces; ++place) {
                 if (mAt[place]) mPlaced.push_back({mAt[place], place});

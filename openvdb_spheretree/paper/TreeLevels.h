@@ -33,8 +33,8 @@ struct LevelNodes {
 };
 
 /// @brief Stop before a tree grows that has no room, as soon as the balls of level 0 are known.
-/// @throw openvdb::ValueError if so many nodes have no ids, or more arrays (SphereTree) than this
-///        machine has memory
+/// @throw openvdb::ValueError if there are more nodes than ids, or their arrays (SphereTree) need more
+///        memory than this machine has
 void requireRoomForNodes(std::size_t nodes);
 
 /// @return whether a build looks at the labels of all voxels.

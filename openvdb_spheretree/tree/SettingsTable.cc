@@ -232,21 +232,6 @@ Setting distRow()
         "step across a face, an edge and a corner, such as chamfer:3,4,5 (tight: l2)");
 }
 
-Setting paddingRow()
-{
-    return special(
-        "padding", "spheretree_padding", 9,
-        [](const SphereTreeSettings& settings) {
-            return paddingToString(settings.isInner() ? 0 : settings.padding);
-        },
-        [](SphereTreeSettings& settings, const std::string& text) {
-            const double padding = paddingFromString(text);
-            if (!settings.isInner()) settings.padding = padding;
-        },
-        "added to stored radii: cubes covers whole voxels, voxels their centres; or a number of "
-        "voxels; nothing with side=inner");
-}
-
 Setting modelRow()
 {
     Setting setting = special(
@@ -276,24 +261,23 @@ Setting branchingRow()
     return setting;
 }
 
-Setting spheresRow()
-{
-    return row<BudgetOptions>(
-        "spheres", "spheretree_spheres", 15, SettingType::Counts,
-        [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
-        [](const std::string& text) {
-            return text.empty() ? std::vector<int64_t>() : countsFromString(text);
-        },
-        "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
-        "distance= is the most that these may take (tight)");
-}
-
 std::vector<Setting> makeTable()
 {
     return {treeRow(),
         integer<SphereTreeSettings>("dim", "spheretree_dim", 2, 2, 3, &SphereTreeSettings::dim,
             "2 for an object one voxel thick along an axis"),
-        distRow(), paddingRow(),
+        distRow(),
+        special(
+            "padding", "spheretree_padding", 9,
+            [](const SphereTreeSettings& settings) {
+                return paddingToString(settings.isInner() ? 0 : settings.padding);
+            },
+            [](SphereTreeSettings& settings, const std::string& text) {
+                const double padding = paddingFromString(text);
+                if (!settings.isInner()) settings.padding = padding;
+            },
+            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
+            "of voxels; nothing with side=inner"),
         integer<PyramidOptions>("factor", "spheretree_factor", 1, 2, kMaxFactor,
             &PyramidOptions::factor,
             "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
@@ -322,7 +306,15 @@ std::vector<Setting> makeTable()
         choice<TightOptions>("quality", "spheretree_quality", 14, kQualities,
             &TightOptions::quality,
             "how much work goes into placing and searching spheres (tight)"),
-        spheresRow(), branchingRow(),
+        row<BudgetOptions>(
+            "spheres", "spheretree_spheres", 15, SettingType::Counts,
+            [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
+            [](const std::string& text) {
+                return text.empty() ? std::vector<int64_t>() : countsFromString(text);
+            },
+            "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
+            "distance= is the most that these may take (tight)"),
+        branchingRow(),
         bound<BudgetOptions>(
             "error", "spheretree_error", 17,
             [](auto& options) -> auto& { return options.budget.error; },
