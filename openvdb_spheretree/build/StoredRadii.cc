@@ -49,9 +49,9 @@ void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 }
 
 /// Stored leaf spheres were rounded up, and centers in the world are rounded. So a node's stored
-/// sphere is made larger than its radius by about two units in a float's last place, which is enough
-/// for any leaf. (To search for the leaf that decides took longer than all else that is done to
-/// radii.)
+/// sphere is made larger than its radius by about two units in a float's last place, which is
+/// enough for any leaf. (To search for the leaf that decides took longer than all else that is done
+/// to radii.)
 void containStoredLeaves(
     SphereTree& tree, const std::vector<double>& radii, openvdb::util::NullInterrupter* interrupter)
 {

@@ -13,8 +13,8 @@
 ///    section: what is inside costs little.
 /// 3. What is left comes down to single leaves, where S is computed as masks.
 ///
-/// Parts are halved in parallel (RegionHalving.h). No more masks exist at a time than nodes reach into
-/// one leaf.
+/// Parts are halved in parallel (RegionHalving.h). No more masks exist at a time than nodes reach
+/// into one leaf.
 
 #include "ChainCheck.h"
 

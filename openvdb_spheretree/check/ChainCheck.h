@@ -40,8 +40,8 @@ struct ChainLoss {
 
 /// @return for each section, the voxels whose chain ends below it. Exact, and the same for any
 ///         number of threads.
-/// @note Cost: linear in the nodes near each part of the object, mostly along its surface. Memory: a
-///       few times that of the nodes, and that of the object's leaves.
+/// @note Cost: linear in the nodes near each part of the object, mostly along its surface. Memory:
+///       a few times that of the nodes, and that of the object's leaves.
 std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetric& metric,
     const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter);
 

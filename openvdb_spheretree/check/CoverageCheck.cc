@@ -117,7 +117,7 @@ void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
 
 } // namespace
 
-/// Dividing by the voxel size may round down what was exact. Hence the factor, far finer than floats.
+/// Dividing by the voxel size may round what was exact down: hence the factor, finer than floats.
 std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);

@@ -2,8 +2,8 @@
 /// @file TreeCheck.cc
 /// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
 /// trees are built, the edges of the Sphere-DAG aside: all is computed anew from what is stored.
-/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage draw
-/// it, without them.)
+/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage
+/// draw it, without them.)
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on. If these
 ///    fail, nothing else is looked at
@@ -264,7 +264,7 @@ void checkChildren(Check& check)
 
 /// Where nodes contain their leaf balls: the stored spheres contain those of the leaves below them,
 /// in world space. Distances are those of centers in the world, as a reader of the file has them.
-/// Norms have the axes of index space, whatever way the transform turns it: their lengths are scaled.
+/// Norms have the axes of index space, whatever way it is turned: their lengths are scaled.
 void checkLeavesContained(Check& check)
 {
     check.kind = FaultKind::LeafBalls;

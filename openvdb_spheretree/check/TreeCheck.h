@@ -43,10 +43,11 @@ struct TreeFault {
 ///
 /// Links: every non-root has one parent on the next level; inner nodes of extended and tight trees
 /// have a child. LeafBalls: of extended trees, those centered on miniballs, and tight ones with
-/// cover=balls. Chains: in a tight tree every voxel of the object has a chain of nodes, one a level,
-/// each the child of the one above, that all hold it, in exact radii and in stored ones; where there
-/// are cuts, those of 1, 2, 4, ... and all spheres have such chains up to them. Coverage: of other
-/// trees, or where chains break. Inside: of trees with side=inner, in place of these two.
+/// cover=balls. Chains: in a tight tree every voxel of the object has a chain of nodes, one a
+/// level, each the child of the one above, that all hold it, in exact radii and in stored ones;
+/// where there are cuts, those of 1, 2, 4, ... and all spheres have such chains up to them.
+/// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
+/// these two.
 ///
 /// Not checked: *which* node of the next level is a parent, beyond what it must contain.
 /// @return the faults, by their first offenders; empty if all holds

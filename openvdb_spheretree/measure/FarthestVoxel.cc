@@ -6,9 +6,9 @@
 /// B - r of c, for then no voxel of the box is farther than B.
 ///
 /// 1. The exact distances of some samples, then all of the cube that the farthest one is in.
-/// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any larger
-///    cube stand together. The box of such a cube is dismissed, or the cube is split in eight, down
-///    to single leaves. Tiles are split likewise.
+/// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any
+///    larger cube stand together. The box of such a cube is dismissed, or the cube is split in
+///    eight, down to single leaves. Tiles are split likewise.
 /// 3. A leaf that is not dismissed (visitLeaf): voxels within B go by words (LeafReach.h), which is
 ///    enough where B is a few voxels. Of those left, one at a time has its exact distance taken,
 ///    which may raise B; then all go that are within B of the object voxel nearest to it.

@@ -29,8 +29,8 @@ public:
     /// Voxels beyond this are never near, however large the limit: the leaves around end there.
     static constexpr int kReach = 8;
 
-    /// Takes those voxels off the mask of the leaf at @a origin that are within the squared distance
-    /// @a limitSq of the object, or within kReach voxels where that is less.
+    /// Takes those voxels off the mask of the leaf at @a origin that are within the squared
+    /// distance @a limitSq of the object, or within kReach voxels where that is less.
     void takeNear(const openvdb::MaskTree& object, const Distance& distance, int64_t limitSq,
         const openvdb::Coord& origin, LeafMask& mask);
 

@@ -19,8 +19,9 @@
 /// leaves it, the box grows to what the model made, so that kept centers stay on, and a model that
 /// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centers
 /// alone, so every level covers the object whatever the model. Radii are integers under square
-/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for the
-/// radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
+/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for
+/// the radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in
+/// tests/golden.
 
 #include "FarthestLeaves.h"
 #include "TreeLevels.h"

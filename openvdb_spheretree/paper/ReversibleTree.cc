@@ -7,8 +7,8 @@
 /// For each level from the finest up: its medial balls become nodes, with the spheres of
 /// LevelFrame.h (`BuildContext::allBalls`); then each node of the level below gets its parent
 /// (`linkLevels`, TreeLevels.h: the label of the parent voxel of its center, or the best
-/// parent in the Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after closings, which
-/// stay in the object's box; a custom model that adds voxels for ever is an error.
+/// parent in the Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after closings,
+/// which stay in the object's box; a custom model that adds voxels for ever is an error.
 /// Exact. Cost: linear in active voxels of all levels. Tests: TestReversibleTree.cc.
 
 #include "TreeLevels.h"

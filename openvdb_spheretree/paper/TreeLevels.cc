@@ -128,7 +128,7 @@ openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, 
     const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
     openvdb::CoordBBox box;
     result->evalActiveVoxelBoundingBox(box);
-    // Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
+    // Levels may grow by a model as far as a level's frame can measure, and as -check accepts.
     const int64_t scale = frame(level + 1).scale();
     for (int axis = 0; axis < settings.dim; ++axis) {
         const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;

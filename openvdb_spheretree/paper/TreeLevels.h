@@ -33,8 +33,8 @@ struct LevelNodes {
 };
 
 /// @brief Stop before a tree grows that has no room, as soon as the balls of level 0 are known.
-/// @throw openvdb::ValueError if there are more nodes than ids, or their arrays (SphereTree) need more
-///        memory than this machine has
+/// @throw openvdb::ValueError if there are more nodes than ids, or their arrays (SphereTree) need
+///        more memory than this machine has
 void requireRoomForNodes(std::size_t nodes);
 
 /// @return whether a build looks at the labels of all voxels.
@@ -82,8 +82,8 @@ struct Links {
 /// @return the topology of a level's voxels, if the settings want it.
 std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context);
 
-/// @brief Find the parents of @a nodes among the balls of @a coarse, a level that was made with them
-/// as children.
+/// @brief Find the parents of @a nodes among the balls of @a coarse, a level that was made with
+/// them as children.
 /// @param fine  the level whose balls the nodes are; needed for a DAG alone
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
     const BuildContext& context);

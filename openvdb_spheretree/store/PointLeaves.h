@@ -4,8 +4,8 @@
 ///
 /// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here
 /// positions are in index space, multiples of 1/16 of the source's voxel. A voxel of the point grid
-/// is `scale` of these wide, a power of two. So position / scale = voxel + offset, and a float holds
-/// the offset.
+/// is `scale` of these wide, a power of two. So position / scale = voxel + offset, and a float
+/// holds the offset.
 ///
 /// Points are ordered by leaf, voxel and input index, so the grid does not depend on threads.
 

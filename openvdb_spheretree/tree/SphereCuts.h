@@ -3,8 +3,8 @@
 /// @brief The continuous tree: one binary forest of spheres that holds a cover of the object for
 /// every number of spheres, from the leaves to the root.
 ///
-/// A node is part of the cuts of `first` to `last` spheres. From N to N - 1 spheres, two nodes end and
-/// their parent begins, or one node ends that has no voxel left to cover. Every cut keeps the
+/// A node is part of the cuts of `first` to `last` spheres. From N to N - 1 spheres, two nodes end
+/// and their parent begins, or one node ends that has no voxel left to cover. Every cut keeps the
 /// contract of tight trees: each object voxel has a chain of nodes from a leaf up to the cut, each
 /// the child of the next, that all hold it.
 

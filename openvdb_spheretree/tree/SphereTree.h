@@ -9,8 +9,8 @@
 /// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel center* the
 /// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
 /// stored in files: in world units, with the padding added, rounded up to a float, so that whatever
-/// was covered stays covered. Spheres of an inner tree (InnerBalls.h) lie inside the object instead:
-/// their radii are rounded down, and nothing is added.
+/// was covered stays covered. Spheres of an inner tree (InnerBalls.h) lie inside the object
+/// instead: their radii are rounded down, and nothing is added.
 
 #pragma once
 
@@ -112,8 +112,8 @@ struct SphereTree {
     double voxelSize() const { return transform->voxelSize()[0]; }
 
     /// @brief What functions that take a tree rely on: arrays of one length, levels that divide
-    /// them, numbers that spheres have, parents and edges to the next level, cuts of every number of
-    /// spheres, settings that fit together.
+    /// them, numbers that spheres have, parents and edges to the next level, cuts of every number
+    /// of spheres, settings that fit together.
     /// @throw openvdb::ValueError naming the first thing that is wrong. Cost: linear.
     void validate() const;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTreeSettings.h
-/// @brief What a sphere-tree is built by: settings that all kinds of trees share, and the options of
-/// one kind.
+/// @brief What a sphere-tree is built by: settings that all kinds of trees share, and the options
+/// of one kind.
 ///
 ///     ExtendedOptions options;
 ///     options.factor = 3;

@@ -35,7 +35,8 @@ struct Spheres {
 
     /// @return spheres begin to end - 1; their parents are still ids of these arrays.
     Spheres slice(int32_t begin, int32_t end) const;
-    /// @return the spheres of these ids, in this order; their parents are still ids of these arrays.
+    /// @return the spheres of these ids, in this order; their parents are still ids of these
+    ///         arrays.
     Spheres take(const std::vector<int32_t>& ids) const;
 
     bool operator==(const Spheres& o) const;

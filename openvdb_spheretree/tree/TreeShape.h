@@ -58,11 +58,12 @@ struct Damage {
 
 /// Centers are in units of 1/2 or 1/16 voxel.
 std::vector<Damage> unitDamage(int subdivision);
-/// There are nodes, all arrays have an entry for each, and units are right. There is a transform, and
-/// it is linear. Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the top
-/// level first.
+/// There are nodes, all arrays have an entry for each, and units are right. There is a transform,
+/// and it is linear. Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the
+/// top level first.
 std::vector<Damage> shapeDamage(const SphereTree& tree);
-/// Centers are whole numbers of units and of 32 bits in voxels, and radii are finite and at least 0.
+/// Centers are whole numbers of units and of 32 bits in voxels, and radii are finite and at least
+/// 0.
 std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision);
 /// Digital balls have a radius; -1 marks spheres that are none.
 std::vector<Damage> digitalBallDamage(const SphereTree& tree);
