@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # What all targets of this project have in common.
 
+# Further arguments are warnings of the target's own.
 function(spheretree_compile_options target)
     target_compile_options(${target} PRIVATE
-        $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra>
+        $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra ${ARGN}>
         $<$<AND:$<BOOL:${SPHERETREE_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 endfunction()
 

@@ -32,17 +32,6 @@ namespace {
 
 using detail::LevelNodes;
 
-ObjectInfo describe(const openvdb::BoolGrid& object)
-{
-    ObjectInfo info;
-    info.name = object.getName();
-    info.voxels = int64_t(object.activeVoxelCount());
-    info.leaves = int64_t(object.tree().leafCount());
-    info.tiles = int64_t(object.tree().activeTileCount());
-    info.bbox = object.evalActiveVoxelBoundingBox();
-    return info;
-}
-
 void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settings)
 {
     if (info.voxels == 0) {
@@ -55,7 +44,7 @@ void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settin
                 << info.name << "' has " << size[0] << " x " << size[1] << " x " << size[2]
                 << " voxels: use dim=3");
     }
-    // Twice the centres, and radii beyond the object's own size: four times its extent is enough.
+    // Twice the centers, and radii beyond the object's own size: four times its extent is enough.
     const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
     if (settings.dist().lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -70,7 +59,9 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     requireUniformVoxels(object);
     SphereTree tree;
     tree.settings = settings;
-    tree.object = describe(object);
+    tree.object = {object.getName(), int64_t(object.activeVoxelCount()),
+        int64_t(object.tree().leafCount()), int64_t(object.tree().activeTileCount()),
+        object.evalActiveVoxelBoundingBox()};
     requireValidObject(tree.object, settings);
     tree.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
     if (const auto* options = settings.find<PyramidOptions>()) tree.hasDag = options->dag;
@@ -178,17 +169,6 @@ void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSec
     });
 }
 
-/// Spheres merged from medial balls.
-void appendMergedTree(SphereTree& tree, const openvdb::BoolGrid& object, StageSeconds& seconds,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    tight::appendTightTree(tree, object, interrupter, &seconds);
-    detail::storeRadii(tree, interrupter);
-    if (tree.settings.tight().cover == Cover::Balls) {
-        detail::containStoredLeaves(tree, detail::radiiAroundCut(tree), interrupter);
-    }
-}
-
 } // namespace
 
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
@@ -198,8 +178,12 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     SphereTree tree = withoutNodes(object, settings);
     StageSeconds ownSeconds;
     if (!seconds) seconds = &ownSeconds;
-    if (settings.find<TightOptions>()) {
-        appendMergedTree(tree, object, *seconds, interrupter);
+    if (const auto* options = settings.find<TightOptions>()) {
+        tight::appendTightTree(tree, object, interrupter, seconds);
+        detail::storeRadii(tree, interrupter);
+        if (options->cover == Cover::Balls) {
+            detail::containStoredLeaves(tree, detail::radiiAroundCut(tree), interrupter);
+        }
         return tree;
     }
     auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));

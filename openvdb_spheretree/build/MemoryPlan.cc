@@ -9,22 +9,9 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>
-#include <memory>
 #include <sstream>
 
 namespace openvdb_spheretree {
-
-namespace {
-
-/// Norms have everything in memory, always.
-void planNorm(const LeafLayout& layout, MemoryPlan& plan)
-{
-    plan.needed = normBytes(layout);
-    plan.slabsAtATime = plan.slabs;
-    detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
-}
-
-} // namespace
 
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
@@ -33,8 +20,10 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
     plan.slabs = layout.slabCount();
-    if (!settings.dist().isEuclidean()) {
-        planNorm(layout, plan);
+    if (!settings.dist().isEuclidean()) { // norms have everything in memory, always
+        plan.needed = normBytes(layout);
+        plan.slabsAtATime = plan.slabs;
+        detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
         return plan;
     }
     slab::LabelStream stream(layout, settings.dim);

@@ -28,7 +28,7 @@ struct MemoryPlan {
 /// @brief Ask before a long build, or find out why one is refused.
 /// @param settings     `memory`, and which labels it is about
 /// @param interrupter  may be null
-/// @throw openvdb::ValueError if buildSphereTree() would for want of memory, or for a radius that
+/// @throw openvdb::ValueError if buildSphereTree() would, for lack of memory or for a radius that
 ///        does not fit
 /// @throw Interrupted if the interrupter said so
 /// @note Cost: O(leaf nodes log leaf nodes); where balls may have radii above 127 voxels, that of a

@@ -14,9 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -31,97 +31,70 @@ float storedRadius(double radius)
                           "padding");
 }
 
-/// @return radii in world units: padding added, voxels to world units, rounded up to floats.
-std::vector<float> storedRadii(const SphereTree& tree, const std::vector<double>& radii,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const double padding = tree.settings.paddingVoxels();
-    const double voxel = largestStretch(*tree.transform);
-    std::vector<float> stored;
-    resizeLarge(stored, radii.size());
-    parallelFor(radii.size(), interrupter, [&](std::size_t i) {
-        const double padded = addUp(radii[i], padding);
-        stored[i] = storedRadius(multiplyUp(padded, voxel));
-    });
-    return stored;
-}
-
-/// How much larger than its radius a node's stored sphere is made, to contain the stored leaf
-/// spheres below it, which were rounded up too, and centres in the world are rounded: about two
-/// units in a float's last place. To search for the leaf that decides took longer than all else
-/// that is done to radii.
-class StoredSlack {
-public:
-    StoredSlack(const SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
-        : mVoxel(largestStretch(*tree.transform)), mPadding(tree.settings.paddingVoxels())
-    {
-        const SphereTreeLevel& leaves = tree.levels.front();
-        Most most = tbb::parallel_reduce(
-            tbb::blocked_range<int32_t>(leaves.begin, leaves.end), Most(),
-            [&](const tbb::blocked_range<int32_t>& range, Most result) {
-                for (int32_t id = range.begin(); id < range.end(); ++id) {
-                    const openvdb::Vec3d& c = tree.spheres.center[id];
-                    const double away = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]);
-                    const double excess =
-                        double(tree.spheres.radiusWorld[id]) - world(tree.spheres.radius[id]);
-                    result = larger(result, {excess, away});
-                }
-                return result;
-            },
-            larger);
-        checkInterrupt(interrupter);
-        const double moved = tree.transform->indexToWorld(openvdb::Vec3d(0)).length();
-        mExcess = most.excess;
-        mDoubt = 16 * kUnit * (mVoxel * most.away + moved);
-    }
-
-    /// @param radius  that contains the leaf balls below, in voxels
-    /// @return a radius for the stored sphere.
-    float radius(double radius) const
-    {
-        // A float is rounded up by no more than 2^-23 of it, a leaf ball's is not the larger one.
-        const double exact = world(radius);
-        const double excess = std::min(mExcess, exact * 0x1p-23 + kLeastFloat);
-        return storedRadius((exact + excess + mDoubt) * (1 + kRounding));
-    }
-
-private:
-    struct Most {
-        double excess = 0, away = 0;
-    };
-    static Most larger(const Most& a, const Most& b)
-    {
-        return {std::max(a.excess, b.excess), std::max(a.away, b.away)};
-    }
-    double world(double radius) const { return (radius + mPadding) * mVoxel; }
-
-    // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
-    // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
-    static constexpr double kUnit = 1e-15;
-    static constexpr double kRounding = 1e-12; // more than that of all terms here
-    static constexpr double kLeastFloat = 0x1p-149;
-
-    const double mVoxel, mPadding;
-    double mExcess = 0; ///< of a leaf's stored radius over what it stands for
-    double mDoubt = 0;  ///< of distances in the world, of any two centres
-};
-
 } // namespace
 
 void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
-    tree.spheres.radiusWorld = storedRadii(tree, tree.spheres.radius, interrupter);
-    tree.cuts.spheres.radiusWorld = storedRadii(tree, tree.cuts.spheres.radius, interrupter);
+    const double padding = tree.settings.paddingVoxels();
+    const double voxel = largestStretch(*tree.transform);
+    for (Spheres* spheres : {&tree.spheres, &tree.cuts.spheres}) {
+        std::vector<float> stored;
+        resizeLarge(stored, spheres->radius.size());
+        parallelFor(stored.size(), interrupter, [&](std::size_t i) {
+            const double padded = addUp(spheres->radius[i], padding);
+            stored[i] = storedRadius(multiplyUp(padded, voxel));
+        });
+        spheres->radiusWorld = std::move(stored);
+    }
 }
 
+/// Stored leaf spheres were rounded up, and centers in the world are rounded. So a node's stored
+/// sphere is made larger than its radius by about two units in a float's last place, which is
+/// enough for any leaf. (To search for the leaf that decides took longer than all else that is done
+/// to radii.)
 void containStoredLeaves(
     SphereTree& tree, const std::vector<double>& radii, openvdb::util::NullInterrupter* interrupter)
 {
-    const StoredSlack slack(tree, interrupter);
-    const int32_t leaves = tree.levels.front().begin;
-    parallelFor(std::size_t(leaves), interrupter, [&](std::size_t id) {
-        tree.spheres.radiusWorld[id] =
-            std::max(tree.spheres.radiusWorld[id], slack.radius(radii[id]));
+    // A world coordinate is a sum of terms, each with a relative error of some 2^-52, in whatever
+    // order a reader adds them up; they may be large and cancel out. Distances inherit the error.
+    constexpr double kUnit = 1e-15;
+    constexpr double kRounding = 1e-12; // more than that of all terms here
+    constexpr double kLeastFloat = 0x1p-149;
+    const double voxel = largestStretch(*tree.transform);
+    const double padding = tree.settings.paddingVoxels();
+    const auto world = [&](double radius) { return (radius + padding) * voxel; };
+
+    struct Most {
+        double excess = 0; // of a leaf's stored radius over what it stands for
+        double away = 0;   // of a leaf's center from voxel 0
+    };
+    const auto larger = [](const Most& a, const Most& b) -> Most {
+        return {std::max(a.excess, b.excess), std::max(a.away, b.away)};
+    };
+    const SphereTreeLevel& leaves = tree.levels.front();
+    const Most most = tbb::parallel_reduce(
+        tbb::blocked_range<int32_t>(leaves.begin, leaves.end), Most(),
+        [&](const tbb::blocked_range<int32_t>& range, Most result) {
+            for (int32_t id = range.begin(); id < range.end(); ++id) {
+                const openvdb::Vec3d& c = tree.spheres.center[id];
+                const double away = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]);
+                const double excess =
+                    double(tree.spheres.radiusWorld[id]) - world(tree.spheres.radius[id]);
+                result = larger(result, {excess, away});
+            }
+            return result;
+        },
+        larger);
+    checkInterrupt(interrupter);
+    const double moved = tree.transform->indexToWorld(openvdb::Vec3d(0)).length();
+    const double doubt = 16 * kUnit * (voxel * most.away + moved); // of distances in the world
+
+    parallelFor(std::size_t(leaves.begin), interrupter, [&](std::size_t id) {
+        // A float is rounded up by no more than 2^-23 of it, a leaf ball's is not the larger one.
+        const double exact = world(radii[id]);
+        const double excess = std::min(most.excess, exact * 0x1p-23 + kLeastFloat);
+        const float stored = storedRadius((exact + excess + doubt) * (1 + kRounding));
+        tree.spheres.radiusWorld[id] = std::max(tree.spheres.radiusWorld[id], stored);
     });
 }
 
@@ -140,5 +113,4 @@ std::vector<double> radiiAroundCut(const SphereTree& tree)
     return radii;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -11,22 +11,21 @@
 
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @brief Fill in `radiusWorld` of a tree's nodes and cuts from their radii.
 /// @throw openvdb::ValueError if a radius does not fit a float
 void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter);
 
 /// @brief Make stored spheres contain the stored leaf spheres below them.
-/// @param radii  of nodes: they contain the leaf balls below; of leaves, they do not matter
+/// @param radii  of nodes, in voxels: they contain the leaf balls below; not read of leaves
 /// @throw openvdb::ValueError if a radius does not fit a float
 void containStoredLeaves(SphereTree& tree, const std::vector<double>& radii,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @return the radii of a tight tree that contain the balls of its level 0, which may be a cut:
-///         nodes were made to contain the leaves below it. Such trees are small.
+/// @return radii, in voxels, with which the nodes of a tight tree contain the balls of level 0
+///         below them. (Level 0 may be a cut; nodes were made to contain the leaves below the cut.)
+///         Such trees are small.
 std::vector<double> radiiAroundCut(const SphereTree& tree);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

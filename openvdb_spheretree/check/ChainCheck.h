@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// A forest of spheres, and the sections through it that chains must lead to. A section is a set of
 /// nodes. Every path from a leaf towards its root meets a section in one node, or ends below it; it
@@ -39,10 +38,9 @@ struct ChainLoss {
 
 /// @return for each section, the voxels whose chain ends below it. Exact, and the same for any
 ///         number of threads.
-/// @note Cost: linear in the nodes near each part of the object, mostly along its surface. Memory: a
-///       few times that of the nodes, and that of the object's leaves.
+/// @note Cost: linear in the nodes near each part of the object, mostly along its surface. Memory:
+///       a few times that of the nodes, and that of the object's leaves.
 std::vector<ChainLoss> brokenChains(const ChainForest& forest, const SphereMetric& metric,
     const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

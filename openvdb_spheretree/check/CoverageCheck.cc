@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::CoordBBox;
@@ -22,21 +21,7 @@ using openvdb::MaskTree;
 
 std::string voxelsOf(const MaskDifference& difference)
 {
-    std::ostringstream text;
-    text << difference.voxels << (difference.voxels == 1 ? " voxel" : " voxels")
-         << " (first: " << difference.cubes.front().first() << ')';
-    return text.str();
-}
-
-/// The balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid.
-std::vector<ExactSphere> digitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
-{
-    std::vector<ExactSphere> balls;
-    for (int32_t id = level.begin; id < level.end; ++id) {
-        balls.push_back(ExactSphere::around(
-            tree.ijk[id], 4 * tree.settings.dist().closedSq(tree.radiusSq[id])));
-    }
-    return balls;
+    return voxelsText(difference.voxels, difference.cubes.front().first());
 }
 
 /// @return whether some ball alone has more voxels than its level, which is reported. A damaged
@@ -77,40 +62,38 @@ double implausibleVoxels(const CheckReport& check, const SphereTreeLevel& level)
     return voxels;
 }
 
-/// Union of a level's digital balls; in 2-D, in their plane.
+/// Union of the balls {q : |q - ijk|^2 < radiusSq} of a level, on its own grid; in 2-D, in their
+/// plane.
 MaskTree::Ptr drawDigitalBalls(const CheckReport& check, const SphereTreeLevel& level)
 {
-    const std::vector<ExactSphere> balls = digitalBalls(check.tree, level);
-    const Distance& distance = check.tree.settings.dist();
+    const SphereTree& tree = check.tree;
+    const Distance& distance = tree.settings.dist();
+    std::vector<ExactSphere> balls;
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        balls.push_back(
+            ExactSphere::around(tree.ijk[id], 4 * distance.closedSq(tree.radiusSq[id])));
+    }
     CoordBBox box = boundingBox(balls, distance);
-    if (check.tree.settings.dim == 2 && !box.empty()) {
-        const int flat = check.tree.flatAxis;
-        box.min()[flat] = box.max()[flat] = check.tree.ijk[level.begin][flat];
+    if (tree.settings.dim == 2 && !box.empty()) {
+        const int flat = tree.flatAxis;
+        box.min()[flat] = box.max()[flat] = tree.ijk[level.begin][flat];
     }
     return sphereUnion(balls, box, distance, check.interrupter);
 }
 
 void checkRebuiltObject(CheckReport& check, const MaskTree& rebuilt)
 {
+    const std::string text = "level 0 does not rebuild the object: its digital balls ";
     const MaskDifference extra = maskDifference(rebuilt, check.mask, check.interrupter);
     const MaskDifference lost = maskDifference(check.mask, rebuilt, check.interrupter);
-    if (extra.voxels > 0) {
-        check.fail("level 0 does not rebuild the object: its digital balls hold ", voxelsOf(extra),
-            " that the object has not");
-    }
+    if (extra.voxels > 0) check.fail(text, "hold ", voxelsOf(extra), " that the object has not");
     if (lost.voxels > 0 && !check.tree.settings.isInner()) {
-        check.fail("level 0 does not rebuild the object: its digital balls lack ", voxelsOf(lost));
+        check.fail(text, "lack ", voxelsOf(lost));
     }
 }
 
-/// @return whether the nodes of a level are digital balls. In tight trees they may be spheres that
-/// are none, which have no volume to rebuild.
-bool hasDigitalBalls(const SphereTree& tree, const SphereTreeLevel& level)
-{
-    const auto begin = tree.radiusSq.begin();
-    return std::find(begin + level.begin, begin + level.end, -1) == begin + level.end;
-}
-
+/// In tight trees, nodes of a level may be spheres that are no digital balls: there is no volume to
+/// rebuild.
 void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
 {
     if (level.pyramidVoxels != 0) {
@@ -134,28 +117,9 @@ void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
     }
 }
 
-/// Balls rebuild all voxels of their level, but for an extended tree, which above level 0 drops
-/// balls without children.
-void checkPyramidVoxels(CheckReport& check, const SphereTreeLevel& level, int64_t rebuilt)
-{
-    const bool all = level.level == 0 || check.tree.settings.type() != TreeType::Extended;
-    if (all ? rebuilt == level.pyramidVoxels : rebuilt <= level.pyramidVoxels) return;
-    check.fail("level ", level.level, " records ", level.pyramidVoxels,
-        " pyramid voxels, but its digital balls rebuild ", rebuilt);
-}
-
-/// @return object voxels that no sphere covers. Draws only where the object is.
-MaskDifference uncovered(const CheckReport& check, const std::vector<ExactSphere>& spheres)
-{
-    const MaskTree::Ptr covered =
-        rasterSpheres(spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
-    return maskDifference(check.mask, *covered, check.interrupter);
-}
-
 } // namespace
 
-/// The division by the voxel size may round down what was exact; hence the factor, far finer than
-/// floats.
+/// Dividing by the voxel size may round what was exact down: hence the factor, finer than floats.
 std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);
@@ -179,8 +143,10 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
 
 void checkDigitalBalls(CheckReport& check)
 {
+    check.kind = FaultKind::DigitalBalls;
     for (const SphereTreeLevel& level : check.tree.levels) {
-        if (!hasDigitalBalls(check.tree, level)) {
+        const auto ids = check.tree.radiusSq.begin();
+        if (std::find(ids + level.begin, ids + level.end, -1) != ids + level.end) {
             checkNoVolume(check, level);
             continue;
         }
@@ -194,28 +160,34 @@ void checkDigitalBalls(CheckReport& check)
         if (ballsTooLarge(check, level, voxels)) continue;
         const MaskTree::Ptr rebuilt = drawDigitalBalls(check, level);
         if (finest) checkRebuiltObject(check, *rebuilt);
-        checkPyramidVoxels(check, level, countVoxels(*rebuilt));
+        // An extended tree drops balls without children above level 0.
+        const int64_t count = countVoxels(*rebuilt);
+        const bool fewer = !finest && check.tree.settings.type() == TreeType::Extended;
+        if (count == level.pyramidVoxels || (fewer && count < level.pyramidVoxels)) continue;
+        check.fail("level ", level.level, " records ", level.pyramidVoxels,
+            " pyramid voxels, but its digital balls rebuild ", count);
     }
 }
 
 void checkCoverage(CheckReport& check)
 {
+    check.kind = FaultKind::Coverage;
     for (const SphereTreeLevel& level : check.tree.levels) {
+        // Whether the spheres miss an object voxel. Draws only where the object is.
+        const auto misses = [&](const std::vector<ExactSphere>& spheres, const char* radii) {
+            const MaskTree::Ptr covered = rasterSpheres(
+                spheres, metricOf(check.tree), check.box, &check.mask, check.interrupter);
+            const MaskDifference missed = maskDifference(check.mask, *covered, check.interrupter);
+            if (missed.voxels == 0) return false;
+            check.fail(
+                "level ", level.level, " misses ", voxelsOf(missed), " of the object, in ", radii);
+            return true;
+        };
         const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
-        const MaskDifference missed = uncovered(check, exact);
-        if (missed.voxels > 0) {
-            check.fail("level ", level.level, " misses ", voxelsOf(missed),
-                " of the object, in the exact radii");
-        }
         const std::vector<ExactSphere> stored = storedSpheres(check.tree, level);
-        if (missed.voxels == 0 && noneSmaller(stored, exact)) continue; // covers as much, or more
-        const MaskDifference missedStored = uncovered(check, stored);
-        if (missedStored.voxels > 0) {
-            check.fail("level ", level.level, " misses ", voxelsOf(missedStored),
-                " of the object, in the stored radii less their padding");
-        }
+        if (!misses(exact, "the exact radii") && noneSmaller(stored, exact)) continue;
+        misses(stored, "the stored radii less their padding");
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,27 +6,14 @@
 #include "ChainCheck.h"
 #include "CheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
-#include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <algorithm>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
-
-const char kInExact[] = "the exact radii";
-const char kInStored[] = "the stored radii less their padding";
-
-std::string voxelsOf(const ChainLoss& loss)
-{
-    std::ostringstream text;
-    text << loss.voxels << (loss.voxels == 1 ? " voxel" : " voxels") << " (first: " << loss.first
-         << ')';
-    return text.str();
-}
 
 /// Calls report(section, loss) for sections that break chains, first in exact spheres and then in
 /// stored ones, unless those hold as much.
@@ -45,10 +32,10 @@ bool findBroken(CheckReport& check, ChainForest& forest, const std::vector<Exact
             anyBroken = true;
         }
     };
-    find(kInExact);
+    find("the exact radii");
     if (!anyBroken && noneSmaller(stored, forest.spheres)) return false;
     forest.spheres = stored;
-    find(kInStored);
+    find("the stored radii less their padding");
     return anyBroken;
 }
 
@@ -76,56 +63,14 @@ ChainForest forestOfLevels(const SphereTree& tree, const std::vector<ExactSphere
     return forest;
 }
 
-/// The spheres of all nodes, by id.
-template <typename SpheresOfLevel>
-std::vector<ExactSphere> allSpheres(const SphereTree& tree, const SpheresOfLevel& spheresOf)
-{
-    std::vector<ExactSphere> spheres;
-    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
-        const std::vector<ExactSphere> some = spheresOf(tree, *level);
-        spheres.insert(spheres.end(), some.begin(), some.end());
-    }
-    return spheres;
-}
-
 /// All nodes of the cuts as one level, which is how spheres are taken from a tree.
 SphereTree asOneLevel(const SphereTree& tree)
 {
-    SphereTree nodes;
+    SphereTree nodes = describedLike(tree);
     nodes.spheres = tree.cuts.spheres;
-    nodes.subdivision = tree.subdivision;
-    nodes.settings = tree.settings;
-    nodes.transform = tree.transform;
     nodes.levels.resize(1);
     nodes.levels[0].end = nodes.size();
     return nodes;
-}
-
-/// The cut of all leaves, and those of every power of two of spheres: finest first.
-std::vector<int32_t> checkedCuts(int32_t leaves)
-{
-    std::vector<int32_t> counts{leaves};
-    for (int64_t count = 1; count < leaves; count *= 2) {
-        counts.insert(counts.begin() + 1, int32_t(count));
-    }
-    return counts;
-}
-
-ChainForest forestOfCuts(const SphereCuts& cuts, const std::vector<ExactSphere>& spheres,
-    const std::vector<int32_t>& counts)
-{
-    ChainForest forest;
-    forest.spheres = spheres;
-    forest.parent = cuts.spheres.parent;
-    forest.sectionCount = int(counts.size());
-    forest.sections.assign(spheres.size(), 0);
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        for (std::size_t s = 0; s < counts.size(); ++s) {
-            const bool in = cuts.first[i] <= counts[s] && counts[s] <= cuts.last[i];
-            if (in) forest.sections[i] |= uint64_t(1) << s;
-        }
-    }
-    return forest;
 }
 
 /// Spheres reaching beyond the object's box would be drawn at any size.
@@ -146,7 +91,7 @@ void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, in
     const auto drawn = sphereUnion(spheres, check.box, metric, check.interrupter);
     const MaskDifference extra = maskDifference(*drawn, check.mask, check.interrupter);
     if (extra.voxels == 0) return;
-    check.fail(name, " holds ", voxelsOf({extra.voxels, extra.cubes.front().first()}),
+    check.fail(name, " holds ", voxelsText(extra.voxels, extra.cubes.front().first()),
         " that the object has not, but its spheres lie inside");
 }
 
@@ -154,9 +99,12 @@ void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, in
 
 bool checkChains(CheckReport& check)
 {
+    check.kind = FaultKind::Chains;
     const SphereTree& tree = check.tree;
-    const std::vector<ExactSphere> exact = allSpheres(tree, levelSpheres);
-    std::vector<ExactSphere> stored = allSpheres(tree, storedSpheres);
+    SphereTreeLevel all; // nodes, by id
+    all.end = tree.size();
+    const std::vector<ExactSphere> exact = levelSpheres(tree, all);
+    std::vector<ExactSphere> stored = storedSpheres(tree, all);
     std::reverse(stored.begin(), stored.end());
     constexpr std::size_t kRoom = ChainForest::kMaxSections - 1;
     bool broken = false;
@@ -166,8 +114,8 @@ bool checkChains(CheckReport& check)
         const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
             if (section == 0 && first > 1) return; // told before
             const std::size_t level = section == 0 ? 0 : first + std::size_t(section) - 1;
-            check.fail("level ", level, " breaks the chain of spheres of ", voxelsOf(loss),
-                " of the object, in ", radii);
+            check.fail("level ", level, " breaks the chain of spheres of ",
+                voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
         };
         broken |= findBroken(check, forest, stored, report);
     }
@@ -176,19 +124,34 @@ bool checkChains(CheckReport& check)
 
 void checkCutChains(CheckReport& check)
 {
+    check.kind = FaultKind::Chains;
     const SphereCuts& cuts = check.tree.cuts;
     const SphereTree nodes = asOneLevel(check.tree);
-    const std::vector<int32_t> counts = checkedCuts(leavesOf(cuts));
-    ChainForest forest = forestOfCuts(cuts, levelSpheres(nodes, nodes.levels[0]), counts);
+    std::vector<int32_t> counts{leavesOf(cuts)}; // of all leaves, then powers of two: finest first
+    for (int64_t count = 1; count < counts[0]; count *= 2) {
+        counts.insert(counts.begin() + 1, int32_t(count));
+    }
+    ChainForest forest;
+    forest.spheres = levelSpheres(nodes, nodes.levels[0]);
+    forest.parent = cuts.spheres.parent;
+    forest.sectionCount = int(counts.size());
+    forest.sections.assign(forest.spheres.size(), 0);
+    for (std::size_t i = 0; i < forest.spheres.size(); ++i) {
+        for (std::size_t s = 0; s < counts.size(); ++s) {
+            const bool in = cuts.first[i] <= counts[s] && counts[s] <= cuts.last[i];
+            if (in) forest.sections[i] |= uint64_t(1) << s;
+        }
+    }
     const auto report = [&](int section, const ChainLoss& loss, const char* radii) {
         check.fail("the cut of ", counts[section], " spheres breaks the chain of spheres of ",
-            voxelsOf(loss), " of the object, in ", radii);
+            voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
     };
     findBroken(check, forest, storedSpheres(nodes, nodes.levels[0]), report);
 }
 
 void checkInside(CheckReport& check)
 {
+    check.kind = FaultKind::Inside;
     for (const SphereTreeLevel& level : check.tree.levels) {
         const std::string name = "level " + std::to_string(level.level);
         checkWithin(check, levelSpheres(check.tree, level), level.begin, name);
@@ -198,5 +161,4 @@ void checkInside(CheckReport& check)
     checkWithin(check, levelSpheres(nodes, nodes.levels[0]), 0, "the list of cuts");
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

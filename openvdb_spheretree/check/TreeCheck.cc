@@ -2,13 +2,13 @@
 /// @file TreeCheck.cc
 /// @brief One function for each thing that holds for a finished tree. Nothing is taken from how
 /// trees are built, the edges of the Sphere-DAG aside: all is computed anew from what is stored.
-/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage draw
-/// it, without them.)
+/// (checkErrors finds level 0 by the object's medial balls; checkDigitalBalls and checkCoverage
+/// draw it, without them.)
 ///
-/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on; if these
+/// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on. If these
 ///    fail, nothing else is looked at
 /// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
-/// 3. checkRadii, checkParents, checkDag, checkChildren, checkLeavesContained: node against node;
+/// 3. checkRadii, checkParents, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (CoverageCheck.cc), and
 ///    checkChains, checkCutChains, checkInside: those of tight trees (TightCheck.cc)
@@ -18,16 +18,15 @@
 #include "TreeCheck.h"
 
 #include "CheckReport.h"
-#include "WorldDistance.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
-#include <openvdb_spheretree/tree/CutsLayout.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Grid.h>
 
@@ -45,35 +44,22 @@ bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }
 bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
 
+const char kInCuts[] = "in the cuts, ";
+
 void reportAll(Check& check, const char* where, const std::vector<detail::Damage>& damage)
 {
     for (const detail::Damage& rule : damage) check.fail(where, rule.all);
 }
 
-/// Arrays and levels, without which nothing else can be looked at.
+/// Arrays, levels and cuts, without which nothing else can be looked at. Cuts are there where the
+/// settings say so, and each is of as many spheres as it should be.
 void checkShape(Check& check)
 {
-    reportAll(check, "", detail::arrayDamage(check.tree));
-    reportAll(check, "", detail::unitDamage(check.tree.subdivision));
-    reportAll(check, "", detail::transformDamage(check.tree));
-    reportAll(check, "", detail::levelDamage(check.tree));
-}
-
-/// Cuts are there where the settings say so, and each is of as many spheres as it should be.
-void checkCutsLayout(Check& check)
-{
     const SphereTree& tree = check.tree;
+    reportAll(check, "", detail::shapeDamage(tree));
     if (tree.hasCuts && tree.cuts.empty()) check.fail("the tree lacks the cuts it was made with");
     const std::string damage = detail::cutsDamage(tree.cuts);
-    if (!damage.empty()) check.fail("in the cuts, ", damage);
-}
-
-const char kInCuts[] = "in the cuts, ";
-
-bool isSquare(int32_t value)
-{
-    const int64_t root = detail::floorSqrt(value);
-    return root * root == value;
+    if (!damage.empty()) check.fail(kInCuts, damage);
 }
 
 void checkNodes(Check& check)
@@ -84,7 +70,8 @@ void checkNodes(Check& check)
     for (int32_t id = 0; id < tree.size(); ++id) {
         if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
         if (tree.radiusSq[id] < 1) balls.add(id);
-        else if (norm && !isSquare(tree.radiusSq[id])) roots.add(id);
+        else if (norm && detail::square(detail::floorSqrt(tree.radiusSq[id])) != tree.radiusSq[id])
+            roots.add(id);
     }
     if (roots) check.fail("radius_sq is no square, as those of a norm are, for ", roots);
     reportAll(check, "", detail::sphereDamage(tree.spheres, tree.subdivision));
@@ -96,6 +83,7 @@ void checkNodes(Check& check)
 /// that no corner of the object's box moves by a thousandth of a voxel.
 void checkTransform(Check& check)
 {
+    check.kind = FaultKind::Place;
     const SphereTree& tree = check.tree;
     const openvdb::CoordBBox& box = check.box;
     double farthest = 0;
@@ -116,6 +104,7 @@ void checkTransform(Check& check)
 /// What is recorded of the object is so.
 void checkObject(Check& check)
 {
+    check.kind = FaultKind::Counts;
     const ObjectInfo& info = check.tree.object;
     const auto compare = [&](const char* what, int64_t recorded, int64_t actual) {
         if (recorded == actual) return;
@@ -133,6 +122,7 @@ void checkObject(Check& check)
 /// What is recorded of level 0, whose voxels are the object's, is so.
 void checkTopology(Check& check)
 {
+    check.kind = FaultKind::Topology;
     const SphereTreeLevel& finest = check.tree.levels.front();
     if (finest.level != 0 || !finest.topology) return;
     const LevelTopology& recorded = *finest.topology;
@@ -146,11 +136,6 @@ void checkTopology(Check& check)
     compare("cavities", recorded.cavities, actual.cavities);
 }
 
-bool nearlyEqual(double a, double b)
-{
-    return std::abs(a - b) <= 1e-9 * std::max(1.0, std::abs(b));
-}
-
 void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
 {
     if (!actual.error) {
@@ -159,22 +144,25 @@ void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTr
     }
     const LevelError& r = *recorded.error;
     const LevelError& a = *actual.error;
-    const auto compare = [&](const char* what, auto was, auto is, bool same) {
+    const auto compare = [&](const char* what, auto was, auto is) {
+        bool same = was == is;
+        if constexpr (std::is_floating_point_v<decltype(is)>) {
+            same = std::abs(was - is) <= 1e-9 * std::max(1.0, std::abs(is));
+        }
         if (same) return;
         check.fail("level ", recorded.level, " records ", was, ' ', what, ", but it is ", is);
     };
-    compare("voxels covered", r.covered, a.covered, r.covered == a.covered);
-    compare("voxels of excess", r.excess, a.excess, r.excess == a.excess);
-    compare("voxels missing", r.missing, a.missing, r.missing == a.missing);
-    compare("% Hamming error", r.hammingPercent, a.hammingPercent,
-        nearlyEqual(r.hammingPercent, a.hammingPercent));
-    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff,
-        nearlyEqual(r.hausdorff, a.hausdorff));
+    compare("voxels covered", r.covered, a.covered);
+    compare("voxels of excess", r.excess, a.excess);
+    compare("voxels missing", r.missing, a.missing);
+    compare("% Hamming error", r.hammingPercent, a.hammingPercent);
+    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff);
 }
 
 /// Errors that are recorded are right; levels without one are not measured.
 void checkErrors(Check& check)
 {
+    check.kind = FaultKind::Errors;
     SphereTree copy = check.tree;
     const auto hasNone = [](const SphereTreeLevel& level) { return !level.error; };
     const auto end = std::remove_if(copy.levels.begin(), copy.levels.end(), hasNone);
@@ -194,6 +182,7 @@ void checkErrors(Check& check)
 /// @param where  what sentences about them begin with
 void checkRadii(Check& check, const Spheres& nodes, const char* where)
 {
+    check.kind = FaultKind::Radii;
     const SphereTree& tree = check.tree;
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
@@ -220,6 +209,7 @@ void checkRadii(Check& check, const Spheres& nodes, const char* where)
 /// Every node but the root has a parent, on the next level up.
 void checkParents(Check& check)
 {
+    check.kind = FaultKind::Links;
     const SphereTree& tree = check.tree;
     reportAll(check, "", detail::parentDamage(tree));
     const bool endsAnywhere = isTight(tree); // at as many spheres as the settings say
@@ -229,16 +219,9 @@ void checkParents(Check& check)
     }
 }
 
-/// Edges are sorted, unique, and lead from a level to the one below it.
-void checkDag(Check& check)
-{
-    reportAll(check, "", detail::edgeLevelDamage(check.tree.dag, check.tree));
-    reportAll(check, "", detail::edgeOrderDamage(check.tree.dag));
-}
-
 /// The edges are those of the object, none more and none less. What a voxel witnesses is found by
 /// building the tree again; which spheres meet is seen from the stored ones. A tree whose custom
-/// model is not at hand (files hold none) cannot be built again: it is left at what checkDag sees.
+/// model is not at hand (files hold none) cannot be built again: its edges are not looked at here.
 void checkDagEdges(Check& check)
 {
     const SphereTree& tree = check.tree;
@@ -266,6 +249,7 @@ void checkDagEdges(Check& check)
 /// Extended and tight trees: every node above level 0 has a child.
 void checkChildren(Check& check)
 {
+    check.kind = FaultKind::Links;
     const SphereTree& tree = check.tree;
     std::vector<char> hasChild(tree.size(), 0);
     for (const int32_t parent : tree.spheres.parent) {
@@ -281,16 +265,25 @@ void checkChildren(Check& check)
 }
 
 /// Where nodes contain their leaf balls: the stored spheres contain those of the leaves below them,
-/// in world space.
+/// in world space. Distances are those of centers in the world, as a reader of the file has them.
+/// Norms have the axes of index space, whatever way it is turned: their lengths are scaled.
 void checkLeavesContained(Check& check)
 {
+    check.kind = FaultKind::LeafBalls;
     const SphereTree& tree = check.tree;
-    const detail::WorldDistance distance(tree);
+    const Distance& distance = tree.settings.dist();
+    const bool euclidean = distance.isEuclidean();
+    const double scale = euclidean ? 1 : largestStretch(*tree.transform) / distance.unit();
+    const auto place = [&](int32_t id) {
+        return euclidean ? tree.centerWorld(id) : tree.spheres.center[id];
+    };
     std::vector<char> sticksOut(tree.size(), 0); // of the node, some leaf
     const SphereTreeLevel& finest = tree.levels.front();
     for (int32_t leaf = finest.begin; leaf < finest.end; ++leaf) {
         for (int32_t t = tree.spheres.parent[leaf]; t >= 0; t = tree.spheres.parent[t]) {
-            const double needed = distance(leaf, t) + double(tree.spheres.radiusWorld[leaf]);
+            const openvdb::Vec3d d = place(leaf) - place(t);
+            const double apart = distance.length(d[0], d[1], d[2]) * scale;
+            const double needed = apart + double(tree.spheres.radiusWorld[leaf]);
             if (double(tree.spheres.radiusWorld[t]) < needed) sticksOut[t] = 1;
         }
     }
@@ -309,16 +302,18 @@ bool containsLeaves(const SphereTree& tree)
     return pyramid && (settings.find<ExtendedOptions>() || pyramid->center == Center::Miniball);
 }
 
-/// The checks of links, those that follow parents only if parents are in order.
+/// The checks of links and edges. Those that follow parents need parents in order.
 /// @return whether they are
 bool checkLinks(Check& check)
 {
-    const std::size_t before = check.failures.size();
-    checkParents(check);
-    const bool parentsRight = check.failures.size() == before;
-    checkDag(check);
     const SphereTree& tree = check.tree;
-    if (check.failures.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
+    const std::size_t before = check.faults.size();
+    checkParents(check);
+    const bool parentsRight = check.faults.size() == before;
+    check.kind = FaultKind::Edges;
+    reportAll(check, "", detail::edgeLevelDamage(tree.dag, tree));
+    reportAll(check, "", detail::edgeOrderDamage(tree.dag));
+    if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
     if (tree.settings.type() != TreeType::Reversible) checkChildren(check);
     if (containsLeaves(tree)) checkLeavesContained(check);
@@ -342,17 +337,23 @@ void checkCovering(Check& check, bool parentsRight)
 
 } // namespace
 
-std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
+std::string toString(FaultKind kind)
+{
+    static const char* const kNames[] = {"shape", "place", "counts", "topology", "radii", "links",
+        "edges", "leaf balls", "digital balls", "coverage", "chains", "inside", "errors"};
+    return kNames[int(kind)];
+}
+
+std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree mask = detail::maskOf(object.tree());
     openvdb::CoordBBox box;
     mask.evalActiveVoxelBoundingBox(box);
-    Check check{tree, object, mask, box, interrupter, {}};
+    Check check{tree, object, mask, box, interrupter};
     checkShape(check);
-    checkCutsLayout(check);
-    if (check.failures.empty()) checkNodes(check);
-    if (!check.failures.empty()) return check.failures;
+    if (check.faults.empty()) checkNodes(check);
+    if (!check.faults.empty()) return check.faults;
 
     checkTransform(check);
     checkObject(check);
@@ -363,7 +364,7 @@ std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::
     detail::checkDigitalBalls(check);
     checkCovering(check, parentsRight);
     checkErrors(check);
-    return check.failures;
+    return check.faults;
 }
 
 } // namespace openvdb_spheretree

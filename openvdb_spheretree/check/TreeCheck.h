@@ -13,21 +13,44 @@
 
 namespace openvdb_spheretree {
 
-/// @brief Check that: the object lies where the tree has it, in world space; level 0 rebuilds the
-/// object exactly; no level misses a voxel, in the exact radii and in the stored floats; every
-/// non-root has one parent on the next level; every inner node of an extended tree has a child, and
-/// contains the leaf balls below it in the stored floats; the recorded counts are right; edges of
-/// the Sphere-DAG, where there are any, are the object's.
+/// What a sphere-tree was found to break.
+enum class FaultKind {
+    Shape,        ///< arrays, levels, cuts or numbers: nothing else has been checked
+    Place,        ///< the object lies where the tree has it, in world space
+    Counts,       ///< recorded voxels, leaves, tiles and bounding box are the object's
+    Topology,     ///< and so are the components, tunnels and cavities of level 0
+    Radii,        ///< the three radii of a sphere agree
+    Links,        ///< every node has one parent on the next level, and a child where it must
+    Edges,        ///< edges of the Sphere-DAG are the object's
+    LeafBalls,    ///< stored spheres contain the leaf balls below them
+    DigitalBalls, ///< level 0 rebuilds the object; other levels rebuild their recorded voxels
+    Coverage,     ///< no level misses a voxel, in exact radii nor in stored ones
+    Chains,       ///< chains of spheres hold every voxel of the object, through levels and cuts
+    Inside,       ///< inner spheres hold no voxel that the object has not
+    Errors        ///< recorded errors are those of the levels
+};
+
+/// @return its name in small letters, such as "shape" or "leaf balls".
+std::string toString(FaultKind kind);
+
+struct TreeFault {
+    FaultKind kind;
+    std::string sentence; ///< for people: what is wrong, and the first offender
+};
+
+/// @brief Check that a tree keeps what FaultKind lists.
 ///
-/// Of a tight tree: every voxel of the object has a chain of nodes, one a level, each the child of
-/// the one above, that all hold it, in the exact radii and in the stored floats; where there are
-/// cuts, those of 1, 2, 4, ... and all spheres have such chains up to them. With cover=balls every
-/// node contains the leaf balls below it as well. Of one with side=inner: no sphere holds a voxel
-/// that the object has not, and that is all.
+/// Links: every non-root has one parent on the next level; inner nodes of extended and tight trees
+/// have a child. LeafBalls: of extended trees, those centered on miniballs, and tight ones with
+/// cover=balls. Chains: in a tight tree every voxel of the object has a chain of nodes, one a
+/// level, each the child of the one above, that all hold it, in exact radii and in stored ones;
+/// where there are cuts, those of 1, 2, 4, ... and all spheres have such chains up to them.
+/// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
+/// these two.
 ///
 /// Not checked: *which* node of the next level is a parent, beyond what it must contain.
-/// @return a sentence for each thing that failed, with the first offender; empty if all holds
-std::vector<std::string> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
+/// @return the faults, by their first offenders; empty if all holds
+std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

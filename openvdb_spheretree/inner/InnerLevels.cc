@@ -17,8 +17,7 @@
 #include <numeric>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -135,5 +134,4 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -16,8 +16,7 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param tree     with settings, object, origin and transform, and no nodes; with flatAxis if dim is 2
 /// @param voxels   of the object, flat along z if dim is 2
@@ -26,5 +25,4 @@ namespace detail {
 void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -147,5 +146,4 @@ std::vector<MedialBall> ballsInOrder(
     return result;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

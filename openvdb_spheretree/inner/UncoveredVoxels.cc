@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -106,5 +105,4 @@ bool UncoveredVoxels::mayHaveChanged(const MedialBall& ball, uint32_t then) cons
     return changed;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -20,8 +20,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Counting is thread-safe while nobody covers.
 class UncoveredVoxels {
@@ -58,5 +57,4 @@ private:
     std::vector<uint32_t> mChangedAt; ///< by leaf; 0: never
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -11,8 +11,7 @@
 
 #include <memory>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 template <typename LeafT>
 class LeafValues {
@@ -53,5 +52,4 @@ private:
     const ValueType* mValues;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

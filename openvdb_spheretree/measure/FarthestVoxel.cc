@@ -5,10 +5,10 @@
 /// A box of voxels with center c and half diagonal r is dismissed when an object voxel lies within
 /// B - r of c, for then no voxel of the box is farther than B.
 ///
-/// 1. seed: the exact distances of some samples, then all of the cube that the farthest one is in.
-/// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any larger
-///    cube stand together. The box of such a cube is dismissed, or the cube is split in eight, down
-///    to single leaves. Tiles are split likewise.
+/// 1. The exact distances of some samples, then all of the cube that the farthest one is in.
+/// 2. Every node, in parallel (NodeSearch): its leaves, in Morton order, so that those of any
+///    larger cube stand together. The box of such a cube is dismissed, or the cube is split in
+///    eight, down to single leaves. Tiles are split likewise.
 /// 3. A leaf that is not dismissed (visitLeaf): voxels within B go by words (LeafReach.h), which is
 ///    enough where B is a few voxels. Of those left, one at a time has its exact distance taken,
 ///    which may raise B; then all go that are within B of the object voxel nearest to it.
@@ -27,8 +27,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -78,7 +77,11 @@ public:
     void visitGroup(const PlacedLeaf* begin, const PlacedLeaf* end, int32_t size, LeafReach& reach)
     {
         if (end - begin == 1) return visit(*begin->leaf, reach);
-        if (dismissed(boxOf(begin, end))) return;
+        CoordBBox box;
+        for (const PlacedLeaf* placed = begin; placed != end; ++placed) {
+            box.expand(CoordBBox::createCube(placed->leaf->origin, kLeafDim));
+        }
+        if (dismissed(box)) return;
         while (begin != end) {
             const uint32_t part = begin->partOf(size);
             const PlacedLeaf* const first = begin;
@@ -104,15 +107,6 @@ private:
         return mObject.anyWithin(center2, int64_t(reach * reach * kLess));
     }
 
-    static CoordBBox boxOf(const PlacedLeaf* begin, const PlacedLeaf* end)
-    {
-        CoordBBox box;
-        for (; begin != end; ++begin) {
-            box.expand(CoordBBox::createCube(begin->leaf->origin, kLeafDim));
-        }
-        return box;
-    }
-
     /// Visits voxels of a leaf until none is left, each with all that are within B of the object
     /// voxel nearest to it: one search settles many voxels.
     void visitLeaf(const Coord& origin, LeafMask left, LeafReach& reach)
@@ -123,17 +117,11 @@ private:
             const Coord voxel = VoxelCube{origin, kLeafDim, left}.first();
             Coord nearest;
             raiseTo(mBestSq2, mObject.nearest(voxel, nearest));
-            LeafMask settled = voxelsWithin(nearest, origin);
+            const ExactSphere near = ExactSphere::around(nearest, bestSq2());
+            LeafMask settled = voxelsOf(near, /*shift=*/1, origin, mObject.distance());
             settled.setOn(leafIndex(voxel)); // however far it is
             left -= settled;
         }
-    }
-
-    /// @return the voxels of a leaf within B of an object voxel.
-    LeafMask voxelsWithin(const Coord& voxel, const Coord& origin) const
-    {
-        const ExactSphere near = ExactSphere::around(voxel, bestSq2());
-        return voxelsOf(near, /*shift=*/1, origin, mObject.distance());
     }
 
     const openvdb::MaskTree& mMask;
@@ -157,13 +145,24 @@ public:
     void visit(FarthestSearch& search, const MaskMinus& set, std::size_t node)
     {
         set.cubes(node, mCubes);
-        for (std::size_t begin = 0, end; begin < mCubes.size(); begin = end) {
-            end = endOfNode(begin);
-            if (mCubes[begin].size > kLeafDim) {
-                search.visit(mCubes[begin], mReach);
+        for (std::size_t i = 0; i < mCubes.size();) {
+            if (mCubes[i].size > kLeafDim) {
+                search.visit(mCubes[i++], mReach);
                 continue;
             }
-            sort(begin, end);
+            // The leaves that are in one node of 128.
+            const Coord node = mCubes[i].origin & ~127;
+            mAt.assign(kPlaces, nullptr);
+            const auto isLeafThere = [&](const VoxelCube& cube) {
+                return cube.size == kLeafDim && (cube.origin & ~127) == node;
+            };
+            for (; i < mCubes.size() && isLeafThere(mCubes[i]); ++i) {
+                mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
+            }
+            mPlaced.clear();
+            for (uint32_t place = 0; place < kPlaces; ++place) {
+                if (mAt[place]) mPlaced.push_back({mAt[place], place});
+            }
             search.visitGroup(mPlaced.data(), mPlaced.data() + mPlaced.size(), 128, mReach);
         }
     }
@@ -178,29 +177,6 @@ public:
     }
 
 private:
-    /// @return behind the leaves that are in one node of 128; or behind one larger cube.
-    std::size_t endOfNode(std::size_t begin) const
-    {
-        const auto nodeOf = [](const VoxelCube& leaf) { return leaf.origin & ~127; };
-        std::size_t end = begin + 1;
-        if (mCubes[begin].size > kLeafDim) return end;
-        while (end < mCubes.size() && mCubes[end].size == kLeafDim
-            && nodeOf(mCubes[end]) == nodeOf(mCubes[begin])) {
-            ++end;
-        }
-        return end;
-    }
-
-    void sort(std::size_t begin, std::size_t end)
-    {
-        mAt.assign(kPlaces, nullptr);
-        for (std::size_t i = begin; i < end; ++i) mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];
-        mPlaced.clear();
-        for (uint32_t place = 0; place < kPlaces; ++place) {
-            if (mAt[place]) mPlaced.push_back({mAt[place], place});
-        }
-    }
-
     static constexpr uint32_t kPlaces = 16 * 16 * 16;
     std::vector<VoxelCube> mCubes;
     std::vector<const VoxelCube*> mAt; ///< by place
@@ -208,45 +184,22 @@ private:
     LeafReach mReach;
 };
 
-void seed(
-    FarthestSearch& search, const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples)
-{
-    constexpr std::size_t kSamples = 512;
-    const std::size_t step = samples.size() / kSamples + 1;
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-        const int64_t before = search.bestSq2();
-        if (search.visitVoxel(samples[i].voxel) > before) best = i;
-    }
-    NodeSearch().visit(search, set, samples[best]);
-}
-
-/// Counts nodes. Memory of one thread.
-class NodeCount {
-public:
-    void count(const MaskMinus& set, std::size_t node, VoxelCount& result)
-    {
-        set.cubes(node, mCubes);
-        uint32_t seen = 0; // eighths
-        for (const VoxelCube& cube : mCubes) {
-            result.voxels += cube.voxels();
-            const uint32_t eighth = 1u << (mortonOf(cube.origin) >> 9);
-            if (!(seen & eighth)) result.samples.push_back({node, cube.first()});
-            seen |= eighth;
-        }
-    }
-
-private:
-    std::vector<VoxelCube> mCubes;
-};
-
 } // namespace
 
 VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<VoxelCount> counts(set.nodeCount());
-    parallelForWithScratch<NodeCount>(counts.size(), interrupter,
-        [&](std::size_t node, NodeCount& scratch) { scratch.count(set, node, counts[node]); });
+    using Cubes = std::vector<VoxelCube>;
+    parallelForWithScratch<Cubes>(counts.size(), interrupter, [&](std::size_t node, Cubes& cubes) {
+        set.cubes(node, cubes);
+        uint32_t seen = 0; // eighths
+        for (const VoxelCube& cube : cubes) {
+            counts[node].voxels += cube.voxels();
+            const uint32_t eighth = 1u << (mortonOf(cube.origin) >> 9);
+            if (!(seen & eighth)) counts[node].samples.push_back({node, cube.first()});
+            seen |= eighth;
+        }
+    });
     VoxelCount all;
     for (const VoxelCount& count : counts) {
         all.voxels += count.voxels;
@@ -261,11 +214,17 @@ int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sampl
 {
     if (samples.empty()) return 0;
     FarthestSearch search(mask, object);
-    seed(search, set, samples);
+    constexpr std::size_t kSamples = 512; // whose distances are the seed
+    const std::size_t step = samples.size() / kSamples + 1;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+        const int64_t before = search.bestSq2();
+        if (search.visitVoxel(samples[i].voxel) > before) best = i;
+    }
+    NodeSearch().visit(search, set, samples[best]);
     parallelForWithScratch<NodeSearch>(set.nodeCount(), interrupter,
         [&](std::size_t node, NodeSearch& scratch) { scratch.visit(search, set, node); });
     return search.bestSq2() / 4;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

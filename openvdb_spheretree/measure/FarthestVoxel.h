@@ -12,13 +12,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// What is known of a set of voxels once it has been counted.
 struct VoxelCount {
     int64_t voxels = 0;
-    /// Some voxels of each node that has any: of one of 128, one in each eighth.
+    /// Voxels of the set: one in each eighth of a node of 128 that has any, or one of a tile.
     struct Sample {
         std::size_t node;
         openvdb::Coord voxel;
@@ -33,11 +32,10 @@ VoxelCount countVoxels(const MaskMinus& set, openvdb::util::NullInterrupter* int
 /// @param samples  of the set, by countVoxels()
 /// @param mask     the object
 /// @param object   the same, as an index
-/// @note Cost: at most about a microsecond for a leaf where the distance is a few voxels; voxels far
+/// @note Cost: where the distance is a few voxels, at most about a microsecond a leaf. Voxels far
 ///       nearer than the farthest are dismissed by whole nodes. Memory: a node's leaves a thread.
 int64_t farthestDistSq(const MaskMinus& set, const std::vector<VoxelCount::Sample>& samples,
     const openvdb::MaskTree& mask, const NearestVoxel& object,
     openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

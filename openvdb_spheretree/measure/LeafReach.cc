@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
@@ -78,14 +77,6 @@ void LeafReach::widen()
     }
 }
 
-uint64_t LeafReach::slice(int x, const Offset& offset) const
-{
-    uint64_t word;
-    const int row = kSide * (kReach + x + offset.dx) + kReach + offset.dy;
-    std::memcpy(&word, reinterpret_cast<const char*>(mWidened[offset.reach]) + row, sizeof(word));
-    return word;
-}
-
 void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64_t limitSq,
     const Coord& origin, LeafMask& mask)
 {
@@ -94,10 +85,14 @@ void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64
     if (!gather(object, origin)) return;
     widen();
     LeafMask left = mask;
-    for (std::size_t i = 0; i < mOffsets.size(); ++i) {
+    for (const Offset& offset : mOffsets) {
         uint64_t any = 0;
         for (int x = 0; x < 8; ++x) {
-            left[x] &= ~slice(x, mOffsets[i]);
+            uint64_t slice; // eight rows along y
+            const int row = kSide * (kReach + x + offset.dx) + kReach + offset.dy;
+            const auto* rows = reinterpret_cast<const char*>(mWidened[offset.reach]);
+            std::memcpy(&slice, rows + row, sizeof(slice));
+            left[x] &= ~slice;
             any |= left[x];
         }
         if (!any) break;
@@ -105,5 +100,4 @@ void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64
     mask = left;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -20,16 +20,15 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class LeafReach {
 public:
     /// Voxels beyond this are never near, however large the limit: the leaves around end there.
     static constexpr int kReach = 8;
 
-    /// Takes those voxels off the mask of the leaf at @a origin that are within the squared distance
-    /// @a limitSq of the object, or within kReach voxels where that is less.
+    /// Takes those voxels off the mask of the leaf at @a origin that are within the squared
+    /// distance @a limitSq of the object, or within kReach voxels where that is less.
     void takeNear(const openvdb::MaskTree& object, const Distance& distance, int64_t limitSq,
         const openvdb::Coord& origin, LeafMask& mask);
 
@@ -47,7 +46,6 @@ private:
     void order(const Distance& distance, int64_t limitSq);
     bool gather(const openvdb::MaskTree& object, const openvdb::Coord& origin);
     void widen();
-    uint64_t slice(int x, const Offset& offset) const;
 
     Distance mDistance;
     int64_t mLimitSq = -1;
@@ -56,5 +54,4 @@ private:
     Rows mWidened[kReach + 1];    ///< by how far
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

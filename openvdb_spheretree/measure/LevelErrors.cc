@@ -37,18 +37,7 @@ struct ObjectIndex {
     {}
 };
 
-/// Without numbers of the level, so that levels have it in common.
-std::string tooManyRows()
-{
-    return "its spheres cross more than the " + std::to_string(kMaxUnionRows)
-        + " rows of voxels that are counted";
-}
-
-std::string tooFar()
-{
-    return "its spheres reach farther from the object than the 2^29 voxels that are measured";
-}
-
+/// Why an error is unknown is said without numbers of the level, so that levels have it in common.
 void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeLevel& level,
     openvdb::util::NullInterrupter* interrupter)
 {
@@ -68,7 +57,8 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     const openvdb::CoordBBox box = levelBox(tree, spheres);
     const SphereMetric metric = metricOf(tree);
     if (crossedRows(spheres, box, metric) > double(kMaxUnionRows)) {
-        level.errorUnknown = tooManyRows();
+        level.errorUnknown = "its spheres cross more than the " + std::to_string(kMaxUnionRows)
+            + " rows of voxels that are counted";
         return;
     }
     const openvdb::MaskTree::Ptr covered = sphereUnion(spheres, box, metric, interrupter);
@@ -77,7 +67,8 @@ void computeError(const SphereTree& tree, const ObjectIndex& object, SphereTreeL
     const int64_t distSq =
         detail::farthestDistSq(excess, count.samples, object.mask, object.nearest, interrupter);
     if (distSq >= detail::NearestVoxel::kFar2 / 4 * detail::NearestVoxel::kFar2) {
-        level.errorUnknown = tooFar();
+        level.errorUnknown =
+            "its spheres reach farther from the object than the 2^29 voxels that are measured";
         return;
     }
     LevelError error;

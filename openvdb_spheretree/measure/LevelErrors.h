@@ -14,8 +14,8 @@ namespace openvdb_spheretree {
 /// root sphere of 10^12): its error stays empty, with the reason. Level 0 is, where its spheres are
 /// the object's medial balls.
 /// @param object  what the tree was built from
-/// @throw Interrupted if the interrupter said so; what buildSphereTree() throws, for memory that the
-///        object's medial balls need, or their radii; @a tree is then unchanged
+/// @throw Interrupted if the interrupter said so; what buildSphereTree() throws, for memory that
+///        the object's medial balls need, or their radii; @a tree is then unchanged
 /// @note Exact. Cost grows with the surface of the level's spheres and of the object; of level 0,
 ///       with the object's voxels.
 void computeLevelErrors(SphereTree& tree, const openvdb::BoolGrid& object,

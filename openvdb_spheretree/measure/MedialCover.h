@@ -6,7 +6,7 @@
 /// transforms do. So the medial balls of the object are found anew, and compared. Where they are
 /// the level's spheres, the union is the object, voxel by voxel: every voxel has a label, a medial
 /// ball that holds it, and no ball reaches beyond the object, as its radius is the distance of its
-/// centre (docs/algorithm.md, "Medial balls").
+/// center (docs/algorithm.md, "Medial balls").
 
 #pragma once
 
@@ -17,8 +17,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return whether the spheres of @a level are the medial balls of @a object. False as well where
 ///         that is not worth finding out: few balls, which are drawn faster than it takes.
@@ -27,5 +26,4 @@ namespace detail {
 bool areMedialBalls(const SphereTree& tree, const SphereTreeLevel& level,
     const openvdb::MaskTree& object, int64_t voxels, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

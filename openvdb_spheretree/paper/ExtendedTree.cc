@@ -5,22 +5,23 @@
 ///
 /// Level 0 is the medial balls of the object. Then, from each level to the one above:
 /// 1. `nextVoxels`: coarsen the level's voxels by the pyramid model; take their medial balls and
-///    labels; every node's parent is the label of the parent voxel of its centre (`linkLevels`);
+///    labels; every node's parent is the label of the parent voxel of its center (`linkLevels`);
 /// 2. `keepParents`: a ball without children is dropped;
 /// 3. `fitRadii`: a kept ball's radius R is the largest |C_s - C_t| + R_s over the leaf balls s
 ///    below it; it may be smaller than the medial ball it came from;
-/// 4. `reconstruct`: the level's voxels become those within R of a kept centre. They are clipped to
+/// 4. `reconstruct`: the level's voxels become those within R of a kept center. They are clipped to
 ///    the box of the object's own pyramid level: the paper's images have borders, and without the
 ///    clip levels swell from step to step (Al.100: 630 % error with 9 spheres, against 419 % with
 ///    12).
 ///
 /// It ends: the clip box of the pyramid's last level is one voxel. Without the clip (`free`), all
 /// nodes left at that level get one parent there. Closings stay in the box; where a custom model
-/// leaves it, the box grows to what the model made, so that kept centres stay on, and a model that
-/// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centres
+/// leaves it, the box grows to what the model made, so that kept centers stay on, and a model that
+/// never lets the levels shrink to one ball is an error. Radii come from leaf balls and centers
 /// alone, so every level covers the object whatever the model. Radii are integers under square
-/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for the
-/// radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in tests/golden.
+/// roots (LevelFrame.h). Cost: linear in the voxels of all levels, and about so in the nodes for
+/// the radii (FarthestLeaves.h). Tests: TestExtendedTree.cc; golden counts and errors in
+/// tests/golden.
 
 #include "FarthestLeaves.h"
 #include "TreeLevels.h"
@@ -35,8 +36,7 @@
 #include <cmath>
 #include <memory>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -72,38 +72,14 @@ LevelNodes keepParents(
     return kept;
 }
 
-/// The largest of some sums of two roots, exactly. Roots of doubles tell nearly always which of two
-/// sums is the larger: exact arithmetic is for those that may be.
-class LargestSum {
-public:
-    void add(const RootSum& sum)
-    {
-        mLeast = std::max(mLeast, nearly(sum) * (1 - kDoubt));
-        mRadius = std::max(mRadius, sum.radius());
-        mCoverSq = std::max(mCoverSq, sum.coverSq());
-    }
-    /// A smaller double is of a smaller sum, which need not be added.
-    double least() const { return mLeast; }
-    double radius() const { return mRadius; }
-    int64_t coverSq() const { return mCoverSq; }
-
-    /// @return twice the radius.
-    static double nearly(const RootSum& sum)
-    {
-        return std::sqrt(double(sum.a)) + std::sqrt(double(sum.b));
-    }
-    static constexpr double kDoubt = 1e-12; ///< of a root, and of a sum, 1e-15
-
-private:
-    double mLeast = 0, mRadius = 0;
-    int64_t mCoverSq = 0;
-};
-
-/// The smallest radii, around the nodes' own centres, that contain the leaf balls below them.
+/// The smallest radii, around the nodes' own centers, that contain the leaf balls below them. Roots
+/// of doubles tell nearly always which of two leaf balls reaches farther: exact arithmetic is for
+/// those that may be the farthest.
 /// @param levels  those below, and the nodes' own at the end
 void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>& below,
     const BuildContext& context)
 {
+    constexpr double kDoubt = 1e-12; // of a sum of roots, whose error is 1e-15
     const int level = int(levels.size()) - 1;
     LevelNodes& nodes = levels.back();
     std::vector<LevelFrame> frames;
@@ -120,48 +96,36 @@ void fitRadii(std::vector<LevelNodes>& levels, const std::vector<CompressedRows>
     resizeLarge(nodes.coverSq, nodes.balls.size());
     const auto fit = [&](std::size_t t, FarthestLeaves& leaves) {
         const Doubled center = centerOf(level, int32_t(t));
-        const auto sumOf = [&](int32_t leaf) -> RootSum {
-            const int64_t apart = distanceSq(centerOf(0, leaf), center, distance);
-            return {apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // it has no b
-        };
         const auto reach = [&](int k, int32_t node) {
             const Doubled c = centerOf(k, node);
             const double apart = distance.length(
                 double(c.x - center.x), double(c.y - center.y), double(c.z - center.z));
             const double width =
                 k == 0 ? widthOf(levels[0].balls[node]) : 2 * levels[k].radius[node];
-            return (apart + width) * (1 + LargestSum::kDoubt);
+            return (apart + width) * (1 + kDoubt);
         };
-        LargestSum largest;
+        double most = 0; // twice the radius: a smaller double is of a smaller sum
         leaves.search(level, int32_t(t), reach, [&](int32_t leaf) {
-            largest.add(sumOf(leaf));
-            return largest.least();
+            const int64_t apart = distanceSq(centerOf(0, leaf), center, distance);
+            const RootSum sum{apart, frames[0].radius(levels[0].balls[leaf].radiusSq).a}; // no b
+            most = std::max(
+                most, (std::sqrt(double(sum.a)) + std::sqrt(double(sum.b))) * (1 - kDoubt));
+            nodes.radius[t] = std::max(nodes.radius[t], sum.radius());
+            nodes.coverSq[t] = std::max(nodes.coverSq[t], sum.coverSq());
+            return most;
         });
-        nodes.radius[t] = largest.radius();
-        nodes.coverSq[t] = largest.coverSq();
     };
     parallelForWith(
         nodes.balls.size(), context.interrupter, [&] { return FarthestLeaves(below); }, fit);
-}
-
-CoordBBox parentBox(const CoordBBox& box, const PyramidStep& step)
-{
-    return CoordBBox(step.parentVoxel(box.min()), step.parentVoxel(box.max()));
 }
 
 /// The boxes that bound a level.
 struct Boxes {
     CoordBBox pyramid; ///< of the object's own OR pyramid
     CoordBBox clip;    ///< the same, unless a custom model has added voxels outside of it
-
-    void coarsen(const PyramidStep& step)
-    {
-        pyramid = parentBox(pyramid, step);
-        clip = parentBox(clip, step);
-    }
 };
 
-/// Every voxel of the level whose centre lies within the radius of a node. The factor 1 + 1e-9
+/// Every voxel of the level whose center lies within the radius of a node. The factor 1 + 1e-9
 /// keeps voxels at the very distance in: it is far above the rounding of R / f^k, 1e-15 of it.
 MaskTree::Ptr reconstruct(
     const LevelNodes& nodes, int level, CoordBBox box, const BuildContext& context)
@@ -173,9 +137,8 @@ MaskTree::Ptr reconstruct(
     parallelFor(spheres.size(), context.interrupter, [&](std::size_t i) {
         const double limit = nodes.radius[i] / scale * (1 + 1e-9);
         const auto whole = int64_t(limit);
-        const Coord& c = nodes.balls[i].center;
-        spheres[i] = {{2 * int64_t(c[0]), 2 * int64_t(c[1]), 2 * int64_t(c[2])},
-            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole)};
+        spheres[i] = ExactSphere::around(nodes.balls[i].center,
+            4 * (distance.isEuclidean() ? int64_t(limit * limit) : whole * whole));
     });
     if (context.settings.extended().reconstruct == Reconstruction::Free) {
         const CoordBBox free = boundingBox(spheres, distance);
@@ -210,7 +173,10 @@ void useReconstructionRadii(std::vector<LevelNodes>& levels, const BuildContext&
 MaskTree::Ptr nextVoxels(
     const MaskTree& voxels, int level, const BuildContext& context, Boxes& boxes)
 {
-    boxes.coarsen(context.stepFrom(level));
+    const PyramidStep step = context.stepFrom(level);
+    for (CoordBBox* box : {&boxes.pyramid, &boxes.clip}) {
+        *box = CoordBBox(step.parentVoxel(box->min()), step.parentVoxel(box->max()));
+    }
     const bool last = boxes.pyramid.volume() == 1;
     if (context.settings.extended().reconstruct == Reconstruction::Free && last) {
         auto single = std::make_shared<MaskTree>(false);
@@ -218,7 +184,7 @@ MaskTree::Ptr nextVoxels(
         return single;
     }
     MaskTree::Ptr next = context.coarsened(voxels, level);
-    if (context.model) { // kept centres have to be inside, or their parent voxels might be off
+    if (context.model) { // kept centers have to be inside, or their parent voxels might be off
         CoordBBox box;
         next->evalActiveVoxelBoundingBox(box);
         boxes.clip.expand(box);
@@ -260,5 +226,4 @@ std::vector<LevelNodes> extendedLevels(MaskTree::Ptr voxels, const BuildContext&
     return levels;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

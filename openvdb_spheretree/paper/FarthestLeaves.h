@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// A search for the leaf balls below a node that reach farthest from its center: a part of the tree
 /// is left out if none of its leaf balls can matter. Of a level's leaf balls few are looked at:
@@ -43,7 +42,23 @@ private:
     template <typename Reach, typename Visit>
     void descend(int level, int32_t node, const Reach& reach, const Visit& visit)
     {
-        if (level == 1) return lookAtLeaves(node, reach, visit);
+        if (level == 1) {
+            // The leaf that reaches farthest, then those that the visit leaves in doubt.
+            const NodeSpan leaves = mBelow[0][node];
+            const std::size_t count = leaves.size();
+            if (mReaches.size() < count) mReaches.resize(count);
+            std::size_t farthest = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                mReaches[i] = reach(0, leaves[i]);
+                if (mReaches[i] > mReaches[farthest]) farthest = i;
+            }
+            if (count == 0 || mReaches[farthest] <= mMost) return;
+            mMost = visit(leaves[farthest]);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves[i]);
+            }
+            return;
+        }
         // The child that reaches farthest comes first: its leaf balls rule out most others.
         const std::size_t begin = mChildren.size();
         std::size_t farthest = begin;
@@ -62,30 +77,10 @@ private:
         mChildren.resize(begin);
     }
 
-    /// The leaf that reaches farthest, then those that the visit leaves in doubt.
-    template <typename Reach, typename Visit>
-    void lookAtLeaves(int32_t node, const Reach& reach, const Visit& visit)
-    {
-        const NodeSpan leaves = mBelow[0][node];
-        const std::size_t count = leaves.size();
-        if (mReaches.size() < count) mReaches.resize(count);
-        std::size_t farthest = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            mReaches[i] = reach(0, leaves[i]);
-            if (mReaches[i] > mReaches[farthest]) farthest = i;
-        }
-        if (count == 0 || mReaches[farthest] <= mMost) return;
-        mMost = visit(leaves[farthest]);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (mReaches[i] > mMost && i != farthest) mMost = visit(leaves[i]);
-        }
-    }
-
     const std::vector<CompressedRows>& mBelow;
     std::vector<Child> mChildren; ///< those that are waiting, of all levels on the way
     std::vector<double> mReaches; ///< of the leaves of one node
     double mMost = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -42,22 +42,16 @@ detail::Bound boundOf(const SphereTree& tree, int32_t id)
     return tree.settings.dist().isEuclidean() ? ball : detail::Bound::ofBox(ball.box);
 }
 
-detail::BoundingTree boundsOf(
-    const SphereTree& tree, const SphereTreeLevel& level, openvdb::util::NullInterrupter* stop)
-{
-    std::vector<detail::Bound> bounds;
-    bounds.reserve(level.size());
-    for (int32_t id = level.begin; id < level.end; ++id) bounds.push_back(boundOf(tree, id));
-    return detail::BoundingTree(bounds, stop);
-}
-
 /// Appends the edges from the level @a above to the level @a below it.
 void addEdges(const SphereTree& tree, const SphereTreeLevel& above, const SphereTreeLevel& below,
     std::vector<DagEdge>& edges, openvdb::util::NullInterrupter* interrupter)
 {
     constexpr int32_t kChunk = 256;
     constexpr int64_t kMaxEdges = int64_t(1) << 28; // 2 GiB of them
-    const detail::BoundingTree bounds = boundsOf(tree, above, interrupter);
+    std::vector<detail::Bound> spheres;
+    spheres.reserve(above.size());
+    for (int32_t id = above.begin; id < above.end; ++id) spheres.push_back(boundOf(tree, id));
+    const detail::BoundingTree bounds(spheres, interrupter);
     std::atomic<int64_t> found{int64_t(edges.size())};
     std::vector<std::vector<DagEdge>> ofChunk((below.size() + kChunk - 1) / kChunk);
     detail::parallelFor(ofChunk.size(), interrupter, [&](std::size_t chunk) {

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -30,13 +29,6 @@ double reach(const Vec3d& from, const RealBall& ball)
     return (ball.center - from).length() + ball.radius;
 }
 
-double farthestReach(const Vec3d& from, const Few& few)
-{
-    double most = 0;
-    for (int i = 0; i < few.count; ++i) most = std::max(most, reach(from, few.balls[i]));
-    return most;
-}
-
 /// Solves symmetric systems of up to three equations by elimination. With two right-hand sides.
 struct Equations {
     double matrix[3][3], right[3][2];
@@ -55,22 +47,16 @@ struct Equations {
             if (!(std::abs(matrix[pivot][column]) > 1e-13 * largest)) return false;
             std::swap(matrix[pivot], matrix[column]);
             std::swap(right[pivot], right[column]);
-            eliminate(column);
+            for (double& value : right[column]) value /= matrix[column][column];
+            for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
+            for (int row = 0; row < count; ++row) {
+                const double times = matrix[row][column];
+                if (row == column || times == 0) continue;
+                for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
+                for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
+            }
         }
         return true;
-    }
-
-private:
-    void eliminate(int column)
-    {
-        for (double& value : right[column]) value /= matrix[column][column];
-        for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
-        for (int row = 0; row < count; ++row) {
-            const double times = matrix[row][column];
-            if (row == column || times == 0) continue;
-            for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
-            for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
-        }
     }
 };
 
@@ -121,7 +107,8 @@ Decision decide(const Few& few)
     Decision best;
     best.ball.radius = std::numeric_limits<double>::infinity();
     const auto tryCenter = [&](const Vec3d& center, const Few& deciding) {
-        const double radius = farthestReach(center, few);
+        double radius = 0;
+        for (int i = 0; i < few.count; ++i) radius = std::max(radius, reach(center, few.balls[i]));
         if (radius < best.ball.radius) best = {{center, radius}, deciding};
     };
     for (int subset = 0; subset < 1 << others; ++subset) {
@@ -179,5 +166,4 @@ RealBall miniball(const std::vector<RealBall>& balls)
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -13,8 +13,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -26,44 +25,11 @@ struct FittedSphere {
     double radius = 0;               ///< voxels
 };
 
-/// RootSum is made for halves of voxels: sums of units come out twice as large.
-double voxelsOf(const RootSum& sum) { return sum.radius() * 2 / double(kUnits); }
-
-/// Which leaf balls are below which node of a level.
-class LeafBalls {
-public:
-    explicit LeafBalls(const SphereTree& tree) : mTree(tree), mFinest(tree.levels.front())
-    {
-        mAncestor.resize(mFinest.size());
-        std::iota(mAncestor.begin(), mAncestor.end(), mFinest.begin);
-    }
-
-    /// To the next level.
-    void ascend(const SphereTreeLevel& level)
-    {
-        for (int32_t& node : mAncestor) node = mTree.spheres.parent[node];
-        mBelow = compressedRows(
-            mAncestor.size(), std::size_t(level.size()),
-            [&](std::size_t leaf) { return mAncestor[leaf] - level.begin; },
-            [&](std::size_t leaf) { return mFinest.begin + int32_t(leaf); });
-    }
-
-    /// The ids of the leaf balls below the node at @a place in the level.
-    NodeSpan below(int32_t place) const { return mBelow[place]; }
-
-    /// Squared radius in units, and the radius in voxels.
-    int64_t fineRadiusSq(int32_t leaf) const
-    {
-        return kUnits * kUnits * (int64_t(mTree.radiusSq[leaf]) - 1);
-    }
-    double radius(int32_t leaf) const { return std::sqrt(double(mTree.radiusSq[leaf]) - 1); }
-
-private:
-    const SphereTree& mTree;
-    const SphereTreeLevel& mFinest;
-    std::vector<int32_t> mAncestor;
-    CompressedRows mBelow;
-};
+/// @return a leaf ball's radius in voxels.
+double leafRadius(const SphereTree& tree, int32_t leaf)
+{
+    return std::sqrt(double(tree.radiusSq[leaf]) - 1);
+}
 
 int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
 {
@@ -72,33 +38,34 @@ int64_t apartSq(const SphereTree& tree, int32_t leaf, const ExactSphere& sphere)
         kUnits * c[2] - sphere.center[2]);
 }
 
-/// The smallest radius around the sphere's centre that contains the leaf balls. Only those that
+/// The smallest radius around the sphere's center that contains the leaf balls. Only those that
 /// reach farthest in floating point are measured exactly.
-void measure(
-    FittedSphere& sphere, const SphereTree& tree, const LeafBalls& leaves, const NodeSpan& below)
+void measure(FittedSphere& sphere, const SphereTree& tree, const NodeSpan& below)
 {
     const auto reach = [&](int32_t leaf) {
         return std::sqrt(double(apartSq(tree, leaf, sphere.exact)))
-            + double(kUnits) * leaves.radius(leaf);
+            + double(kUnits) * leafRadius(tree, leaf);
     };
     double most = 0;
     for (const int32_t leaf : below) most = std::max(most, reach(leaf));
     for (const int32_t leaf : below) {
         if (reach(leaf) < most * (1 - 1e-12)) continue;
-        const RootSum needed{apartSq(tree, leaf, sphere.exact), leaves.fineRadiusSq(leaf)};
+        const RootSum needed{apartSq(tree, leaf, sphere.exact),
+            kUnits * kUnits * (int64_t(tree.radiusSq[leaf]) - 1)};
         sphere.exact.radiusSq = std::max(sphere.exact.radiusSq, needed.coverSq());
-        sphere.radius = std::max(sphere.radius, voxelsOf(needed));
+        // RootSum is made for halves of voxels.
+        sphere.radius = std::max(sphere.radius, needed.radius() * 2 / double(kUnits));
     }
 }
 
-FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves, const NodeSpan& below,
-    std::vector<RealBall>& balls)
+FittedSphere smallestSphere(
+    const SphereTree& tree, const NodeSpan& below, std::vector<RealBall>& balls)
 {
     const openvdb::Coord& base = tree.ijk[*below.begin()];
     balls.clear();
     for (const int32_t leaf : below) {
         const openvdb::Vec3d apart = tree.ijk[leaf].asVec3d() - base.asVec3d();
-        balls.push_back({apart, leaves.radius(leaf)});
+        balls.push_back({apart, leafRadius(tree, leaf)});
     }
     const openvdb::Vec3d center = miniball(balls).center;
     FittedSphere sphere;
@@ -106,38 +73,8 @@ FittedSphere smallestSphere(const SphereTree& tree, const LeafBalls& leaves, con
         sphere.exact.center[axis] =
             kUnits * base[axis] + std::llround(double(kUnits) * center[axis]);
     }
-    measure(sphere, tree, leaves, below);
+    measure(sphere, tree, below);
     return sphere;
-}
-
-/// The medial centre of a node; around it the radius that the leaf balls below need.
-FittedSphere aroundMedialCentre(
-    const SphereTree& tree, int32_t id, const LeafBalls& leaves, const NodeSpan& below)
-{
-    FittedSphere sphere;
-    for (int axis = 0; axis < 3; ++axis) {
-        sphere.exact.center[axis] = std::llround(double(kUnits) * tree.spheres.center[id][axis]);
-    }
-    measure(sphere, tree, leaves, below);
-    return sphere;
-}
-
-void store(SphereTree& tree, int32_t id, const FittedSphere& sphere)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        tree.spheres.center[id][axis] = double(sphere.exact.center[axis]) / double(kUnits);
-    }
-    tree.spheres.coverRadiusSq[id] = sphere.exact.radiusSq;
-    tree.spheres.radius[id] = sphere.radius;
-}
-
-/// The node's own sphere, in finer units: the same voxels.
-void refineOwn(SphereTree& tree, int32_t id, const LevelFrame& frame)
-{
-    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
-    const RootSum own = frame.radius(tree.radiusSq[id]);
-    const RootSum fine{own.a * kFiner, own.b * kFiner};
-    tree.spheres.coverRadiusSq[id] = fine.coverSq();
 }
 
 /// In the finer units squares are 64 times as large.
@@ -163,27 +100,50 @@ void requireRoom(const SphereTree& tree)
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
     requireRoom(tree);
+    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
+    Spheres& spheres = tree.spheres;
     const bool extended = tree.settings.type() == TreeType::Extended;
-    LeafBalls leaves(tree);
+    const SphereTreeLevel& finest = tree.levels.front();
+    std::vector<int32_t> ancestor(finest.size()); // of each leaf ball, on the level
+    std::iota(ancestor.begin(), ancestor.end(), finest.begin);
+    CompressedRows leaves; // below each node of the level
     for (const SphereTreeLevel& level : tree.levels) {
         const LevelFrame frame(level.level, tree.origin, tree.settings, tree.flatAxis);
         const bool inner = level.level > 0;
-        if (inner) leaves.ascend(level);
+        if (inner) {
+            for (int32_t& node : ancestor) node = spheres.parent[node];
+            leaves = compressedRows(
+                ancestor.size(), std::size_t(level.size()),
+                [&](std::size_t leaf) { return ancestor[leaf] - level.begin; },
+                [&](std::size_t leaf) { return finest.begin + int32_t(leaf); });
+        }
         parallelForWithScratch<std::vector<RealBall>>(
             level.size(), interrupter, [&](std::size_t place, std::vector<RealBall>& scratch) {
                 const int32_t id = level.begin + int32_t(place);
-                const auto below = inner ? leaves.below(int32_t(place)) : NodeSpan{};
-                if (below.empty()) return refineOwn(tree, id, frame);
-                FittedSphere best = smallestSphere(tree, leaves, below, scratch);
+                const auto below = inner ? leaves[int32_t(place)] : NodeSpan{};
+                if (below.empty()) { // its own sphere in finer units: the same voxels
+                    const RootSum own = frame.radius(tree.radiusSq[id]);
+                    spheres.coverRadiusSq[id] = RootSum{own.a * kFiner, own.b * kFiner}.coverSq();
+                    return;
+                }
+                FittedSphere best = smallestSphere(tree, below, scratch);
+                openvdb::Vec3d& center = spheres.center[id];
                 if (extended) {
-                    const FittedSphere medial = aroundMedialCentre(tree, id, leaves, below);
+                    FittedSphere medial; // around the medial center
+                    for (int a = 0; a < 3; ++a) {
+                        medial.exact.center[a] = std::llround(double(kUnits) * center[a]);
+                    }
+                    measure(medial, tree, below);
                     if (medial.exact.radiusSq < best.exact.radiusSq) best = medial;
                 }
-                store(tree, id, best);
+                for (int a = 0; a < 3; ++a) {
+                    center[a] = double(best.exact.center[a]) / double(kUnits);
+                }
+                spheres.coverRadiusSq[id] = best.exact.radiusSq;
+                spheres.radius[id] = best.radius;
             });
     }
     tree.subdivision = kMiniballSubdivision;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -3,11 +3,11 @@
 /// @brief center=miniball: the spheres of a finished reversible or extended tree become the
 /// smallest ones around the leaf balls below them, which Broutta et al. 2009 name as future work.
 ///
-/// Parents, levels and digital balls stay as they are; only centres and radii change. Per level:
-/// 1. `LeafBalls::ascend`: which leaf balls are below which node;
-/// 2. `smallestSphere`, a node each: the smallest ball in floating point (Miniball.h), its centre
+/// Parents, levels and digital balls stay as they are; only centers and radii change. Per level:
+/// 1. which leaf balls are below which node;
+/// 2. `smallestSphere`, a node each: the smallest ball in floating point (Miniball.h), its center
 ///    rounded to 1/16 voxel, and the radius around *that* measured exactly, rounded up;
-/// 3. an extended tree keeps the medial centre where rounding has made its sphere the smaller one.
+/// 3. an extended tree keeps the medial center where rounding has made its sphere the smaller one.
 ///
 /// So every node contains the leaf balls below it, those of reversible trees too, and every level
 /// covers the object. Nodes of a reversible tree with no leaf ball below keep their own spheres.
@@ -17,9 +17,9 @@
 ///
 /// Al.100, levels 1 to 7, % error before and after. Extended: 60, 168, 283, 419, 773, 2086, 3076 to
 /// 38, 80, 122, 261, 418, 477, 734; reversible: 34, 106, 268, 579, 1185, 2927, 7815 to 43, 99, 271,
-/// 493, 870, 1435, 734. (Trying all eight roundings of a centre takes off 0.3 at level 1.)
+/// 493, 870, 1435, 734. (Trying all eight roundings of a center takes off 0.3 at level 1.)
 ///
-/// Exact, but for which of almost equal centres is chosen. The same for any number of threads:
+/// Exact, but for which of almost equal centers is chosen. The same for any number of threads:
 /// nodes are independent. Cost: leaves x levels x some ten distances. Tests:
 /// TestMiniballCenters.cc.
 
@@ -27,15 +27,13 @@
 
 #include <openvdb_spheretree/tree/SphereTree.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
-/// Units of centres in a voxel: rounding a centre adds at most sqrt(3) / 32 voxels to a radius.
+/// Units of centers in a voxel: rounding a center adds at most sqrt(3) / 32 voxels to a radius.
 constexpr int kMiniballSubdivision = 16;
 
 /// @param tree  with everything but radiusWorld and subdivision; Euclidean
 /// @throw openvdb::ValueError if the squares of its radii do not fit
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

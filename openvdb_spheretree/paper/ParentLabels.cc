@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using openvdb::Coord;
 
@@ -84,17 +83,6 @@ RunParents::RunParents(const VoxelBalls& balls, const PyramidStep& step, const C
     }
 }
 
-void RunParents::findLeaves(int32_t x)
-{
-    const int32_t y = mAlongY.parent[0], z = mAlongZ.parent[0];
-    const int lastY = mAlongY.leafOf(mAlongY.count - 1), lastZ = mAlongZ.leafOf(mAlongZ.count - 1);
-    for (int i = 0; i < 4; ++i) {
-        const int leafY = i >> 1, leafZ = i & 1;
-        if (leafY > lastY || leafZ > lastZ) continue;
-        mLeaves[i] = mBalls.layout().findLeaf({x, y + kLeafDim * leafY, z + kLeafDim * leafZ});
-    }
-}
-
 /// The bits of the parents, one row along z at a time, to bits of their children.
 template <typename MaskOf>
 uint64_t RunParents::spread(const MaskOf& maskOf) const
@@ -119,9 +107,19 @@ void RunParents::moveTo(int32_t x)
         mChanged = 0;
         return;
     }
-    if (!mX || *mX >> 3 != x >> 3) findLeaves(x);
+    const LeafLayout& layout = mBalls.layout();
+    if (!mX || *mX >> 3 != x >> 3) {
+        const int lastY = mAlongY.leafOf(mAlongY.count - 1);
+        const int lastZ = mAlongZ.leafOf(mAlongZ.count - 1);
+        for (int i = 0; i < 4; ++i) {
+            const int y = i >> 1, z = i & 1;
+            if (y > lastY || z > lastZ) continue;
+            mLeaves[i] = layout.findLeaf(
+                {x, mAlongY.parent[0] + kLeafDim * y, mAlongZ.parent[0] + kLeafDim * z});
+        }
+    }
     mX = x;
-    mOn = spread([this](uint32_t leaf) -> const LeafMask& { return mBalls.layout().mask(leaf); });
+    mOn = spread([&](uint32_t leaf) -> const LeafMask& { return layout.mask(leaf); });
     mChanged = spread([this](uint32_t leaf) -> const LeafMask& { return mBalls.changed(leaf); });
     mLikeBeforeY = mInnerY
         | spread([this](uint32_t leaf) -> const LeafMask& { return mBalls.likeBeforeY(leaf); });
@@ -129,5 +127,4 @@ void RunParents::moveTo(int32_t x)
         | spread([this](uint32_t leaf) -> const LeafMask& { return mBalls.likeBeforeZ(leaf); });
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

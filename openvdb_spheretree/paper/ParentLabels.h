@@ -21,8 +21,7 @@
 #include <optional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class RunLabels;
 
@@ -88,7 +87,6 @@ public:
     }
 
 private:
-    void findLeaves(int32_t x);
     template <typename MaskOf>
     uint64_t spread(const MaskOf& maskOf) const;
 
@@ -106,5 +104,4 @@ private:
     uint64_t mOn = 0, mChanged = 0, mLikeBeforeY = 0, mLikeBeforeZ = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,18 +6,15 @@
 ///
 /// For each level from the finest up: its medial balls become nodes, with the spheres of
 /// LevelFrame.h (`BuildContext::allBalls`); then each node of the level below gets its parent
-/// (`linkLevels`, detail/TreeLevels.h: the label of the parent voxel of its centre, or the best
-/// parent in the Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after closings, which
-/// stay in the object's box; a custom model that adds voxels for ever is an error.
+/// (`linkLevels`, TreeLevels.h: the label of the parent voxel of its center, or the best
+/// parent in the Sphere-DAG). It ends: the OR pyramid ends with one voxel, also after closings,
+/// which stay in the object's box; a custom model that adds voxels for ever is an error.
 /// Exact. Cost: linear in active voxels of all levels. Tests: TestReversibleTree.cc.
 
 #include "TreeLevels.h"
 #include <openvdb_spheretree/base/Stage.h>
 
-#include <memory>
-
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const BuildContext& context)
 {
@@ -40,5 +37,4 @@ std::vector<LevelNodes> reversibleLevels(openvdb::MaskTree::Ptr voxels, const Bu
     return levels;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

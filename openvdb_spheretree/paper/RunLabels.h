@@ -15,8 +15,7 @@
 #include <array>
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class RunLabels {
 public:
@@ -84,5 +83,4 @@ private:
     std::array<int32_t, kLaneMargin + 64> mRanks{};
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

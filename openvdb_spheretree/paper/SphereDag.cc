@@ -96,44 +96,6 @@ void countingSort(
     for (auto edge = begin; edge != end; ++edge) sorted[place[std::size_t(key(*edge))]++] = *edge;
 }
 
-/// All that was found in one array, ranks made indices of balls.
-struct AllFound {
-    AllFound(const ThreadEdges& found, const detail::BallIndex& parents,
-        const detail::BallIndex& children, NullInterrupter* interrupter)
-    {
-        std::vector<std::pair<const FoundPiece*, std::size_t>> places;
-        for (const FoundEdges& some : found) {
-            for (const FoundPiece& piece : some.pieces()) {
-                places.emplace_back(&piece, count);
-                count += piece.count;
-            }
-        }
-        edges = detail::makeLargeArray<DagEdge>(count);
-        detail::parallelFor(places.size(), interrupter, [&](std::size_t i) {
-            const auto& [piece, place] = places[i];
-            for (std::size_t k = 0; k < piece->count; ++k) {
-                const DagEdge& edge = piece->edges[k];
-                edges[place + k] = {parents.ballOf(edge.parent), children.ballOf(edge.child)};
-            }
-        });
-    }
-
-    std::size_t count = 0;
-    detail::LargeArray<DagEdge> edges;
-};
-
-/// By child, then by parent: both are small numbers, so that no two edges are ever compared.
-std::vector<DagEdge> sortedEdges(AllFound all, std::size_t parentCount, std::size_t childCount)
-{
-    const auto byChild = detail::makeLargeArray<DagEdge>(all.count);
-    DagEdge *const found = all.edges.get(), *const middle = byChild.get();
-    countingSort(
-        found, found + all.count, childCount, [](auto& e) { return e.child; }, middle);
-    countingSort(
-        middle, middle + all.count, parentCount, [](auto& e) { return e.parent; }, found);
-    return std::vector<DagEdge>(found, std::unique(found, found + all.count));
-}
-
 } // namespace
 
 std::vector<DagEdge> sphereDag(const MedialLevel& fine, const MedialLevel& coarse,
@@ -147,8 +109,33 @@ std::vector<DagEdge> sphereDag(const MedialLevel& fine, const MedialLevel& coars
         detail::RunLabels labels(fine.labels, index, run);
         scanRun(labels, run.count, parents, step, found.local());
     });
-    return sortedEdges(AllFound(found, parents.index(), index, interrupter), coarse.balls.size(),
-        fine.balls.size());
+
+    // All that was found in one array, ranks made indices of balls.
+    std::vector<std::pair<const FoundPiece*, std::size_t>> places;
+    std::size_t count = 0;
+    for (const FoundEdges& some : found) {
+        for (const FoundPiece& piece : some.pieces()) {
+            places.emplace_back(&piece, count);
+            count += piece.count;
+        }
+    }
+    const auto edges = detail::makeLargeArray<DagEdge>(count);
+    detail::parallelFor(places.size(), interrupter, [&](std::size_t i) {
+        const auto& [piece, place] = places[i];
+        for (std::size_t k = 0; k < piece->count; ++k) {
+            const DagEdge& edge = piece->edges[k];
+            edges[place + k] = {parents.index().ballOf(edge.parent), index.ballOf(edge.child)};
+        }
+    });
+
+    // Sorted by child, then by parent: both are small numbers, so that no two edges are compared.
+    const auto byChild = detail::makeLargeArray<DagEdge>(count);
+    DagEdge *const begin = edges.get(), *const middle = byChild.get();
+    countingSort(
+        begin, begin + count, fine.balls.size(), [](auto& e) { return e.child; }, middle);
+    countingSort(
+        middle, middle + count, coarse.balls.size(), [](auto& e) { return e.parent; }, begin);
+    return std::vector<DagEdge>(begin, std::unique(begin, begin + count));
 }
 
 } // namespace openvdb_spheretree

@@ -12,8 +12,7 @@
 #include <limits>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 void requireRoomForNodes(std::size_t nodes)
 {
@@ -36,30 +35,15 @@ bool needsDag(const PyramidOptions& options)
 
 namespace {
 
-/// The paper's rule: the label of the parent voxel of the ball's centre. A single ball is
+/// The paper's rule: the label of the parent voxel of the ball's center. A single ball is
 /// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
 /// the clip).
-std::vector<int32_t> parentsByCentre(MedialLevel& coarse)
+std::vector<int32_t> parentsByCenter(MedialLevel& coarse)
 {
     std::vector<int32_t> parent = std::move(coarse.queriedLabel);
     if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
     if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
     OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
-}
-
-/// Edges between balls of both levels to edges between coarser balls and nodes.
-std::vector<DagEdge> edgesToNodes(
-    std::vector<DagEdge> edges, const LevelNodes& nodes, const MedialLevel& fine)
-{
-    std::vector<int32_t> nodeOfBall(fine.balls.size(), -1);
-    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
-        nodeOfBall[fine.ballAt(nodes.balls[i].center)] = int32_t(i);
-    }
-    for (DagEdge& edge : edges) edge.child = nodeOfBall[edge.child];
-    edges.erase(std::remove_if(
-                    edges.begin(), edges.end(), [](const DagEdge& edge) { return edge.child < 0; }),
-        edges.end());
-    return edges;
 }
 
 /// Among a node's parents in the DAG, the one of least covering power: the distance by which the
@@ -81,23 +65,6 @@ void preferDagParents(std::vector<int32_t>& parent, const std::vector<DagEdge>& 
         if (power >= least[edge.child]) continue;
         least[edge.child] = power;
         parent[edge.child] = edge.parent;
-    }
-}
-
-/// Levels grow by a model as far as a level's frame can measure them, and as -check accepts them.
-void requireRoom(const openvdb::CoordBBox& box, int level, const BuildContext& context)
-{
-    const int64_t scale = context.frame(level).scale();
-    for (int axis = 0; axis < context.settings.dim; ++axis) {
-        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
-        const int64_t extent = int64_t(context.bbox.max()[axis]) - context.bbox.min()[axis] + 1;
-        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
-        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
-        OPENVDB_THROW(openvdb::ValueError,
-            "the pyramid model grows level "
-                << level << " to " << side << " voxels of " << scale << " along "
-                << "xyz"[axis] << ", too far from an object of " << extent
-                << ": let it add fewer voxels");
     }
 }
 
@@ -150,18 +117,29 @@ LevelNodes BuildContext::allBalls(std::unique_ptr<MedialLevel>& level) const
 openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, int level) const
 {
     if (!model) return coarsen(voxels, stepFrom(level), interrupter);
-    const int64_t scale = frame(level).scale() * options.factor;
-    if (options.customModel && scale > LevelFrame::kMaxScale) {
+    const int64_t nextScale = frame(level).scale() * options.factor;
+    if (options.customModel && nextScale > LevelFrame::kMaxScale) {
         OPENVDB_THROW(openvdb::ValueError,
             "the tree does not end: level "
-                << level
-                << " still has several spheres, since the "
-                   "pyramid model adds voxels as fast as levels shrink");
+                << level << " still has several spheres, since the pyramid model adds voxels as "
+                << "fast as levels shrink");
     }
     const openvdb::MaskTree::Ptr result = nextLevel(voxels, stepFrom(level), model, interrupter);
     openvdb::CoordBBox box;
     result->evalActiveVoxelBoundingBox(box);
-    requireRoom(box, level + 1, *this);
+    // Levels may grow by a model as far as a level's frame can measure, and as -check accepts.
+    const int64_t scale = frame(level + 1).scale();
+    for (int axis = 0; axis < settings.dim; ++axis) {
+        const int64_t side = int64_t(box.max()[axis]) - box.min()[axis] + 1;
+        const int64_t extent = int64_t(bbox.max()[axis]) - bbox.min()[axis] + 1;
+        const int64_t most = std::min(4 * extent + 32 * scale, LevelFrame::kMaxScale);
+        if (side * scale <= std::max(most, extent + 2 * scale)) continue; // the latter: as OR's
+        OPENVDB_THROW(openvdb::ValueError,
+            "the pyramid model grows level "
+                << level + 1 << " to " << side << " voxels of " << scale << " along "
+                << "xyz"[axis] << ", too far from an object of " << extent
+                << ": let it add fewer voxels");
+    }
     return result;
 }
 
@@ -170,9 +148,18 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
 {
     const PyramidStep step = context.stepFrom(level);
     Links links;
-    links.parent = parentsByCentre(coarse);
+    links.parent = parentsByCenter(coarse);
     if (!needsDag(context.options)) return links;
-    links.dag = edgesToNodes(sphereDag(*fine, coarse, step, context.interrupter), nodes, *fine);
+    // Edges between balls of both levels become edges between coarser balls and nodes.
+    std::vector<int32_t> nodeOfBall(fine->balls.size(), -1);
+    for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
+        nodeOfBall[fine->ballAt(nodes.balls[i].center)] = int32_t(i);
+    }
+    std::vector<DagEdge>& dag = links.dag;
+    dag = sphereDag(*fine, coarse, step, context.interrupter);
+    for (DagEdge& edge : dag) edge.child = nodeOfBall[edge.child];
+    const auto isNoNode = [](const DagEdge& edge) { return edge.child < 0; };
+    dag.erase(std::remove_if(dag.begin(), dag.end(), isNoNode), dag.end());
     if (context.options.parent == ParentRule::Dag) {
         preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
     }
@@ -180,5 +167,4 @@ Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, Me
     return links;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -17,12 +17,11 @@
 #include <optional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The nodes of one level; their indices are within the level.
 struct LevelNodes {
-    std::vector<MedialBall> balls; ///< ordered by centre
+    std::vector<MedialBall> balls; ///< ordered by center
     std::vector<double> radius;    ///< units of the distance, on level 0; empty: as the balls are
     std::vector<int64_t> coverSq;  ///< the same, exactly: see SphereTree
     std::vector<int32_t> parent;   ///< node of the next level; empty at the root
@@ -32,8 +31,8 @@ struct LevelNodes {
 };
 
 /// @brief Stop before a tree grows that has no room, as soon as the balls of level 0 are known.
-/// @throw openvdb::ValueError if so many nodes have no ids, or more arrays (SphereTree) than this
-///        machine has memory
+/// @throw openvdb::ValueError if there are more nodes than ids, or their arrays (SphereTree) need
+///        more memory than this machine has
 void requireRoomForNodes(std::size_t nodes);
 
 /// @return whether a build looks at the labels of all voxels.
@@ -81,8 +80,8 @@ struct Links {
 /// @return the topology of a level's voxels, if the settings want it.
 std::optional<LevelTopology> topologyOf(const MedialLevel& level, const BuildContext& context);
 
-/// @brief Find the parents of @a nodes among the balls of @a coarse, a level that was made with them
-/// as children.
+/// @brief Find the parents of @a nodes among the balls of @a coarse, a level that was made with
+/// them as children.
 /// @param fine  the level whose balls the nodes are; needed for a DAG alone
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
     const BuildContext& context);
@@ -92,5 +91,4 @@ std::vector<LevelNodes> reversibleLevels(
     openvdb::MaskTree::Ptr object, const BuildContext& context);
 std::vector<LevelNodes> extendedLevels(openvdb::MaskTree::Ptr object, const BuildContext& context);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -15,8 +15,7 @@
 #include <cmath>
 #include <utility>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -132,5 +131,4 @@ std::vector<Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& le
     return colors;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return the linear light of an sRGB colour; all components are 0 to 1.
 openvdb::Vec3d linearOf(const openvdb::Vec3d& srgb);
@@ -22,5 +21,4 @@ uint8_t srgbByte(double linear);
 std::vector<openvdb::Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& level,
     const PictureSettings& settings, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

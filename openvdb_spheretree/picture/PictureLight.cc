@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using openvdb::Vec3d;
 
@@ -88,5 +87,4 @@ Vec3d Light::background(double y)
     return top + y * (bottom - top);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

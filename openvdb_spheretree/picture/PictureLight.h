@@ -7,8 +7,7 @@
 #include "Camera.h"
 #include <openvdb_spheretree/index/Ray.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The rays of a picture's pixels.
 struct CameraRays {
@@ -59,5 +58,4 @@ struct Light {
     static openvdb::Vec3d background(double y);
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -17,8 +17,7 @@
 #include <optional>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct Hit {
     double distance;       ///< along the ray
@@ -83,5 +82,4 @@ private:
     std::vector<Shape> mShapes;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

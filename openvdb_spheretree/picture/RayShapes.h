@@ -25,8 +25,7 @@
 #include <cmath>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr double kNoEntry = -1;
 
@@ -200,5 +199,4 @@ private:
     }
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,7 +6,7 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h>
 
 #include <cmath>
 #include <cstdint>
@@ -23,9 +23,7 @@ struct SphereMetric {
     static constexpr int kMaxSubdivision = 16;
 
     SphereMetric() = default;
-    SphereMetric(const Distance& distance, int subdivision = 2)
-        : distance(distance), subdivision(subdivision)
-    {}
+    SphereMetric(const Distance& metric, int parts = 2) : distance(metric), subdivision(parts) {}
 };
 
 /// The voxels q of the grid it is drawn on with |subdivision q - center|^2 <= radiusSq, where the

@@ -31,12 +31,10 @@ size_t utf8Length(const std::string& text, size_t at)
 
 } // namespace
 
-void JsonWriter::newLine() { mText += "\n" + std::string(size_t(2 * mDepth), ' '); }
-
 void JsonWriter::item(const std::string& key)
 {
     if (!mFirst) mText += mOnOneLine ? ", " : ",";
-    if (mDepth > 0 && !mOnOneLine) newLine();
+    if (mDepth > 0 && !mOnOneLine) mText += "\n" + std::string(size_t(2 * mDepth), ' ');
     mFirst = false;
     if (key.empty()) return;
     quote(key);
@@ -54,23 +52,12 @@ void JsonWriter::open(const std::string& key, char bracket)
 void JsonWriter::close(char bracket)
 {
     --mDepth;
-    if (!mFirst && !mOnOneLine) newLine();
+    if (!mFirst && !mOnOneLine) mText += "\n" + std::string(size_t(2 * mDepth), ' ');
     mText += bracket;
     mFirst = false;
     mOnOneLine = false;
     if (mDepth == 0) mText += '\n';
 }
-
-void JsonWriter::beginObject(const std::string& key) { open(key, '{'); }
-void JsonWriter::endObject() { close('}'); }
-
-void JsonWriter::beginArray(const std::string& key, bool onOneLine)
-{
-    open(key, '[');
-    mOnOneLine = onOneLine;
-}
-
-void JsonWriter::endArray() { close(']'); }
 
 void JsonWriter::quote(const std::string& text)
 {
@@ -106,24 +93,6 @@ void JsonWriter::value(const std::string& key, double number)
     item(key);
     char buffer[32];
     mText.append(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
-}
-
-void JsonWriter::value(const std::string& key, int64_t number)
-{
-    item(key);
-    mText += std::to_string(number);
-}
-
-void JsonWriter::value(const std::string& key, bool truth)
-{
-    item(key);
-    mText += truth ? "true" : "false";
-}
-
-void JsonWriter::null(const std::string& key)
-{
-    item(key);
-    mText += "null";
 }
 
 } // namespace openvdb_spheretree

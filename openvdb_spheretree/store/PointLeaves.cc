@@ -5,6 +5,8 @@
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
+#include <openvdb/points/PointGroup.h>
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -12,8 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -24,9 +25,6 @@ using openvdb::Vec3f;
 namespace points = openvdb::points;
 
 Coord leafOrigin(const Coord& voxel) { return voxel & ~int32_t(PointLeaf::DIM - 1); }
-
-/// Division by a power of two is exact.
-Vec3d pointSpace(const Vec3d& position, int scale) { return position / double(scale); }
 
 /// @return the lowest index that is wrong, or @a count: of several it is always the same one.
 template <typename Wrong>
@@ -39,23 +37,18 @@ std::size_t firstWrong(std::size_t count, const Wrong& wrong)
     return first;
 }
 
-/// @return how many voxels the first @a count points are in.
-std::size_t countVoxels(const std::vector<Vec3d>& positions, std::size_t count, int scale)
-{
-    const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
-    parallelFor(count, nullptr,
-        [&](std::size_t i) { voxels[i] = Coord::round(pointSpace(positions[i], scale)); });
-    tbb::parallel_sort(voxels.get(), voxels.get() + count);
-    return std::size_t(std::unique(voxels.get(), voxels.get() + count) - voxels.get());
-}
-
 /// Whether a voxel holds too few points on average. On fine scales some of the points have more
 /// voxels than all of them should, and need no others to be counted.
 bool isTooFine(const std::vector<Vec3d>& positions, int scale)
 {
     constexpr std::size_t kPointsPerVoxel = 4;
-    const auto tooMany = [&](std::size_t count) {
-        return countVoxels(positions, count, scale) * kPointsPerVoxel > positions.size();
+    const auto tooMany = [&](std::size_t count) { // voxels that the first points are in
+        const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
+        Coord *const begin = voxels.get(), *const end = begin + count;
+        parallelFor(count, nullptr,
+            [&](std::size_t i) { begin[i] = Coord::round(positions[i] / double(scale)); });
+        tbb::parallel_sort(begin, end);
+        return std::size_t(std::unique(begin, end) - begin) * kPointsPerVoxel > positions.size();
     };
     return tooMany(positions.size() / 3) || tooMany(positions.size());
 }
@@ -64,8 +57,8 @@ void checkRange(const std::vector<Vec3d>& positions)
 {
     if (positions.size() > std::size_t(std::numeric_limits<int32_t>::max())) {
         OPENVDB_THROW(openvdb::ValueError,
-            positions.size() << " points are more than a file can "
-                                "hold (2^31 - 1): use a larger voxel, or split the object");
+            positions.size() << " points are more than a file can hold (2^31 - 1): use a larger "
+                                "voxel, or split the object");
     }
     const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
     const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
@@ -80,20 +73,23 @@ void checkRange(const std::vector<Vec3d>& positions)
 
 } // namespace
 
-int PointWriter::chooseScale(const std::vector<Vec3d>& positions)
-{
-    int scale = 1;
-    while (scale < kMaxPointScale && isTooFine(positions, scale)) scale *= 2;
-    return scale;
-}
-
 PointWriter::PointWriter(const std::vector<Vec3d>& positions)
     : mGrid(makeGrid<points::PointDataGrid>())
 {
     checkRange(positions);
-    mScale = chooseScale(positions);
+    while (mScale < kMaxPointScale && isTooFine(positions, mScale)) mScale *= 2;
     const std::vector<Place> sorted = places(positions);
-    buildLeaves(sorted);
+    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(mGrid->tree());
+    mOrder.reserve(sorted.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const Coord origin = leafOrigin(sorted[i].voxel);
+        if (i == 0 || leafOrigin(sorted[i - 1].voxel) != origin) {
+            mLeaves.push_back(accessor.touchLeaf(origin));
+            mBegin.push_back(uint32_t(i));
+        }
+        mOrder.push_back(sorted[i].point);
+    }
+    mBegin.push_back(uint32_t(sorted.size()));
 
     const auto descriptor = points::AttributeSet::Descriptor::create(
         points::TypedAttributeArray<Vec3f>::attributeType());
@@ -110,7 +106,7 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
 {
     std::vector<Place> places(positions.size());
     const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
-        const Vec3d position = pointSpace(positions[i], mScale);
+        const Vec3d position = positions[i] / double(mScale); // exact: a power of two
         const Coord voxel = Coord::round(position);
         const Vec3f offset(position - voxel.asVec3d());
         places[i] = {voxel, uint32_t(i)};
@@ -130,21 +126,6 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
     return places;
 }
 
-void PointWriter::buildLeaves(const std::vector<Place>& places)
-{
-    openvdb::tree::ValueAccessor<points::PointDataTree> accessor(mGrid->tree());
-    mOrder.reserve(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Coord origin = leafOrigin(places[i].voxel);
-        if (i == 0 || leafOrigin(places[i - 1].voxel) != origin) {
-            mLeaves.push_back(accessor.touchLeaf(origin));
-            mBegin.push_back(uint32_t(i));
-        }
-        mOrder.push_back(places[i].point);
-    }
-    mBegin.push_back(uint32_t(places.size()));
-}
-
 void PointWriter::writeLeaf(
     std::size_t leaf, const std::vector<Place>& places, const std::vector<Vec3d>& positions)
 {
@@ -152,7 +133,7 @@ void PointWriter::writeLeaf(
     std::vector<PointLeaf::ValueType> ends(PointLeaf::SIZE, PointLeaf::ValueType(0));
     for (uint32_t n = 0; n < countOf(leaf); ++n) {
         const Place& place = places[mBegin[leaf] + n];
-        const Vec3d position = pointSpace(positions[place.point], mScale);
+        const Vec3d position = positions[place.point] / double(mScale);
         handle.set(n, Vec3f(position - place.voxel.asVec3d()));
         ends[PointLeaf::coordToOffset(place.voxel)] = PointLeaf::ValueType(n + 1);
     }
@@ -161,17 +142,22 @@ void PointWriter::writeLeaf(
     mLeaves[leaf]->setOffsets(ends);
 }
 
-void PointWriter::setGroups(
-    PointLeaf& leaf, const std::vector<std::string>& names, const std::vector<int>& groups) const
+void PointWriter::addGroups(
+    const std::vector<std::string>& names, const std::function<int(uint32_t)>& groupOf)
 {
-    for (int group = 0; group < int(names.size()); ++group) {
-        if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;
-        points::GroupWriteHandle handle = leaf.groupWriteHandle(names[group]);
-        for (std::size_t n = 0; n < groups.size(); ++n) {
-            if (groups[n] == group) handle.set(Index(n), true);
+    points::appendGroups(mGrid->tree(), names);
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        std::vector<int> groups(countOf(i));
+        for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);
+        for (int group = 0; group < int(names.size()); ++group) {
+            if (std::find(groups.begin(), groups.end(), group) == groups.end()) continue;
+            points::GroupWriteHandle handle = mLeaves[i]->groupWriteHandle(names[group]);
+            for (std::size_t n = 0; n < groups.size(); ++n) {
+                if (groups[n] == group) handle.set(Index(n), true);
+            }
+            handle.compact();
         }
-        handle.compact();
-    }
+    });
 }
 
 points::PointDataGrid::Ptr PointWriter::finish(const openvdb::math::Transform& source) const
@@ -210,5 +196,4 @@ std::vector<Vec3d> PointReader::positions(int scale) const
     return positions;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

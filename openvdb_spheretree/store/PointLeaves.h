@@ -2,10 +2,10 @@
 /// @file PointLeaves.h
 /// @brief Points into the leaves of a PointDataGrid, and out of them, without rounding a position.
 ///
-/// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here a
-/// position is given in index space, a multiple of 1/16 of the source's voxel; the point grid's
-/// voxel is a power of two of those, so position / scale = voxel + offset, and a float holds the
-/// offset.
+/// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here
+/// positions are in index space, multiples of 1/16 of the source's voxel. A voxel of the point grid
+/// is `scale` of these wide, a power of two. So position / scale = voxel + offset, and a float
+/// holds the offset.
 ///
 /// Points are ordered by leaf, voxel and input index, so the grid does not depend on threads.
 
@@ -16,14 +16,13 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointDataGrid.h>
-#include <openvdb/points/PointGroup.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Offsets are multiples of 1 / (16 scale), at most 1/2 in size: 16 bits, where a float has 24.
 constexpr int kMaxPointScale = 4096;
@@ -46,8 +45,8 @@ public:
     void addAttribute(const std::string& name, const Value& value);
 
     /// Adds the groups, and puts point i in the group that has index groupOf(i).
-    template <typename Group>
-    void addGroups(const std::vector<std::string>& names, const Group& groupOf);
+    void addGroups(
+        const std::vector<std::string>& names, const std::function<int(uint32_t)>& groupOf);
 
     /// The grid, its transform that of the source, scaled.
     openvdb::points::PointDataGrid::Ptr finish(const openvdb::math::Transform& source) const;
@@ -57,16 +56,12 @@ private:
         openvdb::Coord voxel;
         uint32_t point;
     };
-    static int chooseScale(const std::vector<openvdb::Vec3d>& positions);
     std::vector<Place> places(const std::vector<openvdb::Vec3d>& positions) const;
-    void buildLeaves(const std::vector<Place>& places);
     void writeLeaf(std::size_t leaf, const std::vector<Place>& places,
         const std::vector<openvdb::Vec3d>& positions);
     uint32_t countOf(std::size_t leaf) const { return mBegin[leaf + 1] - mBegin[leaf]; }
-    void setGroups(PointLeaf& leaf, const std::vector<std::string>& names,
-        const std::vector<int>& groups) const;
 
-    int mScale;
+    int mScale = 1;
     openvdb::points::PointDataGrid::Ptr mGrid;
     std::vector<PointLeaf*> mLeaves;
     std::vector<uint32_t> mBegin; ///< leaf i holds the points mOrder[mBegin[i]...mBegin[i + 1])
@@ -89,11 +84,8 @@ public:
     std::vector<openvdb::Vec3d> positions(int scale) const;
 
 private:
-    template <typename Array>
-    void checkAttribute(const PointLeaf& leaf, const std::string& name) const;
-
     std::vector<const PointLeaf*> mLeaves;
-    std::vector<std::size_t> mBegin;
+    std::vector<std::size_t> mBegin; ///< of each leaf's points in the arrays
 };
 
 // ---- Templates
@@ -110,22 +102,21 @@ void PointWriter::addAttribute(const std::string& name, const Value& value)
     });
 }
 
-template <typename Group>
-void PointWriter::addGroups(const std::vector<std::string>& names, const Group& groupOf)
-{
-    openvdb::points::appendGroups(mGrid->tree(), names);
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-        std::vector<int> groups(countOf(i));
-        for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);
-        setGroups(*mLeaves[i], names, groups);
-    });
-}
-
 template <typename T>
 std::vector<T> PointReader::attribute(const std::string& name) const
 {
+    const openvdb::NamePair& expected = openvdb::points::TypedAttributeArray<T>::attributeType();
     for (const PointLeaf* leaf : mLeaves) {
-        checkAttribute<openvdb::points::TypedAttributeArray<T>>(*leaf, name);
+        const openvdb::points::AttributeArray* array = leaf->attributeSet().getConst(name);
+        if (!array) {
+            OPENVDB_THROW(openvdb::ValueError, "there is no attribute '" << name << "'");
+        }
+        const openvdb::NamePair& type = array->type();
+        if (type == expected && array->stride() == 1) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "attribute '" << name << "' is of type " << type.first << "/" << type.second << " with "
+                          << array->stride() << " values a point, not " << expected.first << "/"
+                          << expected.second << " with 1");
     }
     std::vector<T> values(size());
     parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
@@ -136,22 +127,4 @@ std::vector<T> PointReader::attribute(const std::string& name) const
     return values;
 }
 
-template <typename Array>
-void PointReader::checkAttribute(const PointLeaf& leaf, const std::string& name) const
-{
-    const openvdb::points::AttributeArray* array = leaf.attributeSet().getConst(name);
-    if (!array) {
-        OPENVDB_THROW(openvdb::ValueError, "there is no attribute '" << name << "'");
-    }
-    const openvdb::NamePair& type = array->type();
-    const openvdb::NamePair& expected = Array::attributeType();
-    if (type != expected || array->stride() != 1) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "attribute '" << name << "' is of type " << type.first << "/" << type.second << " with "
-                          << array->stride() << " values a point, not " << expected.first << "/"
-                          << expected.second << " with 1");
-    }
-}
-
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

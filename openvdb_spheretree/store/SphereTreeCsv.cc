@@ -24,32 +24,14 @@ void append(std::string& row, Number value, char separator)
     row += separator;
 }
 
-void appendNode(std::string& text, const SphereTree& tree, int32_t id, int level)
+/// Called after each row, and at the end.
+void write(std::string& text, std::ostream& out, bool atEnd = false)
 {
-    append(text, level, ',');
-    append(text, id, ',');
-    append(text, tree.spheres.parent[id], ',');
-    const openvdb::Vec3d center = tree.centerWorld(id);
-    for (int axis = 0; axis < 3; ++axis) append(text, center[axis], ',');
-    // Widened first: the shortest text of the float could read back to a double just below it.
-    append(text, double(tree.spheres.radiusWorld[id]), ',');
-    const openvdb::Coord ijk = shownVoxel(tree, id, level);
-    for (int axis = 0; axis < 3; ++axis) append(text, ijk[axis], ',');
-    append(text, tree.radiusSq[id], '\n');
-}
-
-void flush(std::string& text, std::ostream& out)
-{
+    if (!atEnd && text.size() < kFlushBytes) return;
     out.write(text.data(), std::streamsize(text.size()));
+    if (atEnd) out.flush();
     if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
     text.clear();
-}
-
-void finish(std::string& text, std::ostream& out)
-{
-    flush(text, out);
-    out.flush();
-    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .csv: is the disk full?");
 }
 
 } // namespace
@@ -65,11 +47,20 @@ void writeCsv(const SphereTree& tree, std::ostream& out)
     std::string text = "level,id,parent,x,y,z,radius,i,j,k,radius_sq\n";
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
-            appendNode(text, tree, id, level->level);
-            if (text.size() >= kFlushBytes) flush(text, out);
+            append(text, level->level, ',');
+            append(text, id, ',');
+            append(text, tree.spheres.parent[id], ',');
+            const openvdb::Vec3d center = tree.centerWorld(id);
+            for (int axis = 0; axis < 3; ++axis) append(text, center[axis], ',');
+            // Widened: the shortest text of the float could read back to a double just below it.
+            append(text, double(tree.spheres.radiusWorld[id]), ',');
+            const openvdb::Coord ijk = shownVoxel(tree, id, level->level);
+            for (int axis = 0; axis < 3; ++axis) append(text, ijk[axis], ',');
+            append(text, tree.radiusSq[id], '\n');
+            write(text, out);
         }
     }
-    finish(text, out);
+    write(text, out, /*atEnd=*/true);
 }
 
 void writeDagCsv(const SphereTree& tree, std::ostream& out)
@@ -78,9 +69,9 @@ void writeDagCsv(const SphereTree& tree, std::ostream& out)
     for (const DagEdge& edge : tree.dag) {
         append(text, edge.parent, ',');
         append(text, edge.child, '\n');
-        if (text.size() >= kFlushBytes) flush(text, out);
+        write(text, out);
     }
-    finish(text, out);
+    write(text, out, /*atEnd=*/true);
 }
 
 } // namespace openvdb_spheretree

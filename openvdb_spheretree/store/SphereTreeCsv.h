@@ -11,14 +11,13 @@
 namespace openvdb_spheretree {
 
 /// @brief Write one header line `level,id,parent,x,y,z,radius,i,j,k,radius_sq`, then a row a node,
-/// by level from the top, then by id. Centre and radius are in world space and read back to the
-/// same double; the radius is radiusWorld. i,j,k,radius_sq is the digital ball: in the source's
-/// index space at level 0, in its level's own grid above. Of a sphere that is none, radius_sq is -1
-/// and i,j,k the nearest voxel, in index space.
+/// by level from the top, then by id. Center and radius (radiusWorld) are in world space, and read
+/// back to the same double. i,j,k is shownVoxel(); radius_sq that of the digital ball, -1 where
+/// there is none.
 /// @throw openvdb::IoError if the stream fails
 void writeCsv(const SphereTree& tree, std::ostream& out);
 
-/// @brief Write the edges of the Sphere-DAG by node id: one header line `parent,child`, then a row
+/// @brief Write the edges of the Sphere-DAG: one header line `parent,child`, then a row of two ids
 /// an edge, sorted.
 /// @throw openvdb::IoError if the stream fails
 void writeDagCsv(const SphereTree& tree, std::ostream& out);
@@ -26,9 +25,9 @@ void writeDagCsv(const SphereTree& tree, std::ostream& out);
 /// @return whether the tree has a DAG to write, be it one without edges.
 inline bool hasDag(const SphereTree& tree) { return tree.hasDag || !tree.dag.empty(); }
 
-/// @return the digital ball's centre as text files show it: at level 0 in the index space of the
-///         source grid, which is where the sphere's own centre is, above in the level's own grid.
-///         The voxel nearest to a sphere that is no digital ball.
+/// @return the center of the node's digital ball: at level 0 in the index space of the source grid,
+///         above in the level's own grid. Where there is no digital ball, the voxel nearest to the
+///         sphere's center, in index space.
 openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level);
 
 } // namespace openvdb_spheretree

@@ -8,6 +8,7 @@
 #include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
+#include <array>
 #include <cstddef>
 #include <ostream>
 
@@ -15,14 +16,18 @@ namespace openvdb_spheretree {
 
 namespace {
 
-constexpr const char* kColumns[] = {"level", "id", "parent", "x", "y", "z", "radius", "i", "j", "k",
-    "radius_sq", "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
+/// An array on one line.
+template <typename Values>
+void writeArray(JsonWriter& json, const std::string& key, const Values& values)
+{
+    json.beginArray(key, /*onOneLine=*/true);
+    for (const auto& value : values) json.value("", value);
+    json.endArray();
+}
 
 void writeCoord(JsonWriter& json, const std::string& key, const openvdb::Coord& ijk)
 {
-    json.beginArray(key, /*onOneLine=*/true);
-    for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
-    json.endArray();
+    writeArray(json, key, std::array<int, 3>{ijk[0], ijk[1], ijk[2]});
 }
 
 void writeVec(JsonWriter& json, const openvdb::Vec3d& vec)
@@ -30,25 +35,14 @@ void writeVec(JsonWriter& json, const openvdb::Vec3d& vec)
     for (int axis = 0; axis < 3; ++axis) json.value("", vec[axis]);
 }
 
-void flush(JsonWriter& json, std::ostream& out, std::size_t atLeast = 0)
+/// Called after each row, and at the end.
+void flush(JsonWriter& json, std::ostream& out, bool atEnd = false)
 {
-    if (json.text().size() < atLeast) return;
+    if (!atEnd && json.text().size() < std::size_t(1) << 16) return;
     out.write(json.text().data(), std::streamsize(json.text().size()));
+    if (atEnd) out.flush();
     if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .json: is the disk full?");
     json.clearText();
-}
-
-/// Called after each row.
-void flushOften(JsonWriter& json, std::ostream& out) { flush(json, out, std::size_t(1) << 16); }
-
-void writeTransform(JsonWriter& json, const SphereTree& tree)
-{
-    const openvdb::Mat4d matrix = tree.transform->baseMap()->getAffineMap()->getMat4();
-    json.beginArray("transform", /*onOneLine=*/true);
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) json.value("", matrix(row, column));
-    }
-    json.endArray();
 }
 
 void writeLevels(JsonWriter& json, const SphereTree& tree)
@@ -67,39 +61,34 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
     json.endArray();
 }
 
-void writeNode(JsonWriter& json, const SphereTree& tree, int32_t id, int level)
+/// The last columns of nodes and of cuts: the sphere in index space.
+void writeSphere(JsonWriter& json, const Spheres& spheres, int32_t id)
 {
-    json.beginArray("", /*onOneLine=*/true);
-    json.value("", level);
-    json.value("", id);
-    json.value("", tree.spheres.parent[id]);
-    writeVec(json, tree.centerWorld(id));
-    json.value("", double(tree.spheres.radiusWorld[id]));
-    const openvdb::Coord ijk = shownVoxel(tree, id, level);
-    for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
-    json.value("", tree.radiusSq[id]);
-    writeVec(json, tree.spheres.center[id]);
-    json.value("", tree.spheres.radius[id]);
-    json.value("", tree.spheres.coverRadiusSq[id]);
-    json.endArray();
-}
-
-template <std::size_t N>
-void writeColumns(JsonWriter& json, const char* const (&columns)[N])
-{
-    json.beginArray("columns", /*onOneLine=*/true);
-    for (const char* column : columns) json.value("", column);
-    json.endArray();
+    writeVec(json, spheres.center[id]);
+    json.value("", spheres.radius[id]);
+    json.value("", spheres.coverRadiusSq[id]);
 }
 
 void writeNodes(JsonWriter& json, const SphereTree& tree, std::ostream& out)
 {
-    writeColumns(json, kColumns);
+    constexpr const char* kColumns[] = {"level", "id", "parent", "x", "y", "z", "radius", "i", "j",
+        "k", "radius_sq", "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
+    writeArray(json, "columns", kColumns);
     json.beginArray("nodes");
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
-            writeNode(json, tree, id, level->level);
-            flushOften(json, out);
+            json.beginArray("", /*onOneLine=*/true);
+            json.value("", level->level);
+            json.value("", id);
+            json.value("", tree.spheres.parent[id]);
+            writeVec(json, tree.centerWorld(id));
+            json.value("", double(tree.spheres.radiusWorld[id]));
+            const openvdb::Coord ijk = shownVoxel(tree, id, level->level);
+            for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
+            json.value("", tree.radiusSq[id]);
+            writeSphere(json, tree.spheres, id);
+            json.endArray();
+            flush(json, out);
         }
     }
     json.endArray();
@@ -113,29 +102,9 @@ void writeDag(JsonWriter& json, const SphereTree& tree, std::ostream& out)
     }
     json.beginArray("dag");
     for (const DagEdge& edge : tree.dag) {
-        json.beginArray("", /*onOneLine=*/true);
-        json.value("", edge.parent);
-        json.value("", edge.child);
-        json.endArray();
-        flushOften(json, out);
+        writeArray(json, "", std::array<int32_t, 2>{edge.parent, edge.child});
+        flush(json, out);
     }
-    json.endArray();
-}
-
-constexpr const char* kCutsColumns[] = {"id", "parent", "first", "last", "x", "y", "z", "radius",
-    "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
-
-void writeCutsNode(JsonWriter& json, const SphereTree& tree, int32_t id)
-{
-    const SphereCuts& cuts = tree.cuts;
-    json.beginArray("", /*onOneLine=*/true);
-    for (int32_t value : {id, cuts.spheres.parent[id], cuts.first[id], cuts.last[id]})
-        json.value("", value);
-    writeVec(json, tree.transform->indexToWorld(cuts.spheres.center[id]));
-    json.value("", double(cuts.spheres.radiusWorld[id]));
-    writeVec(json, cuts.spheres.center[id]);
-    json.value("", cuts.spheres.radius[id]);
-    json.value("", cuts.spheres.coverRadiusSq[id]);
     json.endArray();
 }
 
@@ -145,12 +114,22 @@ void writeCuts(JsonWriter& json, const SphereTree& tree, std::ostream& out)
         json.null("cuts");
         return;
     }
+    constexpr const char* kColumns[] = {"id", "parent", "first", "last", "x", "y", "z", "radius",
+        "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
+    const SphereCuts& cuts = tree.cuts;
     json.beginObject("cuts");
-    writeColumns(json, kCutsColumns);
+    writeArray(json, "columns", kColumns);
     json.beginArray("nodes");
-    for (int32_t id = 0; id < tree.cuts.size(); ++id) {
-        writeCutsNode(json, tree, id);
-        flushOften(json, out);
+    for (int32_t id = 0; id < cuts.size(); ++id) {
+        json.beginArray("", /*onOneLine=*/true);
+        for (const int32_t value : {id, cuts.spheres.parent[id], cuts.first[id], cuts.last[id]}) {
+            json.value("", value);
+        }
+        writeVec(json, tree.transform->indexToWorld(cuts.spheres.center[id]));
+        json.value("", double(cuts.spheres.radiusWorld[id]));
+        writeSphere(json, cuts.spheres, id);
+        json.endArray();
+        flush(json, out);
     }
     json.endArray();
     json.endObject();
@@ -167,11 +146,8 @@ void writeSetting(JsonWriter& json, const detail::Setting& setting, const std::s
         else json.value(setting.name, detail::realOf(text));
         break;
     case SettingType::Counts:
-        json.beginArray(setting.name, /*onOneLine=*/true);
-        if (!text.empty()) {
-            for (const int64_t count : countsFromString(text)) json.value("", count);
-        }
-        json.endArray();
+        writeArray(
+            json, setting.name, text.empty() ? std::vector<int64_t>() : countsFromString(text));
         break;
     default: json.value(setting.name, text);
     }
@@ -241,16 +217,17 @@ void writeJson(const SphereTree& tree, std::ostream& out)
     json.beginObject("settings");
     writeSettings(json, tree);
     json.endObject();
-    writeTransform(json, tree);
+    const openvdb::Mat4d matrix = tree.transform->baseMap()->getAffineMap()->getMat4();
+    json.beginArray("transform", /*onOneLine=*/true);
+    for (int i = 0; i < 16; ++i) json.value("", matrix(i / 4, i % 4));
+    json.endArray();
     json.value("subdivision", tree.subdivision);
     writeLevels(json, tree);
     writeNodes(json, tree, out);
     writeDag(json, tree, out);
     writeCuts(json, tree, out);
     json.endObject();
-    flush(json, out);
-    out.flush();
-    if (!out) OPENVDB_THROW(openvdb::IoError, "cannot write the .json: is the disk full?");
+    flush(json, out, /*atEnd=*/true);
 }
 
 } // namespace openvdb_spheretree

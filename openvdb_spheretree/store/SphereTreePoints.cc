@@ -42,15 +42,6 @@ void requireStorable(const SphereTree& tree)
     tree.settings.validate();
 }
 
-std::vector<std::string> groupNames(const SphereTree& tree)
-{
-    std::vector<std::string> names;
-    for (const SphereTreeLevel& level : tree.levels) {
-        names.push_back("level_" + std::to_string(level.level));
-    }
-    return names;
-}
-
 // ---- Reading: first everything into arrays in the order of ids, then checks in that order, so
 // that the first offender named is the same every time
 
@@ -111,20 +102,16 @@ void gather(
     for (std::size_t i = 0; i < order.size(); ++i) out[i] = Out(values[order[i]]);
 }
 
-/// @return the attribute `level` of every node.
-std::vector<int32_t> readNodes(const detail::PointReader& reader, int scale, SphereTree& tree)
+/// Reads what nodes of trees and of cuts have in common. @return where node id is among the points
+std::vector<std::size_t> readSpheres(const detail::PointReader& reader, int scale, Spheres& spheres)
 {
     const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
-    gather(reader.positions(scale), order, tree.spheres.center);
-    gather(reader.attribute<double>("radius"), order, tree.spheres.radius);
-    gather(reader.attribute<int64_t>("cover_sq"), order, tree.spheres.coverRadiusSq);
-    gather(reader.attribute<float>("pscale"), order, tree.spheres.radiusWorld);
-    gather(reader.attribute<int32_t>("parent"), order, tree.spheres.parent);
-    gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
-    gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
-    std::vector<int32_t> levels;
-    gather(reader.attribute<int32_t>("level"), order, levels);
-    return levels;
+    gather(reader.positions(scale), order, spheres.center);
+    gather(reader.attribute<double>("radius"), order, spheres.radius);
+    gather(reader.attribute<int64_t>("cover_sq"), order, spheres.coverRadiusSq);
+    gather(reader.attribute<float>("pscale"), order, spheres.radiusWorld);
+    gather(reader.attribute<int32_t>("parent"), order, spheres.parent);
+    return order;
 }
 
 void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
@@ -164,7 +151,11 @@ SphereTree readTree(const PointDataGrid& points)
                       << ": was it cut short, or are points deleted?");
     }
     detail::throwFirst(detail::unitDamage(tree.subdivision));
-    const std::vector<int32_t> levels = readNodes(reader, detail::readPointScale(points), tree);
+    const auto order = readSpheres(reader, detail::readPointScale(points), tree.spheres);
+    gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
+    gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
+    std::vector<int32_t> levels;
+    gather(reader.attribute<int32_t>("level"), order, levels);
     checkLevels(tree, levels);
     detail::throwFirst(detail::treeDamage(tree));
     return tree;
@@ -200,12 +191,7 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
                       << count << " spheres beside " << tree.size() << " nodes are expected");
     }
     SphereCuts cuts;
-    const std::vector<std::size_t> order = pointOfId(reader.attribute<int32_t>("id"));
-    gather(reader.positions(detail::readPointScale(grid)), order, cuts.spheres.center);
-    gather(reader.attribute<double>("radius"), order, cuts.spheres.radius);
-    gather(reader.attribute<int64_t>("cover_sq"), order, cuts.spheres.coverRadiusSq);
-    gather(reader.attribute<float>("pscale"), order, cuts.spheres.radiusWorld);
-    gather(reader.attribute<int32_t>("parent"), order, cuts.spheres.parent);
+    const auto order = readSpheres(reader, detail::readPointScale(grid), cuts.spheres);
     gather(reader.attribute<int32_t>("first"), order, cuts.first);
     gather(reader.attribute<int32_t>("last"), order, cuts.last);
     detail::requireCuts(cuts, tree.subdivision);
@@ -213,18 +199,8 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
 }
 
 /// What becomes of an array of a tree once it has been written.
-struct Keep {
-    template <typename T>
-    void operator()(const std::vector<T>&) const
-    {}
-};
-struct Release {
-    template <typename T>
-    void operator()(std::vector<T>& values) const
-    {
-        std::vector<T>().swap(values);
-    }
-};
+constexpr auto kKeep = [](const auto&) {};
+constexpr auto kRelease = [](auto& values) { std::decay_t<decltype(values)>().swap(values); };
 
 /// Attributes that nodes of trees and of cuts have in common.
 template <typename Nodes, typename Written>
@@ -241,8 +217,8 @@ void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& writte
     written(nodes.coverRadiusSq);
 }
 
-/// Attribute by attribute, so that there is one array at most both in the tree and in the grid, if
-/// @a written releases it.
+/// Attribute by attribute: where @a written releases arrays, one at most is both in the tree and in
+/// the grid.
 template <typename Tree, typename Written>
 PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 {
@@ -256,8 +232,12 @@ PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
     written(tree.radiusSq);
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
     written(tree.ijk);
+    std::vector<std::string> groups;
+    for (const SphereTreeLevel& level : tree.levels) {
+        groups.push_back("level_" + std::to_string(level.level));
+    }
     const int lowest = tree.levels.front().level;
-    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levelOf(id) - lowest; });
+    writer.addGroups(groups, [&](uint32_t id) { return levelOf(id) - lowest; });
 
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
     detail::writeTreeMetadata(*grid, tree, writer.scale());
@@ -266,9 +246,9 @@ PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 
 } // namespace
 
-PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, Keep()); }
+PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, kKeep); }
 
-PointDataGrid::Ptr releaseToPoints(SphereTree& tree) { return writeTree(tree, Release()); }
+PointDataGrid::Ptr releaseToPoints(SphereTree& tree) { return writeTree(tree, kRelease); }
 
 PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {
@@ -277,7 +257,6 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
     std::vector<Vec3d> positions;
     positions.reserve(tree.dag.size());
     for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
-
     detail::PointWriter writer(positions);
     writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
     writer.addAttribute<int32_t>("child", [&](uint32_t i) { return tree.dag[i].child; });
@@ -296,7 +275,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
     requireStorable(tree);
     requireStorable("in its cuts, ", [&] { detail::requireCuts(tree.cuts, tree.subdivision); });
     detail::PointWriter writer(tree.cuts.spheres.center);
-    addSpheres(writer, tree.cuts.spheres, Keep());
+    addSpheres(writer, tree.cuts.spheres, kKeep);
     writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
     writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
 
@@ -331,9 +310,8 @@ SphereTree fromPoints(
 {
     if (!isSphereTree(points)) {
         OPENVDB_THROW(openvdb::ValueError,
-            describe(points) << " is no sphere-tree: it has no "
-                                "metadata '"
-                             << detail::kFormatKey << "'. Point grids become one by way of a mask");
+            describe(points) << " is no sphere-tree: it has no metadata '" << detail::kFormatKey
+                             << "'. Point grids become one by way of a mask");
     }
     checkFormat(points, kTreeKind, detail::kFormatKey);
     SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });

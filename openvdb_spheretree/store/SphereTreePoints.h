@@ -8,7 +8,7 @@
 /// (int64), and the groups `level_0`, `level_1`, ... Everything else is grid metadata, under keys
 /// that start with `spheretree_`; the tree's name is the grid's. Edges of the Sphere-DAG, where
 /// there are any, travel as a second point grid named `<name>_dag`: one point an edge, at its
-/// parent's centre, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
+/// parent's center, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
 /// grid named `<name>_cuts`: one point a node, with `pscale`, `id`, `parent`, `radius`, `cover_sq`
 /// as above and int32 attributes `first`, `last`.
 
@@ -25,13 +25,14 @@ constexpr int kPointsFormat = 1;
 
 /// @brief The tree as a point grid, named settings.name. The grid is the same for any number of
 /// threads.
-/// @throw openvdb::ValueError if the tree is inconsistent, or a centre is no multiple of the
+/// @throw openvdb::ValueError if the tree is inconsistent, or a center is no multiple of the
 ///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 
-/// @brief The same grid, in about half the memory: the tree's arrays of nodes are released one by
-/// one, as soon as they are in the grid. What else the tree has stays: levels, settings, edges and
-/// cuts (whose grids are to be made before, since they take positions from the nodes).
+/// @brief The same grid, in about half the memory: the tree loses its nodes. Each of their arrays
+/// (`spheres`, `ijk`, `radiusSq`) is freed as soon as the grid has it, and is empty afterwards.
+/// Levels, settings, edges and cuts stay, but dagToPoints() and cutsToPoints() need the nodes: call
+/// them before.
 /// @throw openvdb::ValueError as above; the tree is then unchanged
 openvdb::points::PointDataGrid::Ptr releaseToPoints(SphereTree& tree);
 

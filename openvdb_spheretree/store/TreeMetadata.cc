@@ -3,13 +3,12 @@
 
 #include "PointLeaves.h"
 #include "SphereTreePoints.h"
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
-#include <cmath>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -21,8 +20,8 @@ using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
 constexpr char kTransformTypeKey[] = "spheretree_transform_type";
-constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // files without: it was 2
-constexpr char kQualityKey[] = "spheretree_quality";         // and all settings of tight trees
+constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // in files without, it was 2
+constexpr char kQualityKey[] = "spheretree_quality"; // came with all settings of tight trees
 constexpr char kFlatAxisKey[] = "spheretree_flat_axis";
 constexpr int kMaxLevels = 1024; // far more than 32 bits of coordinates can be halved
 
@@ -31,9 +30,6 @@ std::string levelKey(int level, const char* what)
     return "spheretree_level_" + std::to_string(level) + "_" + what;
 }
 
-Vec3i toVec(const openvdb::Coord& c) { return {c[0], c[1], c[2]}; }
-openvdb::Coord toCoord(const Vec3i& v) { return {v[0], v[1], v[2]}; }
-
 // ---- The transform
 
 Mat4d matrixOf(const Transform& transform)
@@ -41,12 +37,13 @@ Mat4d matrixOf(const Transform& transform)
     return transform.baseMap()->getAffineMap()->getMat4();
 }
 
-/// Transform::operator== has a tolerance; here every bit counts.
+/// Transform::operator== has a tolerance. Here every bit counts.
 bool identical(const Transform& a, const Transform& b)
 {
     return a.mapType() == b.mapType() && matrixOf(a) == matrixOf(b);
 }
 
+/// @return the transform of a grid whose voxels are @a scale times as wide.
 Transform::Ptr scaled(const Transform& transform, double scale)
 {
     const Transform::Ptr result = transform.copy();
@@ -79,8 +76,8 @@ Transform::Ptr makeTransform(const std::string& type, const Mat4d& matrix)
     return std::make_shared<Transform>(map);
 }
 
-/// Scaling to the point grid and back may end in another type of map (a translation comes back as a
-/// scale of 1 and a translation). Where it does, the map itself is recorded.
+/// Scaling to the point grid and back may end in another type of map: a translation comes back as a
+/// scale of 1 and a translation. Then the map itself is recorded.
 void writeTransform(GridBase& grid, const Transform& source, int scale)
 {
     if (identical(*scaled(grid.transform(), 1.0 / scale), source)) return;
@@ -88,7 +85,7 @@ void writeTransform(GridBase& grid, const Transform& source, int scale)
     setMeta(grid, kTransformKey, matrixOf(source));
 }
 
-/// The record counts only while it belongs to the grid's transform: who moves the points moves the
+/// A recorded map counts only while it fits the grid's transform: who moves the points moves the
 /// tree.
 Transform::Ptr readTransform(const GridBase& grid, int scale)
 {
@@ -105,18 +102,6 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
 
 // ---- Settings, object, levels
 
-void writeSetting(GridBase& grid, const Setting& setting, const std::string& text)
-{
-    switch (setting.type) {
-    case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
-    case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
-    case SettingType::Real:
-        if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
-        break;
-    default: setMeta<std::string>(grid, setting.key, text);
-    }
-}
-
 std::string readSetting(const GridBase& grid, const Setting& setting)
 {
     switch (setting.type) {
@@ -131,7 +116,16 @@ void writeSettings(GridBase& grid, const SphereTree& tree)
 {
     const SphereTreeSettings settings = recordedSettings(tree);
     for (const Setting& setting : settingsTable()) {
-        if (!setting.key.empty()) writeSetting(grid, setting, setting.get(settings));
+        if (setting.key.empty()) continue;
+        const std::string text = setting.get(settings);
+        switch (setting.type) {
+        case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
+        case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
+        case SettingType::Real:
+            if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
+            break;
+        default: setMeta<std::string>(grid, setting.key, text);
+        }
     }
     if (settings.dim == 2) setMeta<int32_t>(grid, kFlatAxisKey, tree.flatAxis);
 }
@@ -143,6 +137,18 @@ bool mayLack(const Setting& setting, bool beforeTight)
     if (setting.type == SettingType::Real) return true;
     if (name == "dist" || name == "model" || name == "topology") return true;
     return beforeTight && (!setting.isForPyramids() || name == "center");
+}
+
+/// Files record the settings of all kinds of trees: one that this kind has not is at its default.
+/// But version 0.1 recorded any final_fit and reconstruct of reversible trees, which use neither.
+void requireDefault(
+    const Setting& setting, const SphereTreeSettings& settings, const std::string& text)
+{
+    if (setting.isFor(settings) || text == setting.get(settings)) return;
+    if (setting.isForPyramids() && settings.find<PyramidOptions>()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        setting.name << "=" << onOneLine(text, 60) << " is not for tree="
+                     << toString(settings.type()) << (settings.isInner() ? " side=inner" : ""));
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
@@ -159,20 +165,16 @@ SphereTreeSettings readSettings(const GridBase& grid)
         const std::string text = readSetting(grid, setting);
         auto* pyramid = settings.find<PyramidOptions>();
         const bool custom = setting.name == "model" && text == "custom" && pyramid;
-        if (custom) pyramid->customModel = unknownModel();
-        else setting.set(settings, text);
+        if (custom) {
+            pyramid->customModel = unknownModel();
+            continue;
+        }
+        setting.set(settings, text);
+        requireDefault(setting, settings, text);
     }
     settings.name = grid.getName();
     settings.validate();
     return settings;
-}
-
-int readFlatAxis(const GridBase& grid)
-{
-    const int axis = grid[kFlatAxisKey] ? getMeta<int32_t>(grid, kFlatAxisKey) : 2;
-    if (axis >= 0 && axis <= 2) return axis;
-    OPENVDB_THROW(
-        openvdb::ValueError, "the flat axis " << axis << " is out of range: it must be 0, 1 or 2");
 }
 
 void writeObject(GridBase& grid, const ObjectInfo& object)
@@ -181,8 +183,8 @@ void writeObject(GridBase& grid, const ObjectInfo& object)
     setMeta(grid, "spheretree_object_voxels", object.voxels);
     setMeta(grid, "spheretree_object_leaves", object.leaves);
     setMeta(grid, "spheretree_object_tiles", object.tiles);
-    setMeta(grid, "spheretree_object_bbox_min", toVec(object.bbox.min()));
-    setMeta(grid, "spheretree_object_bbox_max", toVec(object.bbox.max()));
+    setMeta(grid, "spheretree_object_bbox_min", object.bbox.min().asVec3i());
+    setMeta(grid, "spheretree_object_bbox_max", object.bbox.max().asVec3i());
 }
 
 ObjectInfo readObject(const GridBase& grid)
@@ -192,8 +194,8 @@ ObjectInfo readObject(const GridBase& grid)
     object.voxels = getMeta<int64_t>(grid, "spheretree_object_voxels");
     object.leaves = getMeta<int64_t>(grid, "spheretree_object_leaves");
     object.tiles = getMeta<int64_t>(grid, "spheretree_object_tiles");
-    object.bbox.reset(toCoord(getMeta<Vec3i>(grid, "spheretree_object_bbox_min")),
-        toCoord(getMeta<Vec3i>(grid, "spheretree_object_bbox_max")));
+    object.bbox.reset(openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_object_bbox_min")),
+        openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_object_bbox_max")));
     return object;
 }
 
@@ -284,7 +286,7 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     setMeta<int32_t>(grid, kSubdivisionKey, tree.subdivision);
     writeSettings(grid, tree);
     writeObject(grid, tree.object);
-    setMeta(grid, "spheretree_origin", toVec(tree.origin));
+    setMeta(grid, "spheretree_origin", tree.origin.asVec3i());
     setMeta<int32_t>(grid, "spheretree_levels", int32_t(tree.levels.size()));
     setMeta<int32_t>(grid, "spheretree_lowest_level", tree.levels.front().level);
     for (const SphereTreeLevel& level : tree.levels) writeLevel(grid, level);
@@ -295,13 +297,17 @@ SphereTree readTreeMetadata(const GridBase& grid)
     SphereTree tree;
     tree.transform = readTransform(grid, readPointScale(grid));
     tree.settings = readSettings(grid);
-    tree.flatAxis = readFlatAxis(grid);
+    if (grid[kFlatAxisKey]) tree.flatAxis = getMeta<int32_t>(grid, kFlatAxisKey);
+    if (tree.flatAxis < 0 || tree.flatAxis > 2) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the flat axis " << tree.flatAxis << " is out of range: it must be 0, 1 or 2");
+    }
     if (const auto* options = tree.settings.find<PyramidOptions>()) tree.hasDag = options->dag;
     if (const auto* options = tree.settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;
     const bool tight = tree.settings.type() == TreeType::Tight;
     if (tight || grid[kSubdivisionKey]) tree.subdivision = getMeta<int32_t>(grid, kSubdivisionKey);
     tree.object = readObject(grid);
-    tree.origin = toCoord(getMeta<Vec3i>(grid, "spheretree_origin"));
+    tree.origin = openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_origin"));
     tree.levels = readLevels(grid);
     return tree;
 }
@@ -317,5 +323,4 @@ int readPointScale(const GridBase& grid)
     return scale;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

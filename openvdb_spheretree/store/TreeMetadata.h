@@ -11,8 +11,7 @@
 
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 constexpr char kFormatKey[] = "spheretree_format";
 constexpr char kDagFormatKey[] = "spheretree_dag_format";
@@ -51,5 +50,4 @@ SphereTree readTreeMetadata(const openvdb::GridBase& grid);
 /// @return the scale between the source's voxels and the grid's: a power of two.
 int readPointScale(const openvdb::GridBase& grid);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

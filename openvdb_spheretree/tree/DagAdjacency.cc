@@ -11,17 +11,6 @@ namespace openvdb_spheretree {
 
 namespace {
 
-void requireNodes(const std::vector<DagEdge>& edges, int32_t parentCount, int32_t childCount)
-{
-    for (const DagEdge& e : edges) {
-        if (e.parent >= 0 && e.parent < parentCount && e.child >= 0 && e.child < childCount)
-            continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "the edge of the DAG from node " << e.parent << " to node " << e.child
-                                             << " is not between nodes that there are");
-    }
-}
-
 Degrees degreesOf(const CompressedRows& rows, const SphereTreeLevel& level)
 {
     Degrees degrees;
@@ -46,7 +35,13 @@ DagAdjacency dagAdjacency(
         OPENVDB_THROW(openvdb::ValueError,
             "a DAG between " << parentCount << " and " << childCount << " nodes cannot be");
     }
-    requireNodes(edges, parentCount, childCount);
+    for (const DagEdge& e : edges) {
+        if (e.parent >= 0 && e.parent < parentCount && e.child >= 0 && e.child < childCount)
+            continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "the edge of the DAG from node " << e.parent << " to node " << e.child
+                                             << " is not between nodes that there are");
+    }
     detail::throwFirst(detail::edgeOrderDamage(edges));
     const auto parent = [&](std::size_t i) { return edges[i].parent; };
     const auto child = [&](std::size_t i) { return edges[i].child; };

@@ -4,9 +4,9 @@
 ///
 /// A voxel v of level k is the block f^k v + [0, f^k - 1]^dim. A medial ball (c, radiusSq) of level
 /// k becomes the closed sphere
-///     centre  f^k c + (f^k - 1) / 2 + origin
+///     center  f^k c + (f^k - 1) / 2 + origin
 ///     radius  f^k sqrt(radiusSq - 1) + sqrt(dim) (f^k - 1) / 2
-/// which covers every level-0 voxel centre of the level-k voxels that the ball covers (the paper:
+/// which covers every level-0 voxel center of the level-k voxels that the ball covers (the paper:
 /// all radii of a level grow by the same value). Level 0 needs no frame: there the sphere of radius
 /// sqrt(radiusSq - 1) holds just the ball's voxels.
 ///
@@ -31,7 +31,7 @@
 
 namespace openvdb_spheretree {
 
-/// Twice a point of index space: integers, also for centres between voxels.
+/// Twice a point of index space: integers, also for centers between voxels.
 struct Doubled {
     int64_t x, y, z;
 
@@ -48,8 +48,8 @@ inline int64_t distanceSq(const Doubled& a, const Doubled& b, const Distance& di
 struct RootSum {
     int64_t a, b;
 
-    /// @return the largest D with sqrt(D) <= 2 radius: a voxel centre q is within the radius of a
-    /// centre c just when |2q - 2c|^2 <= D.
+    /// @return the largest D with sqrt(D) <= 2 radius: a voxel center q is within the radius of a
+    /// center c just when |2q - 2c|^2 <= D.
     int64_t coverSq() const
     {
         const auto product = 4 * (unsigned __int128)(a) * (unsigned __int128)(b);
@@ -80,7 +80,7 @@ public:
     LevelFrame(int level, const openvdb::Coord& origin, const SphereTreeSettings& settings,
         int flatAxis = 2);
 
-    /// @return twice the centre of a voxel of the level.
+    /// @return twice the center of a voxel of the level.
     Doubled center(const openvdb::Coord& ijk) const
     {
         return {mStep[0] * ijk[0] + mFirst[0], mStep[1] * ijk[1] + mFirst[1],

@@ -21,10 +21,11 @@ SphereMetric metricOf(const SphereTree& tree);
 ///         metricOf() the tree.
 std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level);
 
-/// @return the smallest box that holds every voxel centre in spheres of a level of @a tree; in 2-D only their plane.
+/// @return the smallest box that holds every voxel center in spheres of a level of @a tree; in 2-D
+///         only their plane.
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres);
 
-/// @brief The voxels that a level covers: those whose centres lie in its spheres.
+/// @brief The voxels that a level covers: those whose centers lie in its spheres.
 /// @throw openvdb::ValueError if they cross more than kMaxUnionRows
 openvdb::MaskTree::Ptr levelUnion(const SphereTree& tree, const SphereTreeLevel& level,
     openvdb::util::NullInterrupter* interrupter = nullptr);

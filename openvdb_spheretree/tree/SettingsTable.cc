@@ -59,8 +59,6 @@ namespace detail {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The options of a kind, or what it shares; what all share are the settings themselves.
 template <typename Owner, typename Settings>
 auto* partOf(Settings& settings)
@@ -105,6 +103,13 @@ Setting row(const char* name, const char* key, int jsonPlace, SettingType type, 
     return setting;
 }
 
+template <typename Names>
+void addChoices(Setting& setting, const Names& names)
+{
+    setting.type = SettingType::Choice;
+    for (const auto& entry : names) setting.choices.emplace_back(entry.name);
+}
+
 template <typename Owner, typename Names, typename Access>
 Setting choice(const char* name, const char* key, int jsonPlace, const Names& names, Access access,
     const char* help)
@@ -113,7 +118,7 @@ Setting choice(const char* name, const char* key, int jsonPlace, const Names& na
         name, key, jsonPlace, SettingType::Choice, access,
         [&names](auto value) { return nameOf(names, value); },
         [&names, name](const std::string& text) { return fromName(names, name, text); }, help);
-    for (const auto& entry : names) setting.choices.emplace_back(entry.name);
+    addChoices(setting, names);
     return setting;
 }
 
@@ -156,11 +161,10 @@ Setting bound(const char* name, const char* key, int jsonPlace, Access access, c
         },
         help);
     setting.lowest = 0;
-    setting.highest = kInfinity;
     return setting;
 }
 
-/// @param name  of all others, by functions of their own
+/// All other settings, by functions of their own.
 Setting special(const char* name, const char* key, int jsonPlace, Setting::Getter get,
     Setting::Setter set, const char* help)
 {
@@ -172,13 +176,6 @@ Setting special(const char* name, const char* key, int jsonPlace, Setting::Gette
 
 // ---- Rows that are more than a field
 
-SphereTreeSettings::Kind kindOf(TreeType type)
-{
-    if (type == TreeType::Extended) return ExtendedOptions();
-    if (type == TreeType::Reversible) return ReversibleOptions();
-    return TightOptions();
-}
-
 Setting treeRow()
 {
     Setting setting = special(
@@ -186,13 +183,15 @@ Setting treeRow()
         [](const SphereTreeSettings& settings) { return toString(settings.type()); },
         [](SphereTreeSettings& settings, const std::string& text) {
             const TreeType type = fromName(kTreeTypes, "tree", text);
-            if (type != settings.type()) settings.kind = kindOf(type);
+            if (type == settings.type()) return;
+            if (type == TreeType::Extended) settings.kind = ExtendedOptions();
+            else if (type == TreeType::Reversible) settings.kind = ReversibleOptions();
+            else settings.kind = TightOptions();
         },
         "tight: the least error for a number of spheres; the paper's two: extended: spheres "
-        "contain "
-        "the leaf balls below them; reversible: every level rebuilds its own pyramid level");
-    setting.type = SettingType::Choice;
-    for (const auto& entry : kTreeTypes) setting.choices.emplace_back(entry.name);
+        "contain the leaf balls below them; reversible: every level rebuilds its own pyramid "
+        "level");
+    addChoices(setting, kTreeTypes);
     return setting;
 }
 
@@ -203,15 +202,13 @@ Setting sideRow()
         [](const SphereTreeSettings& settings) { return nameOf(kSides, settings.isInner()); },
         [](SphereTreeSettings& settings, const std::string& text) {
             const bool inner = fromName(kSides, "side", text);
-            if (settings.type() == TreeType::Tight && inner != settings.isInner()) {
-                if (inner) settings.kind = InnerOptions();
-                else settings.kind = TightOptions();
-            }
+            if (settings.type() != TreeType::Tight || inner == settings.isInner()) return;
+            if (inner) settings.kind = InnerOptions();
+            else settings.kind = TightOptions();
         },
         "outer: spheres cover the object; inner: they lie inside it and cover what they can "
         "(tight)");
-    setting.type = SettingType::Choice;
-    for (const auto& entry : kSides) setting.choices.emplace_back(entry.name);
+    addChoices(setting, kSides);
     setting.extended = setting.reversible = false;
     return setting;
 }
@@ -232,23 +229,7 @@ Setting distRow()
             }
         },
         "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of a "
-        "step "
-        "across a face, an edge and a corner, such as chamfer:3,4,5 (tight: l2)");
-}
-
-Setting paddingRow()
-{
-    return special(
-        "padding", "spheretree_padding", 9,
-        [](const SphereTreeSettings& settings) {
-            return paddingToString(settings.isInner() ? 0 : settings.padding);
-        },
-        [](SphereTreeSettings& settings, const std::string& text) {
-            const double padding = paddingFromString(text);
-            if (!settings.isInner()) settings.padding = padding;
-        },
-        "added to stored radii: cubes covers whole voxels, voxels their centres; or a number of "
-        "voxels; nothing with side=inner");
+        "step across a face, an edge and a corner, such as chamfer:3,4,5 (tight: l2)");
 }
 
 Setting modelRow()
@@ -280,23 +261,26 @@ Setting branchingRow()
     return setting;
 }
 
-Setting spheresRow()
+std::vector<Setting> makeTable()
 {
-    return row<BudgetOptions>(
-        "spheres", "spheretree_spheres", 15, SettingType::Counts,
-        [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
-        [](const std::string& text) {
-            return text.empty() ? std::vector<int64_t>() : countsFromString(text);
-        },
-        "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
-        "distance= is the most that these may take (tight)");
-}
-
-std::vector<Setting> pyramidRows()
-{
-    return {integer<PyramidOptions>("factor", "spheretree_factor", 1, 2, kMaxFactor,
-                &PyramidOptions::factor,
-                "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
+    return {treeRow(),
+        integer<SphereTreeSettings>("dim", "spheretree_dim", 2, 2, 3, &SphereTreeSettings::dim,
+            "2 for an object one voxel thick along an axis"),
+        distRow(),
+        special(
+            "padding", "spheretree_padding", 9,
+            [](const SphereTreeSettings& settings) {
+                return paddingToString(settings.isInner() ? 0 : settings.padding);
+            },
+            [](SphereTreeSettings& settings, const std::string& text) {
+                const double padding = paddingFromString(text);
+                if (!settings.isInner()) settings.padding = padding;
+            },
+            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
+            "of voxels; nothing with side=inner"),
+        integer<PyramidOptions>("factor", "spheretree_factor", 1, 2, kMaxFactor,
+            &PyramidOptions::factor,
+            "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
         modelRow(),
         choice<PyramidOptions>("center", "spheretree_center", 13, kCenters, &PyramidOptions::center,
             "where spheres are centred: where the medial ball is; or where the smallest sphere "
@@ -318,15 +302,19 @@ std::vector<Setting> pyramidRows()
         choice<PyramidOptions>("edges", "spheretree_dag_edges", 11, kDagEdges,
             &PyramidOptions::edges,
             "with dag=1: edges between balls whose cells share a voxel, or between all spheres "
-            "that meet")};
-}
-
-std::vector<Setting> tightRows()
-{
-    return {choice<TightOptions>("quality", "spheretree_quality", 14, kQualities,
-                &TightOptions::quality,
-                "how much work goes into placing and searching spheres (tight)"),
-        spheresRow(), branchingRow(),
+            "that meet"),
+        choice<TightOptions>("quality", "spheretree_quality", 14, kQualities,
+            &TightOptions::quality,
+            "how much work goes into placing and searching spheres (tight)"),
+        row<BudgetOptions>(
+            "spheres", "spheretree_spheres", 15, SettingType::Counts,
+            [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
+            [](const std::string& text) {
+                return text.empty() ? std::vector<int64_t>() : countsFromString(text);
+            },
+            "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
+            "distance= is the most that these may take (tight)"),
+        branchingRow(),
         bound<BudgetOptions>(
             "error", "spheretree_error", 17,
             [](auto& options) -> auto& { return options.budget.error; },
@@ -343,37 +331,23 @@ std::vector<Setting> tightRows()
             "what level 0 is made of: the medial balls that are needed, or all (tight)"),
         flag<BudgetOptions>("cuts", "spheretree_cuts", 22, &BudgetOptions::cuts,
             "also store the spheres of every number of spheres, for -level spheres=N (tight)"),
-        sideRow()};
-}
-
-std::vector<Setting> makeTable()
-{
-    std::vector<Setting> table{treeRow(),
-        integer<SphereTreeSettings>("dim", "spheretree_dim", 2, 2, 3, &SphereTreeSettings::dim,
-            "2 for an object one voxel thick along an axis"),
-        distRow(), paddingRow()};
-    for (auto& rows : {pyramidRows(), tightRows()}) {
-        table.insert(table.end(), rows.begin(), rows.end());
-    }
-    table.push_back(flag<SphereTreeSettings>("topology", "spheretree_topology", 12,
-        &SphereTreeSettings::topology,
-        "count components, tunnels and cavities of every level's voxels"));
-    table.push_back(special(
-        "name", "", 23, [](const SphereTreeSettings& settings) { return settings.name; },
-        [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },
-        "name of the tree"));
-    table.push_back(special(
-        "memory", "", -1,
-        [](const SphereTreeSettings& settings) { return memoryToString(settings.memory); },
-        [](SphereTreeSettings& settings, const std::string& text) {
-            settings.memory = memoryFromString(text);
-        },
-        "what the labels of voxels may take while they are computed: bytes such as 4GiB or 500MB, "
-        "or "
-        "a share of the machine's; more are compressed, and go to a temporary file in $TMPDIR "
-        "where "
-        "they must; the tree is the same"));
-    return table;
+        sideRow(),
+        flag<SphereTreeSettings>("topology", "spheretree_topology", 12,
+            &SphereTreeSettings::topology,
+            "count components, tunnels and cavities of every level's voxels"),
+        special(
+            "name", "", 23, [](const SphereTreeSettings& settings) { return settings.name; },
+            [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },
+            "name of the tree"),
+        special(
+            "memory", "", -1,
+            [](const SphereTreeSettings& settings) { return memoryToString(settings.memory); },
+            [](SphereTreeSettings& settings, const std::string& text) {
+                settings.memory = memoryFromString(text);
+            },
+            "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
+            "500MB, or a share of the machine's; more are compressed, and go to a temporary file "
+            "in $TMPDIR where they must; the tree is the same")};
 }
 
 } // namespace

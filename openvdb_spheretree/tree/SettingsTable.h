@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SettingsTable.h
-/// @brief Every setting of a sphere-tree, one row each. Files, JSON, the options of the command, its
-/// help and its refusals all go by this table, so a setting that has a row is forgotten nowhere.
-/// TestSettingsTable.cc sends each row through text and files.
+/// @brief Every setting of a sphere-tree, one row each. Files, JSON, the options of the command,
+/// its help and its refusals all go by this table, so a setting that has a row is forgotten
+/// nowhere. TestSettingsTable.cc sends each row through text and files.
 
 #pragma once
 
@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// What a value is, in metadata, in JSON and on a command line.
 enum class SettingType {
@@ -69,8 +68,8 @@ SphereTreeSettings settingsOfKind(const std::string& tree, const std::string& si
 std::string textOf(double value);
 double realOf(const std::string& text);
 
-/// @return what files say of @a tree: what was asked for, but edges and cuts only where it has them.
+/// @return what files say of @a tree: what was asked for, but edges and cuts only where it has
+///         them.
 SphereTreeSettings recordedSettings(const SphereTree& tree);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

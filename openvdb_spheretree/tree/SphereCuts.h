@@ -3,10 +3,10 @@
 /// @brief The continuous tree: one binary forest of spheres that holds a cover of the object for
 /// every number of spheres, from the leaves to the root.
 ///
-/// A node is part of the cuts of `first` to `last` spheres. Going from N to N - 1 spheres, two nodes
-/// end and their parent begins, or one node ends that has no voxel left to cover. Where node and parent
-/// are both set, every cut keeps the contract of tight trees: each object voxel has a chain of
-/// nodes, each the child of the one before it, that all hold it.
+/// A node is part of the cuts of `first` to `last` spheres. From N to N - 1 spheres, two nodes end
+/// and their parent begins, or one node ends that has no voxel left to cover. Every cut keeps the
+/// contract of tight trees: each object voxel has a chain of nodes from a leaf up to the cut, each
+/// the child of the next, that all hold it.
 
 #pragma once
 
@@ -21,7 +21,7 @@ struct SphereTree;
 
 /// One entry a node; children stand before their parents, leaves first.
 struct SphereCuts {
-    /// The parent of a node is -1 for the root, and for nodes that ended with no voxel left to cover.
+    /// A parent is -1 for the root, and for nodes that end with no voxel left to cover.
     Spheres spheres;
     std::vector<int32_t> first; ///< fewest spheres of a cut with this node
     std::vector<int32_t> last;  ///< most

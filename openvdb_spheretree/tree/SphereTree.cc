@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTree.h"
 
+#include "TreeShape.h"
+
 #include <openvdb/Exceptions.h>
 #include <openvdb/math/Transform.h>
 
@@ -40,10 +42,22 @@ const SphereTreeLevel& SphereTree::level(int number) const
                                  << levels.back().level);
 }
 
+SphereTree detail::describedLike(const SphereTree& tree)
+{
+    SphereTree result;
+    result.subdivision = tree.subdivision;
+    result.settings = tree.settings;
+    result.flatAxis = tree.flatAxis;
+    result.object = tree.object;
+    result.origin = tree.origin;
+    result.transform = tree.transform->copy();
+    return result;
+}
+
 SphereTree keepLevel(const SphereTree& tree, int level)
 {
     const SphereTreeLevel& range = tree.level(level);
-    SphereTree result;
+    SphereTree result = detail::describedLike(tree);
     result.spheres = tree.spheres.slice(range.begin, range.end);
     std::fill(result.spheres.parent.begin(), result.spheres.parent.end(), -1);
     result.ijk.assign(tree.ijk.begin() + range.begin, tree.ijk.begin() + range.end);
@@ -51,12 +65,6 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     result.levels = {range};
     result.levels[0].begin = 0;
     result.levels[0].end = result.size();
-    result.subdivision = tree.subdivision;
-    result.settings = tree.settings;
-    result.flatAxis = tree.flatAxis;
-    result.object = tree.object;
-    result.origin = tree.origin;
-    result.transform = tree.transform->copy();
     return result;
 }
 

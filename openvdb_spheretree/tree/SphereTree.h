@@ -6,11 +6,11 @@
 /// level; the index of a node is its id. A parent therefore always stands before its children, and
 /// a level is a range of ids.
 ///
-/// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel centre* the
+/// Two radii belong to a node. `radius` makes a closed sphere that holds every *voxel center* the
 /// node answers for; it is what the errors are counted with. `radiusWorld` is the radius as it is
 /// stored in files: in world units, with the padding added, rounded up to a float, so that whatever
-/// was covered stays covered. Spheres of an inner tree (InnerBalls.h) lie inside the object instead:
-/// their radii are rounded down, and nothing is added.
+/// was covered stays covered. Spheres of an inner tree (InnerBalls.h) lie inside the object
+/// instead: their radii are rounded down, and nothing is added.
 
 #pragma once
 
@@ -30,7 +30,7 @@ namespace openvdb_spheretree {
 
 /// How far the union of a level's spheres is from the object, counted in voxels, exactly.
 struct LevelError {
-    int64_t covered = 0;       ///< voxels whose centre lies in a sphere of the level
+    int64_t covered = 0;       ///< voxels whose center lies in a sphere of the level
     int64_t excess = 0;        ///< covered, but not in the object
     int64_t missing = 0;       ///< in the object, but not covered: 0 for all trees but inner ones
     double hammingPercent = 0; ///< 100 (excess + missing) / object voxels
@@ -69,14 +69,14 @@ struct SphereTree {
     /// @name One entry a node
     /// @{
     Spheres spheres; ///< a parent is on the next level up
-    /// The centre of the node's digital ball, in the grid of its level. Of a sphere that is no
-    /// digital ball: the voxel nearest to its centre.
+    /// The center of the node's digital ball, in the grid of its level. Of a sphere that is no
+    /// digital ball: the voxel nearest to its center.
     std::vector<openvdb::Coord> ijk;
     /// Of the node's digital ball {q : |q - ijk|^2 < radiusSq} (MedialBall.h). -1 for a sphere that
     /// is no digital ball.
     std::vector<int32_t> radiusSq;
     /// @}
-    /// Units of centres and coverRadiusSq in a voxel: 2 or 16.
+    /// Units of centers and coverRadiusSq in a voxel: 2 or 16.
     int subdivision = 2;
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for
@@ -109,8 +109,8 @@ struct SphereTree {
     double voxelSize() const;
 
     /// @brief What functions that take a tree rely on: arrays of one length, levels that divide
-    /// them, numbers that spheres have, parents and edges to the next level, cuts of every number of
-    /// spheres, settings that fit together.
+    /// them, numbers that spheres have, parents and edges to the next level, cuts of every number
+    /// of spheres, settings that fit together.
     /// @throw openvdb::ValueError naming the first thing that is wrong. Cost: linear.
     void validate() const;
 };

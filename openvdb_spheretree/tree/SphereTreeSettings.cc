@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeSettings.h"
 
+#include "SettingsTable.h"
 #include <openvdb_spheretree/base/EnumNames.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
@@ -22,29 +23,31 @@ using detail::Named;
 
 const std::string kClosing = "closing:";
 
-/// A unit of memory, as small letters, and its bytes.
-struct MemoryUnit {
-    const char* name;
-    double bytes;
-};
+/// Units of memory in small letters, and their bytes.
 constexpr double kKiB = 1024, kMiB = 1024 * kKiB, kGiB = 1024 * kMiB, kTiB = 1024 * kGiB;
-constexpr std::array<MemoryUnit, 14> kMemoryUnits{{{"", 1}, {"b", 1}, {"kb", 1e3}, {"mb", 1e6},
-    {"gb", 1e9}, {"tb", 1e12}, {"kib", kKiB}, {"mib", kMiB}, {"gib", kGiB}, {"tib", kTiB},
-    {"k", kKiB}, {"m", kMiB}, {"g", kGiB}, {"t", kTiB}}};
+constexpr std::pair<const char*, double> kMemoryUnits[] = {{"", 1}, {"b", 1}, {"kb", 1e3},
+    {"mb", 1e6}, {"gb", 1e9}, {"tb", 1e12}, {"kib", kKiB}, {"mib", kMiB}, {"gib", kGiB},
+    {"tib", kTiB}, {"k", kKiB}, {"m", kMiB}, {"g", kGiB}, {"t", kTiB}};
 
 /// @return the bytes of so many units; NaN if there is no such unit, or no such share.
 double bytesOf(double value, std::string unit)
 {
     if (unit == "%") return value > 100 ? std::nan("") : value / 100 * detail::physicalMemory();
     for (char& c : unit) c = char(std::tolower(static_cast<unsigned char>(c)));
-    for (const MemoryUnit& entry : kMemoryUnits) {
-        if (unit == entry.name) return value * entry.bytes;
+    for (const auto& [name, bytes] : kMemoryUnits) {
+        if (unit == name) return value * bytes;
     }
     return std::nan("");
 }
 
-void requireMiniballSettings(const PyramidOptions& options, bool fitted)
+void requireValid(const PyramidOptions& options, bool fitted)
 {
+    requireFactor(options.factor);
+    requireClosing(options.closing);
+    if (options.customModel && options.closing > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "closing and customModel are both set: choose one of these pyramid models");
+    }
     if (options.center != Center::Miniball) return;
     if (!options.dist.isEuclidean()) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -57,43 +60,6 @@ void requireMiniballSettings(const PyramidOptions& options, bool fitted)
             "spheres there are, the second larger ones than need be");
     }
 }
-
-void requirePyramidSettings(const PyramidOptions& options, bool fitted)
-{
-    requireFactor(options.factor);
-    requireClosing(options.closing);
-    if (options.customModel && options.closing > 0) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "closing and customModel are both set: choose one of these pyramid models");
-    }
-    requireMiniballSettings(options, fitted);
-}
-
-void requireValid(const TightOptions& options)
-{
-    options.budget.validate();
-    if (options.quality == Quality::Best && options.cuts) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "quality=best and cuts=1 contradict each other: best searches the levels that are "
-            "named, and cuts keep every number of spheres; use quality=normal");
-    }
-}
-
-void requireValid(const InnerOptions& options)
-{
-    options.budget.validate();
-    if (!options.budget.hasBound()) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "side=inner and a bound on the error or the distance contradict each other: inner spheres "
-        "reach nowhere outside, and cover what their number allows; use spheres or branching");
-}
-
-void requireValid(const ExtendedOptions& options)
-{
-    requirePyramidSettings(options, options.finalFit);
-}
-
-void requireValid(const ReversibleOptions& options) { requirePyramidSettings(options, true); }
 
 /// Stands for the custom model of a tree that was read from a file.
 struct UnknownModel {
@@ -139,7 +105,24 @@ double SphereTreeSettings::paddingVoxels() const
 void SphereTreeSettings::validate() const
 {
     requireDim(dim);
-    std::visit([](const auto& options) { requireValid(options); }, kind);
+    const auto* extended = find<ExtendedOptions>();
+    if (const auto* pyramid = find<PyramidOptions>()) {
+        requireValid(*pyramid, /*fitted=*/!extended || extended->finalFit);
+    }
+    const auto* levels = find<BudgetOptions>();
+    if (levels) levels->budget.validate();
+    const auto* tight = find<TightOptions>();
+    if (tight && tight->quality == Quality::Best && tight->cuts) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "quality=best and cuts=1 contradict each other: best searches the levels that are "
+            "named, and cuts keep every number of spheres; use quality=normal");
+    }
+    if (isInner() && levels->budget.hasBound()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "side=inner and a bound on the error or the distance contradict each other: inner "
+            "spheres reach nowhere outside, and cover what their number allows; use spheres or "
+            "branching");
+    }
     if (memory < 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "memory=" << memory << " is out of range: it must be a number of bytes, or 0 for "
@@ -157,10 +140,7 @@ void SphereTreeSettings::validate() const
 std::string paddingToString(double padding)
 {
     if (padding == SphereTreeSettings::kPadCubes) return "cubes";
-    if (padding == 0) return "voxels";
-    std::array<char, 32> text; // the shortest text of a double is at most 24 characters
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), padding).ptr;
-    return std::string(text.data(), end);
+    return padding == 0 ? "voxels" : detail::textOf(padding);
 }
 
 std::string memoryToString(int64_t memory)

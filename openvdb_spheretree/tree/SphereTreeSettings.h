@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SphereTreeSettings.h
-/// @brief What the builder of a sphere-tree can be asked for: what all kinds of trees share, beside
-/// the options of one kind.
+/// @brief What a sphere-tree is built by: settings that all kinds of trees share, and the options
+/// of one kind.
 ///
 ///     ExtendedOptions options;
 ///     options.factor = 3;
@@ -31,7 +31,7 @@ namespace openvdb_spheretree {
 enum class TreeType { Reversible, Extended, Tight };
 
 enum class ParentRule {
-    Centre, ///< the label of the parent voxel of the ball's centre (the paper's rule)
+    Centre, ///< the label of the parent voxel of the ball's center (the paper's rule)
     Dag     ///< among the ball's parents in the Sphere-DAG, the one it protrudes from least
 };
 
@@ -54,7 +54,7 @@ enum class RadiusScale {
 /// How much work goes into a tight tree.
 enum class Quality {
     Fast,   ///< merge the cheapest pair of neighbours, each ball around its own cells
-    Normal, ///< a ball owes only what no other ball covers, and is placed to 1/16 voxel
+    Normal, ///< a ball must cover only what no other ball covers; centers are placed to 1/16 voxel
     Best    ///< the same, and a search from there
 };
 
@@ -64,9 +64,9 @@ enum class Cover {
     Balls   ///< every leaf ball below it
 };
 
-/// Where reversible and extended trees have their spheres' centres.
+/// Where reversible and extended trees have their spheres' centers.
 enum class Center {
-    Medial,  ///< the centre of the medial ball
+    Medial,  ///< the center of the medial ball
     Miniball ///< that of the smallest sphere around the leaf balls below
 };
 
@@ -82,7 +82,7 @@ struct BudgetOptions {
     bool cuts = false;   ///< also keep the tree for every number of spheres: SphereCuts.h
 };
 
-/// The least error at a number of spheres that we know how to reach.
+/// The least error known for a number of spheres.
 struct TightOptions : BudgetOptions {
     Quality quality = Quality::Normal;
     Cover cover = Cover::Voxels;
@@ -115,7 +115,7 @@ struct PyramidOptions {
 
 /// Every sphere contains the leaf balls below it (Broutta et al. 2009, Algorithm 2).
 struct ExtendedOptions : PyramidOptions {
-    /// Store the smallest sphere around its own centre that contains the leaf balls below it
+    /// Store the smallest sphere around its own center that contains the leaf balls below it
     /// (Section 4.2 of the paper), rather than the one that the reconstruction used.
     bool finalFit = true;
     Reconstruction reconstruct = Reconstruction::Clip;
@@ -130,7 +130,7 @@ struct SphereTreeSettings {
     Kind kind; ///< which kind of tree, and what only such trees can be asked for
     /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
     int dim = 3;
-    /// Added to every radius that is stored, in voxels of level 0: 0 covers voxel centres, and
+    /// Added to every radius that is stored, in voxels of level 0: 0 covers voxel centers, and
     /// kPadCubes (the only negative value) stands for sqrt(dim) / 2, which covers whole cubes.
     double padding = kPadCubes;
     /// Also count components, tunnels and cavities of the voxels of every level.
@@ -160,9 +160,21 @@ struct SphereTreeSettings {
 
     /// @return the options, if the kind is or shares these; else null.
     template <typename Options>
-    const Options* find() const;
+    const Options* find() const
+    {
+        return std::visit(
+            [](const auto& options) -> const Options* {
+                using Own = std::decay_t<decltype(options)>;
+                if constexpr (std::is_base_of_v<Options, Own>) return &options;
+                else return nullptr;
+            },
+            kind);
+    }
     template <typename Options>
-    Options* find();
+    Options* find()
+    {
+        return const_cast<Options*>(std::as_const(*this).template find<Options>());
+    }
     /// @name The options of a kind, or that it shares
     /// @throw openvdb::ValueError if the tree is of another kind
     /// @{
@@ -195,24 +207,6 @@ private:
         return *options;
     }
 };
-
-template <typename Options>
-const Options* SphereTreeSettings::find() const
-{
-    return std::visit(
-        [](const auto& options) -> const Options* {
-            using Own = std::decay_t<decltype(options)>;
-            if constexpr (std::is_base_of_v<Options, Own>) return &options;
-            else return nullptr;
-        },
-        kind);
-}
-
-template <typename Options>
-Options* SphereTreeSettings::find()
-{
-    return const_cast<Options*>(std::as_const(*this).find<Options>());
-}
 
 /// @return whether @a model stands for one that a file could not record: it throws when called.
 bool isUnknown(const PyramidModel& model);

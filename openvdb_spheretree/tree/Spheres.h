@@ -16,8 +16,8 @@ namespace openvdb_spheretree {
 struct Spheres {
     /// Index space of the source grid; multiples of 1 / subdivision of the tree.
     std::vector<openvdb::Vec3d> center;
-    std::vector<double> radius; ///< voxels of level 0, covers voxel centres, no padding
-    /// The exact form of `radius`: voxel centre q is inside when
+    std::vector<double> radius; ///< voxels of level 0, covers voxel centers, no padding
+    /// The exact form of `radius`: voxel center q is inside when
     /// |subdivision (q - center)|^2 <= coverRadiusSq. The length is that of settings.dist(), in its
     /// units.
     std::vector<int64_t> coverRadiusSq;
@@ -35,7 +35,8 @@ struct Spheres {
 
     /// @return spheres begin to end - 1; their parents are still ids of these arrays.
     Spheres slice(int32_t begin, int32_t end) const;
-    /// @return the spheres of these ids, in this order; their parents are still ids of these arrays.
+    /// @return the spheres of these ids, in this order; their parents are still ids of these
+    ///         arrays.
     Spheres take(const std::vector<int32_t>& ids) const;
 
     bool operator==(const Spheres& o) const;

@@ -9,7 +9,7 @@
 ///
 /// Whether a node may be left out with all that is below it depends on the tree. Each node of a
 /// tight tree with cover=balls, and of an extended one, contains the leaf balls below it. In other
-/// trees a point in a leaf ball need not be in the spheres above; but each voxel centre of the
+/// trees a point in a leaf ball need not be in the spheres above; but each voxel center of the
 /// object has, in a tight tree, one chain of nodes at least that all hold it, down to level 0.
 
 #pragma once

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeShape.h"
 
-#include "CutsLayout.h"
-
 #include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace openvdb_spheretree {
@@ -20,14 +17,6 @@ namespace {
 constexpr double kMaxCoordinate = 2147483648.0;
 /// A sum of two such squares, as distances have them, is of 63 bits.
 constexpr int64_t kMaxRadiusSq = int64_t(1) << 62;
-
-template <typename... Parts>
-std::string sentence(const Parts&... parts)
-{
-    std::ostringstream text;
-    (text << ... << parts);
-    return text.str();
-}
 
 /// A rule that one thing breaks.
 template <typename... Parts>
@@ -58,75 +47,31 @@ private:
     std::string mFirst;
 };
 
-/// What breaks one rule about edges.
-class EdgeBreach {
-public:
-    void add(const DagEdge& edge)
-    {
-        if (mCount++ == 0) mFirst = edge;
-    }
-
-    void report(std::vector<Damage>& damage, const char* all, const char* first) const
-    {
-        if (mCount == 0) return;
-        damage.push_back({sentence(mCount, " edges of the DAG ", all, " (first: ", mFirst.parent,
-                              " to ", mFirst.child, ')'),
-            sentence("the edge of the DAG from node ", mFirst.parent, " to node ", mFirst.child,
-                ' ', first)});
-    }
-
-private:
-    int64_t mCount = 0;
-    DagEdge mFirst;
-};
-
-bool inRange(const openvdb::Vec3d& center)
+/// @param isWrong  of an edge's place
+/// @param all      what the edges do that break the rule; @a first: what the first of them does
+template <typename IsWrong>
+std::vector<Damage> edgeDamage(
+    const std::vector<DagEdge>& edges, const IsWrong& isWrong, const char* all, const char* first)
 {
-    const auto is = [](double x) { return std::abs(x) <= kMaxCoordinate; }; // false of a NaN
+    int64_t count = 0;
+    DagEdge edge; // the first
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (isWrong(i) && count++ == 0) edge = edges[i];
+    }
+    if (count == 0) return {};
+    return {{sentence(count, " edges of the DAG ", all, " (first: ", edge.parent, " to ",
+                 edge.child, ')'),
+        sentence(
+            "the edge of the DAG from node ", edge.parent, " to node ", edge.child, ' ', first)}};
+}
+
+template <typename Is>
+bool allAre(const openvdb::Vec3d& center, const Is& is)
+{
     return is(center[0]) && is(center[1]) && is(center[2]);
-}
-
-bool isOfUnits(const openvdb::Vec3d& center, int subdivision)
-{
-    const auto is = [&](double x) { return subdivision * x == std::floor(subdivision * x); };
-    return is(center[0]) && is(center[1]) && is(center[2]);
-}
-
-/// The place of every node's level among the levels.
-std::vector<int32_t> levelPlaces(const SphereTree& tree)
-{
-    std::vector<int32_t> places(std::size_t(tree.size()));
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        std::fill(
-            places.begin() + tree.levels[k].begin, places.begin() + tree.levels[k].end, int32_t(k));
-    }
-    return places;
-}
-
-void append(std::vector<Damage>& all, std::vector<Damage>&& more)
-{
-    all.insert(
-        all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 } // namespace
-
-std::vector<Damage> arrayDamage(const SphereTree& tree)
-{
-    std::vector<Damage> damage;
-    const std::size_t count = tree.spheres.center.size();
-    if (count == 0) damage.push_back(single("the tree has no nodes"));
-    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.spheres.radius.size()},
-        {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
-        {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
-        {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
-    for (const auto& [name, size] : arrays) {
-        if (size == count) continue;
-        damage.push_back(
-            single("the tree has ", count, " centres, but ", size, " entries in ", name));
-    }
-    return damage;
-}
 
 std::vector<Damage> unitDamage(int subdivision)
 {
@@ -134,46 +79,55 @@ std::vector<Damage> unitDamage(int subdivision)
     return {single("centres are in units of 1/", subdivision, " of a voxel, not 1/2 or 1/16")};
 }
 
-std::vector<Damage> transformDamage(const SphereTree& tree)
-{
-    if (!tree.transform) return {single("the tree has no transform")};
-    if (!tree.transform->isLinear()) return {single("the tree's transform is not linear")};
-    return {};
-}
-
-std::vector<Damage> levelDamage(const SphereTree& tree)
+std::vector<Damage> shapeDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage;
-    if (tree.levels.empty()) damage.push_back(single("the tree has no levels"));
+    const auto add = [&](const auto&... parts) { damage.push_back(single(parts...)); };
+    const std::size_t count = tree.spheres.center.size();
+    if (count == 0) add("the tree has no nodes");
+    const std::pair<const char*, std::size_t> arrays[] = {{"radius", tree.spheres.radius.size()},
+        {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
+        {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
+        {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
+    for (const auto& [name, size] : arrays) {
+        if (size != count)
+            add("the tree has ", count, " centres, but ", size, " entries in ", name);
+    }
+    for (const Damage& unit : unitDamage(tree.subdivision)) damage.push_back(unit);
+    if (!tree.transform) add("the tree has no transform");
+    else if (!tree.transform->isLinear()) add("the tree's transform is not linear");
+
+    if (tree.levels.empty()) add("the tree has no levels");
     int32_t next = 0;
     for (std::size_t k = tree.levels.size(); k-- > 0;) {
         const SphereTreeLevel& level = tree.levels[k];
         if (level.level < 0 || (tree.levels.size() > 1 && level.level != int(k))) {
-            damage.push_back(single("level ", level.level, " stands where level ", k, " belongs"));
+            add("level ", level.level, " stands where level ", k, " belongs");
         }
         if (level.begin != next || level.end <= level.begin || level.end > tree.size()) {
-            damage.push_back(single("level ", level.level, " is nodes ", level.begin, " to ",
-                level.end, " (exclusive), where nodes from ", next, " on are expected"));
+            add("level ", level.level, " is nodes ", level.begin, " to ", level.end,
+                " (exclusive), where nodes from ", next, " on are expected");
         }
         next = level.end;
     }
     if (next != tree.size()) {
-        damage.push_back(
-            single("the levels have ", next, " nodes, but the tree has ", tree.size()));
+        add("the levels have ", next, " nodes, but the tree has ", tree.size());
     }
     return damage;
 }
 
 std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision)
 {
+    const auto inRange = [](double x) { return std::abs(x) <= kMaxCoordinate; }; // false of a NaN
+    const auto isOfUnits = [&](double x) { return subdivision * x == std::floor(subdivision * x); };
     Breach centers, radii, stored;
     for (int32_t id = 0; id < spheres.size(); ++id) {
         const openvdb::Vec3d& center = spheres.center[id];
         const double radius = spheres.radius[id], world = spheres.radiusWorld[id];
         const int64_t radiusSq = spheres.coverRadiusSq[id];
-        if (!inRange(center)) {
+        if (!allAre(center, inRange)) {
             centers.add(id, " has the position ", center, ", which no sphere has");
-        } else if (!isOfUnits(center, subdivision)) {
+        } else if (!allAre(center, isOfUnits)) {
             centers.add(id, " has the position ", center, ", which is no multiple of 1/",
                 subdivision, " voxel");
         }
@@ -240,44 +194,40 @@ std::vector<Damage> parentDamage(const SphereTree& tree)
 
 std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges)
 {
-    EdgeBreach unsorted;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        if (!(edges[i - 1] < edges[i])) unsorted.add(edges[i]);
-    }
-    std::vector<Damage> damage;
-    unsorted.report(damage, "are out of order or repeated", "is out of order or there twice");
-    return damage;
+    return edgeDamage(
+        edges, [&](std::size_t i) { return i > 0 && !(edges[i - 1] < edges[i]); },
+        "are out of order or repeated", "is out of order or there twice");
 }
 
 std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
 {
     if (edges.empty()) return {};
-    const std::vector<int32_t> places = levelPlaces(tree);
-    const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
-    EdgeBreach wrong;
-    for (const DagEdge& edge : edges) {
-        const bool right = exists(edge.parent) && exists(edge.child)
-            && places[edge.parent] == places[edge.child] + 1;
-        if (!right) wrong.add(edge);
+    std::vector<int32_t> places(std::size_t(tree.size())); // of nodes' levels among the levels
+    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+        const SphereTreeLevel& level = tree.levels[k];
+        std::fill(places.begin() + level.begin, places.begin() + level.end, int32_t(k));
     }
-    std::vector<Damage> damage;
-    wrong.report(damage, "do not lead to the next level down",
+    const auto exists = [&](int32_t id) { return id >= 0 && id < tree.size(); };
+    const auto isWrong = [&](std::size_t i) {
+        const int32_t parent = edges[i].parent, child = edges[i].child;
+        return !exists(parent) || !exists(child) || places[parent] != places[child] + 1;
+    };
+    return edgeDamage(edges, isWrong, "do not lead to the next level down",
         "does not lead to a node of the next level down");
-    return damage;
 }
 
 std::vector<Damage> treeDamage(const SphereTree& tree)
 {
-    std::vector<Damage> damage = arrayDamage(tree);
-    append(damage, unitDamage(tree.subdivision));
-    append(damage, transformDamage(tree));
-    append(damage, levelDamage(tree));
+    std::vector<Damage> damage = shapeDamage(tree);
     if (!damage.empty()) return damage;
-    append(damage, sphereDamage(tree.spheres, tree.subdivision));
-    append(damage, digitalBallDamage(tree));
-    append(damage, parentDamage(tree));
-    append(damage, edgeLevelDamage(tree.dag, tree));
-    append(damage, edgeOrderDamage(tree.dag));
+    const auto add = [&](const std::vector<Damage>& more) {
+        damage.insert(damage.end(), more.begin(), more.end());
+    };
+    add(sphereDamage(tree.spheres, tree.subdivision));
+    add(digitalBallDamage(tree));
+    add(parentDamage(tree));
+    add(edgeLevelDamage(tree.dag, tree));
+    add(edgeOrderDamage(tree.dag));
     return damage;
 }
 

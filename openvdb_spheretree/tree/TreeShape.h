@@ -4,7 +4,7 @@
 ///
 /// A rule finds all that break it. Errors name the first of them with its values; reports count
 /// them. SphereTree::validate(), the readers and writers of files, the check of a tree and the rows
-/// of its DAG use these and no others. The rules of the cuts are those of CutsLayout.h.
+/// of its DAG use these and no others.
 
 #pragma once
 
@@ -12,11 +12,19 @@
 
 #include <cstdint>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
+
+template <typename... Parts>
+std::string sentence(const Parts&... parts)
+{
+    std::ostringstream text;
+    (text << ... << parts);
+    return text.str();
+}
 
 /// Nodes that break a rule: how many, and the first.
 class Offenders {
@@ -44,18 +52,17 @@ struct Damage {
 };
 
 /// @name The rules of all trees
-/// Those after levelDamage() may be asked only where it and the ones before find nothing.
+/// Those after shapeDamage() may be called only where it finds nothing.
 /// @{
 
-/// There are nodes, and all arrays have an entry for each.
-std::vector<Damage> arrayDamage(const SphereTree& tree);
-/// Centres are in units of 1/2 or 1/16 voxel.
+/// Centers are in units of 1/2 or 1/16 voxel.
 std::vector<Damage> unitDamage(int subdivision);
-/// There is a transform, and it is linear.
-std::vector<Damage> transformDamage(const SphereTree& tree);
-/// Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the top level first.
-std::vector<Damage> levelDamage(const SphereTree& tree);
-/// Centres are whole numbers of units and of 32 bits in voxels, and radii are finite and at least 0.
+/// There are nodes, all arrays have an entry for each, and units are right. There is a transform,
+/// and it is linear. Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the
+/// top level first.
+std::vector<Damage> shapeDamage(const SphereTree& tree);
+/// Centers are whole numbers of units and of 32 bits in voxels, and radii are finite and at least
+/// 0.
 std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision);
 /// Digital balls have a radius; -1 marks spheres that are none.
 std::vector<Damage> digitalBallDamage(const SphereTree& tree);
@@ -67,9 +74,18 @@ std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges);
 std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
 /// @}
 
-/// @return what is wrong by all rules above, those of cuts not asked; where the ranges of levels are
-///         wrong, nothing else is looked at.
+/// @return what is wrong by all rules above; where the ranges of levels are wrong, nothing else is
+///         looked at.
 std::vector<Damage> treeDamage(const SphereTree& tree);
+
+/// @brief The rules of cuts, spheres aside: arrays are alike in length; a node's parent comes after
+/// it, and begins with the cut of one sphere less than the node ends with; every node above the
+/// leaves has a child; and there is a cut of N nodes for every N from 1 to the number of leaves.
+/// @return what is wrong first, as the end of a sentence about the cuts; empty if all holds. Cost:
+///         linear.
+std::string cutsDamage(const SphereCuts& cuts);
+/// @return the number of spheres of the largest cut, which is that of the leaves; 0 of none.
+int32_t leavesOf(const SphereCuts& cuts);
 
 /// @throw openvdb::ValueError with the first, if there is any
 void throwFirst(const std::vector<Damage>& damage);
@@ -80,5 +96,8 @@ void requireCuts(const SphereCuts& cuts, int subdivision);
 /// @throw openvdb::ValueError naming the first edge that breaks a rule
 void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+/// @return a tree without nodes and levels, and all else that @a tree knows beside them, edges and
+///         cuts.
+SphereTree describedLike(const SphereTree& tree);
+
+} // namespace openvdb_spheretree::detail

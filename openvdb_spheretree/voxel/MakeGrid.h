@@ -6,8 +6,7 @@
 
 #include <openvdb/openvdb.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @return a grid of background 0. GridT::create() is the same, but compiles the grid's virtual
 /// functions anew: nine seconds a file.
@@ -18,5 +17,4 @@ typename GridT::Ptr makeGrid()
     return openvdb::gridPtrCast<GridT>(openvdb::GridBase::createGrid(GridT::gridType()));
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

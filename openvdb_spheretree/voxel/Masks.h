@@ -9,8 +9,7 @@
 
 #include "MaskTree.h"
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using MaskRoot = openvdb::MaskTree::RootNodeType;
 using MaskUpper = MaskRoot::ChildNodeType;
@@ -19,8 +18,7 @@ using BoolRoot = openvdb::BoolTree::RootNodeType;
 using BoolUpper = BoolRoot::ChildNodeType;
 using BoolLower = BoolUpper::ChildNodeType;
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 
 // Masks.cc, which holds the code, defines this as `template`. Root nodes are left out: OpenVDB 10.0 has
 // a member in them that does not compile, and is never called.

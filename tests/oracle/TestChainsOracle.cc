@@ -23,10 +23,10 @@ using detail::brokenChains;
 using detail::ChainForest;
 using detail::ChainLoss;
 
-std::string joinedText(const std::vector<std::string>& lines)
+std::string joinedText(const std::vector<TreeFault>& faults)
 {
     std::string text;
-    for (const std::string& line : lines) text += line + "\n";
+    for (const TreeFault& fault : faults) text += fault.sentence + "\n";
     return text;
 }
 

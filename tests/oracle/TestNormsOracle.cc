@@ -235,8 +235,8 @@ TEST(NormsOracle, StoredTreesHoldWhatTheyPromiseAlsoInATurnedWorld)
                     openvdb_spheretree::fromPoints(*openvdb_spheretree::toPoints(tree));
                 ASSERT_TRUE(sameNodes(tree, read));
                 ASSERT_TRUE(read.settings.dist() == settings.dist());
-                const auto failures = openvdb_spheretree::checkSphereTree(read, *grid);
-                ASSERT_TRUE(failures.empty()) << failures.front();
+                const auto faults = openvdb_spheretree::checkSphereTree(read, *grid);
+                ASSERT_TRUE(faults.empty()) << faults.front().sentence;
             }
         }
     }

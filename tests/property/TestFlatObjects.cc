@@ -90,8 +90,8 @@ TEST(FlatObjects, AreCountedCheckedAndStoredInTheirPlane)
             const SphereTree read = openvdb_spheretree::fromPoints(
                 *openvdb_spheretree::toPoints(tree), openvdb_spheretree::dagToPoints(tree).get());
             EXPECT_EQ(read.flatAxis, tree.flatAxis);
-            const auto failures = openvdb_spheretree::checkSphereTree(read, *grid);
-            EXPECT_TRUE(failures.empty()) << failures.front();
+            const auto faults = openvdb_spheretree::checkSphereTree(read, *grid);
+            EXPECT_TRUE(faults.empty()) << faults.front().sentence;
         }
     }
 }

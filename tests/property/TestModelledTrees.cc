@@ -51,8 +51,8 @@ void expectSound(const SphereTree& tree, const openvdb::BoolGrid& object, const 
 {
     EXPECT_TRUE(endsAtOneRoot(tree));
     EXPECT_TRUE(covers(tree, voxels));
-    const auto failures = checkSphereTree(tree, object);
-    EXPECT_TRUE(failures.empty()) << failures.front();
+    const auto faults = checkSphereTree(tree, object);
+    EXPECT_TRUE(faults.empty()) << faults.front().sentence;
 }
 
 TEST(ModelledTrees, HoldWhatEveryTreeHolds)

@@ -115,7 +115,8 @@ inline int64_t sumOf(const std::vector<int64_t>& counts)
 inline std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid)
 {
     std::string text;
-    for (const std::string& failure : checkSphereTree(tree, grid)) text += failure + "\n";
+    for (const openvdb_spheretree::TreeFault& fault : checkSphereTree(tree, grid))
+        text += fault.sentence + "\n";
     return text;
 }
 

@@ -27,7 +27,7 @@ namespace {
 const SphereTreeLevel& levelOf(const ActionCall& call, const SphereTree& tree)
 {
     if (!call.given("level")) return tree.levels.front();
-    const int number = call.integer("level");
+    const int number = int(call.integer("level"));
     if (tree.hasLevel(number)) return tree.level(number);
     throwInput("the tree has no level " + call.text("level") + ": it has levels "
         + std::to_string(tree.levels.front().level) + " to " + std::to_string(tree.root().level));

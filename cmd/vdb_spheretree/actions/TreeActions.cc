@@ -134,14 +134,13 @@ void runCheck(const ActionCall& call, Session& session)
     if (call.given("vdb") || !object) {
         object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
     }
-    const auto failures = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
+    const auto faults = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
     throwIfStopped();
-    for (const std::string& failure : failures) session.print(oneLine(failure) + "\n");
-    if (!failures.empty()) {
+    for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
+    if (!faults.empty()) {
         throw CommandError(kCheckFailed,
-            item.description()
-                + " does not hold what it promises: " + std::to_string(failures.size())
-                + " of the checks failed, the first: " + failures.front());
+            item.description() + " does not hold what it promises: " + std::to_string(faults.size())
+                + " of the checks failed, the first: " + faults.front().sentence);
     }
     if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
 }

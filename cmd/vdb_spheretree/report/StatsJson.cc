@@ -2,7 +2,6 @@
 #include "StatsReport.h"
 
 #include <openvdb_spheretree/store/JsonWriter.h>
-#include <openvdb_spheretree/store/SphereTreeJson.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 namespace command {

@@ -15,8 +15,7 @@
 #include <initializer_list>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::IoError;
@@ -277,5 +276,4 @@ PolygonSoup parseMesh(const std::string& extension, std::string bytes)
     return parseStl(bytes);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

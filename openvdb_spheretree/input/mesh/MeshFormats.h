@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// The polygons of a file, of any number of corners. Equal points are not joined.
 struct PolygonSoup {
@@ -34,5 +33,4 @@ PolygonSoup parseMesh(const std::string& extension, std::string bytes);
 /// The reader of PLY, in PlyFormat.cc.
 PolygonSoup parsePly(const std::string& bytes);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
@@ -96,5 +95,4 @@ void MeshText::fail(const std::string& what) const
     throw openvdb::IoError("line " + std::to_string(mNumber) + ": " + what);
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

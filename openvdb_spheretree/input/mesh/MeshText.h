@@ -12,8 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Goes through a text line by line and word by word.
 class MeshText {
@@ -55,5 +54,4 @@ private:
     std::uint64_t mNumber = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -18,8 +18,7 @@
 #include <cstring>
 #include <limits>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::IoError;
@@ -297,5 +296,4 @@ PolygonSoup parsePly(const std::string& bytes)
     return soup;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

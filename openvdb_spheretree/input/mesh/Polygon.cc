@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Vec2d;
@@ -111,5 +110,4 @@ void triangulate(const std::vector<Vec3s>& points, const std::vector<std::uint32
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// Cutting ears takes quadratic time, in the worst case cubic.
 constexpr std::size_t kMaxConcaveCorners = 2000;
@@ -25,5 +24,4 @@ constexpr std::size_t kMaxConcaveCorners = 2000;
 void triangulate(const std::vector<openvdb::Vec3s>& points,
     const std::vector<std::uint32_t>& corners, std::vector<openvdb::Vec3I>& triangles);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -60,5 +59,4 @@ LeafMask SolidBall::leaf(const Coord& origin) const
     return mask;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

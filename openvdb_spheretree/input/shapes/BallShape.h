@@ -9,8 +9,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class SolidBall : public LeafwiseRule {
 public:
@@ -28,5 +27,4 @@ private:
     int64_t mRadiusSq;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -5,8 +5,7 @@
 
 #include <array>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -91,5 +90,4 @@ GyroidShape::GyroidShape(int64_t voxels) : mPeriod(kLeaves * kLeaves * kLeaves, 
 
 LeafMask GyroidShape::leaf(const Coord& origin) const { return mPeriod[leafInPeriod(origin)]; }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

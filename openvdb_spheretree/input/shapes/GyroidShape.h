@@ -16,8 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class GyroidShape : public LeafwiseRule {
 public:
@@ -31,5 +30,4 @@ private:
     openvdb::CoordBBox mBox;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -67,5 +66,4 @@ std::vector<int> HeightField::heights(int x0, int y0, int side) const
     return sums;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

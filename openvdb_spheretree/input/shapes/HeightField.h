@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class HeightField {
 public:
@@ -39,5 +38,4 @@ private:
     std::array<std::array<int, 1 << kMostBits>, kMostBits + 1> mWeights; ///< by octave and place
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

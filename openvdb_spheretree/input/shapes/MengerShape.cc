@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -91,5 +90,4 @@ LeafMask MengerShape::leaf(const Coord& origin) const
     return mask;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -14,8 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class MengerShape : public LeafwiseRule {
 public:
@@ -31,5 +30,4 @@ private:
     std::vector<uint32_t> mOnes; ///< of a coordinate: a bit for each digit that is 1
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,8 +9,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 /// @param voxels  1 or more
 /// @param count   count(sides): how many voxels the shape has in the box of these sides; never
@@ -32,5 +31,4 @@ openvdb::CoordBBox nearCubeOf(int64_t voxels, const Count& count)
     return {openvdb::Coord(0), sides(lowIsNearer ? low : high).offsetBy(-1)};
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -11,8 +11,7 @@
 
 #include <cstdint>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class NoiseShape : public LeafwiseRule {
 public:
@@ -48,5 +47,4 @@ private:
     openvdb::CoordBBox mBox;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

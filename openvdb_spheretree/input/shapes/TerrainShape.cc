@@ -7,8 +7,7 @@
 #include <array>
 #include <atomic>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -108,5 +107,4 @@ void TerrainShape::paint(BoolLowerNode& node) const
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

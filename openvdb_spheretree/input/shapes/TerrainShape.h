@@ -20,8 +20,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 class TerrainShape : public VoxelRule {
 public:
@@ -38,5 +37,4 @@ private:
     int mSide = 0;
 };
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -7,8 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -118,5 +117,4 @@ BoolTree::Ptr treeOf(const VoxelRule& shape, openvdb::util::NullInterrupter* int
     return tree;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -17,8 +17,7 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 using BoolLowerNode = openvdb::BoolTree::RootNodeType::ChildNodeType::ChildNodeType; ///< 128^3
 
@@ -60,5 +59,4 @@ void addLeaf(BoolLowerNode& node, const openvdb::Coord& origin, const LeafMask& 
 /// @throw Interrupted if the interrupter (may be null) said so
 openvdb::BoolTree::Ptr treeOf(const VoxelRule& shape, openvdb::util::NullInterrupter* interrupter);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 namespace {
 
@@ -131,5 +130,4 @@ VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint6
     return header;
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

@@ -12,8 +12,7 @@
 #include <fstream>
 #include <string>
 
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 struct VolHeader {
     std::array<std::uint64_t, 3> dim{}; // X, Y, Z
@@ -31,5 +30,4 @@ struct VolHeader {
 /// @throw openvdb::IoError naming the file and the key
 VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint64_t fileBytes);
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail

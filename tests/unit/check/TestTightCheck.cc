@@ -89,7 +89,7 @@ SphereTree validTree(const BoolGrid& object)
 std::string check(const SphereTree& tree, const BoolGrid& object)
 {
     std::string text;
-    for (const std::string& failure : checkSphereTree(tree, object)) text += failure + "\n";
+    for (const TreeFault& fault : checkSphereTree(tree, object)) text += fault.sentence + "\n";
     return text;
 }
 
@@ -281,6 +281,19 @@ TEST(TightCheck, SaysWhenACutBreaksChains)
         [](SphereTree& tree) { tree.cuts.spheres.radiusWorld[2] = 0.5f; });
 }
 
+TEST(TightCheck, BrokenChainsOfLevelsAndCutsAreOfTheirKind)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = validTree(*object);
+    std::swap(tree.spheres.parent[3], tree.spheres.parent[4]);
+    tree.cuts.spheres.coverRadiusSq[0] = 255;
+    const std::vector<TreeFault> faults = checkSphereTree(tree, *object);
+    EXPECT_GE(faults.size(), 3u);
+    for (const TreeFault& fault : faults) {
+        EXPECT_EQ(toString(fault.kind), "chains") << fault.sentence;
+    }
+}
+
 /// A node that ends owing nothing: its voxels have chains elsewhere.
 TEST(TightCheck, ANodeThatEndsOwingNothingBreaksNoChain)
 {
@@ -356,6 +369,10 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
         "level 1: the sphere reaches out of the object's box for 1 node (first: id 0)\n");
     EXPECT_EQ(said(int64_t(1) << 60, Coord(2, 2, 2), 1),
         "level 0: the sphere reaches out of the object's box for 1 node (first: id 1)\n");
+    SphereTree tree = sound;
+    tree.spheres.coverRadiusSq[1] = 512;
+    tree.spheres.radius[1] = std::sqrt(512.0) / 16;
+    EXPECT_EQ(toString(checkSphereTree(tree, *object).at(0).kind), "inside");
 }
 
 TEST(TightCheck, InnerRadiiAreStoredRoundedDown)

@@ -12,9 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace {
 
@@ -107,24 +109,26 @@ SphereTree oneLevel(const SphereTree& tree, int k)
     return result;
 }
 
-std::string joined(const std::vector<std::string>& failures)
+std::string joined(const std::vector<TreeFault>& faults)
 {
     std::string text;
-    for (const std::string& failure : failures) text += failure + "\n";
+    for (const TreeFault& fault : faults) text += fault.sentence + "\n";
     return text;
 }
 
 /// Damages a valid tree; the check must report exactly this (other things may follow from it).
-void expectFailure(const std::function<void(SphereTree&)>& damage, const std::string& sentence,
-    TreeType type = TreeType::Extended)
+void expectFault(FaultKind kind, const std::function<void(SphereTree&)>& damage,
+    const std::string& sentence, TreeType type = TreeType::Extended)
 {
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = validTree(*object, type);
     damage(tree);
-    const std::string failures = joined(checkSphereTree(tree, *object));
-    EXPECT_NE(("\n" + failures).find("\n" + sentence + "\n"), std::string::npos)
-        << "expected: " << sentence << "\nbut it said:\n"
-        << failures;
+    const std::vector<TreeFault> faults = checkSphereTree(tree, *object);
+    const auto found = std::find_if(faults.begin(), faults.end(),
+        [&](const TreeFault& fault) { return fault.sentence == sentence; });
+    ASSERT_NE(found, faults.end()) << "expected: " << sentence << "\nbut it said:\n"
+                                   << joined(faults);
+    EXPECT_EQ(toString(found->kind), toString(kind)) << sentence;
 }
 
 TEST_F(TreeCheck, FindsNothingWrongWithAValidTree)
@@ -209,30 +213,54 @@ TEST_F(TreeCheck, FindsNothingWrongWithADiscInTwoDimensions)
     }
 }
 
+TEST_F(TreeCheck, KindsOfFaultsHaveNamesOfTheirOwn)
+{
+    EXPECT_EQ(toString(FaultKind::Shape), "shape");
+    EXPECT_EQ(toString(FaultKind::LeafBalls), "leaf balls");
+    EXPECT_EQ(toString(FaultKind::Chains), "chains");
+    EXPECT_EQ(toString(FaultKind::Inside), "inside");
+    EXPECT_EQ(toString(FaultKind::Errors), "errors") << "the last one";
+    std::set<std::string> names;
+    const int count = int(FaultKind::Errors) + 1;
+    for (int kind = 0; kind < count; ++kind) names.insert(toString(FaultKind(kind)));
+    EXPECT_EQ(int(names.size()), count);
+}
+
 TEST_F(TreeCheck, SaysWhenArraysDifferInLength)
 {
-    expectFailure([](SphereTree& tree) { tree.spheres.parent.pop_back(); },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.spheres.parent.pop_back(); },
         "the tree has 5 centres, but 4 entries in parent");
-    expectFailure([](SphereTree& tree) { tree.radiusSq.push_back(1); },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.radiusSq.push_back(1); },
         "the tree has 5 centres, but 6 entries in radiusSq");
 }
 
 TEST_F(TreeCheck, SaysWhenLevelsAreNoRangesOfNodes)
 {
-    expectFailure([](SphereTree& tree) { tree.subdivision = 3; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.subdivision = 3; },
         "centres are in units of 1/3 of a voxel, not 1/2 or 1/16");
-    expectFailure([](SphereTree& tree) { tree.levels[1].begin = 2; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels[1].begin = 2; },
         "level 1 is nodes 2 to 3 (exclusive), where nodes from 1 on are expected");
-    expectFailure([](SphereTree& tree) { tree.levels[0].end = 4; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels[0].end = 4; },
         "the levels have 4 nodes, but the tree has 5");
-    expectFailure([](SphereTree& tree) { tree.levels[0].end = 7; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels[0].end = 7; },
         "level 0 is nodes 3 to 7 (exclusive), where nodes from 3 on are expected");
-    expectFailure(
-        [](SphereTree& tree) { tree.levels[1].level = 4; }, "level 4 stands where level 1 belongs");
-    expectFailure([](SphereTree& tree) { tree.levels[1].end = tree.levels[0].begin = 1; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels[1].level = 4; },
+        "level 4 stands where level 1 belongs");
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels[1].end = tree.levels[0].begin = 1; },
         "level 1 is nodes 1 to 1 (exclusive), where nodes from 1 on are expected");
-    expectFailure([](SphereTree& tree) { tree.levels.clear(); }, "the tree has no levels");
-    expectFailure([](SphereTree& tree) { tree.transform.reset(); }, "the tree has no transform");
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.levels.clear(); }, "the tree has no levels");
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.transform.reset(); },
+        "the tree has no transform");
 }
 
 TEST_F(TreeCheck, SaysWhenTheNumberOfALevelThatStandsAloneIsNegative)
@@ -247,37 +275,49 @@ TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
 {
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
     for (double far : {infinity, -infinity, 1e10}) {
-        expectFailure([&](SphereTree& tree) { tree.spheres.center[2].z() = far; },
+        expectFault(
+            FaultKind::Shape, [&](SphereTree& tree) { tree.spheres.center[2].z() = far; },
             "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 2)");
     }
-    expectFailure([&](SphereTree& tree) { tree.spheres.center[3].y() = nan; },
+    expectFault(
+        FaultKind::Shape, [&](SphereTree& tree) { tree.spheres.center[3].y() = nan; },
         "the centre is not a multiple of 1/2 of a voxel in range for 1 node (first: id 3)");
-    expectFailure(
+    expectFault(
+        FaultKind::Shape,
         [](SphereTree& tree) { tree.spheres.center[1].x() = tree.spheres.center[2].x() = 0.25; },
         "the centre is not a multiple of 1/2 of a voxel in range for 2 nodes (first: id 1)");
-    expectFailure([&](SphereTree& tree) { tree.spheres.radius[4] = nan; },
+    expectFault(
+        FaultKind::Shape, [&](SphereTree& tree) { tree.spheres.radius[4] = nan; },
         "the radius is negative or not a number for 1 node (first: id 4)");
-    expectFailure([](SphereTree& tree) { tree.spheres.coverRadiusSq[0] = -1; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.spheres.coverRadiusSq[0] = -1; },
         "the radius is negative or not a number for 1 node (first: id 0)");
-    expectFailure([](SphereTree& tree) { tree.spheres.radius[4] = -1; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.spheres.radius[4] = -1; },
         "the radius is negative or not a number for 1 node (first: id 4)");
     for (double bad : {nan, infinity, -0.5}) {
-        expectFailure([&](SphereTree& tree) { tree.spheres.radiusWorld[0] = float(bad); },
+        expectFault(
+            FaultKind::Shape, [&](SphereTree& tree) { tree.spheres.radiusWorld[0] = float(bad); },
             "the stored radius is negative or not a number for 1 node (first: id 0)");
     }
-    expectFailure([](SphereTree& tree) { tree.radiusSq[2] = 0; },
+    expectFault(
+        FaultKind::Shape, [](SphereTree& tree) { tree.radiusSq[2] = 0; },
         "radius_sq is less than 1 for 1 node (first: id 2)");
 }
 
 TEST_F(TreeCheck, SaysWhenWhatIsRecordedOfTheObjectIsWrong)
 {
-    expectFailure([](SphereTree& tree) { tree.object.voxels = 9; },
+    expectFault(
+        FaultKind::Counts, [](SphereTree& tree) { tree.object.voxels = 9; },
         "the tree records 9 voxels of the object, which has 8");
-    expectFailure([](SphereTree& tree) { tree.object.leaves = 1; },
+    expectFault(
+        FaultKind::Counts, [](SphereTree& tree) { tree.object.leaves = 1; },
         "the tree records 1 leaves of the object, which has 2");
-    expectFailure([](SphereTree& tree) { tree.object.tiles = 1; },
+    expectFault(
+        FaultKind::Counts, [](SphereTree& tree) { tree.object.tiles = 1; },
         "the tree records 1 tiles of the object, which has 0");
-    expectFailure([](SphereTree& tree) { tree.object.bbox.max().x() = 10; },
+    expectFault(
+        FaultKind::Counts, [](SphereTree& tree) { tree.object.bbox.max().x() = 10; },
         "the tree records [1, 1, 1] -> [10, 3, 3] as the object's box, which is "
         "[1, 1, 1] -> [9, 3, 3]");
 }
@@ -287,31 +327,39 @@ TEST_F(TreeCheck, SaysWhenARecordedErrorIsWrong)
     const BoolGrid::Ptr object = plusAndDot();
     const LevelError error = *validTree(*object).levels[1].error;
     const std::string excess = std::to_string(error.excess);
-    expectFailure([](SphereTree& tree) { tree.levels[1].error->excess = 3; },
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[1].error->excess = 3; },
         "level 1 records 3 voxels of excess, but it is " + excess);
-    expectFailure([](SphereTree& tree) { tree.levels[0].error->covered = 7; },
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].error->covered = 7; },
         "level 0 records 7 voxels covered, but it is 8");
-    expectFailure([](SphereTree& tree) { tree.levels[2].error->missing = 1; },
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[2].error->missing = 1; },
         "level 2 records 1 voxels missing, but it is 0");
-    expectFailure([](SphereTree& tree) { tree.levels[0].error->hammingPercent = 12.5; },
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].error->hammingPercent = 12.5; },
         "level 0 records 12.5 % Hamming error, but it is 0");
-    expectFailure([](SphereTree& tree) { tree.levels[0].error->hausdorff = 1; },
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].error->hausdorff = 1; },
         "level 0 records 1 voxels of Hausdorff distance, but it is 0");
 }
 
 TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)
 {
-    expectFailure(
+    expectFault(
+        FaultKind::Topology,
         [](SphereTree& tree) {
             tree.levels[0].topology = LevelTopology{1, 0, 0};
         },
         "level 0 records 1 components of the object, which has 2");
-    expectFailure(
+    expectFault(
+        FaultKind::Topology,
         [](SphereTree& tree) {
             tree.levels[0].topology = LevelTopology{2, 4, 0};
         },
         "level 0 records 4 tunnels of the object, which has 0");
-    expectFailure(
+    expectFault(
+        FaultKind::Topology,
         [](SphereTree& tree) {
             tree.levels[0].topology = LevelTopology{2, 0, 5};
         },
@@ -320,28 +368,38 @@ TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)
 
 TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)
 {
-    expectFailure([](SphereTree& tree) { tree.spheres.radius[3] = 0.9; },
+    expectFault(
+        FaultKind::Radii, [](SphereTree& tree) { tree.spheres.radius[3] = 0.9; },
         "radius and cover_sq are not the same sphere for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.spheres.coverRadiusSq[1] = 2; },
+    expectFault(
+        FaultKind::Radii, [](SphereTree& tree) { tree.spheres.coverRadiusSq[1] = 2; },
         "radius and cover_sq are not the same sphere for 1 node (first: id 1)");
-    expectFailure([](SphereTree& tree) { tree.settings.padding = 0.125; },
+    expectFault(
+        FaultKind::Radii, [](SphereTree& tree) { tree.settings.padding = 0.125; },
         "the stored radius is less than radius and padding for 5 nodes (first: id 0)");
 }
 
 TEST_F(TreeCheck, SaysWhenAParentIsNotOnTheNextLevelUp)
 {
-    expectFailure([](SphereTree& tree) { tree.spheres.parent[3] = 0; },
+    expectFault(
+        FaultKind::Links, [](SphereTree& tree) { tree.spheres.parent[3] = 0; },
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.spheres.parent[1] = tree.spheres.parent[2] = 3; },
+    expectFault(
+        FaultKind::Links,
+        [](SphereTree& tree) { tree.spheres.parent[1] = tree.spheres.parent[2] = 3; },
         "level 1: the parent is not on the next level up for 2 nodes (first: id 1)");
-    expectFailure([](SphereTree& tree) { tree.spheres.parent[4] = -1; },
+    expectFault(
+        FaultKind::Links, [](SphereTree& tree) { tree.spheres.parent[4] = -1; },
         "level 0: the parent is not on the next level up for 1 node (first: id 4)");
-    expectFailure([](SphereTree& tree) { tree.spheres.parent[0] = 0; },
+    expectFault(
+        FaultKind::Links, [](SphereTree& tree) { tree.spheres.parent[0] = 0; },
         "level 2: the parent is not -1, though this is the top level, for 1 node (first: id 0)");
-    expectFailure(
+    expectFault(
+        FaultKind::Links,
         [](SphereTree& tree) { tree.spheres.parent[3] = 3; }, // the first of its own level
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
-    expectFailure([](SphereTree& tree) { tree.spheres.parent[3] = 1000000; },
+    expectFault(
+        FaultKind::Links, [](SphereTree& tree) { tree.spheres.parent[3] = 1000000; },
         "level 0: the parent is not on the next level up for 1 node (first: id 3)");
 }
 
@@ -370,29 +428,33 @@ TEST_F(TreeCheck, SaysWhenThereIsMoreThanOneRoot)
 
 TEST_F(TreeCheck, SaysWhenDagEdgesAreWrong)
 {
-    expectFailure(
+    expectFault(
+        FaultKind::Edges,
         [](SphereTree& tree) {
             tree.dag[3] = {2, 2};
         },
         "1 edges of the DAG do not lead to the next level down (first: 2 to 2)");
-    expectFailure(
+    expectFault(
+        FaultKind::Edges,
         [](SphereTree& tree) {
             tree.dag[0] = {0, 5};
         },
         "1 edges of the DAG do not lead to the next level down (first: 0 to 5)");
-    expectFailure(
+    expectFault(
+        FaultKind::Edges,
         [](SphereTree& tree) {
             tree.dag[1] = {0, 3};
         },
         "1 edges of the DAG do not lead to the next level down (first: 0 to 3)");
-    expectFailure([](SphereTree& tree) { tree.dag[1] = tree.dag[0]; },
+    expectFault(
+        FaultKind::Edges, [](SphereTree& tree) { tree.dag[1] = tree.dag[0]; },
         "1 edges of the DAG are out of order or repeated (first: 0 to 1)");
 }
 
 TEST_F(TreeCheck, SaysWhenAnInnerNodeOfAnExtendedTreeHasNoChild)
 {
     const auto damage = [](SphereTree& tree) { tree.spheres.parent[4] = 1; };
-    expectFailure(damage, "level 1: no child for 1 node (first: id 2)");
+    expectFault(FaultKind::Links, damage, "level 1: no child for 1 node (first: id 2)");
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree reversible = validTree(*object, TreeType::Reversible);
     damage(reversible); // nothing that a reversible tree promises
@@ -402,24 +464,28 @@ TEST_F(TreeCheck, SaysWhenAnInnerNodeOfAnExtendedTreeHasNoChild)
 TEST_F(TreeCheck, SaysWhenAStoredSphereDoesNotContainItsLeaves)
 {
     const auto damage = [](SphereTree& tree) { tree.spheres.radiusWorld[0] *= 0.999f; };
-    expectFailure(damage,
+    expectFault(FaultKind::LeafBalls, damage,
         "the stored sphere does not contain every leaf ball below it for 1 node (first: id 0)");
 }
 
 TEST_F(TreeCheck, SaysWhenLevel0DoesNotRebuildTheObject)
 {
-    expectFailure([](SphereTree& tree) { tree.radiusSq[3] = 1; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.radiusSq[3] = 1; },
         "level 0 does not rebuild the object: its digital balls lack 6 voxels "
         "(first: [1, 2, 2])");
-    expectFailure([](SphereTree& tree) { tree.ijk[4].x() = 12; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.ijk[4].x() = 12; },
         "level 0 does not rebuild the object: its digital balls hold 1 voxel (first: [12, 2, 2]) "
         "that the object has not");
-    expectFailure([](SphereTree& tree) { tree.ijk[4].x() = 12; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.ijk[4].x() = 12; },
         "level 0 does not rebuild the object: its digital balls lack 1 voxel (first: [9, 2, 2])");
     const auto huge = [](SphereTree& tree) { tree.radiusSq[4] = 2000000000; };
-    expectFailure(huge,
+    expectFault(FaultKind::DigitalBalls, huge,
         "level 0: the digital ball is larger than the level's 8 voxels for 1 node (first: id 4)");
-    expectFailure( // the object counts, not what is recorded of it
+    expectFault(
+        FaultKind::DigitalBalls, // the object counts, not what is recorded of it
         [&](SphereTree& tree) {
             huge(tree);
             tree.levels[0].pyramidVoxels = int64_t(1) << 60;
@@ -429,15 +495,18 @@ TEST_F(TreeCheck, SaysWhenLevel0DoesNotRebuildTheObject)
 
 TEST_F(TreeCheck, SaysWhenARecordedVolumeIsNotThatOfTheBalls)
 {
-    expectFailure([](SphereTree& tree) { tree.levels[0].pyramidVoxels = 7; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.levels[0].pyramidVoxels = 7; },
         "level 0 records 7 pyramid voxels, but its digital balls rebuild 8");
-    expectFailure([](SphereTree& tree) { tree.levels[0].pyramidVoxels = 9; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.levels[0].pyramidVoxels = 9; },
         "level 0 records 9 pyramid voxels, but its digital balls rebuild 8");
-    expectFailure([](SphereTree& tree) { tree.levels[1].pyramidVoxels = 1; },
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.levels[1].pyramidVoxels = 1; },
         "level 1 records 1 pyramid voxels, but its digital balls rebuild 2");
     const auto more = [](SphereTree& tree) { tree.levels[1].pyramidVoxels = 3; };
-    expectFailure(more, "level 1 records 3 pyramid voxels, but its digital balls rebuild 2",
-        TreeType::Reversible);
+    expectFault(FaultKind::DigitalBalls, more,
+        "level 1 records 3 pyramid voxels, but its digital balls rebuild 2", TreeType::Reversible);
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree extended = validTree(*object);
     more(extended); // some ball may have been dropped
@@ -447,12 +516,12 @@ TEST_F(TreeCheck, SaysWhenARecordedVolumeIsNotThatOfTheBalls)
 TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheExactRadii)
 {
     const auto damage = [](SphereTree& tree) { tree.spheres.coverRadiusSq[1] = 10; };
-    expectFailure(
-        damage, "level 1 misses 3 voxels (first: [1, 2, 2]) of the object, in the exact radii");
+    expectFault(FaultKind::Coverage, damage,
+        "level 1 misses 3 voxels (first: [1, 2, 2]) of the object, in the exact radii");
     const auto moved = [](SphereTree& tree) { tree.spheres.center[0].x() = 6; };
     const std::string sentence = "level 2 misses 1 voxel (first: [1, 2, 2]) of the object, in the ";
-    expectFailure(moved, sentence + "exact radii");
-    expectFailure(moved, sentence + "stored radii less their padding");
+    expectFault(FaultKind::Coverage, moved, sentence + "exact radii");
+    expectFault(FaultKind::Coverage, moved, sentence + "stored radii less their padding");
 }
 
 TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheStoredRadii)
@@ -461,11 +530,12 @@ TEST_F(TreeCheck, SaysWhenALevelMissesVoxelsInTheStoredRadii)
     const auto damage = [](SphereTree& tree) {
         tree.spheres.radiusWorld[3] = std::nextafter(0.5f, 0.0f);
     };
-    expectFailure(damage,
+    expectFault(FaultKind::Coverage, damage,
         "level 0 misses 6 voxels (first: [1, 2, 2]) of the object, in the stored "
         "radii less their padding");
     // Padding is taken off before voxel centres are looked at.
-    expectFailure([](SphereTree& tree) { tree.settings.padding = 1e-4; },
+    expectFault(
+        FaultKind::Coverage, [](SphereTree& tree) { tree.settings.padding = 1e-4; },
         "level 0 misses 7 voxels (first: [1, 2, 2]) of the object, in the stored radii less their "
         "padding");
 }
@@ -506,26 +576,33 @@ TEST_F(TreeCheck, SaysWhenTheObjectLiesElsewhereInTheWorld)
 {
     const BoolGrid::Ptr object = plusAndDot();
     const SphereTree tree = validTree(*object);
-    const auto failuresWith = [&](const openvdb::math::Transform::Ptr& transform) {
+    const auto faultsWith = [&](const openvdb::math::Transform::Ptr& transform) {
         object->setTransform(transform);
-        return joined(checkSphereTree(tree, *object));
+        return checkSphereTree(tree, *object);
+    };
+    const auto expectPlace = [&](const openvdb::math::Transform::Ptr& transform) {
+        const std::vector<TreeFault> faults = faultsWith(transform);
+        ASSERT_FALSE(faults.empty());
+        EXPECT_EQ(toString(faults[0].kind), "place");
+        EXPECT_EQ(faults[0].sentence.rfind("the object's transform is not the tree's", 0), 0u);
     };
     auto moved = openvdb::math::Transform::createLinearTransform(0.5);
     moved->postTranslate(openvdb::Vec3d(0, 0.01, 0));
-    EXPECT_EQ(failuresWith(moved).rfind("the object's transform is not the tree's", 0), 0u);
+    expectPlace(moved);
     const auto larger = openvdb::math::Transform::createLinearTransform(1.5);
-    EXPECT_EQ(failuresWith(larger).rfind("the object's transform is not the tree's", 0), 0u);
+    expectPlace(larger);
     auto rotated = openvdb::math::Transform::createLinearTransform(0.5);
     rotated->postRotate(0.1, openvdb::math::Z_AXIS);
-    EXPECT_EQ(failuresWith(rotated).rfind("the object's transform is not the tree's", 0), 0u);
+    expectPlace(rotated);
     auto rounded = openvdb::math::Transform::createLinearTransform(0.5);
     rounded->postTranslate(openvdb::Vec3d(0, 1e-6, 0)); // as another program may have written it
-    EXPECT_EQ(failuresWith(rounded), "");
+    EXPECT_EQ(joined(faultsWith(rounded)), "");
 }
 
 TEST_F(TreeCheck, TakesNoMemoryOnTheWordOfADamagedFile)
 {
-    expectFailure(
+    expectFault(
+        FaultKind::DigitalBalls,
         [](SphereTree& tree) {
             tree.radiusSq[0] = std::numeric_limits<int32_t>::max();
             tree.levels[2].pyramidVoxels = int64_t(1) << 62;

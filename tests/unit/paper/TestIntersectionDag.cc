@@ -170,8 +170,10 @@ TEST(IntersectionDag, IsCheckedWithTheTree)
         tree.dag.erase(tree.dag.begin());
         const std::string place =
             std::to_string(first.parent) + " to " + std::to_string(first.child) + ')';
-        EXPECT_EQ(checkSphereTree(tree, *object),
-            std::vector<std::string>{"the DAG lacks 1 edge (first: " + place});
+        const std::vector<TreeFault> faults = checkSphereTree(tree, *object);
+        ASSERT_EQ(faults.size(), 1u);
+        EXPECT_EQ(toString(faults[0].kind), "edges");
+        EXPECT_EQ(faults[0].sentence, "the DAG lacks 1 edge (first: " + place);
     }
 }
 
@@ -184,7 +186,7 @@ TEST(IntersectionDag, AnEdgeThatNoVoxelWitnessesIsReported)
     settings.pyramid().edges = DagEdges::Intersecting;
     SphereTree tree = buildSphereTree(*object, settings);
     tree.settings.pyramid().edges = DagEdges::Shared;
-    const auto failures = checkSphereTree(tree, *object);
-    ASSERT_EQ(failures.size(), 1u);
-    EXPECT_EQ(failures[0].rfind("the DAG should lack ", 0), 0u) << failures[0];
+    const auto faults = checkSphereTree(tree, *object);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].sentence.rfind("the DAG should lack ", 0), 0u) << faults[0].sentence;
 }

@@ -206,8 +206,12 @@ TEST(DamagedPoints, MetadataOutOfRangeIsAnError)
     EXPECT_TRUE(
         mentions(whyDamagedMeta<std::string>("spheretree_spheres", "8,x"), "spheres='8,x'"));
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_side", "left"), "side='left'"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<int32_t>("spheretree_branching", 1), "branching=1"));
+    EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_cuts", true), "cuts"));
     EXPECT_TRUE(mentions(
         whyDamagedMeta<int32_t>("spheretree_branching", 1, tightSampleTree()), "branching=1"));
+    EXPECT_TRUE(mentions(
+        whyDamagedMeta<int32_t>("spheretree_factor", 3, tightSampleTree()), "factor=3 is not for"));
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_tree", "oak"), "tree='oak'"));
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_padding", "x"), "padding='x'"));
     EXPECT_TRUE(mentions(whyDamagedMeta<bool>("spheretree_factor", true), "of type bool"));

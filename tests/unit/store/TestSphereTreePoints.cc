@@ -166,6 +166,17 @@ TEST(SphereTreePoints, AFileFromBeforeTopologyWasCountedHasNone)
     expectSameTree(fromPoints(*grid), tree);
 }
 
+/// Version 0.1 took and recorded settings of extended trees for reversible ones, without any use.
+TEST(SphereTreePoints, AReversibleTreeMayRecordAnyReconstruction)
+{
+    SphereTree tree = oneVoxelTree();
+    setType(tree.settings, TreeType::Reversible);
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    grid->insertMeta("spheretree_reconstruct", openvdb::StringMetadata("free"));
+    grid->insertMeta("spheretree_final_fit", openvdb::BoolMetadata(false));
+    expectSameTree(fromPoints(*grid), tree);
+}
+
 TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
 {
     SphereTree tree = oneVoxelTree();
