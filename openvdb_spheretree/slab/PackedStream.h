@@ -34,7 +34,8 @@ namespace openvdb_spheretree::slab {
 /// without the others of its slab.
 template <typename Power>
 struct PackedLabel {
-    std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t> siteSq;
+    using SiteSq = std::conditional_t<sizeof(typename Power::Key) == 4, uint16_t, uint32_t>;
+    SiteSq siteSq;
     typename Power::Offset dy, dz;
 };
 
@@ -46,7 +47,7 @@ void packLeaf(const LeafLayout& layout, uint32_t leaf, const SlabLabels<Power>& 
     const auto* keys = labels.keysOf(leaf);
     const auto* dy = labels.dyOf(leaf);
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-        packed[k].siteSq = detail::siteSqOf<Power>(keys[k]);
+        packed[k].siteSq = typename PackedLabel<Power>::SiteSq(detail::siteSqOf<Power>(keys[k]));
         packed[k].dy = dy[k];
         const VoxelRef voxel{leaf, k};
         const VoxelRef there = moved(layout, Axis::Y, voxel, dy[k]);
