@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/picture/Camera.h>
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <gtest/gtest.h>
 
