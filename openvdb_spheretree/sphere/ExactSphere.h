@@ -6,7 +6,7 @@
 
 #include <openvdb_spheretree/voxel/Distance.h>
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h>
 
 #include <cmath>
 #include <cstdint>
