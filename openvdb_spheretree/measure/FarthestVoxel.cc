@@ -151,10 +151,10 @@ public:
                 continue;
             }
             // The leaves that are in one node of 128.
-            const Coord node = mCubes[i].origin & ~127;
+            const Coord nodeOrigin = mCubes[i].origin & ~127;
             mAt.assign(kPlaces, nullptr);
             const auto isLeafThere = [&](const VoxelCube& cube) {
-                return cube.size == kLeafDim && (cube.origin & ~127) == node;
+                return cube.size == kLeafDim && (cube.origin & ~127) == nodeOrigin;
             };
             for (; i < mCubes.size() && isLeafThere(mCubes[i]); ++i) {
                 mAt[mortonOf(mCubes[i].origin)] = &mCubes[i];

@@ -19,7 +19,7 @@ namespace openvdb_spheretree::detail {
 struct LeafPlace {
     int64_t x, y, z;
 
-    LeafPlace(int64_t x, int64_t y, int64_t z) : x(x), y(y), z(z) {}
+    LeafPlace(int64_t atX, int64_t atY, int64_t atZ) : x(atX), y(atY), z(atZ) {}
     explicit LeafPlace(const openvdb::Coord& origin) : LeafPlace(origin[0], origin[1], origin[2]) {}
     /// @param dx, dy, dz  in leaves
     LeafPlace offsetBy(int dx, int dy, int dz) const

@@ -4,6 +4,8 @@
 
 #include "CommandRunner.h"
 
+#include <sys/resource.h>
+
 namespace {
 
 using command_test::CommandTest;

@@ -4,6 +4,9 @@
 
 #include "CommandRunner.h"
 
+#include <openvdb/openvdb.h>
+
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 namespace {

@@ -11,6 +11,8 @@
 #include <openvdb_spheretree/tree/SettingsTable.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
+#include "support/DataFolder.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +44,7 @@ void setOption(SphereTreeSettings& settings, const std::string& option)
 
 Golden readGolden(const std::string& name)
 {
-    std::ifstream file(std::string(SPHERETREE_TEST_DATA) + "/" + name + ".txt");
+    std::ifstream file(spheretree_test::dataPath(name + ".txt"));
     EXPECT_TRUE(file) << "no file " << name;
     Golden golden;
     for (std::string line; std::getline(file, line);) {

@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/check/ChainCheck.h>
 
+#include "support/CoreStages.h"
 #include "support/NaiveChains.h"
 #include "support/TightSamples.h"
 
@@ -11,6 +12,7 @@
 #include <openvdb_spheretree/check/TreeCheck.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 #include <set>

@@ -7,6 +7,8 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>

@@ -5,7 +5,10 @@
 #include "support/Messages.h"
 #include "support/TightObjects.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+
+#include <openvdb/openvdb.h>
 
 #include <optional>
 

@@ -7,6 +7,7 @@
 #include "support/TightObjects.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/build/BuildSphereTree.h>
 
 #include <tbb/global_control.h>
 

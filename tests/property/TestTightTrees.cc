@@ -6,6 +6,8 @@
 #include "support/ChosenObjects.h"
 #include "support/TightObjects.h"
 
+#include <openvdb_spheretree/build/BuildSphereTree.h>
+
 namespace {
 
 using namespace openvdb_spheretree;

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace spheretree_test {
@@ -30,20 +32,11 @@ std::vector<RandomObject> chosenObjects(
 }
 
 /// Those of at most so many voxels.
-inline std::vector<RandomObject> objectsOfAtMost(
-    std::size_t voxels, uint32_t first, uint32_t last, std::size_t least)
-{
-    return chosenObjects(first, last, least,
-        [&](uint32_t, const RandomObject& object) { return object.voxels.size() <= voxels; });
-}
+std::vector<RandomObject> objectsOfAtMost(
+    std::size_t voxels, uint32_t first, uint32_t last, std::size_t least);
 
 /// Those whose box is no longer than that from corner to corner.
-inline std::vector<RandomObject> objectsNoWiderThan(
-    int diagonal, uint32_t first, uint32_t last, std::size_t least)
-{
-    return chosenObjects(first, last, least, [&](uint32_t, const RandomObject& object) {
-        return boxOf(object.voxels).extents().asVec3i().lengthSqr() <= diagonal * diagonal;
-    });
-}
+std::vector<RandomObject> objectsNoWiderThan(
+    int diagonal, uint32_t first, uint32_t last, std::size_t least);
 
 } // namespace spheretree_test

@@ -9,58 +9,33 @@
 #include "NaiveReference.h"
 
 #include <openvdb_spheretree/medial/DistanceMap.h>
-#include <openvdb_spheretree/medial/DistanceTransform.h>
-#include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/medial/PowerMap.h>
+#include <openvdb_spheretree/voxel/Distance.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 
 #include <gtest/gtest.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/util/NullInterrupter.h>
 
 #include <atomic>
-#include <memory>
+#include <cstdint>
 #include <set>
 #include <vector>
 
 namespace spheretree_test {
 
-inline openvdb::MaskTree::Ptr maskOf(const Voxels& voxels)
-{
-    auto tree = std::make_shared<openvdb::MaskTree>(false);
-    openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(*tree);
-    for (const Coord& voxel : voxels) accessor.setValueOn(voxel);
-    return tree;
-}
+openvdb::MaskTree::Ptr maskOf(const Voxels& voxels);
 
 /// A box as tiles, as large as they fit.
-inline openvdb::MaskTree::Ptr maskOf(const CoordBBox& box)
-{
-    auto tree = std::make_shared<openvdb::MaskTree>(false);
-    tree->sparseFill(box, true);
-    return tree;
-}
+openvdb::MaskTree::Ptr maskOf(const CoordBBox& box);
 
-inline openvdb::BoolGrid::Ptr gridOf(const openvdb::MaskTree& mask)
-{
-    auto tree = std::make_shared<openvdb::BoolTree>(mask, false, true, openvdb::TopologyCopy());
-    return openvdb::BoolGrid::create(tree);
-}
+openvdb::SharedPtr<openvdb::BoolGrid> gridOf(const openvdb::MaskTree& mask);
 
-inline openvdb::BoolGrid::Ptr gridOf(const Voxels& voxels) { return gridOf(*maskOf(voxels)); }
+openvdb::SharedPtr<openvdb::BoolGrid> gridOf(const Voxels& voxels);
 
-inline Voxels voxelsOf(const openvdb::MaskTree& tree)
-{
-    Voxels voxels;
-    for (auto it = tree.cbeginValueOn(); it; ++it) {
-        CoordBBox box;
-        it.getBoundingBox(box);
-        for (const Coord& voxel : voxelsOfBox(box)) voxels.push_back(voxel);
-    }
-    std::sort(voxels.begin(), voxels.end());
-    return voxels;
-}
+Voxels voxelsOf(const openvdb::MaskTree& tree);
 
 /// Calls f(leaf, offset, ijk) for every object voxel.
 template <typename F>
@@ -85,19 +60,11 @@ private:
 
 struct CoreStages {
     explicit CoreStages(const openvdb::MaskTree& level, int dim = 3,
-        const openvdb_spheretree::Distance& distance = {})
-        : medial(level, dim, distance, nullptr, nullptr, {0, {}, true}), layout(medial.layout),
-          distances(distanceTransform(layout, dim, distance)), labels(medial.labels),
-          balls(medial.balls)
-    {}
+        const openvdb_spheretree::Distance& distance = {});
     CoreStages(const CoreStages&) = delete; // members refer to others
 
     /// @return the distance (squared if Euclidean) at any voxel, 0 outside the leaves.
-    uint32_t distSq(const Coord& ijk) const
-    {
-        const auto leaf = layout.findLeaf(ijk);
-        return leaf ? distances.at(*leaf, openvdb_spheretree::leafIndex(ijk)) : 0;
-    }
+    uint32_t distSq(const Coord& ijk) const;
 
     const openvdb_spheretree::MedialLevel medial;
     const openvdb_spheretree::LeafLayout& layout;
@@ -108,96 +75,20 @@ struct CoreStages {
 };
 
 /// Distance and label of every voxel of the reference, which may be one object among others.
-inline testing::AssertionResult agreeOnVoxels(
-    const NaiveReference& naive, const CoreStages& stages, const Coord& shift = Coord(0, 0, 0))
-{
-    for (std::size_t i = 0; i < naive.voxels().size(); ++i) {
-        const Coord voxel = naive.voxels()[i] + shift;
-        const int64_t distSq = stages.distSq(voxel);
-        if (distSq != naive.distSq(i)) {
-            return testing::AssertionFailure()
-                << "distSq of " << voxel << " is " << distSq << ", should be " << naive.distSq(i);
-        }
-        const Coord label = stages.labels.label(voxel);
-        if (label != naive.label(i) + shift) {
-            return testing::AssertionFailure() << "label of " << voxel << " is " << label
-                                               << ", should be " << naive.label(i) + shift;
-        }
-    }
-    return testing::AssertionSuccess();
-}
+testing::AssertionResult agreeOnVoxels(
+    const NaiveReference& naive, const CoreStages& stages, const Coord& shift = Coord(0, 0, 0));
 
-inline testing::AssertionResult agreeOnBalls(const std::vector<NaiveReference::Ball>& expected,
-    const std::vector<openvdb_spheretree::MedialBall>& balls)
-{
-    for (std::size_t i = 0; i < std::min(expected.size(), balls.size()); ++i) {
-        if (balls[i].center == expected[i].center && balls[i].radiusSq == expected[i].radiusSq) {
-            continue;
-        }
-        return testing::AssertionFailure()
-            << "ball " << i << " is at " << balls[i].center << ", radiusSq " << balls[i].radiusSq
-            << ", should be at " << expected[i].center << ", radiusSq " << expected[i].radiusSq;
-    }
-    if (balls.size() == expected.size()) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << balls.size() << " balls, should be " << expected.size();
-}
+testing::AssertionResult agreeOnBalls(const std::vector<NaiveReference::Ball>& expected,
+    const std::vector<openvdb_spheretree::MedialBall>& balls);
 
 /// Distances, labels and medial balls are those of the reference, and nothing else is on.
-inline testing::AssertionResult agree(const NaiveReference& naive, const CoreStages& stages)
-{
-    if (stages.layout.voxelCount() != int64_t(naive.voxels().size())) {
-        return testing::AssertionFailure()
-            << stages.layout.voxelCount() << " voxels, should be " << naive.voxels().size();
-    }
-    const auto voxels = agreeOnVoxels(naive, stages);
-    return voxels ? agreeOnBalls(naive.balls(), stages.balls) : voxels;
-}
-
-/// Distance of every voxel.
-inline testing::AssertionResult agreeOnDistances(
-    const LineReference& reference, const CoreStages& stages)
-{
-    auto result = testing::AssertionSuccess();
-    forEachVoxel(stages.layout, [&](uint32_t leaf, uint32_t k, const Coord& voxel) {
-        const int64_t distSq = stages.distances.at(leaf, k);
-        if (!result || distSq == reference.distSq(voxel)) return;
-        result = testing::AssertionFailure() << "distSq of " << voxel << " is " << distSq
-                                             << ", should be " << reference.distSq(voxel);
-    });
-    return result;
-}
+testing::AssertionResult agree(const NaiveReference& naive, const CoreStages& stages);
 
 /// Label of every object voxel of a plane; @a sites, if given, collects them.
-inline testing::AssertionResult agreeOnPlane(const LineReference& reference,
-    const CoreStages& stages, int z, std::set<Coord>* sites = nullptr)
-{
-    const auto plane = reference.labelsOfPlane(z);
-    CoordBBox box = reference.box();
-    box.min()[2] = box.max()[2] = z;
-    for (const Coord& voxel : voxelsOfBox(box)) {
-        if (reference.distSq(voxel) == 0) continue;
-        const Coord label = stages.labels.label(voxel),
-                    expected = reference.labelIn(plane, voxel).at;
-        if (sites) sites->insert(expected);
-        if (label == expected) continue;
-        return testing::AssertionFailure()
-            << "label of " << voxel << " is " << label << ", should be " << expected;
-    }
-    return testing::AssertionSuccess();
-}
+testing::AssertionResult agreeOnPlane(const LineReference& reference, const CoreStages& stages,
+    int z, std::set<Coord>* sites = nullptr);
 
 /// Distances, labels and medial balls are those of the reference.
-inline testing::AssertionResult agree(const LineReference& reference, const CoreStages& stages)
-{
-    auto result = agreeOnDistances(reference, stages);
-    std::set<Coord> sites;
-    for (int z = reference.box().min()[2]; result && z <= reference.box().max()[2]; ++z) {
-        result = agreeOnPlane(reference, stages, z, &sites);
-    }
-    if (!result) return result;
-    std::vector<NaiveReference::Ball> balls;
-    for (const Coord& site : sites) balls.push_back({site, reference.distSq(site)});
-    return agreeOnBalls(balls, stages.balls);
-}
+testing::AssertionResult agree(const LineReference& reference, const CoreStages& stages);
 
 } // namespace spheretree_test

@@ -5,11 +5,9 @@
 #pragma once
 
 #include <openvdb_spheretree/input/shapes/GeneratedObject.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <openvdb/openvdb.h>
-
-#include <gtest/gtest.h>
-
+#include <cstdint>
 #include <functional>
 
 namespace spheretree_test {
@@ -20,42 +18,17 @@ using openvdb::CoordBBox;
 using openvdb_spheretree::GeneratedObjectSettings;
 using openvdb_spheretree::Shape;
 
-inline GeneratedObjectSettings settingsOf(Shape shape, int64_t voxels, uint64_t seed = 1)
-{
-    GeneratedObjectSettings settings;
-    settings.shape = shape;
-    settings.voxels = voxels;
-    settings.seed = seed;
-    return settings;
-}
+GeneratedObjectSettings settingsOf(Shape shape, int64_t voxels, uint64_t seed = 1);
 
-inline BoolGrid::Ptr made(Shape shape, int64_t voxels, uint64_t seed = 1)
-{
-    return generateObject(settingsOf(shape, voxels, seed));
-}
+openvdb::SharedPtr<BoolGrid> made(Shape shape, int64_t voxels, uint64_t seed = 1);
 
-inline CoordBBox boxOf(const BoolGrid& grid) { return grid.evalActiveVoxelBoundingBox(); }
+CoordBBox boxOf(const BoolGrid& grid);
 
 using Rule = std::function<bool(const Coord&)>;
 
 /// The grid's voxels are those of the box by the rule, on and true, and there are no others.
-inline void expectRule(const BoolGrid& grid, const CoordBBox& box, const Rule& rule)
-{
-    const auto accessor = grid.getConstAccessor();
-    uint64_t count = 0;
-    for (auto ijk = box.begin(); ijk; ++ijk) {
-        const bool on = rule(*ijk);
-        count += on;
-        ASSERT_EQ(accessor.isValueOn(*ijk), on) << *ijk;
-        ASSERT_EQ(accessor.getValue(*ijk), on) << *ijk;
-    }
-    EXPECT_EQ(grid.activeVoxelCount(), count);
-    EXPECT_FALSE(grid.background());
-}
+void expectRule(const BoolGrid& grid, const CoordBBox& box, const Rule& rule);
 
-inline bool isNearCube(const Coord& sides)
-{
-    return sides[0] >= sides[1] && sides[1] >= sides[2] && sides[0] - sides[2] <= 1;
-}
+bool isNearCube(const Coord& sides);
 
 } // namespace spheretree_test

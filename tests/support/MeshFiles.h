@@ -6,12 +6,8 @@
 
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace spheretree_test {
@@ -37,50 +33,19 @@ std::string bytesOf(Value value, bool bigEndian = false)
 struct TempFile {
     std::string path;
 
-    TempFile(const std::string& name, const std::string& contents)
-        : path(testing::TempDir() + "MeshFile_" // tests may run at the same time
-            + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name)
-    {
-        std::ofstream(path, std::ios::binary) << contents;
-    }
-    ~TempFile() { std::filesystem::remove(path); }
+    TempFile(const std::string& name, const std::string& contents);
+    ~TempFile();
+    TempFile(const TempFile&) = delete;
 };
 
-inline TriangleMesh read(const std::string& name, const std::string& bytes)
-{
-    const TempFile file(name, bytes);
-    return readMeshFile(file.path);
-}
+TriangleMesh read(const std::string& name, const std::string& bytes);
 
 /// @return what readMeshFile() says of the file, or nothing if it read it.
-inline std::string errorOf(const std::string& path)
-{
-    try {
-        readMeshFile(path);
-    } catch (const openvdb::IoError& error) {
-        const std::string text = error.what();
-        EXPECT_NE(std::string::npos, text.find(path)) << text;
-        EXPECT_LT(text.size(), path.size() + 400) << text;
-        return text;
-    }
-    return {};
-}
+std::string errorOf(const std::string& path);
 
-inline std::string errorOf(const std::string& name, const std::string& bytes)
-{
-    const TempFile file(name, bytes);
-    return errorOf(file.path);
-}
+std::string errorOf(const std::string& name, const std::string& bytes);
 
 /// Positive where triangles face outwards.
-inline double volumeOf(const TriangleMesh& mesh)
-{
-    double sum = 0;
-    for (const Vec3I& t : mesh.triangles) {
-        const Vec3d a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
-        sum += a.dot(b.cross(c)) / 6;
-    }
-    return sum;
-}
+double volumeOf(const TriangleMesh& mesh);
 
 } // namespace spheretree_test

@@ -28,10 +28,6 @@ std::string messageOf(const Call& call)
 }
 
 /// Whether @a text holds @a part.
-inline ::testing::AssertionResult mentions(const std::string& text, const std::string& part)
-{
-    if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "no \"" << part << "\" in \"" << text << "\"";
-}
+::testing::AssertionResult mentions(const std::string& text, const std::string& part);
 
 } // namespace spheretree_test

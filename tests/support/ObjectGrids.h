@@ -4,11 +4,7 @@
 
 #pragma once
 
-#include "Messages.h"
-
 #include <openvdb_spheretree/input/Object.h>
-
-#include <openvdb/openvdb.h>
 
 #include <set>
 #include <string>
@@ -22,35 +18,13 @@ using openvdb::FloatGrid;
 using openvdb_spheretree::objectOf;
 using openvdb_spheretree::ObjectSettings;
 
-inline ObjectSettings threshold(double value)
-{
-    ObjectSettings settings;
-    settings.threshold = value;
-    return settings;
-}
+ObjectSettings threshold(double value);
 
-inline ObjectSettings iso(double value)
-{
-    ObjectSettings settings;
-    settings.iso = value;
-    return settings;
-}
+ObjectSettings iso(double value);
 
-inline std::set<Coord> voxelsOf(const BoolGrid& grid)
-{
-    std::set<Coord> voxels;
-    for (auto it = grid.cbeginValueOn(); it; ++it) {
-        CoordBBox box;
-        it.getBoundingBox(box);
-        for (const Coord& ijk : box) voxels.insert(ijk);
-    }
-    return voxels;
-}
+std::set<Coord> voxelsOf(const BoolGrid& grid);
 
-inline std::string whyNot(const openvdb::GridBase& grid, const ObjectSettings& settings = {})
-{
-    return messageOf<openvdb::ValueError>([&] { objectOf(grid, settings); });
-}
+std::string whyNot(const openvdb::GridBase& grid, const ObjectSettings& settings = {});
 
 template <typename GridT>
 typename GridT::Ptr named(const char* name, const typename GridT::ValueType& background)

@@ -4,15 +4,10 @@
 
 #pragma once
 
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/points/AttributeArray.h>
 #include <openvdb/points/PointDataGrid.h>
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <sstream>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,44 +15,11 @@ namespace spheretree_test {
 
 using openvdb::points::PointDataGrid;
 
-/// @return a path that no other test has.
-inline std::string testFile()
-{
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    return (std::filesystem::temp_directory_path() / ("spheretree_" + name + ".vdb")).string();
-}
-
 /// Writes the grids to a file as people do, and reads them back.
-inline std::vector<PointDataGrid::Ptr> throughFile(const openvdb::GridCPtrVec& grids)
-{
-    openvdb::initialize();
-    const std::string path = testFile();
-    openvdb::io::File out(path);
-    out.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-    out.write(grids);
-    out.close();
-
-    std::vector<PointDataGrid::Ptr> read;
-    openvdb::io::File in(path);
-    in.open(/*delayLoad=*/false);
-    const openvdb::GridPtrVec stored = *in.getGrids();
-    for (const openvdb::GridBase::Ptr& grid : stored) {
-        read.push_back(openvdb::gridPtrCast<PointDataGrid>(grid));
-    }
-    in.close();
-    std::filesystem::remove(path);
-    return read;
-}
+std::vector<PointDataGrid::Ptr> throughFile(const openvdb::GridCPtrVec& grids);
 
 /// The grid as bytes, without the random number that every file starts with.
-inline std::string bytesOf(const PointDataGrid::Ptr& grid)
-{
-    std::ostringstream out(std::ios::binary);
-    openvdb::io::Stream stream(out);
-    stream.write(openvdb::GridCPtrVec{grid});
-    constexpr std::size_t kUuidBegin = 21, kUuidSize = 36;
-    return out.str().erase(kUuidBegin, kUuidSize);
-}
+std::string bytesOf(const PointDataGrid::Ptr& grid);
 
 /// Sets an attribute of the node with that id.
 template <typename T>

@@ -6,15 +6,9 @@
 #pragma once
 
 #include "BuiltTrees.h"
-#include "NaiveChains.h"
 
-#include <openvdb_spheretree/build/BuildSphereTree.h>
-#include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -29,143 +23,28 @@ using openvdb_spheretree::SphereTree;
 using openvdb_spheretree::SphereTreeSettings;
 using openvdb_spheretree::TreeType;
 
-inline Voxels joined(const Voxels& a, const Voxels& b)
-{
-    Voxels both = a;
-    both.insert(both.end(), b.begin(), b.end());
-    sortVoxels(both);
-    return both;
-}
-
-inline Voxels slantedLine(const Coord& step, int count)
-{
-    Voxels voxels;
-    for (int i = 0; i < count; ++i) voxels.emplace_back(i * step[0], i * step[1], i * step[2]);
-    return voxels;
-}
-
-/// A tenth of a box, but never nothing.
-inline Voxels dust(int side, Random& random)
-{
-    return joined({Coord(0, 0, 0)}, shapes::noise(Coord(side), 0.1, random));
-}
+Voxels joined(const Voxels& a, const Voxels& b);
 
 /// Small enough for brute force; across the borders of leaves and of the sign of coordinates.
-inline std::vector<RandomObject> smallObjects()
-{
-    Random random(7);
-    std::vector<RandomObject> objects{
-        {"one voxel", {Coord(-3, 8, 7)}},
-        {"ball", translated(shapes::ball(20), Coord(-2, 7, 130))},
-        {"blob", translated(shapes::noise(Coord(7, 6, 8), 0.8, random), Coord(-4, 125, -3))},
-        {"components", translated(shapes::noise(Coord(7, 7, 6), 0.35, random), Coord(5, -9, -4))},
-        {"dust", translated(dust(8, random), Coord(-1000, 4, 4))},
-        {"sheet", translated(shapes::box(Coord(11, 1, 12)), Coord(-5, -1, 3))},
-        {"line", translated(shapes::box(Coord(1, 1, 25)), Coord(0, 0, -13))},
-        {"slanted line", slantedLine(Coord(1, -1, 1), 15)},
-        {"box", translated(shapes::box(Coord(9, 5, 6)), Coord(-1, -1, -1))},
-        {"shell", translated(shapes::ball(20, 10), Coord(8, 8, 8))},
-        {"far apart", joined(shapes::ball(8), translated(shapes::ball(6), Coord(700, -90, 31)))},
-    };
-    for (RandomObject& object : objects) sortVoxels(object.voxels);
-    return objects;
-}
+std::vector<RandomObject> smallObjects();
 
-inline SphereTreeSettings tightSettings(Quality quality)
-{
-    SphereTreeSettings settings;
-    settings.tight().quality = quality;
-    settings.topology = false;
-    settings.budgeted().budget.branching = 3;
-    if (quality == Quality::Best) {
-        settings.budgeted().budget = SphereBudget();
-        settings.budgeted().budget.spheres = {1, 4};
-    }
-    return settings;
-}
+SphereTreeSettings tightSettings(Quality quality);
 
 /// What a tree is to cover, made of which leaves, with cuts, padded.
-inline std::vector<SphereTreeSettings> tightVariants(Quality quality)
-{
-    std::vector<SphereTreeSettings> all;
-    for (int i = 0; i < 16; ++i) {
-        SphereTreeSettings settings = tightSettings(quality);
-        settings.tight().cover = i % 2 ? Cover::Balls : Cover::Voxels;
-        settings.tight().leaves = i / 2 % 2 ? Leaves::Medial : Leaves::Pruned;
-        settings.budgeted().cuts = i / 4 % 2 && quality != Quality::Best; // which refuses them
-        settings.padding = i / 8 % 2 ? 0 : SphereTreeSettings::kPadCubes;
-        all.push_back(settings);
-    }
-    return all;
-}
+std::vector<SphereTreeSettings> tightVariants(Quality quality);
 
-inline std::string describeTight(const SphereTreeSettings& s)
-{
-    return std::string("quality=") + toString(s.tight().quality)
-        + " cover=" + toString(s.tight().cover) + " leaves=" + toString(s.tight().leaves)
-        + " cuts=" + (s.budgeted().cuts ? "1" : "0") + " dim=" + std::to_string(s.dim)
-        + " padding=" + openvdb_spheretree::paddingToString(s.padding);
-}
+std::string describeTight(const SphereTreeSettings& s);
 
-inline int64_t sumOf(const std::vector<int64_t>& counts)
-{
-    return std::accumulate(counts.begin(), counts.end(), int64_t(0));
-}
-
-inline std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid)
-{
-    std::string text;
-    for (const openvdb_spheretree::TreeFault& fault : checkSphereTree(tree, grid))
-        text += fault.sentence + "\n";
-    return text;
-}
+std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid);
 
 /// Level 0 of a tree whose leaves are digital balls.
-inline Voxels rebuilt(const SphereTree& tree)
-{
-    Voxels voxels;
-    for (int32_t id = tree.levels[0].begin; id < tree.levels[0].end; ++id) {
-        for (const Coord& v : shapes::ball(tree.radiusSq[id])) {
-            const bool inPlane = tree.settings.dim == 3 || v[tree.flatAxis] == 0;
-            if (inPlane) voxels.push_back(v + tree.ijk[id]);
-        }
-    }
-    sortVoxels(voxels);
-    return voxels;
-}
+Voxels rebuilt(const SphereTree& tree);
 
-inline void expectChains(const SphereTree& tree, const Voxels& voxels)
-{
-    ASSERT_EQ(
-        sumOf(naiveBrokenLevels(tree, voxels, holdsExactly(tree.spheres, tree.subdivision))), 0);
-    ASSERT_EQ(sumOf(naiveBrokenLevels(tree, voxels, holdsStored(tree.spheres, tree))), 0);
-}
+void expectChains(const SphereTree& tree, const Voxels& voxels);
 
-inline void expectSound(const SphereTree& tree, const openvdb::BoolGrid& grid, const Voxels& voxels)
-{
-    ASSERT_NO_FATAL_FAILURE(expectChains(tree, voxels));
-    ASSERT_EQ(failuresOf(tree, grid), "");
-    ASSERT_TRUE(endsAtOneRoot(tree));
-    if (tree.levels[0].pyramidVoxels > 0) {
-        ASSERT_EQ(rebuilt(tree), voxels);
-    }
-}
+void expectSound(const SphereTree& tree, const openvdb::BoolGrid& grid, const Voxels& voxels);
 
 /// Every number of spheres there is.
-inline void expectCutsHold(const SphereTree& tree, const Voxels& voxels)
-{
-    const SphereCuts& cuts = tree.cuts;
-    int32_t leaves = 0;
-    for (const int32_t last : cuts.last) leaves = std::max(leaves, last);
-    for (int32_t n = 1; n <= leaves; ++n) {
-        ASSERT_EQ(cutNodes(cuts, n).size(), std::size_t(n));
-        if (n > 12 && n % 7 != 0 && n < leaves - 3) continue;
-        ASSERT_EQ(
-            naiveBrokenCut(cuts, leaves, n, voxels, holdsExactly(cuts.spheres, tree.subdivision)),
-            0)
-            << n;
-        ASSERT_EQ(naiveBrokenCut(cuts, leaves, n, voxels, holdsStored(cuts.spheres, tree)), 0) << n;
-    }
-}
+void expectCutsHold(const SphereTree& tree, const Voxels& voxels);
 
 } // namespace spheretree_test

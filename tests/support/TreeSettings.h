@@ -10,18 +10,7 @@
 namespace spheretree_test {
 
 /// Makes @a settings those of a tree of @a type; what both kinds have stays.
-inline void setType(
-    openvdb_spheretree::SphereTreeSettings& settings, openvdb_spheretree::TreeType type)
-{
-    using namespace openvdb_spheretree;
-    const auto* shared = settings.find<PyramidOptions>();
-    const PyramidOptions pyramid = shared ? *shared : PyramidOptions();
-    if (settings.type() == type) return;
-    if (type == TreeType::Tight) settings.kind = TightOptions();
-    else if (type == TreeType::Extended) settings.kind = ExtendedOptions();
-    else settings.kind = ReversibleOptions();
-    if (type != TreeType::Tight) settings.pyramid() = pyramid;
-}
+void setType(openvdb_spheretree::SphereTreeSettings& settings, openvdb_spheretree::TreeType type);
 
 /// @return the options, or the defaults of a tree of another kind.
 template <typename Options>

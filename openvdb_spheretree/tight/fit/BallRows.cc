@@ -34,12 +34,12 @@ constexpr float kFar = float(1 << 26);
 struct Range {
     int32_t first, last;
 
-    /// @param half  the half chord of the ball along the axis
-    Range(float center, float half, int32_t size)
+    /// @param halfChord  of the ball, along the axis
+    Range(float center, float halfChord, int32_t size)
     {
         const auto clamped = [](float at) { return int32_t(std::max(-kFar, std::min(kFar, at))); };
-        first = std::max(0, (clamped(center - std::floor(half)) + 15) >> 4);
-        last = std::min(size - 1, clamped(center + std::floor(half)) >> 4);
+        first = std::max(0, (clamped(center - std::floor(halfChord)) + 15) >> 4);
+        last = std::min(size - 1, clamped(center + std::floor(halfChord)) >> 4);
     }
 };
 

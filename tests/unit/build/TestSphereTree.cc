@@ -6,6 +6,8 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/medial/DistanceTransform.h>
+#include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
@@ -14,6 +16,7 @@
 #include "support/BuiltTrees.h"
 #include "support/Messages.h"
 
+#include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 #include <map>

@@ -5,12 +5,14 @@
 
 #include <openvdb_spheretree/check/TreeCheck.h>
 
-#include "support/TreeSettings.h"
+#include "support/CoreStages.h"
 #include "support/TightSamples.h"
+#include "support/TreeSettings.h"
 
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 #include <functional>
 #include <string>

@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

@@ -16,6 +16,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 
+#include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 #include <map>

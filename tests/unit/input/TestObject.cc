@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/input/Object.h>
 
+#include "support/Messages.h"
 #include "support/ObjectGrids.h"
 
 #include <openvdb/points/PointConversion.h>

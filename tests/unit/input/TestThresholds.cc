@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/input/Object.h>
 
+#include "support/Messages.h"
 #include "support/ObjectGrids.h"
 
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 #include <cmath>

@@ -11,6 +11,7 @@
 #include "support/TreeSettings.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 namespace {
 

@@ -7,6 +7,9 @@
 #include "support/RandomObjects.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/medial/MedialAxis.h>
+
+#include <openvdb/openvdb.h>
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 
+#include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include <openvdb/math/Math.h>
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <gtest/gtest.h>
 

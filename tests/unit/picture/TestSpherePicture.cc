@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/picture/SpherePicture.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 #include <png.h>
 #include <tbb/global_control.h>
 

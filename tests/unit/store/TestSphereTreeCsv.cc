@@ -5,6 +5,7 @@
 #include "support/SampleTrees.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/math/Transform.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
 
 #include <optional>
 #include <sstream>

@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/store/SphereTreeJson.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
+#include "support/DataFolder.h"
 #include "support/SampleTrees.h"
 
 #include <openvdb/io/File.h>
@@ -28,10 +29,7 @@ using nlohmann::json;
 using openvdb::points::PointDataGrid;
 using spheretree_test::expectSameTree;
 
-std::string pathOf(const std::string& name)
-{
-    return std::string(SPHERETREE_TEST_DATA) + "/0.1/" + name;
-}
+std::string pathOf(const std::string& name) { return spheretree_test::dataPath("0.1/" + name); }
 
 std::string textOf(const std::string& name)
 {

@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/topology/LevelTopology.h>
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

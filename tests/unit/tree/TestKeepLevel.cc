@@ -8,6 +8,8 @@
 #include "support/BuiltTrees.h"
 #include "support/Messages.h"
 
+#include <openvdb/openvdb.h>
+
 namespace {
 
 using namespace openvdb_spheretree;

@@ -4,6 +4,7 @@
 #include "support/Messages.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 #include <cmath>
 #include <limits>

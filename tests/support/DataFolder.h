@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file DataFolder.h
+/// @brief Where the files are that tests read.
+
+#pragma once
+
+#include <string>
+
+namespace spheretree_test {
+
+/// @param name  below tests/data, with folders
+std::string dataPath(const std::string& name);
+
+} // namespace spheretree_test

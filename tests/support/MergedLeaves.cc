@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MergedLeaves.h"
+
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
+
+#include <algorithm>
+
+namespace spheretree_test {
+
+MergedLeaves::MergedLeaves(const Voxels& some, bool flat, const FitEffort& effort)
+    : voxels(some), object(sampled(voxels)), maker{object, effort, flat, nullptr}
+{
+    using namespace openvdb_spheretree::tight;
+    for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+    SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
+        effort, flat, nullptr);
+    forest = mergeToRoots(model, 6, nullptr);
+}
+
+std::vector<TightLevel> MergedLeaves::levels(const std::vector<int64_t>& counts) const
+{
+    return levelsOf(
+        forest, counts, std::vector<openvdb_spheretree::MedialBall>(leaves.size(), {Coord(), 1}));
+}
+
+std::vector<VoxelRegion> MergedLeaves::regions(const std::vector<ExactSphere>& balls) const
+{
+    return regionsOf(balls, object.level(0), nullptr);
+}
+
+std::vector<ExactSphere> thereOf(const std::vector<openvdb_spheretree::tight::CoverBall>& cover)
+{
+    std::vector<ExactSphere> balls;
+    for (const auto& ball : cover) {
+        if (!ball.empty()) balls.push_back(ball.ball);
+    }
+    return balls;
+}
+
+Voxels heldBy(const std::vector<ExactSphere>& balls, const Voxels& voxels)
+{
+    Voxels held;
+    for (const Coord& v : voxels) {
+        const bool any = std::any_of(
+            balls.begin(), balls.end(), [&](const ExactSphere& ball) { return holds(ball, v); });
+        if (any) held.push_back(v);
+    }
+    return held;
+}
+
+Voxels together(const std::vector<Voxels>& parts)
+{
+    Voxels all;
+    for (const Voxels& some : parts) all.insert(all.end(), some.begin(), some.end());
+    sortVoxels(all);
+    return all;
+}
+
+std::vector<Voxels> voxelsOf(const std::vector<VoxelRegion>& regions, const SampleLevel& object)
+{
+    std::vector<Voxels> all;
+    for (const VoxelRegion& region : regions) {
+        Voxels voxels;
+        for (const auto& part : region) {
+            const Voxels some = voxelsOf(part.mask, object.origin(part.leaf));
+            voxels.insert(voxels.end(), some.begin(), some.end());
+        }
+        sortVoxels(voxels);
+        all.push_back(voxels);
+    }
+    return all;
+}
+
+std::vector<Voxels> heldBelow(const std::vector<ExactSphere>& balls,
+    const std::vector<int32_t>& parents, const std::vector<Voxels>& regions)
+{
+    std::vector<Voxels> held(balls.size());
+    for (std::size_t c = 0; c < regions.size(); ++c) {
+        const int32_t parent = parents.at(c);
+        for (const Coord& v : regions[c]) {
+            if (holds(balls.at(parent), v)) held[parent].push_back(v);
+        }
+    }
+    for (Voxels& voxels : held) sortVoxels(voxels);
+    return held;
+}
+
+} // namespace spheretree_test
