@@ -70,19 +70,23 @@ auto* partOf(Settings& settings)
 template <typename T>
 T numberOf(const std::string& name, const std::string& text)
 {
-    T value{};
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && stop == end) return value;
+    if (const auto value = parseNumber<T>(text)) return *value;
     OPENVDB_THROW(openvdb::ValueError, name << "=" << inQuotes(text) << " is no number");
+}
+
+/// @return the key in metadata; empty for what no file records.
+std::string keyOf(const std::string& name)
+{
+    if (name == "name" || name == "memory") return ""; // the grid's own name; of this machine
+    return "spheretree_" + (name == "edges" ? "dag_edges" : name);
 }
 
 /// @param access  a pointer to a member, or a function from the owner to a reference to its field
 template <typename Owner, typename Access, typename Write, typename Read>
-Setting row(const char* name, const char* key, int jsonPlace, SettingType type, Access access,
-    Write write, Read read, const char* help)
+Setting row(const char* name, int jsonPlace, SettingType type, Access access, Write write,
+    Read read, const char* help)
 {
-    Setting setting{name, key, jsonPlace, type, help,
+    Setting setting{name, keyOf(name), jsonPlace, type, help,
         [access, write](const SphereTreeSettings& settings) -> std::string {
             const Owner usual;
             const Owner* owner = partOf<Owner>(settings);
@@ -111,11 +115,10 @@ void addChoices(Setting& setting, const Names& names)
 }
 
 template <typename Owner, typename Names, typename Access>
-Setting choice(const char* name, const char* key, int jsonPlace, const Names& names, Access access,
-    const char* help)
+Setting choice(const char* name, int jsonPlace, const Names& names, Access access, const char* help)
 {
     Setting setting = row<Owner>(
-        name, key, jsonPlace, SettingType::Choice, access,
+        name, jsonPlace, SettingType::Choice, access,
         [&names](auto value) { return nameOf(names, value); },
         [&names, name](const std::string& text) { return fromName(names, name, text); }, help);
     addChoices(setting, names);
@@ -123,11 +126,10 @@ Setting choice(const char* name, const char* key, int jsonPlace, const Names& na
 }
 
 template <typename Owner, typename Access>
-Setting flag(const char* name, const char* key, int jsonPlace, Access access, const char* help)
+Setting flag(const char* name, int jsonPlace, Access access, const char* help)
 {
     return row<Owner>(
-        name, key, jsonPlace, SettingType::Flag, access,
-        [](bool value) { return value ? "1" : "0"; },
+        name, jsonPlace, SettingType::Flag, access, [](bool value) { return value ? "1" : "0"; },
         [name](const std::string& text) {
             if (text == "0" || text == "1") return text == "1";
             OPENVDB_THROW(
@@ -137,11 +139,11 @@ Setting flag(const char* name, const char* key, int jsonPlace, Access access, co
 }
 
 template <typename Owner, typename Access>
-Setting integer(const char* name, const char* key, int jsonPlace, int lowest, int highest,
-    Access access, const char* help)
+Setting integer(
+    const char* name, int jsonPlace, int lowest, int highest, Access access, const char* help)
 {
     Setting setting = row<Owner>(
-        name, key, jsonPlace, SettingType::Integer, access,
+        name, jsonPlace, SettingType::Integer, access,
         [](int value) { return std::to_string(value); },
         [name](const std::string& text) { return numberOf<int>(name, text); }, help);
     setting.lowest = lowest;
@@ -151,10 +153,10 @@ Setting integer(const char* name, const char* key, int jsonPlace, int lowest, in
 
 /// A bound that need not be there.
 template <typename Owner, typename Access>
-Setting bound(const char* name, const char* key, int jsonPlace, Access access, const char* help)
+Setting bound(const char* name, int jsonPlace, Access access, const char* help)
 {
     Setting setting = row<Owner>(
-        name, key, jsonPlace, SettingType::Real, access,
+        name, jsonPlace, SettingType::Real, access,
         [](const std::optional<double>& value) { return value ? textOf(*value) : ""; },
         [name](const std::string& text) {
             return text.empty() ? std::nullopt : std::optional(numberOf<double>(name, text));
@@ -165,11 +167,11 @@ Setting bound(const char* name, const char* key, int jsonPlace, Access access, c
 }
 
 /// All other settings, by functions of their own.
-Setting special(const char* name, const char* key, int jsonPlace, Setting::Getter get,
-    Setting::Setter set, const char* help)
+Setting special(
+    const char* name, int jsonPlace, Setting::Getter get, Setting::Setter set, const char* help)
 {
     Setting setting{
-        name, key, jsonPlace, SettingType::Text, help, std::move(get), std::move(set), ""};
+        name, keyOf(name), jsonPlace, SettingType::Text, help, std::move(get), std::move(set), ""};
     setting.fallback = setting.get({});
     return setting;
 }
@@ -179,8 +181,7 @@ Setting special(const char* name, const char* key, int jsonPlace, Setting::Gette
 Setting treeRow()
 {
     Setting setting = special(
-        "tree", "spheretree_tree", 0,
-        [](const SphereTreeSettings& settings) { return toString(settings.type()); },
+        "tree", 0, [](const SphereTreeSettings& settings) { return toString(settings.type()); },
         [](SphereTreeSettings& settings, const std::string& text) {
             const TreeType type = fromName(kTreeTypes, "tree", text);
             if (type == settings.type()) return;
@@ -198,7 +199,7 @@ Setting treeRow()
 Setting sideRow()
 {
     Setting setting = special(
-        "side", "spheretree_side", 21,
+        "side", 21,
         [](const SphereTreeSettings& settings) { return nameOf(kSides, settings.isInner()); },
         [](SphereTreeSettings& settings, const std::string& text) {
             const bool inner = fromName(kSides, "side", text);
@@ -216,8 +217,7 @@ Setting sideRow()
 Setting distRow()
 {
     return special(
-        "dist", "spheretree_dist", 4,
-        [](const SphereTreeSettings& settings) { return toString(settings.dist()); },
+        "dist", 4, [](const SphereTreeSettings& settings) { return toString(settings.dist()); },
         [](SphereTreeSettings& settings, const std::string& text) {
             const Distance dist = distanceFromString(text);
             if (auto* options = settings.find<PyramidOptions>()) {
@@ -235,7 +235,7 @@ Setting distRow()
 Setting modelRow()
 {
     Setting setting = special(
-        "model", "spheretree_model", 3,
+        "model", 3,
         [](const SphereTreeSettings& settings) {
             const auto* options = settings.find<PyramidOptions>();
             return modelToString(options ? *options : PyramidOptions());
@@ -254,7 +254,7 @@ Setting modelRow()
 Setting branchingRow()
 {
     Setting setting = integer<BudgetOptions>(
-        "branching", "spheretree_branching", 16, 2, SphereBudget::kMaxBranching,
+        "branching", 16, 2, SphereBudget::kMaxBranching,
         [](auto& options) -> auto& { return options.budget.branching; },
         "in place of spheres=: levels of 1, B, B^2, ... spheres, and all leaves (tight)");
     setting.fallback = std::to_string(SphereBudget::kDefaultBranching);
@@ -264,11 +264,11 @@ Setting branchingRow()
 std::vector<Setting> makeTable()
 {
     return {treeRow(),
-        integer<SphereTreeSettings>("dim", "spheretree_dim", 2, 2, 3, &SphereTreeSettings::dim,
+        integer<SphereTreeSettings>("dim", 2, 2, 3, &SphereTreeSettings::dim,
             "2 for an object one voxel thick along an axis"),
         distRow(),
         special(
-            "padding", "spheretree_padding", 9,
+            "padding", 9,
             [](const SphereTreeSettings& settings) {
                 return paddingToString(settings.isInner() ? 0 : settings.padding);
             },
@@ -278,36 +278,30 @@ std::vector<Setting> makeTable()
             },
             "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
             "of voxels; nothing with side=inner"),
-        integer<PyramidOptions>("factor", "spheretree_factor", 1, 2, kMaxFactor,
-            &PyramidOptions::factor,
+        integer<PyramidOptions>("factor", 1, 2, kMaxFactor, &PyramidOptions::factor,
             "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
         modelRow(),
-        choice<PyramidOptions>("center", "spheretree_center", 13, kCenters, &PyramidOptions::center,
+        choice<PyramidOptions>("center", 13, kCenters, &PyramidOptions::center,
             "where spheres are centred: where the medial ball is; or where the smallest sphere "
             "around the leaf balls below is (extended, reversible)"),
-        choice<PyramidOptions>("parent", "spheretree_parent", 5, kParentRules,
-            &PyramidOptions::parent,
+        choice<PyramidOptions>("parent", 5, kParentRules, &PyramidOptions::parent,
             "which ball a ball hangs below: by its centre, or by its edges in the Sphere-DAG "
             "(extended, reversible)"),
-        flag<ExtendedOptions>("final_fit", "spheretree_final_fit", 6, &ExtendedOptions::finalFit,
+        flag<ExtendedOptions>("final_fit", 6, &ExtendedOptions::finalFit,
             "store the smallest radius around the leaf balls (extended)"),
-        choice<ExtendedOptions>("reconstruct", "spheretree_reconstruct", 7, kReconstructions,
-            &ExtendedOptions::reconstruct,
+        choice<ExtendedOptions>("reconstruct", 7, kReconstructions, &ExtendedOptions::reconstruct,
             "how a level is rebuilt before it is coarsened (extended)"),
-        choice<PyramidOptions>("scale", "spheretree_scale", 8, kRadiusScales,
-            &PyramidOptions::scale,
+        choice<PyramidOptions>("scale", 8, kRadiusScales, &PyramidOptions::scale,
             "how the radii of a level's balls become those of level 0 (reversible)"),
-        flag<PyramidOptions>("dag", "spheretree_dag", 10, &PyramidOptions::dag,
+        flag<PyramidOptions>("dag", 10, &PyramidOptions::dag,
             "collect and store the edges of the Sphere-DAG too (extended, reversible)"),
-        choice<PyramidOptions>("edges", "spheretree_dag_edges", 11, kDagEdges,
-            &PyramidOptions::edges,
+        choice<PyramidOptions>("edges", 11, kDagEdges, &PyramidOptions::edges,
             "with dag=1: edges between balls whose cells share a voxel, or between all spheres "
             "that meet"),
-        choice<TightOptions>("quality", "spheretree_quality", 14, kQualities,
-            &TightOptions::quality,
+        choice<TightOptions>("quality", 14, kQualities, &TightOptions::quality,
             "how much work goes into placing and searching spheres (tight)"),
         row<BudgetOptions>(
-            "spheres", "spheretree_spheres", 15, SettingType::Counts,
+            "spheres", 15, SettingType::Counts,
             [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
             [](const std::string& text) {
                 return text.empty() ? std::vector<int64_t>() : countsFromString(text);
@@ -316,31 +310,28 @@ std::vector<Setting> makeTable()
             "distance= is the most that these may take (tight)"),
         branchingRow(),
         bound<BudgetOptions>(
-            "error", "spheretree_error", 17,
-            [](auto& options) -> auto& { return options.budget.error; },
+            "error", 17, [](auto& options) -> auto& { return options.budget.error; },
             "the level of fewest spheres whose Hamming error is at most this, in % (tight)"),
         bound<BudgetOptions>(
-            "distance", "spheretree_distance", 18,
-            [](auto& options) -> auto& { return options.budget.distance; },
+            "distance", 18, [](auto& options) -> auto& { return options.budget.distance; },
             "the level of fewest spheres that reach at most so far out of the object, in world "
             "units (tight)"),
-        choice<TightOptions>("cover", "spheretree_cover", 19, kCovers, &TightOptions::cover,
+        choice<TightOptions>("cover", 19, kCovers, &TightOptions::cover,
             "what spheres contain for certain: together, down the tree, every voxel; or each of "
             "them the leaf balls below it (tight)"),
-        choice<TightOptions>("leaves", "spheretree_leaves", 20, kLeaves, &TightOptions::leaves,
+        choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
             "what level 0 is made of: the medial balls that are needed, or all (tight)"),
-        flag<BudgetOptions>("cuts", "spheretree_cuts", 22, &BudgetOptions::cuts,
+        flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
             "also store the spheres of every number of spheres, for -level spheres=N (tight)"),
         sideRow(),
-        flag<SphereTreeSettings>("topology", "spheretree_topology", 12,
-            &SphereTreeSettings::topology,
+        flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
             "count components, tunnels and cavities of every level's voxels"),
         special(
-            "name", "", 23, [](const SphereTreeSettings& settings) { return settings.name; },
+            "name", 23, [](const SphereTreeSettings& settings) { return settings.name; },
             [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },
             "name of the tree"),
         special(
-            "memory", "", -1,
+            "memory", -1,
             [](const SphereTreeSettings& settings) { return memoryToString(settings.memory); },
             [](SphereTreeSettings& settings, const std::string& text) {
                 settings.memory = memoryFromString(text);

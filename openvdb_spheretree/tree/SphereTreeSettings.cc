@@ -164,16 +164,14 @@ double paddingFromString(const std::string& text)
 {
     if (text == "cubes") return SphereTreeSettings::kPadCubes;
     if (text == "voxels") return 0;
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
+    const auto value = detail::parseNumber<double>(text);
     // A negative number is refused even where it happens to be the code for cubes.
-    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value) || value < 0) {
+    if (!value || !std::isfinite(*value) || *value < 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "padding=" << inQuotes(text)
                        << " is unknown: choose cubes, voxels, or a number of voxels of 0 or more");
     }
-    return std::abs(value); // -0 is 0
+    return std::abs(*value); // -0 is 0
 }
 
 int64_t memoryFromString(const std::string& text)
@@ -195,18 +193,17 @@ int64_t memoryFromString(const std::string& text)
 int closingFromString(const std::string& text)
 {
     if (text == "or") return 0;
-    int radius = 0;
-    const char* const end = text.data() + text.size();
-    const bool named = text.compare(0, kClosing.size(), kClosing) == 0;
-    const auto parsed = std::from_chars(text.data() + (named ? kClosing.size() : 0), end, radius);
-    if (!named || parsed.ec != std::errc() || parsed.ptr != end || radius < 1
-        || radius > kMaxClosing) {
+    std::optional<int> radius;
+    if (text.compare(0, kClosing.size(), kClosing) == 0) {
+        radius = detail::parseNumber<int>(text.substr(kClosing.size()));
+    }
+    if (!radius || *radius < 1 || *radius > kMaxClosing) {
         OPENVDB_THROW(openvdb::ValueError,
             "model=" << inQuotes(text)
                      << " is unknown: choose or, or closing:R with a radius R of 1 to "
                      << kMaxClosing << " voxels");
     }
-    return radius;
+    return *radius;
 }
 
 } // namespace openvdb_spheretree
