@@ -10,7 +10,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/medial/MedialAxis.h>
+#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <cstdint>
