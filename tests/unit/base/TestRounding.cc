@@ -145,4 +145,23 @@ TEST(RoundUp, IntegerRootIsTheLargestWhoseSquareIsNotAbove)
     EXPECT_EQ(floorSqrtWide(0), 0);
 }
 
+TEST(RoundDown, NeverComesOutAboveAndIsNextToTheTrueValue)
+{
+    std::mt19937 random(5);
+    for (int i = 0; i < 100000; ++i) {
+        const double a = double(random()), b = double(random()); // their product has 64 bits
+        const auto product = (long double)(a) * (long double)(b);
+        EXPECT_LE((long double)(multiplyDown(a, b)), product);
+        EXPECT_GT((long double)(std::nextafter(multiplyDown(a, b), INFINITY)), product);
+        const double root = sqrtDown(a);
+        EXPECT_LE((long double)(root) * (long double)(root), (long double)(a));
+        EXPECT_LE(double(toFloatDown(b / 3)), b / 3);
+        EXPECT_GT(double(std::nextafter(toFloatDown(b / 3), INFINITY)), b / 3);
+    }
+    EXPECT_EQ(sqrtDown(0), 0);
+    EXPECT_EQ(sqrtDown(1 << 20), 1 << 10);
+    EXPECT_EQ(toFloatDown(0.5), 0.5f);
+    EXPECT_EQ(toFloatDown(1e39), INFINITY);
+}
+
 } // namespace

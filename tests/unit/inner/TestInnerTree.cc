@@ -5,7 +5,6 @@
 
 #include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
-#include <openvdb_spheretree/index/PowerTree.h>
 #include <openvdb_spheretree/inner/InnerBalls.h>
 #include <openvdb_spheretree/inner/InnerOrder.h>
 #include <openvdb_spheretree/inner/UncoveredVoxels.h>
@@ -334,48 +333,4 @@ TEST(InnerTree, WithCutsHasABallInEveryCutFromItsOwnOn)
         EXPECT_EQ(tree.cuts.first[i], i + 1);
         EXPECT_EQ(tree.cuts.last[i], tree.cuts.size());
     }
-}
-
-/// Small balls and large ones are drawn by different kernels.
-TEST(PowerSearch, FindsWhatALookAtAllBallsFinds)
-{
-    Random random(3);
-    for (int i = 0; i < 40; ++i) {
-        std::vector<MedialBall> balls;
-        const int width = random.between(1, 60);
-        for (int n = random.between(1, 300); n > 0; --n) {
-            balls.push_back({random.coord(-width, width), random.between(1, 1 + width * width)});
-        }
-        const detail::PowerSearch search(balls);
-        for (int j = 0; j < 100; ++j) {
-            const Coord voxel = random.coord(-width - 3, width + 3);
-            int32_t expected = 0;
-            const auto power = [&](int32_t b) {
-                return squaredDistance(balls[b].center, voxel) - balls[b].radiusSq;
-            };
-            for (int32_t b = 1; b < int32_t(balls.size()); ++b) {
-                if (power(b) < power(expected)) expected = b;
-            }
-            ASSERT_EQ(search.nearest(voxel), expected);
-        }
-    }
-}
-
-TEST(RoundDown, NeverComesOutAboveAndIsNextToTheTrueValue)
-{
-    std::mt19937 random(5);
-    for (int i = 0; i < 100000; ++i) {
-        const double a = double(random()), b = double(random()); // their product has 64 bits
-        const auto product = (long double)(a) * (long double)(b);
-        EXPECT_LE((long double)(detail::multiplyDown(a, b)), product);
-        EXPECT_GT((long double)(std::nextafter(detail::multiplyDown(a, b), INFINITY)), product);
-        const double root = detail::sqrtDown(a);
-        EXPECT_LE((long double)(root) * (long double)(root), (long double)(a));
-        EXPECT_LE(double(detail::toFloatDown(b / 3)), b / 3);
-        EXPECT_GT(double(std::nextafter(detail::toFloatDown(b / 3), INFINITY)), b / 3);
-    }
-    EXPECT_EQ(detail::sqrtDown(0), 0);
-    EXPECT_EQ(detail::sqrtDown(1 << 20), 1 << 10);
-    EXPECT_EQ(detail::toFloatDown(0.5), 0.5f);
-    EXPECT_EQ(detail::toFloatDown(1e39), INFINITY);
 }
