@@ -105,7 +105,8 @@ int64_t sumOf(const std::vector<int64_t>& counts)
 std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid)
 {
     std::string text;
-    for (const TreeFault& fault : checkSphereTree(tree, grid)) text += fault.sentence + "\n";
+    for (const openvdb_spheretree::TreeFault& fault : checkSphereTree(tree, grid))
+        text += fault.sentence + "\n";
     return text;
 }
 
