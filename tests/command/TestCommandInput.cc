@@ -6,6 +6,7 @@
 
 #include <openvdb/points/PointConversion.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <limits>
 
@@ -188,7 +189,7 @@ TEST_F(CommandInput, AMeshNeedsALevelSetFirst)
 TEST_F(CommandInput, AnEmptyObject)
 {
     writeVol("none.vol", {4, 4, 4}, std::string(64, '\0'));
-    auto grid = openvdb::FloatGrid::create();
+    auto grid = openvdb_spheretree::detail::makeGrid<openvdb::FloatGrid>();
     grid->setName("hollow");
     writeGrids("none.vdb", {grid});
     expectInputError("-read none.vol -spheretree -write t.vdb", "none");
@@ -209,7 +210,7 @@ TEST_F(CommandInput, VoxelsThatAreNotUniform)
 
 TEST_F(CommandInput, AGridOfTheWrongKind)
 {
-    auto grid = openvdb::Vec3SGrid::create();
+    auto grid = openvdb_spheretree::detail::makeGrid<openvdb::Vec3SGrid>();
     grid->tree().setValue(openvdb::Coord(0), openvdb::Vec3s(1));
     grid->setName("velocity");
     writeGrids("v.vdb", {grid});
@@ -235,7 +236,7 @@ TEST_F(CommandInput, OneGridOfSeveralHasToBeChosen)
 
 TEST_F(CommandInput, TheOnlyGridThatSuitsIsTaken)
 {
-    auto vectors = openvdb::Vec3SGrid::create();
+    auto vectors = openvdb_spheretree::detail::makeGrid<openvdb::Vec3SGrid>();
     vectors->tree().setValue(openvdb::Coord(0), openvdb::Vec3s(1));
     vectors->setName("velocity");
     writeGrids("mixed.vdb", {vectors, sphereGrid("ball")});

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <set>
 #include <string>
@@ -29,7 +30,8 @@ std::string whyNot(const openvdb::GridBase& grid, const ObjectSettings& settings
 template <typename GridT>
 typename GridT::Ptr named(const char* name, const typename GridT::ValueType& background)
 {
-    const auto grid = GridT::create(background);
+    const auto grid = openvdb_spheretree::detail::makeGrid<GridT>();
+    grid->tree().root().setBackground(background, /*updateChildNodes=*/false);
     grid->setName(name);
     return grid;
 }

@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/input/LeafValues.h>
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <openvdb/io/File.h>
 #include <openvdb/points/PointConversion.h>
@@ -85,7 +86,7 @@ typename GridT::Ptr scattered()
 {
     using ValueT = typename GridT::ValueType;
     std::mt19937 random(20);
-    const auto grid = GridT::create(ValueT(0));
+    const auto grid = openvdb_spheretree::detail::makeGrid<GridT>();
     for (int i = 0; i < 4000; ++i) {
         const Coord ijk(int(random() % 50) - 25, int(random() % 50) - 25, int(random() % 400));
         const ValueT value = ValueT(random() % 10);

@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include "support/Messages.h"
 #include "support/ObjectGrids.h"
@@ -175,7 +176,7 @@ TEST(Object, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
     int bounded = 0;
     openvdb::GridTypes::foreach ([&](auto sample) {
         using GridT = std::decay_t<decltype(sample)>;
-        const typename GridT::Ptr grid = GridT::create();
+        const auto grid = openvdb_spheretree::detail::makeGrid<GridT>();
         grid->setName("empty");
         const bool isVector = openvdb::VecTraits<typename GridT::ValueType>::IsVec;
         EXPECT_EQ(isObjectGrid(*grid), !isVector) << grid->type();
