@@ -311,8 +311,7 @@ bool checkLinks(Check& check)
     checkParents(check);
     const bool parentsRight = check.faults.size() == before;
     check.kind = FaultKind::Edges;
-    reportAll(check, "", detail::edgeLevelDamage(tree.dag, tree));
-    reportAll(check, "", detail::edgeOrderDamage(tree.dag));
+    reportAll(check, "", detail::edgeDamage(tree.dag, tree));
     if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
     if (tree.settings.type() != TreeType::Reversible) checkChildren(check);

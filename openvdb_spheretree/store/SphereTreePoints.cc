@@ -176,7 +176,7 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     std::vector<DagEdge> edges(parents.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
     std::sort(edges.begin(), edges.end());
-    detail::requireEdges(edges, tree);
+    detail::throwFirst(detail::edgeDamage(edges, tree));
     return edges;
 }
 
