@@ -18,7 +18,6 @@ namespace detail {
 namespace {
 
 using openvdb::Coord;
-using openvdb::util::NullInterrupter;
 
 /// The ball that labels each voxel of the coarser level, by rank (medial/BallIndex.h), 4 bytes a
 /// voxel.
@@ -31,7 +30,7 @@ struct VoxelBalls {
     /// Voxels whose ball is known to be that of the voxel before along y, or z.
     std::vector<LeafMask> likeBeforeY, likeBeforeZ;
 
-    VoxelBalls(const MedialLevel& level, NullInterrupter* interrupter)
+    VoxelBalls(const MedialLevel& level, openvdb::util::NullInterrupter* interrupter)
         : layout(level.layout), index(layout, level.centers, interrupter),
           ranks(makeLargeArray<int32_t>(std::size_t(layout.leafCount()) * kLeafVoxels)),
           changed(layout.leafCount()), likeBeforeY(layout.leafCount()),

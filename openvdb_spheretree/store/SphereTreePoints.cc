@@ -15,7 +15,6 @@ namespace openvdb_spheretree {
 namespace {
 
 using openvdb::GridBase;
-using openvdb::Vec3d;
 using openvdb::Vec3i;
 using openvdb::points::PointDataGrid;
 
@@ -255,7 +254,7 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {
     if (tree.dag.empty()) return nullptr;
     requireStorable(tree);
-    std::vector<Vec3d> positions;
+    std::vector<openvdb::Vec3d> positions;
     positions.reserve(tree.dag.size());
     for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
     detail::PointWriter writer(positions);

@@ -15,7 +15,6 @@ namespace {
 using openvdb::GridBase;
 using openvdb::Mat4d;
 using openvdb::Vec3i;
-using openvdb::math::MapBase;
 using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
@@ -57,7 +56,7 @@ Transform::Ptr makeTransform(const std::string& type, const Mat4d& matrix)
     namespace math = openvdb::math;
     const openvdb::Vec3d scale(matrix(0, 0), matrix(1, 1), matrix(2, 2));
     const openvdb::Vec3d translation = matrix.getTranslation();
-    MapBase::Ptr map;
+    math::MapBase::Ptr map;
     if (type == math::ScaleMap::mapType()) {
         map.reset(new math::ScaleMap(scale));
     } else if (type == math::UniformScaleMap::mapType()) {
