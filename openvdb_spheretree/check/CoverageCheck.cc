@@ -16,7 +16,6 @@
 namespace openvdb_spheretree::detail {
 namespace {
 
-using openvdb::CoordBBox;
 using openvdb::MaskTree;
 
 std::string voxelsOf(const MaskDifference& difference)
@@ -73,7 +72,7 @@ MaskTree::Ptr drawDigitalBalls(const CheckReport& check, const SphereTreeLevel& 
         balls.push_back(
             ExactSphere::around(tree.ijk[id], 4 * distance.closedSq(tree.radiusSq[id])));
     }
-    CoordBBox box = boundingBox(balls, distance);
+    openvdb::CoordBBox box = boundingBox(balls, distance);
     if (tree.settings.dim == 2 && !box.empty()) {
         const int flat = tree.flatAxis;
         box.min()[flat] = box.max()[flat] = tree.ijk[level.begin][flat];

@@ -5,7 +5,6 @@
 
 #include "ChainCheck.h"
 #include "CheckReport.h"
-#include <openvdb_spheretree/sphere/SphereRaster.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 

@@ -136,29 +136,6 @@ void checkTopology(Check& check)
     compare("cavities", recorded.cavities, actual.cavities);
 }
 
-void compareErrors(Check& check, const SphereTreeLevel& recorded, const SphereTreeLevel& actual)
-{
-    if (!actual.error) {
-        check.fail("level ", recorded.level, " records an error, but ", actual.errorUnknown);
-        return;
-    }
-    const LevelError& r = *recorded.error;
-    const LevelError& a = *actual.error;
-    const auto compare = [&](const char* what, auto was, auto is) {
-        bool same = was == is;
-        if constexpr (std::is_floating_point_v<decltype(is)>) {
-            same = std::abs(was - is) <= 1e-9 * std::max(1.0, std::abs(is));
-        }
-        if (same) return;
-        check.fail("level ", recorded.level, " records ", was, ' ', what, ", but it is ", is);
-    };
-    compare("voxels covered", r.covered, a.covered);
-    compare("voxels of excess", r.excess, a.excess);
-    compare("voxels missing", r.missing, a.missing);
-    compare("% Hamming error", r.hammingPercent, a.hammingPercent);
-    compare("voxels of Hausdorff distance", r.hausdorff, a.hausdorff);
-}
-
 /// Errors that are recorded are right; levels without one are not measured.
 void checkErrors(Check& check)
 {
@@ -171,7 +148,25 @@ void checkErrors(Check& check)
     if (recorded.empty()) return;
     computeLevelErrors(copy, check.object, check.interrupter);
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        compareErrors(check, recorded[i], copy.levels[i]);
+        const int level = recorded[i].level;
+        if (!copy.levels[i].error) {
+            check.fail("level ", level, " records an error, but ", copy.levels[i].errorUnknown);
+            continue;
+        }
+        const auto compare = [&](const char* what, auto was, auto is) {
+            bool same = was == is;
+            if constexpr (std::is_floating_point_v<decltype(is)>) {
+                same = std::abs(was - is) <= 1e-9 * std::max(1.0, std::abs(is));
+            }
+            if (same) return;
+            check.fail("level ", level, " records ", was, ' ', what, ", but it is ", is);
+        };
+        const LevelError &was = *recorded[i].error, &is = *copy.levels[i].error;
+        compare("voxels covered", was.covered, is.covered);
+        compare("voxels of excess", was.excess, is.excess);
+        compare("voxels missing", was.missing, is.missing);
+        compare("% Hamming error", was.hammingPercent, is.hammingPercent);
+        compare("voxels of Hausdorff distance", was.hausdorff, is.hausdorff);
     }
 }
 
@@ -311,8 +306,7 @@ bool checkLinks(Check& check)
     checkParents(check);
     const bool parentsRight = check.faults.size() == before;
     check.kind = FaultKind::Edges;
-    reportAll(check, "", detail::edgeLevelDamage(tree.dag, tree));
-    reportAll(check, "", detail::edgeOrderDamage(tree.dag));
+    reportAll(check, "", detail::edgeDamage(tree.dag, tree));
     if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
     if (tree.settings.type() != TreeType::Reversible) checkChildren(check);

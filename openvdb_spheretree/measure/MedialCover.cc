@@ -8,7 +8,6 @@
 #include <openvdb/math/Math.h>
 
 #include <atomic>
-#include <cmath>
 
 namespace openvdb_spheretree::detail {
 

@@ -40,7 +40,6 @@ namespace openvdb_spheretree::detail {
 
 namespace {
 
-using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::MaskTree;
 

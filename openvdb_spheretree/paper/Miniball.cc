@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 namespace openvdb_spheretree::detail {
@@ -29,36 +28,32 @@ double reach(const Vec3d& from, const RealBall& ball)
     return (ball.center - from).length() + ball.radius;
 }
 
-/// Solves symmetric systems of up to three equations by elimination. With two right-hand sides.
-struct Equations {
-    double matrix[3][3], right[3][2];
-    int count;
-
-    /// The solutions are in `right`. @return false if there is none to rely on
-    bool solve()
-    {
-        double largest = 0;
-        for (int i = 0; i < count; ++i) largest = std::max(largest, matrix[i][i]);
-        for (int column = 0; column < count; ++column) {
-            int pivot = column;
-            for (int row = column + 1; row < count; ++row) {
-                if (std::abs(matrix[row][column]) > std::abs(matrix[pivot][column])) pivot = row;
-            }
-            if (!(std::abs(matrix[pivot][column]) > 1e-13 * largest)) return false;
-            std::swap(matrix[pivot], matrix[column]);
-            std::swap(right[pivot], right[column]);
-            for (double& value : right[column]) value /= matrix[column][column];
-            for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
-            for (int row = 0; row < count; ++row) {
-                const double times = matrix[row][column];
-                if (row == column || times == 0) continue;
-                for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
-                for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
-            }
+/// Solves symmetric systems of up to three equations by elimination, with two right-hand sides. The
+/// solutions are then in @a right.
+/// @return false if there is none to rely on
+bool solve(double (&matrix)[3][3], double (&right)[3][2], int count)
+{
+    double largest = 0;
+    for (int i = 0; i < count; ++i) largest = std::max(largest, matrix[i][i]);
+    for (int column = 0; column < count; ++column) {
+        int pivot = column;
+        for (int row = column + 1; row < count; ++row) {
+            if (std::abs(matrix[row][column]) > std::abs(matrix[pivot][column])) pivot = row;
         }
-        return true;
+        if (!(std::abs(matrix[pivot][column]) > 1e-13 * largest)) return false;
+        std::swap(matrix[pivot], matrix[column]);
+        std::swap(right[pivot], right[column]);
+        for (double& value : right[column]) value /= matrix[column][column];
+        for (int j = count; j-- > column;) matrix[column][j] /= matrix[column][column];
+        for (int row = 0; row < count; ++row) {
+            const double times = matrix[row][column];
+            if (row == column || times == 0) continue;
+            for (int j = column; j < count; ++j) matrix[row][j] -= times * matrix[column][j];
+            for (int j = 0; j < 2; ++j) right[row][j] -= times * right[column][j];
+        }
     }
-};
+    return true;
+}
 
 /// The centers, at most two, of balls that touch each of @a few from outside and lie in their hull.
 /// With x = c - c_0, q_i = c_i - c_0, s_i = r_i - r_0 and rho = R - r_0, |x - q_i| = rho - s_i is
@@ -68,20 +63,20 @@ int touchingCenters(const Few& few, std::array<Vec3d, 2>& centers)
 {
     const RealBall& first = few.balls[0];
     Vec3d q[3];
-    Equations equations;
-    equations.count = few.count - 1;
-    for (int i = 0; i < equations.count; ++i) q[i] = few.balls[i + 1].center - first.center;
-    for (int i = 0; i < equations.count; ++i) {
+    double matrix[3][3], right[3][2];
+    const int others = few.count - 1;
+    for (int i = 0; i < others; ++i) q[i] = few.balls[i + 1].center - first.center;
+    for (int i = 0; i < others; ++i) {
         const double s = few.balls[i + 1].radius - first.radius;
-        for (int j = 0; j < equations.count; ++j) equations.matrix[i][j] = q[i].dot(q[j]);
-        equations.right[i][0] = (q[i].lengthSqr() - s * s) / 2;
-        equations.right[i][1] = s;
+        for (int j = 0; j < others; ++j) matrix[i][j] = q[i].dot(q[j]);
+        right[i][0] = (q[i].lengthSqr() - s * s) / 2;
+        right[i][1] = s;
     }
-    if (!equations.solve()) return 0;
+    if (!solve(matrix, right, others)) return 0;
     Vec3d a(0.0), b(0.0);
-    for (int i = 0; i < equations.count; ++i) {
-        a += q[i] * equations.right[i][0];
-        b += q[i] * equations.right[i][1];
+    for (int i = 0; i < others; ++i) {
+        a += q[i] * right[i][0];
+        b += q[i] * right[i][1];
     }
     // (1 - b.b) rho^2 - 2 a.b rho - a.a = 0
     const double square = 1 - b.lengthSqr(), half = a.dot(b), constant = a.lengthSqr();
@@ -129,20 +124,6 @@ Decision decide(const Few& few)
     return best;
 }
 
-/// Of equals the first.
-std::size_t farthest(const std::vector<RealBall>& balls, const Vec3d& from, double& most)
-{
-    std::size_t found = 0;
-    most = -1;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const double here = reach(from, balls[i]);
-        if (here <= most) continue;
-        most = here;
-        found = i;
-    }
-    return found;
-}
-
 } // namespace
 
 RealBall miniball(const std::vector<RealBall>& balls)
@@ -152,11 +133,17 @@ RealBall miniball(const std::vector<RealBall>& balls)
     Decision present{largest, {}};
     present.deciding.add(largest);
     while (true) { // ends: the radius grows by a factor each time, and has a bound
-        double most;
-        const std::size_t pivot = farthest(balls, present.ball.center, most);
+        const RealBall* pivot = nullptr; // reaches farthest; of equals the first
+        double most = -1;
+        for (const RealBall& ball : balls) {
+            const double here = reach(present.ball.center, ball);
+            if (here <= most) continue;
+            most = here;
+            pivot = &ball;
+        }
         if (most <= present.ball.radius * (1 + 1e-13)) return present.ball;
         Few few = present.deciding;
-        few.add(balls[pivot]);
+        few.add(*pivot);
         const Decision next = decide(few);
         if (!(next.ball.radius > present.ball.radius * (1 + 1e-13))) { // as far as doubles go
             present.ball.radius = most;

@@ -5,7 +5,7 @@
 /// The center minimises the farthest reach |c - c_i| + r_i, and at most four balls decide where it
 /// is. As in K. Fischer and B. Gaertner, "The smallest enclosing ball of balls: combinatorial
 /// structure and algorithms", SoCG 2003, this is a problem of LP type, solved by pivots:
-/// 1. find the ball that reaches farthest from the present center (`farthest`);
+/// 1. find the ball that reaches farthest from the present center;
 /// 2. find the smallest ball around it and those that decided so far (`deciding`): of the balls
 ///    tangent to each subset, the one from whose center none of these reaches far;
 /// 3. repeat while the radius grows. Welzl's recursion, which would need no search of subsets, is

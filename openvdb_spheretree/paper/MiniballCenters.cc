@@ -17,7 +17,10 @@ namespace openvdb_spheretree::detail {
 
 namespace {
 
-constexpr int64_t kUnits = kMiniballSubdivision;
+/// Units of centers in a voxel: rounding a center adds at most sqrt(3) / 32 voxels to a radius.
+constexpr int64_t kUnits = 16;
+/// Squares are so many times as large as in halves of a voxel.
+constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
 
 /// A sphere that contains leaf balls, as SphereTree has it.
 struct FittedSphere {
@@ -77,7 +80,6 @@ FittedSphere smallestSphere(
     return sphere;
 }
 
-/// In the finer units squares are 64 times as large.
 void requireRoom(const SphereTree& tree)
 {
     const openvdb::Coord size = tree.object.bbox.extents();
@@ -85,8 +87,8 @@ void requireRoom(const SphereTree& tree)
     const auto far = [&](int axis) { return 2 * kUnits * (int64_t(size[axis]) + 1); };
     const int64_t widest =
         *std::max_element(tree.spheres.coverRadiusSq.begin(), tree.spheres.coverRadiusSq.end());
-    const bool fits = Distance().lengthSq(far(0), far(1), far(2)) < kMost
-        && widest < kMost / (kUnits / 2) / (kUnits / 2);
+    const bool fits =
+        Distance().lengthSq(far(0), far(1), far(2)) < kMost && widest < kMost / kFiner;
     if (fits) return;
     OPENVDB_THROW(openvdb::ValueError,
         "the object '" << tree.object.name << "', of " << size[0] << " x " << size[1] << " x "
@@ -100,7 +102,6 @@ void requireRoom(const SphereTree& tree)
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
     requireRoom(tree);
-    constexpr int64_t kFiner = (kUnits / 2) * (kUnits / 2);
     Spheres& spheres = tree.spheres;
     const bool extended = tree.settings.type() == TreeType::Extended;
     const SphereTreeLevel& finest = tree.levels.front();
@@ -143,7 +144,7 @@ void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interru
                 spheres.radius[id] = best.radius;
             });
     }
-    tree.subdivision = kMiniballSubdivision;
+    tree.subdivision = int(kUnits);
 }
 
 } // namespace openvdb_spheretree::detail

@@ -29,9 +29,6 @@
 
 namespace openvdb_spheretree::detail {
 
-/// Units of centers in a voxel: rounding a center adds at most sqrt(3) / 32 voxels to a radius.
-constexpr int kMiniballSubdivision = 16;
-
 /// @param tree  with everything but radiusWorld and subdivision; Euclidean
 /// @throw openvdb::ValueError if the squares of its radii do not fit
 void centerOnMiniballs(SphereTree& tree, openvdb::util::NullInterrupter* interrupter);

@@ -11,8 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 namespace HWY_NAMESPACE {
 
 /// Made for each kind of processor because most have an instruction that counts bits, and the
@@ -26,13 +25,11 @@ void RanksOf(const RunLabels& labels, uint32_t x, uint64_t bits, int32_t* ranks)
 }
 
 } // namespace HWY_NAMESPACE
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace openvdb_spheretree {
-namespace detail {
+namespace openvdb_spheretree::detail {
 
 HWY_EXPORT(RanksOf);
 
@@ -89,6 +86,5 @@ void RunLabels::enterLeaf(uint32_t i)
     }
 }
 
-} // namespace detail
-} // namespace openvdb_spheretree
+} // namespace openvdb_spheretree::detail
 #endif

@@ -52,19 +52,18 @@ public:
     int32_t rank(uint32_t lane) const { return mRanks[kLaneMargin + lane]; }
 
     /// The rank of the label of the voxel at bit @a lane of word @a x of the leaf, looked up.
-    int32_t rankAt(uint32_t x, uint32_t lane) const { return mBalls.rankAt(label(x, lane)); }
+    int32_t rankAt(uint32_t x, uint32_t lane) const
+    {
+        if (!mOffsets) return mBalls.rankAt(mLabels.label({leaf(), 64 * x + lane}));
+        const int onLine = kLeafDim * int(mPlace) + int(x) + mOffsets[64 * x + lane];
+        const VoxelRef onX{mRun.leaves[onLine >> 3], uint32_t(onLine & 7) << 6 | lane};
+        const VoxelRef onY = narrowTarget(Axis::Y, onX);
+        return mBalls.rankAt(mLabels.usesZ() ? narrowTarget(Axis::Z, onY) : onY);
+    }
 
 private:
     void findRanks(uint32_t x, uint64_t bits);
     void prefetch(uint32_t i) const;
-    VoxelRef label(uint32_t x, uint32_t lane) const
-    {
-        if (!mOffsets) return mLabels.label({leaf(), 64 * x + lane});
-        const int onLine = kLeafDim * int(mPlace) + int(x) + mOffsets[64 * x + lane];
-        const VoxelRef onX{mRun.leaves[onLine >> 3], uint32_t(onLine & 7) << 6 | lane};
-        const VoxelRef onY = narrowTarget(Axis::Y, onX);
-        return mLabels.usesZ() ? narrowTarget(Axis::Z, onY) : onY;
-    }
     /// PowerMap::target() without a branch: whether it lies in another leaf is hard to predict.
     VoxelRef narrowTarget(Axis axis, VoxelRef voxel) const
     {

@@ -6,11 +6,13 @@
 /// (Broutta et al. 2009, 3.1, Definition 2 and Algorithm 1): one scan of the voxels. Every edge is
 /// witnessed by a voxel, and every voxel whose parent is on witnesses an edge.
 ///
-/// 1. The ball that labels each voxel of the coarser level, and where that changes
-///    (ParentLabels.h); which ball is centered at which voxel (medial/BallIndex.h).
+/// 1. `VoxelBalls`: the ball that labels each voxel of the coarser level, a factor^dim-th of the
+///    finer one's, and where that changes; which ball is centered at which voxel
+///    (medial/BallIndex.h).
 /// 2. `scanRun`: each run of leaves along x of the finer level, in words of 64 voxels. Labels are
-///    looked up where they may differ from those before along x (RunLabels.h); a pair of
-///    labels is looked at where it differs from those before along x, y and z, on word bits alone.
+///    looked up where they may differ from those before along x (RunLabels.h), and those of the
+///    parents are spread over their children (`RunParents`); a pair of labels is looked at where it
+///    differs from those before along x, y and z, on word bits alone.
 /// 3. Ranks become indices; a counting sort by child, then by parent.
 ///
 /// Exact, and the same for any number of threads. Cost: linear in the voxels of both levels and in

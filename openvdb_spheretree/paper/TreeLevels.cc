@@ -35,17 +35,6 @@ bool needsDag(const PyramidOptions& options)
 
 namespace {
 
-/// The paper's rule: the label of the parent voxel of the ball's center. A single ball is
-/// everybody's parent, also of nodes whose parent voxel is off (possible on the last level without
-/// the clip).
-std::vector<int32_t> parentsByCenter(MedialLevel& coarse)
-{
-    std::vector<int32_t> parent = std::move(coarse.queriedLabel);
-    if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
-    if (std::find(parent.begin(), parent.end(), -1) == parent.end()) return parent;
-    OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
-}
-
 /// Among a node's parents in the DAG, the one of least covering power: the distance by which the
 /// node sticks out of it, both as spheres in the frame of level 0. A node without an edge (it
 /// labels no voxel whose parent is on) keeps the parent it has.
@@ -146,24 +135,29 @@ openvdb::MaskTree::Ptr BuildContext::coarsened(const openvdb::MaskTree& voxels, 
 Links linkLevels(const LevelNodes& nodes, int level, const MedialLevel* fine, MedialLevel& coarse,
     const BuildContext& context)
 {
-    const PyramidStep step = context.stepFrom(level);
-    Links links;
-    links.parent = parentsByCenter(coarse);
+    // The paper's rule: the label of the parent voxel of the ball's center. A single ball is
+    // everybody's parent, also of nodes whose parent voxel is off (possible on the last level
+    // without the clip).
+    Links links{std::move(coarse.queriedLabel), {}};
+    auto& [parent, dag] = links;
+    if (coarse.balls.size() == 1) std::fill(parent.begin(), parent.end(), 0);
+    if (std::find(parent.begin(), parent.end(), -1) != parent.end()) {
+        OPENVDB_THROW(openvdb::LookupError, "the parent voxel of a node is not in the level above");
+    }
     if (!needsDag(context.options)) return links;
     // Edges between balls of both levels become edges between coarser balls and nodes.
     std::vector<int32_t> nodeOfBall(fine->balls.size(), -1);
     for (std::size_t i = 0; i < nodes.balls.size(); ++i) {
         nodeOfBall[fine->ballAt(nodes.balls[i].center)] = int32_t(i);
     }
-    std::vector<DagEdge>& dag = links.dag;
-    dag = sphereDag(*fine, coarse, step, context.interrupter);
+    dag = sphereDag(*fine, coarse, context.stepFrom(level), context.interrupter);
     for (DagEdge& edge : dag) edge.child = nodeOfBall[edge.child];
     const auto isNoNode = [](const DagEdge& edge) { return edge.child < 0; };
     dag.erase(std::remove_if(dag.begin(), dag.end(), isNoNode), dag.end());
     if (context.options.parent == ParentRule::Dag) {
-        preferDagParents(links.parent, links.dag, nodes, level, coarse, context);
+        preferDagParents(parent, dag, nodes, level, coarse, context);
     }
-    if (!context.options.dag || context.options.edges != DagEdges::Shared) links.dag.clear();
+    if (!context.options.dag || context.options.edges != DagEdges::Shared) dag.clear();
     return links;
 }
 

@@ -13,7 +13,6 @@
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 

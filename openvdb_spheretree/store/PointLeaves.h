@@ -42,7 +42,16 @@ public:
 
     /// Adds an attribute whose value is value(i) for the point that came in with index i.
     template <typename T, typename Value>
-    void addAttribute(const std::string& name, const Value& value);
+    void addAttribute(const std::string& name, const Value& value)
+    {
+        openvdb::points::appendAttribute<T>(mGrid->tree(), name);
+        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+            openvdb::points::AttributeWriteHandle<T> handle(mLeaves[i]->attributeArray(name));
+            const uint32_t begin = mBegin[i];
+            for (uint32_t n = 0; n < countOf(i); ++n) handle.set(n, T(value(mOrder[begin + n])));
+            handle.compact();
+        });
+    }
 
     /// Adds the groups, and puts point i in the group that has index groupOf(i).
     void addGroups(
@@ -78,7 +87,31 @@ public:
 
     /// @throw openvdb::ValueError if there is no such attribute, or it is not an uncompressed T
     template <typename T>
-    std::vector<T> attribute(const std::string& name) const;
+    std::vector<T> attribute(const std::string& name) const
+    {
+        const openvdb::NamePair& expected =
+            openvdb::points::TypedAttributeArray<T>::attributeType();
+        for (const PointLeaf* leaf : mLeaves) {
+            const openvdb::points::AttributeArray* array = leaf->attributeSet().getConst(name);
+            if (!array) {
+                OPENVDB_THROW(openvdb::ValueError, "there is no attribute '" << name << "'");
+            }
+            const openvdb::NamePair& type = array->type();
+            if (type == expected && array->stride() == 1) continue;
+            OPENVDB_THROW(openvdb::ValueError,
+                "attribute '" << name << "' is of type " << type.first << "/" << type.second
+                              << " with " << array->stride() << " values a point, not "
+                              << expected.first << "/" << expected.second << " with 1");
+        }
+        std::vector<T> values(size());
+        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+            const openvdb::points::AttributeHandle<T> handle(
+                *mLeaves[i]->attributeSet().getConst(name));
+            T* const here = values.data() + mBegin[i];
+            for (openvdb::Index n = 0; n < handle.size(); ++n) here[n] = handle.get(n);
+        });
+        return values;
+    }
 
     /// @return positions in the index space of the source grid.
     std::vector<openvdb::Vec3d> positions(int scale) const;
@@ -87,44 +120,5 @@ private:
     std::vector<const PointLeaf*> mLeaves;
     std::vector<std::size_t> mBegin; ///< of each leaf's points in the arrays
 };
-
-// ---- Templates
-
-template <typename T, typename Value>
-void PointWriter::addAttribute(const std::string& name, const Value& value)
-{
-    openvdb::points::appendAttribute<T>(mGrid->tree(), name);
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-        const std::size_t pos = mLeaves[i]->attributeSet().find(name);
-        openvdb::points::AttributeWriteHandle<T> handle(mLeaves[i]->attributeArray(pos));
-        for (uint32_t n = 0; n < countOf(i); ++n) handle.set(n, T(value(mOrder[mBegin[i] + n])));
-        handle.compact();
-    });
-}
-
-template <typename T>
-std::vector<T> PointReader::attribute(const std::string& name) const
-{
-    const openvdb::NamePair& expected = openvdb::points::TypedAttributeArray<T>::attributeType();
-    for (const PointLeaf* leaf : mLeaves) {
-        const openvdb::points::AttributeArray* array = leaf->attributeSet().getConst(name);
-        if (!array) {
-            OPENVDB_THROW(openvdb::ValueError, "there is no attribute '" << name << "'");
-        }
-        const openvdb::NamePair& type = array->type();
-        if (type == expected && array->stride() == 1) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "attribute '" << name << "' is of type " << type.first << "/" << type.second << " with "
-                          << array->stride() << " values a point, not " << expected.first << "/"
-                          << expected.second << " with 1");
-    }
-    std::vector<T> values(size());
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-        const openvdb::points::AttributeHandle<T> handle(
-            *mLeaves[i]->attributeSet().getConst(name));
-        for (openvdb::Index n = 0; n < handle.size(); ++n) values[mBegin[i] + n] = handle.get(n);
-    });
-    return values;
-}
 
 } // namespace openvdb_spheretree::detail

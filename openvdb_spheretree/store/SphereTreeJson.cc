@@ -135,24 +135,6 @@ void writeCuts(JsonWriter& json, const SphereTree& tree, std::ostream& out)
     json.endObject();
 }
 
-void writeSetting(JsonWriter& json, const detail::Setting& setting, const std::string& text)
-{
-    using detail::SettingType;
-    switch (setting.type) {
-    case SettingType::Flag: json.value(setting.name, text == "1"); break;
-    case SettingType::Integer: json.value(setting.name, std::stoi(text)); break;
-    case SettingType::Real:
-        if (text.empty()) json.null(setting.name);
-        else json.value(setting.name, detail::realOf(text));
-        break;
-    case SettingType::Counts:
-        writeArray(
-            json, setting.name, text.empty() ? std::vector<int64_t>() : countsFromString(text));
-        break;
-    default: json.value(setting.name, text);
-    }
-}
-
 } // namespace
 
 void writeObject(JsonWriter& json, const SphereTree& tree)
@@ -171,9 +153,23 @@ void writeObject(JsonWriter& json, const SphereTree& tree)
 
 void writeSettings(JsonWriter& json, const SphereTree& tree)
 {
+    using detail::SettingType;
     const SphereTreeSettings settings = detail::recordedSettings(tree);
     for (const detail::Setting* setting : detail::settingsInJson()) {
-        writeSetting(json, *setting, setting->get(settings));
+        const std::string& name = setting->name;
+        const std::string text = setting->get(settings);
+        switch (setting->type) {
+        case SettingType::Flag: json.value(name, text == "1"); break;
+        case SettingType::Integer: json.value(name, std::stoi(text)); break;
+        case SettingType::Real:
+            if (text.empty()) json.null(name);
+            else json.value(name, detail::realOf(text));
+            break;
+        case SettingType::Counts:
+            writeArray(json, name, text.empty() ? std::vector<int64_t>() : countsFromString(text));
+            break;
+        default: json.value(name, text);
+        }
     }
 }
 

@@ -15,11 +15,8 @@ namespace openvdb_spheretree {
 namespace {
 
 using openvdb::GridBase;
-using openvdb::Vec3d;
 using openvdb::Vec3i;
 using openvdb::points::PointDataGrid;
-
-constexpr char kTreeKind[] = "sphere-tree", kDagKind[] = "Sphere-DAG", kCutsKind[] = "list of cuts";
 
 // ---- Writing
 
@@ -62,10 +59,12 @@ auto blaming(const GridBase& grid, const char* kind, const Read& read)
     }
 }
 
-void checkFormat(const GridBase& grid, const char* kind, const char* key)
+/// Reads what a grid holds, of a format that this version knows.
+template <typename Read>
+auto readGrid(const GridBase& grid, const char* kind, const char* formatKey, const Read& read)
 {
     const int format = blaming(grid, kind, [&] {
-        const int value = detail::getMeta<int32_t>(grid, key);
+        const int value = detail::getMeta<int32_t>(grid, formatKey);
         if (value < 1) OPENVDB_THROW(openvdb::ValueError, "its format is " << value);
         return value;
     });
@@ -74,6 +73,7 @@ void checkFormat(const GridBase& grid, const char* kind, const char* key)
             describe(grid) << " is of format " << format << ", newer than this version reads ("
                            << kPointsFormat << "): update openvdb_spheretree");
     }
+    return blaming(grid, kind, read);
 }
 
 /// @return where node id is among the points.
@@ -176,7 +176,7 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     std::vector<DagEdge> edges(parents.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
     std::sort(edges.begin(), edges.end());
-    detail::requireEdges(edges, tree);
+    detail::throwFirst(detail::edgeDamage(edges, tree));
     return edges;
 }
 
@@ -254,7 +254,7 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
 {
     if (tree.dag.empty()) return nullptr;
     requireStorable(tree);
-    std::vector<Vec3d> positions;
+    std::vector<openvdb::Vec3d> positions;
     positions.reserve(tree.dag.size());
     for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
     detail::PointWriter writer(positions);
@@ -313,17 +313,17 @@ SphereTree fromPoints(
             describe(points) << " is no sphere-tree: it has no metadata '" << detail::kFormatKey
                              << "'. Point grids become one by way of a mask");
     }
-    checkFormat(points, kTreeKind, detail::kFormatKey);
-    SphereTree tree = blaming(points, kTreeKind, [&] { return readTree(points); });
+    SphereTree tree =
+        readGrid(points, "sphere-tree", detail::kFormatKey, [&] { return readTree(points); });
     tree.hasDag = tree.hasDag && dag;
     tree.hasCuts = tree.hasCuts && cuts;
     if (dag) {
-        checkFormat(*dag, kDagKind, detail::kDagFormatKey);
-        tree.dag = blaming(*dag, kDagKind, [&] { return readDag(*dag, tree); });
+        tree.dag = readGrid(
+            *dag, "Sphere-DAG", detail::kDagFormatKey, [&] { return readDag(*dag, tree); });
     }
     if (cuts) {
-        checkFormat(*cuts, kCutsKind, detail::kCutsFormatKey);
-        tree.cuts = blaming(*cuts, kCutsKind, [&] { return readCuts(*cuts, tree); });
+        tree.cuts = readGrid(
+            *cuts, "list of cuts", detail::kCutsFormatKey, [&] { return readCuts(*cuts, tree); });
     }
     return tree;
 }

@@ -15,7 +15,6 @@ namespace {
 using openvdb::GridBase;
 using openvdb::Mat4d;
 using openvdb::Vec3i;
-using openvdb::math::MapBase;
 using openvdb::math::Transform;
 
 constexpr char kTransformKey[] = "spheretree_transform";
@@ -57,7 +56,7 @@ Transform::Ptr makeTransform(const std::string& type, const Mat4d& matrix)
     namespace math = openvdb::math;
     const openvdb::Vec3d scale(matrix(0, 0), matrix(1, 1), matrix(2, 2));
     const openvdb::Vec3d translation = matrix.getTranslation();
-    MapBase::Ptr map;
+    math::MapBase::Ptr map;
     if (type == math::ScaleMap::mapType()) {
         map.reset(new math::ScaleMap(scale));
     } else if (type == math::UniformScaleMap::mapType()) {
@@ -177,28 +176,6 @@ SphereTreeSettings readSettings(const GridBase& grid)
     return settings;
 }
 
-void writeObject(GridBase& grid, const ObjectInfo& object)
-{
-    setMeta(grid, "spheretree_source", object.name);
-    setMeta(grid, "spheretree_object_voxels", object.voxels);
-    setMeta(grid, "spheretree_object_leaves", object.leaves);
-    setMeta(grid, "spheretree_object_tiles", object.tiles);
-    setMeta(grid, "spheretree_object_bbox_min", object.bbox.min().asVec3i());
-    setMeta(grid, "spheretree_object_bbox_max", object.bbox.max().asVec3i());
-}
-
-ObjectInfo readObject(const GridBase& grid)
-{
-    ObjectInfo object;
-    object.name = getMeta<std::string>(grid, "spheretree_source");
-    object.voxels = getMeta<int64_t>(grid, "spheretree_object_voxels");
-    object.leaves = getMeta<int64_t>(grid, "spheretree_object_leaves");
-    object.tiles = getMeta<int64_t>(grid, "spheretree_object_tiles");
-    object.bbox.reset(openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_object_bbox_min")),
-        openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_object_bbox_max")));
-    return object;
-}
-
 void writeLevel(GridBase& grid, const SphereTreeLevel& level)
 {
     const auto key = [&](const char* what) { return levelKey(level.level, what); };
@@ -285,7 +262,12 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     writeTransform(grid, *tree.transform, scale);
     setMeta<int32_t>(grid, kSubdivisionKey, tree.subdivision);
     writeSettings(grid, tree);
-    writeObject(grid, tree.object);
+    setMeta(grid, "spheretree_source", tree.object.name);
+    setMeta(grid, "spheretree_object_voxels", tree.object.voxels);
+    setMeta(grid, "spheretree_object_leaves", tree.object.leaves);
+    setMeta(grid, "spheretree_object_tiles", tree.object.tiles);
+    setMeta(grid, "spheretree_object_bbox_min", tree.object.bbox.min().asVec3i());
+    setMeta(grid, "spheretree_object_bbox_max", tree.object.bbox.max().asVec3i());
     setMeta(grid, "spheretree_origin", tree.origin.asVec3i());
     setMeta<int32_t>(grid, "spheretree_levels", int32_t(tree.levels.size()));
     setMeta<int32_t>(grid, "spheretree_lowest_level", tree.levels.front().level);
@@ -306,8 +288,14 @@ SphereTree readTreeMetadata(const GridBase& grid)
     if (const auto* options = tree.settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;
     const bool tight = tree.settings.type() == TreeType::Tight;
     if (tight || grid[kSubdivisionKey]) tree.subdivision = getMeta<int32_t>(grid, kSubdivisionKey);
-    tree.object = readObject(grid);
-    tree.origin = openvdb::Coord(getMeta<Vec3i>(grid, "spheretree_origin"));
+    tree.object.name = getMeta<std::string>(grid, "spheretree_source");
+    tree.object.voxels = getMeta<int64_t>(grid, "spheretree_object_voxels");
+    tree.object.leaves = getMeta<int64_t>(grid, "spheretree_object_leaves");
+    tree.object.tiles = getMeta<int64_t>(grid, "spheretree_object_tiles");
+    const auto coord = [&](const char* key) { return openvdb::Coord(getMeta<Vec3i>(grid, key)); };
+    const openvdb::Coord least = coord("spheretree_object_bbox_min");
+    tree.object.bbox.reset(least, coord("spheretree_object_bbox_max"));
+    tree.origin = coord("spheretree_origin");
     tree.levels = readLevels(grid);
     return tree;
 }

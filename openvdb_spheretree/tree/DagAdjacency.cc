@@ -51,7 +51,7 @@ DagAdjacency dagAdjacency(
 
 DagAdjacency dagAdjacency(const SphereTree& tree)
 {
-    detail::requireEdges(tree.dag, tree);
+    detail::throwFirst(detail::edgeDamage(tree.dag, tree));
     return dagAdjacency(tree.dag, tree.size(), tree.size());
 }
 

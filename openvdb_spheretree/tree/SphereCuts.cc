@@ -3,8 +3,6 @@
 
 #include "TreeShape.h"
 
-#include <openvdb/math/Transform.h>
-
 #include <algorithm>
 #include <cstddef>
 

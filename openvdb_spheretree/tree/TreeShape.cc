@@ -50,7 +50,7 @@ private:
 /// @param isWrong  of an edge's place
 /// @param all      what the edges do that break the rule; @a first: what the first of them does
 template <typename IsWrong>
-std::vector<Damage> edgeDamage(
+std::vector<Damage> damageOf(
     const std::vector<DagEdge>& edges, const IsWrong& isWrong, const char* all, const char* first)
 {
     int64_t count = 0;
@@ -148,19 +148,6 @@ std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision)
     return damage;
 }
 
-std::vector<Damage> digitalBallDamage(const SphereTree& tree)
-{
-    Breach balls;
-    for (int32_t id = 0; id < tree.size(); ++id) {
-        const int32_t radiusSq = tree.radiusSq[id];
-        if (radiusSq > 0 || radiusSq == -1) continue;
-        balls.add(id, " has the radius_sq ", radiusSq, ", which no sphere has");
-    }
-    std::vector<Damage> damage;
-    balls.report(damage, "radius_sq is less than 1");
-    return damage;
-}
-
 std::vector<Damage> parentDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage;
@@ -194,12 +181,12 @@ std::vector<Damage> parentDamage(const SphereTree& tree)
 
 std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges)
 {
-    return edgeDamage(
+    return damageOf(
         edges, [&](std::size_t i) { return i > 0 && !(edges[i - 1] < edges[i]); },
         "are out of order or repeated", "is out of order or there twice");
 }
 
-std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
+std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTree& tree)
 {
     if (edges.empty()) return {};
     std::vector<int32_t> places(std::size_t(tree.size())); // of nodes' levels among the levels
@@ -212,8 +199,10 @@ std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const Sph
         const int32_t parent = edges[i].parent, child = edges[i].child;
         return !exists(parent) || !exists(child) || places[parent] != places[child] + 1;
     };
-    return edgeDamage(edges, isWrong, "do not lead to the next level down",
+    std::vector<Damage> damage = damageOf(edges, isWrong, "do not lead to the next level down",
         "does not lead to a node of the next level down");
+    for (const Damage& order : edgeOrderDamage(edges)) damage.push_back(order);
+    return damage;
 }
 
 std::vector<Damage> treeDamage(const SphereTree& tree)
@@ -224,10 +213,15 @@ std::vector<Damage> treeDamage(const SphereTree& tree)
         damage.insert(damage.end(), more.begin(), more.end());
     };
     add(sphereDamage(tree.spheres, tree.subdivision));
-    add(digitalBallDamage(tree));
+    Breach balls;
+    for (int32_t id = 0; id < tree.size(); ++id) {
+        const int32_t radiusSq = tree.radiusSq[id];
+        if (radiusSq > 0 || radiusSq == -1) continue;
+        balls.add(id, " has the radius_sq ", radiusSq, ", which no sphere has");
+    }
+    balls.report(damage, "radius_sq is less than 1");
     add(parentDamage(tree));
-    add(edgeLevelDamage(tree.dag, tree));
-    add(edgeOrderDamage(tree.dag));
+    add(edgeDamage(tree.dag, tree));
     return damage;
 }
 
@@ -241,12 +235,6 @@ void requireCuts(const SphereCuts& cuts, int subdivision)
     const std::string damage = cutsDamage(cuts);
     if (!damage.empty()) OPENVDB_THROW(openvdb::ValueError, damage);
     throwFirst(sphereDamage(cuts.spheres, subdivision));
-}
-
-void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree)
-{
-    throwFirst(edgeLevelDamage(edges, tree));
-    throwFirst(edgeOrderDamage(edges));
 }
 
 } // namespace detail

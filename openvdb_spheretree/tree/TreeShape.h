@@ -64,18 +64,16 @@ std::vector<Damage> shapeDamage(const SphereTree& tree);
 /// Centers are whole numbers of units and of 32 bits in voxels, and radii are finite and at least
 /// 0.
 std::vector<Damage> sphereDamage(const Spheres& spheres, int subdivision);
-/// Digital balls have a radius; -1 marks spheres that are none.
-std::vector<Damage> digitalBallDamage(const SphereTree& tree);
 /// A parent is on the next level up, which leaves no room for a cycle; the top level has none.
 std::vector<Damage> parentDamage(const SphereTree& tree);
 /// Edges are sorted, and there once.
 std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges);
-/// Edges are between nodes of the tree and lead to the next level down.
-std::vector<Damage> edgeLevelDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
+/// The same; and they are between nodes of the tree, and lead to the next level down.
+std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
 /// @}
 
-/// @return what is wrong by all rules above; where the ranges of levels are wrong, nothing else is
-///         looked at.
+/// @return what is wrong by all rules above, and digital balls without a radius (-1 marks spheres
+///         that are none); where the ranges of levels are wrong, nothing else is looked at.
 std::vector<Damage> treeDamage(const SphereTree& tree);
 
 /// @brief The rules of cuts, spheres aside: arrays are alike in length; a node's parent comes after
@@ -92,9 +90,6 @@ void throwFirst(const std::vector<Damage>& damage);
 
 /// @throw openvdb::ValueError naming the first thing that is wrong with cuts in these units
 void requireCuts(const SphereCuts& cuts, int subdivision);
-
-/// @throw openvdb::ValueError naming the first edge that breaks a rule
-void requireEdges(const std::vector<DagEdge>& edges, const SphereTree& tree);
 
 /// @return a tree without nodes and levels, and all else that @a tree knows beside them, edges and
 ///         cuts.

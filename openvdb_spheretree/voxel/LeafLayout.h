@@ -47,6 +47,7 @@ public:
     /// Leaves are numbered in the order of their origins (x first).
     const openvdb::Coord& origin(uint32_t leaf) const { return mOrigins[leaf]; }
     const LeafMask& mask(uint32_t leaf) const { return mMasks[leaf]; }
+    const std::vector<LeafMask>& masks() const { return mMasks; }
 
     /// The leaves of equal x, in the order of their x: [begin, end).
     struct Slab {
