@@ -34,7 +34,6 @@
 #define SPHERETREE_ENVELOPE_SEARCH_INL_H
 #endif
 
-#include "EnvelopeScratch.h"
 #include "LeafRows.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OrPyramid.h"
 
-
 #include "LeafCoarsener.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
