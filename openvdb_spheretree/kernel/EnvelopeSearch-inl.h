@@ -40,7 +40,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();

@@ -23,7 +23,6 @@
 #include <openvdb_spheretree/slab/SlabLabels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/VoxelRef.h>
-#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
