@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Stage.h
-/// @brief Adds the time a stage takes to a sum of seconds, and tells the interrupter its name.
+/// @brief A stopwatch, and stages: each adds its time to a sum, and tells the interrupter its name.
 
 #pragma once
 
-#include "Stopwatch.h"
-
 #include <openvdb/util/NullInterrupter.h>
 
+#include <chrono>
+
 namespace openvdb_spheretree::detail {
+
+/// Wall-clock time since its construction.
+class Stopwatch {
+public:
+    double seconds() const
+    {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - mStart).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+};
 
 /// From its construction to its end. @a interrupter and @a sum may be null.
 class Stage {

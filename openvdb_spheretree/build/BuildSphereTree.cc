@@ -14,7 +14,6 @@
 #include <openvdb_spheretree/tight/TightTree.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Grid.h>

@@ -5,7 +5,7 @@
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>

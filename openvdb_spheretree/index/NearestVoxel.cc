@@ -6,7 +6,7 @@
 #include "NearestVoxel.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <tbb/parallel_sort.h>
 

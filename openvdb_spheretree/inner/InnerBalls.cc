@@ -3,7 +3,7 @@
 
 #include "InnerOrder.h"
 #include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 namespace openvdb_spheretree {
 

@@ -9,7 +9,6 @@
 
 #include "LeafValues.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/DescribeGrid.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 

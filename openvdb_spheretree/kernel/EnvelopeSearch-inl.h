@@ -34,14 +34,12 @@
 #define SPHERETREE_ENVELOPE_SEARCH_INL_H
 #endif
 
-#include "EnvelopeScratch.h"
 #include "LeafRows.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();

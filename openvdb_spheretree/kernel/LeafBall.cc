@@ -14,8 +14,6 @@
 
 #include "LeafBall.h"
 
-#include "LeafBallTerms.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "openvdb_spheretree/kernel/LeafBall.cc"
 #include <hwy/foreach_target.h>

@@ -15,9 +15,11 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <vector>
 
 namespace openvdb_spheretree::detail {
 
@@ -92,5 +94,25 @@ void rowsToLeaf(Axis axis, const T* rows, T* leaf)
         for (int x = 0; x < 8; ++x) transpose8x8(rows + 8 * x, 64, leaf + 64 * x, 8);
     }
 }
+
+/// The rows [first, last) of `count`; all three are multiples of kLeafDim.
+struct RowRange {
+    int first, last, count;
+};
+
+/// Memory that the kernels of EnvelopeSearch-inl.h use again from run to run, one a thread.
+struct EnvelopeScratch {
+    std::vector<int> reach;                 ///< by leaf: how many rows away a better row can be
+    std::vector<int64_t> largest, smallest; ///< by leaf: its values; smallest of object voxels
+    RowBuffer<int32_t> keys;                ///< rows that a kernel made of its input
+    RowBuffer<int64_t> wideKeys;            ///< the same
+
+    void resize(std::size_t leaves)
+    {
+        reach.resize(leaves);
+        largest.resize(leaves);
+        smallest.resize(leaves);
+    }
+};
 
 } // namespace openvdb_spheretree::detail

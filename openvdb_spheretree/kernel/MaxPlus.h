@@ -14,7 +14,7 @@
 
 #pragma once
 
-#include "EnvelopeScratch.h"
+#include "LeafRows.h"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include "EnvelopeScratch.h"
+#include "LeafRows.h"
 
 #include <cstdint>
 

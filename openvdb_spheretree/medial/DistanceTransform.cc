@@ -4,7 +4,7 @@
 #include "DistanceMap.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <array>
 #include <memory>

@@ -2,7 +2,7 @@
 #include "MedialAxis.h"
 
 #include "MedialLevel.h"
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 namespace openvdb_spheretree {
 

@@ -20,10 +20,9 @@
 
 #include "DistanceMap.h"
 #include <openvdb_spheretree/base/LargeArray.h>
-#include <openvdb_spheretree/slab/LabelOffsets.h>
+#include <openvdb_spheretree/slab/SlabLabels.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/VoxelRef.h>
-#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/util/NullInterrupter.h>
 

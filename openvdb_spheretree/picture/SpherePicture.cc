@@ -7,7 +7,7 @@
 #include "RayShapes.h"
 #include <openvdb_spheretree/base/Hash.h>
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Grid.h>

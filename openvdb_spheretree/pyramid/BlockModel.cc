@@ -3,7 +3,6 @@
 
 #include "OrPyramid.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/tools/Morphology.h>

@@ -6,7 +6,6 @@
 #include <openvdb_spheretree/medial/DistanceMap.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>

@@ -12,7 +12,6 @@
 
 #include "PyramidModel.h"
 #include <openvdb_spheretree/voxel/LeafMask.h>
-#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <array>
 #include <cstdint>

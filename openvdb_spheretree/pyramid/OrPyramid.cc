@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OrPyramid.h"
 
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
-
 #include "LeafCoarsener.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>

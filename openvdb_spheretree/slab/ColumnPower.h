@@ -38,19 +38,20 @@ struct Column {
     uint32_t count() const { return uint32_t(leaves.size()); }
 };
 
-/// Memory of one thread, for one column after the other.
+/// A column, and memory of one thread for one after the other.
 template <typename Power>
 class ColumnPower {
     using Key = typename Power::Key;
     using Offset = typename Power::Offset;
 
 public:
-    /// Finds the offsets along x, marks their targets, and calls visit(leaf, offsets) for each leaf
+    Column<Power> column;
+
+    /// Finds the column's offsets along x, marks their targets, and calls visit(leaf, offsets) for each leaf
     /// that gets its labels, with its 512.
     /// @param marks  a mask for each leaf of the layout, to be added to
     template <typename Visit>
-    void run(
-        const Column<Power>& column, const LeafLayout& layout, LeafMask* marks, const Visit& visit)
+    void run(const LeafLayout& layout, LeafMask* marks, const Visit& visit)
     {
         const int rows = int(column.count()) * kLeafDim;
         Key* keys = mKeys.rows(rows, 1);

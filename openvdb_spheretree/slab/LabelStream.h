@@ -9,7 +9,7 @@
 
 #pragma once
 
-#include "LabelOffsets.h"
+#include "SlabLabels.h"
 #include "LabelQueries.h"
 #include "StreamPlan.h"
 #include <openvdb_spheretree/base/StageSeconds.h>

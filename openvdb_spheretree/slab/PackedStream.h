@@ -113,10 +113,6 @@ private:
         GroupScratch group;
         SlabBalls<Power> balls;
     };
-    struct ColumnScratch {
-        Column<Power> column;
-        ColumnPower<Power> power;
-    };
 
     void enterAll()
     {
@@ -177,16 +173,17 @@ private:
         for (std::size_t band = 0; band + 1 < mCut.firstOfBand.size(); ++band) {
             unpackBand(mCut.firstOfBand[band], mCut.firstOfBand[band + 1]);
             const uint32_t first = mCut.firstRunOfBand[band];
-            detail::parallelForWithScratch<ColumnScratch>(mCut.firstRunOfBand[band + 1] - first,
-                mWork.interrupter, [&](std::size_t i, ColumnScratch& scratch) {
+            detail::parallelForWithScratch<ColumnPower<Power>>(
+                mCut.firstRunOfBand[band + 1] - first, mWork.interrupter,
+                [&](std::size_t i, ColumnPower<Power>& power) {
                     const uint32_t index = first + uint32_t(i), slab = mWork.firstSlab(index);
                     const LeafLayout::Run run = mLayout.run(Axis::X, index);
-                    scratch.column.clear();
+                    power.column.clear();
                     for (uint32_t k = 0; k < run.count; ++k) {
-                        scratch.column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
+                        power.column.add(run.leaves[k], keysOf(slab + k, run.leaves[k]));
                     }
-                    scratch.column.last = run.count;
-                    mWork.labelColumn(scratch.column, scratch.power);
+                    power.column.last = run.count;
+                    mWork.labelColumn(power);
                 });
         }
         mKeys.reset();

@@ -9,7 +9,6 @@
 
 #include "SlabRows.h"
 #include "XGaps.h"
-#include <openvdb_spheretree/kernel/EnvelopeScratch.h>
 #include <openvdb_spheretree/kernel/LeafRows.h>
 #include <openvdb_spheretree/kernel/LeafTranspose.h>
 #include <openvdb_spheretree/kernel/MinPlus.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlabLabels.h
-/// @brief The power labels of a slab in memory, while balls of other slabs may still reach it.
+/// @brief The power labels of a slab in memory, while balls of other slabs may still reach it; and those
+/// of all slabs, as they are kept.
 
 #pragma once
 
@@ -11,6 +12,28 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+namespace openvdb_spheretree::detail {
+
+/// Offsets along one axis, 512 a leaf; one of the arrays is null, both if the axis takes no part.
+struct AxisOffsets {
+    LargeArray<int8_t> narrow;
+    LargeArray<int16_t> wide;
+
+    bool empty() const { return !narrow && !wide; }
+    /// Makes room for @a size offsets. @return where they go.
+    template <typename Offset>
+    Offset* make(std::size_t size)
+    {
+        if constexpr (sizeof(Offset) == 1) return (narrow = makeLargeArray<int8_t>(size)).get();
+        else return (wide = makeLargeArray<int16_t>(size)).get();
+    }
+};
+
+/// Power labels as they are kept (medial/PowerMap.h): an offset along x, y and z a voxel.
+using LabelOffsets = std::array<AxisOffsets, 3>;
+
+} // namespace openvdb_spheretree::detail
 
 namespace openvdb_spheretree::slab {
 

@@ -27,35 +27,12 @@
 
 namespace openvdb_spheretree::slab {
 
-/// How a slab enters: its distances, and the passes of the power labels within it. Memory of one
-/// thread, for one slab after the other.
+/// Memory of one thread for slabs that enter, one after the other, and the time that they took.
 template <typename Power, typename T>
-class SlabEntry {
-public:
-    /// @param labels  receives keys, and offsets along y and z
-    /// @return the largest squared distance.
-    uint32_t enter(const LeafLayout& layout, uint32_t slab, const XGaps<GapOf<T>>& gaps, int dim,
-        const SlabLabels<Power>& labels)
-    {
-        const detail::Stage all("", nullptr, &seconds);
-        uint32_t largest = 0;
-        mPower.open(layout, slab, dim);
-        mDistance.forEachRun(
-            layout, slab, gaps, dim, [&](const LeafLayout::Run& run, const T* rows) {
-                const detail::Stage stage("", nullptr, &powerSeconds);
-                largest = std::max(largest,
-                    dim == 3 ? mPower.alongZ(run, rows, labels) : mPower.fromY(run, rows, labels));
-            });
-        const detail::Stage stage("", nullptr, &powerSeconds);
-        if (dim == 3) mPower.alongY(layout, slab, labels);
-        return largest;
-    }
-
+struct SlabEntry {
+    SlabDistance<T> distance;
+    SlabPower<Power> power;
     double seconds = 0, powerSeconds = 0; ///< in all, and in the passes of power labels
-
-private:
-    SlabDistance<T> mDistance;
-    SlabPower<Power> mPower;
 };
 
 /// @tparam Power  of MaxPlus.h
@@ -78,18 +55,32 @@ public:
         }
     }
 
-    /// @return the slab's largest squared distance.
+    /// How a slab enters: its distances, and the passes of the power labels within it.
+    /// @param labels  receives keys, and offsets along y and z
+    /// @return the largest squared distance.
     uint32_t enter(uint32_t slab, const SlabLabels<Power>& labels, Entry& entry) const
     {
-        return entry.enter(layout, slab, *mGaps, dim, labels);
+        const detail::Stage all("", nullptr, &entry.seconds);
+        SlabPower<Power>& power = entry.power;
+        uint32_t largest = 0;
+        power.open(layout, slab, dim);
+        entry.distance.forEachRun(
+            layout, slab, *mGaps, dim, [&](const LeafLayout::Run& run, const T* rows) {
+                const detail::Stage stage("", nullptr, &entry.powerSeconds);
+                largest = std::max(largest,
+                    dim == 3 ? power.alongZ(run, rows, labels) : power.fromY(run, rows, labels));
+            });
+        const detail::Stage stage("", nullptr, &entry.powerSeconds);
+        if (dim == 3) power.alongY(layout, slab, labels);
+        return largest;
     }
     /// Frees what only enter() needs.
     void allEntered() { mGaps.reset(); }
 
     /// Finds the labels of a column along x, and moves its queries.
-    void labelColumn(const Column<Power>& column, ColumnPower<Power>& power)
+    void labelColumn(ColumnPower<Power>& power)
     {
-        power.run(column, layout, mResult.centers.data(), [&](uint32_t leaf, const auto* offsets) {
+        power.run(layout, mResult.centers.data(), [&](uint32_t leaf, const auto* offsets) {
             constexpr std::size_t kBytes = kLeafVoxels * sizeof(*offsets);
             if (kept[0]) std::memcpy(kept[0] + std::size_t(leaf) * kLeafVoxels, offsets, kBytes);
             mQueries.moveAlongX(leaf, offsets);

@@ -106,11 +106,6 @@ public:
     }
 
 private:
-    struct ColumnScratch {
-        Column<Power> column;
-        ColumnPower<Power> power;
-    };
-
     int32_t xOf(uint32_t slab) const { return mLayout.origin(mLayout.slab(slab).begin)[0]; }
 
     void enter(uint32_t end)
@@ -146,10 +141,10 @@ private:
     {
         const detail::Stage stage(
             "power labels along x", mWork.interrupter, &mWork.seconds().power);
-        detail::parallelForWithScratch<ColumnScratch>(mLayout.runCount(Axis::X), mWork.interrupter,
-            [&](std::size_t i, ColumnScratch& scratch) {
-                if (!openColumn(uint32_t(i), end, scratch.column)) return;
-                mWork.labelColumn(scratch.column, scratch.power);
+        detail::parallelForWithScratch<ColumnPower<Power>>(mLayout.runCount(Axis::X),
+            mWork.interrupter, [&](std::size_t i, ColumnPower<Power>& power) {
+                if (!openColumn(uint32_t(i), end, power.column)) return;
+                mWork.labelColumn(power);
             });
         mFinal = end;
     }

@@ -9,12 +9,14 @@
 #pragma once
 
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/kernel/BackgroundGaps.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
+#include <cstring>
 
 namespace openvdb_spheretree::slab {
 
@@ -23,7 +25,24 @@ template <typename Gap>
 class XGaps {
 public:
     /// @param layout  kept by reference
-    XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter);
+    XGaps(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter)
+        : mLayout(layout), mGaps(detail::makeLargeArray<Gap>(std::size_t(layout.leafCount()) * 128))
+    {
+        detail::parallelFor(layout.runCount(Axis::X), interrupter, [&](std::size_t index) {
+            const LeafLayout::Run run = layout.run(Axis::X, uint32_t(index));
+            const uint32_t *leaf = run.leaves, last = run.count - 1;
+            std::memset(below(leaf[0]), 0, 64 * sizeof(Gap));
+            for (uint32_t i = 0; i < last; ++i) {
+                gapsThrough(
+                    layout.mask(leaf[i]), below(leaf[i]), below(leaf[i + 1]), /*back=*/false);
+            }
+            std::memset(above(leaf[last]), 0, 64 * sizeof(Gap));
+            for (uint32_t i = last; i > 0; --i) {
+                gapsThrough(
+                    layout.mask(leaf[i]), above(leaf[i]), above(leaf[i - 1]), /*back=*/true);
+            }
+        });
+    }
 
     /// @brief The squared distance to the background on a voxel's own line along x.
     /// @param rows  receives them as rows across y (LeafRows.h), 0 for background; Square is twice

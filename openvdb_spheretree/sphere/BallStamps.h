@@ -9,7 +9,7 @@
 
 #pragma once
 
-#include "SphereRows.h"
+#include "ClippedSphere.h"
 
 #include <array>
 #include <cstdint>

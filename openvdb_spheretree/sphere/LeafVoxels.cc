@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafVoxels.h"
 
-#include "SphereRows.h"
+#include "ClippedSphere.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/kernel/LeafBall.h>
 

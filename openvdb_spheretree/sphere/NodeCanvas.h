@@ -9,8 +9,8 @@
 #pragma once
 
 #include "BallStamps.h"
+#include "ClippedSphere.h"
 #include "LeafVoxels.h"
-#include "SphereRows.h"
 
 #include <algorithm>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "BallLists.h"
 #include "NodeCanvas.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <tbb/parallel_sort.h>
 

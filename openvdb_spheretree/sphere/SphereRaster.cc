@@ -22,7 +22,7 @@
 #include "PowerCull.h"
 #include "SphereNodes.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/voxel/MaskNodes.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <atomic>
 #include <memory>

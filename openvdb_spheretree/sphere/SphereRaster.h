@@ -4,9 +4,8 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/Masks.h>
-
 #include "SphereUnion.h"
+#include <openvdb_spheretree/voxel/Masks.h>
 
 namespace openvdb_spheretree::detail {
 

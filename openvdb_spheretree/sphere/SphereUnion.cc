@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/voxel/Masks.h>
-
 #include "SphereUnion.h"
 
 #include "ClippedSphere.h"
 #include "SphereRaster.h"
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/math/Math.h>
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 namespace openvdb_spheretree {

@@ -12,7 +12,7 @@
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/BallPruning.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <openvdb/Exceptions.h>
 

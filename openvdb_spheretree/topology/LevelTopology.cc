@@ -24,7 +24,7 @@
 #include "LeafParts.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/UnionFind.h>
-#include <openvdb_spheretree/voxel/ObjectVoxels.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/LeafPlanes.h>
 #include <openvdb_spheretree/voxel/LeafWalk.h>

@@ -3,6 +3,8 @@
 
 #include <openvdb/Grid.h>
 
+#include <memory>
+
 namespace openvdb_spheretree {
 
 namespace {
@@ -37,6 +39,11 @@ FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim)
     if (dim != 2 || !object.tree().evalActiveVoxelBoundingBox(box)) return FlatAxis(2);
     const int axis = flatAxisOf(box);
     return FlatAxis(axis < 0 ? 2 : axis);
+}
+
+MaskTree::Ptr voxelsOf(const openvdb::BoolGrid& object, const FlatAxis& flat)
+{
+    return flat.toZ(std::make_shared<MaskTree>(object.tree(), false, openvdb::TopologyCopy()));
 }
 
 MaskTree::Ptr FlatAxis::toZ(const MaskTree::Ptr& mask) const

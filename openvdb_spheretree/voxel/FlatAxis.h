@@ -50,4 +50,7 @@ private:
 ///         along no axis is not turned: each of its slices of equal z is an object of its own.
 FlatAxis flatAxisOf(const openvdb::BoolGrid& object, int dim);
 
+/// @return the active voxels of @a object as the stages take them: turned so that its flat axis is z.
+openvdb::MaskTree::Ptr voxelsOf(const openvdb::BoolGrid& object, const FlatAxis& flat);
+
 } // namespace openvdb_spheretree

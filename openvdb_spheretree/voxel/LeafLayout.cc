@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafLayout.h"
 
-#include "MaskNodes.h"
+#include "Masks.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>

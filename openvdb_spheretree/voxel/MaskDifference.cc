@@ -5,7 +5,7 @@
 
 #include "MaskDifference.h"
 
-#include "MaskNodes.h"
+#include "Masks.h"
 #include <openvdb_spheretree/base/Parallel.h>
 
 #include <openvdb/tools/Count.h>

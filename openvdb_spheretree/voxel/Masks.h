@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Masks.h
-/// @brief The trees of voxel sets, compiled once (Masks.cc) rather than in every file that uses them.
+/// @brief The trees of voxel sets and their nodes, compiled once (Masks.cc) rather than in every file that uses them.
 ///
 /// OpenVDB's library holds the code of its grids of numbers, but not that of masks. Each file that
 /// makes or copies a mask would compile all virtual functions of its tree: ten seconds.
@@ -12,11 +12,25 @@
 namespace openvdb_spheretree::detail {
 
 using MaskRoot = openvdb::MaskTree::RootNodeType;
-using MaskUpper = MaskRoot::ChildNodeType;
-using MaskLower = MaskUpper::ChildNodeType;
+using UpperNode = MaskRoot::ChildNodeType;        ///< 4096^3 voxels
+using LowerNode = UpperNode::ChildNodeType;       ///< 128^3
+using LeafNode = openvdb::MaskTree::LeafNodeType; ///< 8^3
 using BoolRoot = openvdb::BoolTree::RootNodeType;
-using BoolUpper = BoolRoot::ChildNodeType;
-using BoolLower = BoolUpper::ChildNodeType;
+using BoolUpperNode = BoolRoot::ChildNodeType;
+using BoolLowerNode = BoolUpperNode::ChildNodeType;
+
+/// Calls f(box) for every active tile of a tree, of whatever size; box is inclusive.
+template <typename TreeType, typename F>
+void forEachTile(const TreeType& tree, const F& f)
+{
+    auto tile = tree.cbeginValueOn();
+    tile.setMaxDepth(TreeType::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        openvdb::CoordBBox box;
+        tile.getBoundingBox(box);
+        f(box);
+    }
+}
 
 } // namespace openvdb_spheretree::detail
 
@@ -25,11 +39,11 @@ using BoolLower = BoolUpper::ChildNodeType;
 #ifndef SPHERETREE_MASK_TEMPLATE
 #define SPHERETREE_MASK_TEMPLATE extern template
 #endif
-SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb::MaskTree::LeafNodeType, 4>;
-SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::MaskLower,
+SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::LeafNode, 4>;
+SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::LowerNode,
     5>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::Tree<openvdb_spheretree::detail::MaskRoot>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb::BoolTree::LeafNodeType, 4>;
-SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<openvdb_spheretree::detail::BoolLower,
-    5>;
+SPHERETREE_MASK_TEMPLATE class openvdb::tree::InternalNode<
+    openvdb_spheretree::detail::BoolLowerNode, 5>;
 SPHERETREE_MASK_TEMPLATE class openvdb::tree::Tree<openvdb_spheretree::detail::BoolRoot>;

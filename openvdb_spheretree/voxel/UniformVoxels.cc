@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "UniformVoxels.h"
 
-#include "DescribeGrid.h"
+#include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/Grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,12 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
             << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
             << (orthogonal ? "" : ", and its axes are sheared")
             << "; spheres need cubic voxels: resample it to a uniform voxel size");
+}
+
+std::string detail::describe(const openvdb::GridBase& grid)
+{
+    const std::string name = grid.getName();
+    return name.empty() ? "the grid without a name" : "grid " + detail::inQuotes(name, 80);
 }
 
 double largestStretch(const openvdb::math::Transform& transform)

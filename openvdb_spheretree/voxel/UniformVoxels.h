@@ -6,6 +6,8 @@
 
 #include "MaskTree.h"
 
+#include <string>
+
 namespace openvdb_spheretree {
 
 /// Rotations, translations and uniform scales are fine. (OpenVDB's hasUniformScale() has an
@@ -20,5 +22,10 @@ double largestStretch(const openvdb::math::Transform& transform);
 
 /// @return the same from below.
 double smallestStretch(const openvdb::math::Transform& transform);
+
+namespace detail {
+/// @return what messages call the grid: "grid 'name'", of a sane length whatever the name.
+std::string describe(const openvdb::GridBase& grid);
+} // namespace detail
 
 } // namespace openvdb_spheretree

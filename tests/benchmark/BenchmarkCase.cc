@@ -2,7 +2,7 @@
 #include "BenchmarkCase.h"
 #include "PeakMemory.h"
 #include "PlainCopy.h"
-#include <openvdb_spheretree/base/Stopwatch.h>
+#include <openvdb_spheretree/base/Stage.h>
 
 #include <tbb/global_control.h>
 

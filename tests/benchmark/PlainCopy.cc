@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlainCopy.h"
 
-#include <openvdb_spheretree/base/Stopwatch.h>
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <benchmark/benchmark.h>

@@ -10,7 +10,7 @@
 #include "Stack.h"
 
 #include <openvdb_spheretree/base/StageSeconds.h>
-#include <openvdb_spheretree/base/Stopwatch.h>
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <tbb/global_control.h>
 

@@ -2,7 +2,7 @@
 /// @file MeshFile.cc
 /// @brief Reader of mesh files, and mesh to level set.
 ///
-/// 1. Polygons of the file: OBJ, OFF, PLY, STL by detail/MeshFormats.h, which says why; others by
+/// 1. Polygons of the file: OBJ, OFF, PLY, STL by MeshFormats.h, which says why; others by
 ///    assimp. Of assimp only the importers are used: its own post-processing aborts the process on
 ///    empty meshes in builds with assertions (Debian's), joins points that are merely near, and
 ///    flattens the scene by rules of its own.
@@ -27,7 +27,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -90,14 +89,6 @@ bool assimpKnows(const std::string& extension)
     return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-Vec3s placed(const aiMatrix4x4& transform, const aiVector3D& point)
-{
-    const aiVector3D p = transform * point;
-    const Vec3s moved(p.x, p.y, p.z);
-    if (!moved.isFinite()) throw IoError("a coordinate is not finite");
-    return moved;
-}
-
 void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup)
 {
     const std::size_t base = soup.points.size();
@@ -105,7 +96,9 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup
         throw IoError("more points than 32 bits can number");
     }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        soup.points.push_back(placed(transform, mesh.mVertices[i]));
+        const aiVector3D p = transform * mesh.mVertices[i];
+        const Vec3s& point = soup.points.emplace_back(p.x, p.y, p.z);
+        if (!point.isFinite()) throw IoError("a coordinate is not finite");
     }
     const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -224,19 +217,7 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
 
 // Level set
 
-/// The points of the mesh in index space, moved by -@a shift.
-std::vector<Vec3s> indexSpacePoints(
-    const TriangleMesh& mesh, double voxelSize, const openvdb::Coord& shift)
-{
-    std::vector<Vec3s> points;
-    points.reserve(mesh.points.size());
-    for (const Vec3s& world : mesh.points) {
-        points.emplace_back(Vec3d(world) / voxelSize - shift.asVec3d());
-    }
-    return points;
-}
-
-/// @return the centre of the mesh's box in index space, rounded to a leaf's corner. Around it,
+/// @return the center of the mesh's box in index space, rounded to a leaf's corner. Around it,
 /// points of 24 bits are as exact as those of the file are.
 openvdb::Coord middleLeaf(const TriangleMesh& mesh, double voxelSize)
 {
@@ -364,7 +345,11 @@ openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSiz
     }
     checkMesh(mesh);
     const openvdb::Coord shift = middleLeaf(mesh, voxelSize);
-    const std::vector<Vec3s> points = indexSpacePoints(mesh, voxelSize, shift);
+    std::vector<Vec3s> points; // in index space, around the origin
+    points.reserve(mesh.points.size());
+    for (const Vec3s& world : mesh.points) {
+        points.emplace_back(Vec3d(world) / voxelSize - shift.asVec3d());
+    }
     // The types for which the code is in OpenVDB's library.
     const openvdb::tools::QuadAndTriangleDataAdapter<Vec3s, Vec3I> adapter(points, mesh.triangles);
     openvdb::util::NullInterrupter silent;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GyroidShape.h"
 
-#include "NearCube.h"
-
 #include <array>
 
 namespace openvdb_spheretree::detail {

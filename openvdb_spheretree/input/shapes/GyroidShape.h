@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file GyroidShape.h
 /// @brief A shell along the gyroid, sin x cos y + sin y cos z + sin z cos x = 0 (A. Schoen 1970).
-/// It is six voxels thick, has a period of 64 voxels, and is clipped to a near-cube (NearCube.h).
+/// It is six voxels thick, has a period of 64 voxels, and is clipped to a near-cube (nearCubeOf()).
 ///
 /// With F the left side, a voxel is on if |F| <= 3 |grad F|: to first order, it is within 3 voxels
 /// of the surface F = 0. F is evaluated in integers, from a sine of 12 fractional bits.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MengerShape.h"
 
-#include "NearCube.h"
-
 #include <algorithm>
 #include <array>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MengerShape.h
 /// @brief A Menger sponge (K. Menger 1926) of voxels without end from a corner on, clipped to a
-/// near-cube (NearCube.h).
+/// near-cube (nearCubeOf()).
 ///
 /// Coordinates are 0 or more. A voxel is off if, written in base 3, two of its coordinates have the
 /// digit 1 in the same place. The first 3^k voxels along each axis are a whole sponge of level k,

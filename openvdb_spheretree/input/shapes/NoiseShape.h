@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include "NearCube.h"
 #include "VoxelRule.h"
 #include <openvdb_spheretree/base/Hash.h>
 

@@ -18,7 +18,6 @@
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace openvdb_spheretree::detail {
 

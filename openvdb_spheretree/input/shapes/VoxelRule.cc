@@ -14,7 +14,6 @@ namespace {
 using openvdb::BoolTree;
 using openvdb::Coord;
 using openvdb::CoordBBox;
-using BoolUpperNode = BoolTree::RootNodeType::ChildNodeType; ///< 4096^3
 
 /// Calls f(cube) for the cubes of a lattice that meet both boxes, in the order of their
 /// coordinates.

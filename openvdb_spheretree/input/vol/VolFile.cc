@@ -2,7 +2,7 @@
 /// @file VolFile.cc
 /// @brief Reader of `.vol` and `.longvol` files that never holds the whole volume.
 ///
-/// 1. readVolHeader(): detail/VolHeader.h.
+/// 1. readVolHeader(): VolHeader.h.
 /// 2. VolStream:       the values in file order, inflated as they are asked for; knows exactly
 ///                     where they must end.
 /// 3. SlabToLeaves:    eight z-slices make one layer of leaves: each leaf is built from its 64 rows
@@ -14,8 +14,8 @@
 #include "VolFile.h"
 
 #include "VolHeader.h"
-#include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
@@ -24,7 +24,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -175,7 +174,7 @@ public:
     /// Leaves are built in parallel, a row of leaves a task, and added in a fixed order.
     void addTo(TreeT& tree) const
     {
-        std::vector<std::vector<std::unique_ptr<Leaf>>> rows(leafCount(1));
+        std::vector<std::vector<std::unique_ptr<Leaf>>> rows((mHeader.dim[1] + 7) / kLeafSide);
         detail::parallelFor(rows.size(), nullptr, [&](std::size_t row) {
             for (std::uint64_t x = 0; x < mHeader.dim[0]; x += kLeafSide) {
                 if (auto leaf = makeLeaf(x, row * kLeafSide)) rows[row].push_back(std::move(leaf));
@@ -188,13 +187,6 @@ public:
     }
 
 private:
-    std::uint64_t leafCount(int axis) const { return (mHeader.dim[axis] + 7) / kLeafSide; }
-
-    const std::uint8_t* rowAt(std::uint64_t x, std::uint64_t y, std::uint64_t z) const
-    {
-        return mSlab + ((z * mHeader.dim[1] + y) * mHeader.dim[0] + x) * mHeader.bytesPerValue;
-    }
-
     /// @return null where all voxels are 0.
     std::unique_ptr<Leaf> makeLeaf(std::uint64_t x0, std::uint64_t y0) const
     {
@@ -203,7 +195,8 @@ private:
         std::unique_ptr<Leaf> leaf;
         for (std::uint64_t z = 0; z < mNz; ++z) {
             for (std::uint64_t y = 0; y < ny; ++y) {
-                const std::uint8_t* row = rowAt(x0, y0 + y, z);
+                const std::uint8_t* row = mSlab
+                    + ((z * mHeader.dim[1] + y0 + y) * mHeader.dim[0] + x0) * mHeader.bytesPerValue;
                 if (!anyBit(row, nx * mHeader.bytesPerValue)) continue;
                 if (!leaf) leaf = std::make_unique<Leaf>(Coord(int(x0), int(y0), int(mZ0)));
                 addRow(*leaf, row, nx, (y << 3) | z);
@@ -228,31 +221,9 @@ private:
     std::uint64_t mZ0, mNz;
 };
 
-/// Tells the interrupter where we are, and that we are done however we leave.
-class Progress {
-public:
-    explicit Progress(openvdb::util::NullInterrupter* interrupter) : mInterrupter(interrupter)
-    {
-        if (mInterrupter) mInterrupter->start("Reading volume");
-    }
-    ~Progress()
-    {
-        if (mInterrupter) mInterrupter->end();
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void at(std::uint64_t z, std::uint64_t nz)
-    {
-        if (openvdb::util::wasInterrupted(mInterrupter, int(100 * z / nz))) throw Interrupted();
-    }
-
-private:
-    openvdb::util::NullInterrupter* mInterrupter;
-};
-
 template <typename GridT>
-typename GridT::Ptr readValues(VolStream& stream, const VolHeader& header, Progress& progress)
+typename GridT::Ptr readValues(
+    VolStream& stream, const VolHeader& header, openvdb::util::NullInterrupter* interrupter)
 {
     using Tree = typename GridT::TreeType;
     const std::uint64_t nz = header.dim[2];
@@ -267,7 +238,7 @@ typename GridT::Ptr readValues(VolStream& stream, const VolHeader& header, Progr
     auto grid = detail::makeGrid<GridT>();
     readSlab(slab.get(), 0);
     for (std::uint64_t z = 0; z < nz; z += kLeafSide) {
-        progress.at(z, nz);
+        detail::checkInterrupt(interrupter, int(100 * z / nz));
         tbb::parallel_invoke([&] { readSlab(next.get(), z + kLeafSide); },
             [&] { SlabToLeaves<Tree>(header, slab.get(), z).addTo(grid->tree()); });
         slab.swap(next);
@@ -318,12 +289,12 @@ openvdb::GridBase::Ptr readVolFile(
     const openvdb::math::Transform::Ptr transform = transformOf(path, header);
     try {
         VolStream stream(path, file, header);
-        Progress progress(interrupter);
+        const detail::Stage stage("Reading volume", interrupter, nullptr);
         openvdb::GridBase::Ptr grid;
         if (header.bytesPerValue == 8) {
-            grid = readValues<openvdb::Int64Grid>(stream, header, progress);
+            grid = readValues<openvdb::Int64Grid>(stream, header, interrupter);
         } else {
-            grid = readValues<openvdb::Int32Grid>(stream, header, progress);
+            grid = readValues<openvdb::Int32Grid>(stream, header, interrupter);
         }
         grid->setName(std::filesystem::path(path).stem().string());
         grid->setTransform(transform);

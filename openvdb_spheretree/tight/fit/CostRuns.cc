@@ -9,20 +9,6 @@
 
 #include <cmath>
 
-#ifndef OPENVDB_SPHERETREE_TIGHT_COST_RUNS_ONCE
-#define OPENVDB_SPHERETREE_TIGHT_COST_RUNS_ONCE
-namespace openvdb_spheretree::tight {
-
-constexpr std::size_t kRunsAtOnce = 32; // a multiple of the lanes of every target
-
-struct RunArrays {
-    const float *x, *y;
-    const int32_t *first, *last;
-};
-
-} // namespace openvdb_spheretree::tight
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {

@@ -19,6 +19,14 @@
 
 namespace openvdb_spheretree::tight {
 
+constexpr std::size_t kRunsAtOnce = 32; // a multiple of the lanes of every target
+
+/// What the kernel reads of a list of runs.
+struct RunArrays {
+    const float *x, *y;
+    const int32_t *first, *last;
+};
+
 class CostRuns {
 public:
     /// Takes the samples of @a window that lie in @a place, a ball that may reach out of it.

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/LeafLayout.h>
-#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <algorithm>
 #include <cstdint>
