@@ -52,7 +52,8 @@ struct MaxPlusOp {
     Value* out;
     Offset* offsets;
 
-    /// What the key of a site loses on the way to a row `distance` rows behind it.
+    /// What the key of a site loses on the way to a row `distance` rows behind it. Of equals the first
+    /// row wins: with offsets in the keys that is the one of larger `distance`, without by better().
     static Value penalty(int distance)
     {
         const Value square = Value(Value(distance) * distance) << Keys::kShift;

@@ -14,7 +14,8 @@
 /// distance(p) - N(p - q), ties as above; the label itself is kept, 4 bytes a voxel (NormSweep.h).
 ///
 /// Exact, integer, ties included. Cost: as the distance transform's; 3 or 6 bytes a voxel kept, 4
-/// or 8 more while it runs. Tests: TestPowerMap.cc, against all sites one by one.
+/// or 8 more while it runs. Tests: TestTransformsOracle.cc, against all
+/// sites one by one; TestPowerMap.cc, ties by hand.
 
 #pragma once
 

@@ -132,10 +132,8 @@ void writeSettings(GridBase& grid, const SphereTree& tree)
 /// Files were first written without the settings of tight trees, and without some others.
 bool mayLack(const Setting& setting, bool beforeTight)
 {
-    const std::string& name = setting.name;
-    if (setting.type == SettingType::Real) return true;
-    if (name == "dist" || name == "model" || name == "topology") return true;
-    return beforeTight && (!setting.isForPyramids() || name == "center");
+    if (setting.isOptional) return true;
+    return beforeTight && (!setting.isForPyramids() || setting.name == "center");
 }
 
 /// Files record the settings of all kinds of trees: one that this kind has not is at its default.

@@ -163,6 +163,7 @@ Setting bound(const char* name, int jsonPlace, Access access, const char* help)
         },
         help);
     setting.lowest = 0;
+    setting.isOptional = setting.isBound = true;
     return setting;
 }
 
@@ -261,12 +262,19 @@ Setting branchingRow()
     return setting;
 }
 
+/// A setting that files of the first version may lack.
+Setting optional(Setting setting)
+{
+    setting.isOptional = true;
+    return setting;
+}
+
 std::vector<Setting> makeTable()
 {
     return {treeRow(),
         integer<SphereTreeSettings>("dim", 2, 2, 3, &SphereTreeSettings::dim,
             "2 for an object one voxel thick along an axis"),
-        distRow(),
+        optional(distRow()),
         special(
             "padding", 9,
             [](const SphereTreeSettings& settings) {
@@ -280,7 +288,7 @@ std::vector<Setting> makeTable()
             "of voxels; nothing with side=inner"),
         integer<PyramidOptions>("factor", 1, 2, kMaxFactor, &PyramidOptions::factor,
             "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
-        modelRow(),
+        optional(modelRow()),
         choice<PyramidOptions>("center", 13, kCenters, &PyramidOptions::center,
             "where spheres are centred: where the medial ball is; or where the smallest sphere "
             "around the leaf balls below is (extended, reversible)"),
@@ -324,8 +332,8 @@ std::vector<Setting> makeTable()
         flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
             "also store the spheres of every number of spheres, for -level spheres=N (tight)"),
         sideRow(),
-        flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
-            "count components, tunnels and cavities of every level's voxels"),
+        optional(flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
+            "count components, tunnels and cavities of every level's voxels")),
         special(
             "name", 23, [](const SphereTreeSettings& settings) { return settings.name; },
             [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },

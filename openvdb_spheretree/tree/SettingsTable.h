@@ -2,7 +2,7 @@
 /// @file SettingsTable.h
 /// @brief Every setting of a sphere-tree, one row each. Files, JSON, the options of the command,
 /// its help and its refusals all go by this table, so a setting that has a row is forgotten
-/// nowhere. TestSettingsTable.cc sends each row through text and files.
+/// nowhere; but for the first line of -stats, which names some. TestSettingsTable.cc sends each row through text and files.
 
 #pragma once
 
@@ -22,7 +22,7 @@ enum class SettingType {
     Counts,  ///< text in metadata; an array in JSON
     Flag,    ///< "1" or "0"
     Integer, ///< within [lowest, highest]
-    Real     ///< the same; "" where there is none: no metadata, and null in JSON
+    Real     ///< the same; "" for a bound that is not set: no metadata, and null in JSON
 };
 
 struct Setting {
@@ -31,7 +31,7 @@ struct Setting {
 
     std::string name; ///< of the option and of the member in JSON
     std::string key;  ///< of the metadata; empty: no file records it
-    int jsonPlace;    ///< among the members in JSON, whose order is older than the table's; or -1
+    int jsonPlace;    ///< in the order of JSON, which never changes: a new row comes last; or -1
     SettingType type;
     std::string help; ///< a line for -help
     /// @return the value as text; the default, if the kind of tree has no such setting.
@@ -45,6 +45,8 @@ struct Setting {
     bool tight = true, inner = true, extended = true, reversible = true;
     /// @}
     std::vector<std::string> choices = {}; ///< the default first
+    bool isBound = false;    ///< on the error or on the distance: inner trees have none
+    bool isOptional = false; ///< in files: some were written before there was such a setting
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
 

@@ -57,8 +57,7 @@ ActionSpec generateAction()
     ActionSpec action{"generate", "", "shape",
         "make an object of any size: a curved wall (gyroid), a sponge with holes of every size "
         "(menger), a hilly sheet (terrain), single voxels at random (noise), or a solid ball"};
-    action.options = {
-        choice("shape", {"gyroid", "menger", "terrain", "noise", "ball"}, "what it is"),
+    action.options = {choice("shape", openvdb_spheretree::shapeNames(), "what it is"),
         real("voxels", "1000000", double(Settings::kFewestVoxels),
             std::numeric_limits<double>::infinity(),
             "how many voxels it has, 1000 or more, within 10%; 1e9 will do for 1000000000"),

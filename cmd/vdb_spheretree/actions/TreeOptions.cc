@@ -44,7 +44,7 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
                 call, setting.name, "is for tree=extended and tree=reversible, not for tree=tight");
         } else if (!tight && !setting.isForPyramids()) {
             refuse(call, setting.name, "is for tree=tight, not for tree=" + tree);
-        } else if (inner && (!setting.inner || setting.type == SettingType::Real)) {
+        } else if (inner && (!setting.inner || setting.isBound)) {
             refuse(call, setting.name, "is for spheres that cover the object, not for side=inner");
         }
     }

@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace openvdb_spheretree {
 
@@ -24,13 +26,25 @@ constexpr std::array<detail::Named<Shape>, 5> kShapes{
     {{Shape::Gyroid, "gyroid"}, {Shape::Menger, "menger"}, {Shape::Terrain, "terrain"},
         {Shape::Noise, "noise"}, {Shape::Ball, "ball"}}};
 
+/// @return about how many bytes the leaf nodes of an object take, as measured, each with its share of
+///         the nodes above it: those along a surface hold few leaves each.
+double leafBytes(const GeneratedObjectSettings& settings, double leaves)
+{
+    return leaves * (settings.shape == Shape::Terrain || settings.shape == Shape::Ball ? 320 : 176);
+}
+
 /// @return about how many leaf nodes an object has, as measured; a ball has them at its surface.
 double leafCount(const GeneratedObjectSettings& settings)
 {
     const double voxels = double(settings.voxels);
-    if (settings.shape == Shape::Ball) return 0.12 * std::pow(voxels, 2.0 / 3.0);
-    constexpr std::array<double, 4> kVoxelsPerLeaf{170, 160, 120, 5}; // in the order of Shape
-    return voxels / kVoxelsPerLeaf[std::size_t(settings.shape)];
+    switch (settings.shape) {
+    case Shape::Gyroid: return voxels / 170;
+    case Shape::Menger: return voxels / 160;
+    case Shape::Terrain: return voxels / 120;
+    case Shape::Noise: return voxels / 5;
+    case Shape::Ball: break;
+    }
+    return 0.12 * std::pow(voxels, 2.0 / 3.0);
 }
 
 std::unique_ptr<detail::VoxelRule> shapeOf(
@@ -68,10 +82,7 @@ void GeneratedObjectSettings::validate() const
         OPENVDB_THROW(
             openvdb::ValueError, what << " are more than 2^31 leaf nodes: ask for fewer voxels");
     }
-    // A leaf with its share of the nodes above it. Those along a surface hold few leaves each.
-    const bool surface = shape == Shape::Terrain || shape == Shape::Ball;
-    const double bytesPerLeaf = surface ? 320 : 176;
-    detail::requireMemory(leaves * bytesPerLeaf, what, "ask for fewer voxels");
+    detail::requireMemory(leafBytes(*this, leaves), what, "ask for fewer voxels");
 }
 
 openvdb::BoolGrid::Ptr generateObject(
@@ -87,6 +98,13 @@ openvdb::BoolGrid::Ptr generateObject(
 }
 
 const char* toString(Shape value) { return detail::nameOf(kShapes, value); }
+
+std::vector<std::string> shapeNames()
+{
+    std::vector<std::string> names;
+    for (const auto& shape : kShapes) names.emplace_back(shape.name);
+    return names;
+}
 
 Shape shapeFromString(const std::string& text) { return detail::fromName(kShapes, "shape", text); }
 

@@ -23,6 +23,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace openvdb_spheretree {
 
@@ -56,6 +57,8 @@ openvdb::BoolGrid::Ptr generateObject(
 
 /// `gyroid`, `menger`, `terrain`, `noise`, `ball`.
 const char* toString(Shape);
+/// The same, in this order.
+std::vector<std::string> shapeNames();
 /// @throw openvdb::ValueError that lists the names, if @a text is none
 Shape shapeFromString(const std::string& text);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestReversibleTree.cc
 /// @brief What is special about a reversible tree: all medial balls of all pyramid levels, each
-/// level rebuilding its own, and parents by the label of the parent voxel.
+/// level rebuilding its own. (Parents: TestTreesOracle.cc.)
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/tree/SphereTree.h>

@@ -3,6 +3,7 @@
 /// @brief Points that are no tree, or a damaged one, are errors that name grid, node and value.
 
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include "support/Messages.h"
 #include "support/PointsFiles.h"
@@ -11,6 +12,7 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -169,6 +171,13 @@ TEST(DamagedPoints, AnEmptyGridIsNotMistakenForATree)
     EXPECT_TRUE(mentions(whyDamaged(*grid), "0 points, by its metadata 8"));
 }
 
+bool isOptional(const std::string& key)
+{
+    const auto& table = detail::settingsTable();
+    return std::any_of(table.begin(), table.end(),
+        [&](const auto& setting) { return setting.isOptional && setting.key == key; });
+}
+
 int expectMissingMetadataIsNamed(const SphereTree& tree)
 {
     const PointDataGrid::Ptr complete = toPoints(tree);
@@ -178,7 +187,7 @@ int expectMissingMetadataIsNamed(const SphereTree& tree)
         const std::string key = it->first;
         const bool optional = key == "spheretree_level_1_error_unknown"
             || key == "spheretree_level_0_covered" || key == "spheretree_level_0_components"
-            || key == "spheretree_topology" || key == "spheretree_dist" || key == "spheretree_model"
+            || isOptional(key)
             || (!tight && (key == "spheretree_quality" || key == "spheretree_subdivision"))
             || key.rfind("spheretree_", 0) != 0;
         if (optional || key == "spheretree_format") continue;

@@ -48,7 +48,8 @@ bool isFree(const Setting& setting, const SphereTreeSettings& settings)
 
 } // namespace
 
-/// A field more or less in one of these structs does not compile here: it needs a row.
+/// A field more or less in one of these structs does not compile here: it needs a row. (The structs of
+/// one kind have bases, which no binding takes: their own fields are counted by hand.)
 TEST(SettingsTable, HasARowForEveryField)
 {
     const auto& [budget, cuts] = BudgetOptions();
