@@ -333,9 +333,22 @@ void checkCovering(Check& check, bool parentsRight)
 
 std::string toString(FaultKind kind)
 {
-    static const char* const kNames[] = {"shape", "place", "counts", "topology", "radii", "links",
-        "edges", "leaf balls", "digital balls", "coverage", "chains", "inside", "errors"};
-    return kNames[int(kind)];
+    switch (kind) {
+    case FaultKind::Shape: return "shape";
+    case FaultKind::Place: return "place";
+    case FaultKind::Counts: return "counts";
+    case FaultKind::Topology: return "topology";
+    case FaultKind::Radii: return "radii";
+    case FaultKind::Links: return "links";
+    case FaultKind::Edges: return "edges";
+    case FaultKind::LeafBalls: return "leaf balls";
+    case FaultKind::DigitalBalls: return "digital balls";
+    case FaultKind::Coverage: return "coverage";
+    case FaultKind::Chains: return "chains";
+    case FaultKind::Inside: return "inside";
+    case FaultKind::Errors: break;
+    }
+    return "errors";
 }
 
 std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,

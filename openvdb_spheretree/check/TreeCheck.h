@@ -48,8 +48,10 @@ struct TreeFault {
 /// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
 /// these two.
 ///
-/// Not checked: *which* node of the next level is a parent, beyond what it must contain.
-/// @return the faults, by their first offenders; empty if all holds
+/// Not checked: *which* node of the next level is a parent, beyond what it must contain; and whether
+/// spheres of a level differ, which those of tight trees need not. Edges are held against the object's
+/// only where nothing was found before.
+/// @return the faults in the order of the checks, each with its first offender; empty if all holds
 std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

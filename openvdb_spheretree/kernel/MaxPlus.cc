@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 /// Keys with room for the offset, for radii up to 60 voxels: from the top the sign, 12 bits of
-/// value, 12 of radiusSq, 7 of offset. They fit because 60^2 < 2^12, so keys are not negative. A
-/// better row is at most floor(sqrt(60^2 - 1)) = 59 rows away. Rows that are searched four together
+/// value, 12 of radiusSq, 7 of offset. They fit because 60^2 < 2^12, and a value is at most its site's
+/// radiusSq, so keys are not negative. A better row is at most floor(sqrt(60^2 - 1)) = 59 rows away. Rows that are searched four together
 /// look 3 rows further: offsets are -62 to 62, and with the bias 2 to 126. A penalty is at most
 /// 62^2 2^19 + 62 < 2^31: a candidate may be negative, but does not fall below -2^31.
 struct SmallKeys {

@@ -53,8 +53,10 @@ uint32_t siteSqOf(typename Power::Key key)
 
 /// @brief outKey(i) = max over j of inKey(j) with (i - j)^2 taken off its value; offset(i) = j - i
 /// for the first such j. Background (key 0) stays 0 with offset 0, and cuts its line. For that, a
-/// value must be at most the squared distance to the next background on its line: distances are,
-/// and so is what earlier passes leave of them.
+/// value must be at most the squared distance to the next background on its line. It is: let q have
+/// the value distSq(p) - |p - q|^2 of a site p that differs from q along earlier axes only, and let
+/// b be background t rows from q along this one. No ball holds background, so
+/// distSq(p) <= |p - b|^2 = |p - q|^2 + t^2, and the value is at most t^2.
 /// @param inKey   row -1 and the row behind the last are readable and zero
 /// @param outKey  may be null when only the offsets are wanted
 /// @param rows    results are for its range; others of outKey and offset stay as they are

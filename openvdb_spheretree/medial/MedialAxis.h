@@ -4,7 +4,10 @@
 /// without a voxel that it covers best.
 ///
 /// The medial balls are the sites that label at least one voxel (D. Coeurjolly and A. Montanvert,
-/// IEEE PAMI 2007, section 4).
+/// IEEE PAMI 2007, section 4; RDMA in papers). This file is the public call. A ball is found where a
+/// label leads to: for the Euclidean distance by ColumnPower::run() along x (slab/ColumnPower.h), then
+/// SlabBalls::collect() along y and z (slab/SlabBalls.h), always slab by slab; for norms by ownLabels()
+/// in MedialLevel.cc. How many bits that takes is counted in kernel/MaxPlus.h and kernel/MaxPlus.cc.
 ///
 /// Exact. Cost: linear in active voxels, times log of the radius. Tests: TestMedialAxis.cc.
 

@@ -18,7 +18,9 @@
 namespace openvdb_spheretree::slab {
 
 /// Leaves of a run along x with their keys, one behind the other. Those in [first, last) get their
-/// labels.
+/// labels. Leaves of the run may be left out at both ends if no ball of theirs reaches these. The
+/// zero rows in their place are no background, but no harm: as candidates they are below 0, and
+/// every voxel of the object has at least 1 by itself.
 template <typename Power>
 struct Column {
     std::vector<uint32_t> leaves;

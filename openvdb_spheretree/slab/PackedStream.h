@@ -61,6 +61,7 @@ void unpackKeys(const PackedLabel<Power>* packed, typename Power::Key* keys)
 {
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
         const uint32_t siteSq = packed[k].siteSq;
+        // Of a site, less than its radiusSq: 31 bits hold the sum, for 2 32766^2 < 2^31.
         const auto below = uint32_t(packed[k].dy * packed[k].dy + packed[k].dz * packed[k].dz);
         keys[k] = detail::powerKey<Power>(siteSq - below, siteSq);
     }

@@ -4,7 +4,8 @@
 ///
 /// A rule finds all that break it. Errors name the first of them with its values; reports count
 /// them. SphereTree::validate(), the readers and writers of files, the check of a tree and the rows
-/// of its DAG use these and no others.
+/// of its DAG use these: a tree that breaks one cannot be read. What a sound tree keeps beyond that is
+/// in check/.
 
 #pragma once
 
