@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The test of this folder: installs the build tree BUILD into a prefix of its own below WORK, then
 # configures, builds and runs the project in SOURCE against what was installed, and nothing else. A
-# second project is the same with a program that includes every header there is.
+# second project links the extras too, with a program that includes every header there is.
 
 file(REMOVE_RECURSE "${WORK}")
 set(prefix "${WORK}/prefix")
@@ -34,5 +34,16 @@ endif()
 list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>\n")
 list(JOIN headers "" includes)
 file(COPY "${SOURCE}/CMakeLists.txt" DESTINATION "${WORK}/headers")
-file(WRITE "${WORK}/headers/main.cc" "${includes}int main() {}\n")
+file(APPEND "${WORK}/headers/CMakeLists.txt"
+    "find_package(openvdb_spheretree 0.2 REQUIRED COMPONENTS extras)\n"
+    "target_link_libraries(consume PRIVATE openvdb_spheretree::openvdb_spheretree_extras)\n")
+file(WRITE "${WORK}/headers/main.cc" "${includes}#include <fstream>
+int main()
+{
+    openvdb::initialize();
+    std::ofstream(\"corner.off\") << \"OFF 4 4 0\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n\"
+                                   \"3 0 2 1\\n3 0 1 3\\n3 1 2 3\\n3 0 3 2\\n\";
+    return openvdb_spheretree::readMeshFile(\"corner.off\").triangles.size() == 4 ? 0 : 1;
+}
+")
 build_and_run("${WORK}/headers" "${WORK}/headers/build")

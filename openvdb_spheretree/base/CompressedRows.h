@@ -34,7 +34,7 @@ struct CompressedRows {
         return {targets.data() + offsets[std::size_t(row)],
             targets.data() + offsets[std::size_t(row) + 1]};
     }
-    std::size_t rowCount() const { return offsets.size() - 1; }
+    std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
 /// @brief Rows by one counting sort: each keeps the order in which its items come.

@@ -51,7 +51,11 @@ struct TreeFault {
 /// Not checked: *which* node of the next level is a parent, beyond what it must contain; and whether
 /// spheres of a level differ, which those of tight trees need not. Edges are held against the object's
 /// only where nothing was found before.
-/// @return the faults in the order of the checks, each with its first offender; empty if all holds
+/// @return the faults in the order of the checks, each with its first offender; a kind may come several
+///         times; empty if all holds
+/// @throw Interrupted if the interrupter (may be null) said so; openvdb::ValueError where the object's
+///        errors cannot be counted (LevelErrors.h)
+/// Cost: more than building the tree; all threads.
 std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

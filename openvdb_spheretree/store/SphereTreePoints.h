@@ -33,7 +33,8 @@ openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 /// (`spheres`, `ijk`, `radiusSq`) is freed as soon as the grid has it, and is empty afterwards.
 /// Levels, settings, edges and cuts stay, but dagToPoints() and cutsToPoints() need the nodes: call
 /// them before.
-/// @throw openvdb::ValueError as above; the tree is then unchanged
+/// @throw openvdb::ValueError as above; the tree is then unchanged. After any other exception it is
+///        lost, as its nodes are after success: of both use levels and description alone.
 openvdb::points::PointDataGrid::Ptr releaseToPoints(SphereTree& tree);
 
 /// @brief The tree's DAG edges as a point grid; null if it has none.
@@ -52,11 +53,12 @@ bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
 /// @return whether a grid claims to be what cutsToPoints() makes of a tree of that name.
 bool isCutsOf(const openvdb::GridBase& grid, const std::string& treeName);
 
-/// @brief The tree that toPoints() was given, identical in every field.
+/// @brief The tree that toPoints() was given: identical, but for `settings.memory`, which is not
+/// stored, and a custom model, which cannot be (unknownModel() stands in its place).
 /// @param points  a grid written by toPoints(), also after a round trip through a file
-/// @param dag     the grid of dagToPoints(), or null: the tree read then has no edges, and its
-///                settings say that it has none
-/// @param cuts    the grid of cutsToPoints(), or null: likewise
+/// @param dag     the grid of dagToPoints(), or null: the tree read then has no edges and `hasDag` is
+///                false; its settings still say what it was built with
+/// @param cuts    the grid of cutsToPoints(), or null: likewise, of cuts and `hasCuts`
 /// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
 ///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
 ///        level missing, a radius that is no number or negative ...); the message names the damage

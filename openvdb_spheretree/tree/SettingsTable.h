@@ -2,7 +2,7 @@
 /// @file SettingsTable.h
 /// @brief Every setting of a sphere-tree, one row each. Files, JSON, the options of the command,
 /// its help and its refusals all go by this table, so a setting that has a row is forgotten
-/// nowhere; but for the first line of -stats, which names some. TestSettingsTable.cc sends each row through text and files.
+/// nowhere. (Only the first line of -stats names its settings itself.) TestSettingsTable.cc sends each row through text and files.
 
 #pragma once
 

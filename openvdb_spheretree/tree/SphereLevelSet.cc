@@ -5,6 +5,8 @@
 
 #include <openvdb/tools/ParticlesToLevelSet.h>
 
+#include <cmath>
+
 namespace openvdb_spheretree {
 namespace {
 
@@ -37,11 +39,15 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
             "the balls of dist=" << toString(tree.settings.dist())
                                  << " are no spheres and make no level set: take levelUnion()");
     }
-    if (voxelSize && !(*voxelSize > 0)) {
-        OPENVDB_THROW(openvdb::ValueError, "voxel size " << *voxelSize << " is not above 0");
+    constexpr double kSmallestVoxel = 2e-5; // OpenVDB's own limit is at 1.4e-5
+    if (voxelSize && !(*voxelSize >= kSmallestVoxel && std::isfinite(*voxelSize))) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "voxel size " << *voxelSize << " is out of range; it must be a finite number, "
+                          << kSmallestVoxel << " or more");
     }
-    if (!(halfWidth >= 1)) {
-        OPENVDB_THROW(openvdb::ValueError, "half width " << halfWidth << " is below 1 voxel");
+    if (!(halfWidth >= 1 && halfWidth <= 1000)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "half width " << halfWidth << " is out of range; it must be from 1 to 1000 voxels");
     }
     const double voxel = voxelSize.value_or(tree.voxelSize());
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, halfWidth);

@@ -14,12 +14,13 @@ namespace openvdb_spheretree {
 
 /// @brief The union of a level's spheres as stored, padding included, as a narrow-band level set.
 /// @param voxelSize  of the result, in world units, > 0; without one the result has the transform of
-///                   the tree's source grid
-/// @param halfWidth  of the narrow band, in voxels of the result, >= 1
+///                   the tree's source grid. With one its axes are the world's, and so is its origin
+/// @param halfWidth  of the narrow band, in voxels of the result, 1 to 1000
 /// @throw openvdb::ValueError if an argument is out of range, or the tree's balls are no spheres:
 ///        its distance is a norm
 /// @throw Interrupted if the interrupter said so
-/// Cost: the voxels of the spheres' surfaces, sphere by sphere, on all threads.
+/// Cost: the voxels in the box of each sphere, a sphere a thread; 4 bytes a voxel inside, until the
+/// spheres are whole. Large spheres in small voxels take all the memory there is.
 openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     const SphereTreeLevel& level, std::optional<double> voxelSize = {}, double halfWidth = 3,
     openvdb::util::NullInterrupter* interrupter = nullptr);

@@ -176,6 +176,7 @@ struct SphereTreeSettings {
         return const_cast<Options*>(std::as_const(*this).template find<Options>());
     }
     /// @name The options of a kind, or that it shares
+    /// tight() is that of trees with side=outer alone; budgeted() is for either side.
     /// @throw openvdb::ValueError if the tree is of another kind
     /// @{
     const TightOptions& tight() const { return required(find<TightOptions>(), "tight"); }

@@ -4,8 +4,8 @@
 /// files of this library work on voxels alone and include this instead.
 ///
 /// The whole header takes two more seconds a file: each file that sees OpenVDB's maps
-/// (<openvdb/math/Maps.h>) compiles their virtual functions once more. Programs that call the library
-/// include it all the same; the names below are then declared twice, alike.
+/// (<openvdb/math/Maps.h>) compiles their virtual functions once more. The grids are only declared here:
+/// to use one, include <openvdb/openvdb.h>, before or after. The names are then declared twice, alike.
 
 #pragma once
 
