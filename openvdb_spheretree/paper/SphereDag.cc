@@ -6,6 +6,8 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/medial/BallIndex.h>
 
+#include <hwy/base.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -129,8 +131,9 @@ public:
     /// Voxels whose parents have the ball of the parent of the voxel before along y, or z.
     uint64_t likeBeforeY = 0, likeBeforeZ = 0;
 
-    /// Moves to the parents of coordinate @a x.
-    void moveTo(int32_t x)
+    /// Moves to the parents of coordinate @a x. (Inlined into its caller it takes the edges' registers: all
+    /// of the DAG takes 5 to 8% longer.)
+    HWY_NOINLINE void moveTo(int32_t x)
     {
         if (mX == x) {
             changed = 0;
