@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
 using openvdb::Coord;
@@ -21,7 +23,7 @@ LeafMask voxelsOneByOne(
     for (uint32_t n = 0; n < kLeafVoxels; ++n) {
         const Coord q = origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
         int64_t d[3];
-        for (int a = 0; a < 3; ++a) d[a] = (int64_t(q[a]) << shift) - sphere.center[a];
+        for (int a = 0; a < 3; ++a) d[a] = int64_t(q[a]) * (1 << shift) - sphere.center[a];
         if (distance.lengthSq(d[0], d[1], d[2]) <= sphere.radiusSq) mask.setOn(n);
     }
     return mask;
@@ -52,6 +54,35 @@ TEST(LeafVoxels, AreThoseInTheSphereWhateverItsSizeAndDistance)
         }
     }
     EXPECT_GT(cut, 500);
+}
+
+/// Where the shortcuts for all voxels and for none begin and end.
+TEST(LeafVoxels, AreAllFromTheFarthestVoxelOnAndNoneBeforeTheNearest)
+{
+    Random random(9);
+    for (int i = 0; i < 400; ++i) {
+        const int shift = 1 + i % 4;
+        const Distance& distance = kDistances[i / 4 % 4];
+        const Coord origin(8, -16, 0);
+        ExactSphere sphere = ExactSphere::around(origin + random.coord(-20, 28), 0, 1 << shift);
+        for (int64_t& c : sphere.center) c += random.between(0, (1 << shift) - 1);
+        int64_t nearest = INT64_MAX, farthest = 0;
+        for (uint32_t n = 0; n < kLeafVoxels; ++n) {
+            const Coord q = origin.offsetBy(n >> 6, n >> 3 & 7, n & 7);
+            int64_t d[3];
+            for (int a = 0; a < 3; ++a) d[a] = int64_t(q[a]) * (1 << shift) - sphere.center[a];
+            const int64_t apart = distance.lengthSq(d[0], d[1], d[2]);
+            nearest = std::min(nearest, apart);
+            farthest = std::max(farthest, apart);
+        }
+        for (const int64_t radiusSq : {nearest - 1, nearest, farthest - 1, farthest}) {
+            sphere.radiusSq = radiusSq;
+            const LeafMask mask = detail::voxelsOf(sphere, shift, origin, distance);
+            ASSERT_EQ(mask, voxelsOneByOne(sphere, shift, origin, distance)) << toString(distance);
+            ASSERT_EQ(mask.none(), radiusSq < nearest);
+            ASSERT_EQ(mask.all(), radiusSq >= farthest);
+        }
+    }
 }
 
 TEST(LeafVoxels, OfAnEmptySphereAreNone)
