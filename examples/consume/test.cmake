@@ -20,7 +20,7 @@ function(build_and_run source build)
         COMMAND "${CMAKE_COMMAND}" --build "${build}" --config "${CONFIG}")
     find_program(program consume REQUIRED NO_CACHE
         PATHS "${build}" "${build}/${CONFIG}" NO_DEFAULT_PATH)
-    execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND "${program}")
+    execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND "${program}" WORKING_DIRECTORY "${build}")
 endfunction()
 
 execute_process(COMMAND_ERROR_IS_FATAL ANY
