@@ -260,7 +260,8 @@ void scanRun(RunLabels& labels, uint32_t leaves, const VoxelBalls& parentBalls,
     }
 }
 
-/// A stable sort of edges by key(edge), which is less than @a keys.
+/// A stable sort of edges by key(edge), which is less than @a keys. (CompressedRows by parent, each row
+/// sorted by itself: the DAG of dragon-512 and hairball-256 takes 9 to 11% longer on one thread.)
 template <typename Key>
 void countingSort(
     const DagEdge* begin, const DagEdge* end, std::size_t keys, const Key& key, DagEdge* sorted)
