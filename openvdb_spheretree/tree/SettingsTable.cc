@@ -262,6 +262,54 @@ Setting branchingRow()
     return setting;
 }
 
+Setting paddingRow()
+{
+    return special(
+        "padding", 9,
+        [](const SphereTreeSettings& settings) {
+            return paddingToString(settings.isInner() ? 0 : settings.padding);
+        },
+        [](SphereTreeSettings& settings, const std::string& text) {
+            const double padding = paddingFromString(text);
+            if (!settings.isInner()) settings.padding = padding;
+        },
+        "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
+        "of voxels; nothing with side=inner");
+}
+
+Setting spheresRow()
+{
+    return row<BudgetOptions>(
+        "spheres", 15, SettingType::Counts,
+        [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
+        [](const std::string& text) {
+            return text.empty() ? std::vector<int64_t>() : countsFromString(text);
+        },
+        "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
+        "distance= is the most that these may take (tight)");
+}
+
+Setting nameRow()
+{
+    return special(
+        "name", 23, [](const SphereTreeSettings& settings) { return settings.name; },
+        [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },
+        "name of the tree");
+}
+
+Setting memoryRow()
+{
+    return special(
+        "memory", -1,
+        [](const SphereTreeSettings& settings) { return memoryToString(settings.memory); },
+        [](SphereTreeSettings& settings, const std::string& text) {
+            settings.memory = memoryFromString(text);
+        },
+        "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
+        "500MB, or a share of the machine's; more are compressed, and go to a temporary file "
+        "in $TMPDIR where they must; the tree is the same");
+}
+
 /// A setting that files of the first version may lack.
 Setting optional(Setting setting)
 {
@@ -274,18 +322,7 @@ std::vector<Setting> makeTable()
     return {treeRow(),
         integer<SphereTreeSettings>("dim", 2, 2, 3, &SphereTreeSettings::dim,
             "2 for an object one voxel thick along an axis"),
-        optional(distRow()),
-        special(
-            "padding", 9,
-            [](const SphereTreeSettings& settings) {
-                return paddingToString(settings.isInner() ? 0 : settings.padding);
-            },
-            [](SphereTreeSettings& settings, const std::string& text) {
-                const double padding = paddingFromString(text);
-                if (!settings.isInner()) settings.padding = padding;
-            },
-            "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
-            "of voxels; nothing with side=inner"),
+        optional(distRow()), paddingRow(),
         integer<PyramidOptions>("factor", 1, 2, kMaxFactor, &PyramidOptions::factor,
             "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
         optional(modelRow()),
@@ -308,15 +345,7 @@ std::vector<Setting> makeTable()
             "that meet"),
         choice<TightOptions>("quality", 14, kQualities, &TightOptions::quality,
             "how much work goes into placing and searching spheres (tight)"),
-        row<BudgetOptions>(
-            "spheres", 15, SettingType::Counts,
-            [](auto& options) -> auto& { return options.budget.spheres; }, countsToString,
-            [](const std::string& text) {
-                return text.empty() ? std::vector<int64_t>() : countsFromString(text);
-            },
-            "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
-            "distance= is the most that these may take (tight)"),
-        branchingRow(),
+        spheresRow(), branchingRow(),
         bound<BudgetOptions>(
             "error", 17, [](auto& options) -> auto& { return options.budget.error; },
             "the level of fewest spheres whose Hamming error is at most this, in % (tight)"),
@@ -334,19 +363,7 @@ std::vector<Setting> makeTable()
         sideRow(),
         optional(flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
             "count components, tunnels and cavities of every level's voxels")),
-        special(
-            "name", 23, [](const SphereTreeSettings& settings) { return settings.name; },
-            [](SphereTreeSettings& settings, const std::string& text) { settings.name = text; },
-            "name of the tree"),
-        special(
-            "memory", -1,
-            [](const SphereTreeSettings& settings) { return memoryToString(settings.memory); },
-            [](SphereTreeSettings& settings, const std::string& text) {
-                settings.memory = memoryFromString(text);
-            },
-            "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
-            "500MB, or a share of the machine's; more are compressed, and go to a temporary file "
-            "in $TMPDIR where they must; the tree is the same")};
+        nameRow(), memoryRow()};
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MaskGrids.h
-/// @brief <openvdb/openvdb.h>, with the grids of voxel sets compiled once (Masks.cc), as their trees are (Masks.h).
+/// @brief <openvdb/openvdb.h>, with the grids of voxel sets compiled once (Masks.cc), as their trees
+/// are (Masks.h).
 
 #pragma once
 

@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/check/ChainCheck.h>
 
+#include "support/CheckedTrees.h"
 #include "support/CoreStages.h"
 #include "support/NaiveChains.h"
 #include "support/TightSamples.h"
@@ -24,13 +25,6 @@ using namespace spheretree_test;
 using detail::brokenChains;
 using detail::ChainForest;
 using detail::ChainLoss;
-
-std::string joinedText(const std::vector<TreeFault>& faults)
-{
-    std::string text;
-    for (const TreeFault& fault : faults) text += fault.sentence + "\n";
-    return text;
-}
 
 /// Ids turned around, so that children come first; a section a level.
 ChainForest forestOf(const SphereTree& tree)
@@ -199,12 +193,12 @@ TEST(ChainsOracle, TheCheckFindsNothingWrongWithSoundTrees)
         const Hierarchy hierarchy(object.voxels, random.between(1, 30), random);
         SphereTree tree = randomTightTree(*grid, hierarchy, random);
         addRandomCuts(tree, hierarchy.levels[0], random.between(0, 3), random);
-        EXPECT_EQ(joinedText(checkSphereTree(tree, *grid)), "");
+        EXPECT_EQ(sentencesOf(checkSphereTree(tree, *grid)), "");
         for (const SphereTreeLevel& level : tree.levels) {
-            EXPECT_EQ(joinedText(checkSphereTree(keepLevel(tree, level.level), *grid)), "");
+            EXPECT_EQ(sentencesOf(checkSphereTree(keepLevel(tree, level.level), *grid)), "");
         }
         const SphereTree cut = cutTree(tree, random.between(1, 40));
-        EXPECT_EQ(joinedText(checkSphereTree(cut, *grid)), "");
+        EXPECT_EQ(sentencesOf(checkSphereTree(cut, *grid)), "");
     }
 }
 
@@ -225,7 +219,7 @@ TEST(ChainsOracle, TheCheckSaysWhichCutsBreakChains)
         const bool exact = seed % 2 == 0;
         if (exact) cuts.spheres.coverRadiusSq[node] /= 2;
         else cuts.spheres.radiusWorld[node] *= 0.6f;
-        const std::string said = joinedText(checkSphereTree(tree, *grid));
+        const std::string said = sentencesOf(checkSphereTree(tree, *grid));
         const HoldsVoxel holds =
             exact ? holdsExactly(cuts.spheres, tree.subdivision) : holdsStored(cuts.spheres, tree);
         int64_t before = 0;
@@ -256,7 +250,7 @@ TEST(ChainsOracle, TheCheckSaysWhichLevelsBreakChainsInTheStoredRadii)
         const Hierarchy hierarchy(object.voxels, random.between(2, 20), random);
         SphereTree tree = randomTightTree(*grid, hierarchy, random);
         tree.spheres.radiusWorld[random.between(0, tree.size() - 1)] *= 0.6f;
-        const std::string said = joinedText(checkSphereTree(tree, *grid));
+        const std::string said = sentencesOf(checkSphereTree(tree, *grid));
         EXPECT_EQ(said.find("in the exact radii"), std::string::npos) << said;
         const auto lost = naiveBrokenLevels(tree, object.voxels, holdsStored(tree.spheres, tree));
         for (std::size_t k = 0; k < lost.size(); ++k) {

@@ -2,6 +2,7 @@
 /// @file TestTightBounds.cc
 /// @brief Tight trees within a bound of error or distance: the fewest spheres that are.
 
+#include "support/CheckedTrees.h"
 #include "support/Messages.h"
 #include "support/TightObjects.h"
 
@@ -42,7 +43,7 @@ void expectFewest(const openvdb::BoolGrid& grid, const SphereTreeSettings& setti
     const SphereTree tree = buildSphereTree(grid, settings);
     ASSERT_EQ(tree.levels.size(), 1u);
     ASSERT_TRUE(isWithin(tree, grid, settings.budgeted().budget)) << tree.size() << " spheres";
-    ASSERT_EQ(failuresOf(tree, grid), "");
+    ASSERT_EQ(sentencesOf(checkSphereTree(tree, grid)), "");
     SphereTreeSettings free = settings;
     free.budgeted().budget = SphereBudget();
     free.budgeted().cuts = true;

@@ -3,6 +3,7 @@
 /// @brief Tight trees of flat objects, of moved ones, of tiles, at the ends of coordinates; for any number
 /// of threads; and when they are interrupted.
 
+#include "support/CheckedTrees.h"
 #include "support/Messages.h"
 #include "support/TightObjects.h"
 
@@ -146,7 +147,7 @@ TEST(TightInvariance, OfTilesAndTheSameVoxelsWrittenOutAreTheSame)
         const auto grid = gridOf(*tiled);
         const SphereTree tree = buildSphereTree(*grid, settings);
         EXPECT_TRUE(sameNodes(tree, buildSphereTree(*gridOf(*written), settings)));
-        EXPECT_EQ(failuresOf(tree, *grid), "") << describeTight(settings);
+        EXPECT_EQ(sentencesOf(checkSphereTree(tree, *grid)), "") << describeTight(settings);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightObjects.h"
 
+#include "CheckedTrees.h"
 #include "NaiveChains.h"
 
 #include <openvdb_spheretree/check/TreeCheck.h>
@@ -102,14 +103,6 @@ int64_t sumOf(const std::vector<int64_t>& counts)
 
 } // namespace
 
-std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid)
-{
-    std::string text;
-    for (const openvdb_spheretree::TreeFault& fault : checkSphereTree(tree, grid))
-        text += fault.sentence + "\n";
-    return text;
-}
-
 Voxels rebuilt(const SphereTree& tree)
 {
     Voxels voxels;
@@ -133,7 +126,7 @@ void expectChains(const SphereTree& tree, const Voxels& voxels)
 void expectSound(const SphereTree& tree, const openvdb::BoolGrid& grid, const Voxels& voxels)
 {
     ASSERT_NO_FATAL_FAILURE(expectChains(tree, voxels));
-    ASSERT_EQ(failuresOf(tree, grid), "");
+    ASSERT_EQ(sentencesOf(checkSphereTree(tree, grid)), "");
     ASSERT_TRUE(endsAtOneRoot(tree));
     if (tree.levels[0].pyramidVoxels > 0) {
         ASSERT_EQ(rebuilt(tree), voxels);

@@ -35,8 +35,6 @@ std::vector<SphereTreeSettings> tightVariants(Quality quality);
 
 std::string describeTight(const SphereTreeSettings& s);
 
-std::string failuresOf(const SphereTree& tree, const openvdb::BoolGrid& grid);
-
 /// Level 0 of a tree whose leaves are digital balls.
 Voxels rebuilt(const SphereTree& tree);
 

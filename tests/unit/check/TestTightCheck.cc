@@ -5,6 +5,7 @@
 
 #include <openvdb_spheretree/check/TreeCheck.h>
 
+#include "support/CheckedTrees.h"
 #include "support/CoreStages.h"
 #include "support/TightSamples.h"
 #include "support/TreeSettings.h"
@@ -23,21 +24,6 @@ using namespace openvdb_spheretree;
 using namespace spheretree_test;
 using openvdb::BoolGrid;
 using Change = std::function<void(SphereTree&)>;
-
-/// A plus of seven voxels around (2, 2, 2), and the voxel (9, 2, 2). Voxels of 1/2.
-BoolGrid::Ptr plusAndDot()
-{
-    Voxels voxels{Coord(9, 2, 2), Coord(2, 2, 2)};
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int step : {-1, 1}) {
-            voxels.push_back(Coord(2, 2, 2));
-            voxels.back()[axis] += step;
-        }
-    }
-    const BoolGrid::Ptr object = gridOf(voxels);
-    object->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
-    return object;
-}
 
 /// @param nodes    of a tree, or its cuts
 /// @param radius2  the radius, squared, in voxels
@@ -88,13 +74,6 @@ SphereTree validTree(const BoolGrid& object)
     return tree;
 }
 
-std::string check(const SphereTree& tree, const BoolGrid& object)
-{
-    std::string text;
-    for (const TreeFault& fault : checkSphereTree(tree, object)) text += fault.sentence + "\n";
-    return text;
-}
-
 /// What the check says after the change, of errors recorded as they then are.
 std::string after(const Change& change)
 {
@@ -102,7 +81,7 @@ std::string after(const Change& change)
     SphereTree tree = validTree(*object);
     change(tree);
     computeLevelErrors(tree, *object);
-    return check(tree, *object);
+    return sentencesOf(checkSphereTree(tree, *object));
 }
 
 void expectSaid(const std::string& sentence, const Change& change)
@@ -349,7 +328,7 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
     const BoolGrid::Ptr object = plusAndDot();
     const SphereTree sound = innerTree(*object);
     EXPECT_GT(sound.levels[0].error->missing, 0);
-    EXPECT_EQ(check(sound, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(sound, *object)), "");
     const auto said = [&](int64_t coverSq, const Coord& at, int32_t id) {
         SphereTree tree = sound;
         tree.spheres.center[id] = at.asVec3d();
@@ -358,7 +337,7 @@ TEST(TightCheck, InnerSpheresNeedNotCoverButMustLieInside)
         tree.spheres.radius[id] = std::sqrt(double(coverSq)) / 16;
         tree.spheres.radiusWorld[id] = 0;
         computeLevelErrors(tree, *object);
-        return check(tree, *object);
+        return sentencesOf(checkSphereTree(tree, *object));
     };
     EXPECT_EQ(said(511, Coord(2, 2, 2), 1), "");
     EXPECT_EQ(said(512, Coord(2, 2, 2), 1),
@@ -382,9 +361,9 @@ TEST(TightCheck, InnerRadiiAreStoredRoundedDown)
     const BoolGrid::Ptr object = plusAndDot();
     object->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
     SphereTree tree = innerTree(*object);
-    EXPECT_EQ(check(tree, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "");
     tree.spheres.radiusWorld[1] = std::nextafter(0.1f, 1.f);
-    EXPECT_EQ(check(tree, *object),
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)),
         "the stored radius is more than that inside the object for 1 node (first: id 1)\n");
 }
 
@@ -399,9 +378,9 @@ TEST(TightCheck, InnerLevelsOfDigitalBallsRecordWhatTheyCover)
     tree.radiusSq = {2, 2};
     for (SphereTreeLevel& level : tree.levels) level.pyramidVoxels = 7;
     computeLevelErrors(tree, *object);
-    EXPECT_EQ(check(tree, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "");
     tree.levels[1].pyramidVoxels = 8;
-    EXPECT_EQ(check(tree, *object),
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)),
         "level 1 records 8 pyramid voxels, but its digital balls rebuild 7\n");
 }
 
@@ -413,14 +392,14 @@ TEST(TightCheck, InnerCutsMustLieInside)
     add(tree.cuts.spheres, tree, {2, 2, 2}, 1, -1);
     tree.cuts.spheres.radiusWorld[0] = 0.5f;
     tree.cuts.first = tree.cuts.last = {1};
-    EXPECT_EQ(check(tree, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "");
 
     tree.cuts.spheres.center[0] = {3, 2, 2};
-    EXPECT_EQ(check(tree, *object),
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)),
         "the list of cuts holds 5 voxels (first: [3, 1, 2]) that the object has not, but its "
         "spheres lie inside\n");
     tree.cuts.spheres.center[0] = {3, 1, 2};
-    EXPECT_EQ(check(tree, *object),
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)),
         "the list of cuts: the sphere reaches out of the object's box for 1 node (first: id 0)\n");
 }
 
@@ -435,11 +414,11 @@ TEST(TightCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     tree.radiusSq = {-1};
     tree.levels.resize(1);
     tree.levels[0].end = 1;
-    EXPECT_EQ(check(tree, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "");
     tree.settings.kind = InnerOptions();
     tree.spheres.coverRadiusSq[0] = 16 * 16 * 16;
     tree.spheres.radius[0] = tree.spheres.radiusWorld[0] = 4;
-    EXPECT_EQ(check(tree, *object), "");
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "");
 }
 
 } // namespace
