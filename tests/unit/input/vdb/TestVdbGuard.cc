@@ -106,7 +106,7 @@ TEST_F(GuardedVdb, FindsABlockThatIsLongerThanItsNode)
     const int64_t said = -int64_t(512 * sizeof(int64_t));
     const size_t at = bytes.rfind(std::string(reinterpret_cast<const char*>(&said), sizeof(said)));
     ASSERT_NE(at, std::string::npos);
-    for (const int64_t wrong : {said - 8, said + 8, int64_t(-1) << 40, INT64_MIN}) {
+    for (const int64_t wrong : {said - 8, said + 8, -(int64_t(1) << 40), INT64_MIN}) {
         std::string damaged = bytes;
         write(damaged, at, wrong);
         expectSaid(damaged, "a node has more or fewer values than it stores");
