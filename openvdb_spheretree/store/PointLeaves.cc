@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace openvdb_spheretree::detail {
 
@@ -69,6 +70,47 @@ void checkRange(const std::vector<Vec3d>& positions)
     OPENVDB_THROW(openvdb::ValueError,
         "point " << wrong << " at " << positions[wrong]
                  << " is out of the range of voxel coordinates (2^31)");
+}
+
+/// A group of a leaf: a bit of each byte of an array.
+struct GroupBit {
+    std::size_t array;
+    points::GroupType mask;
+};
+
+/// @return the groups' bits in a leaf; nothing if one is missing, or two share one.
+std::vector<GroupBit> groupBits(const PointLeaf& leaf, const std::vector<std::string>& names)
+{
+    const points::AttributeSet& attributes = leaf.attributeSet();
+    std::vector<GroupBit> bits;
+    for (const std::string& name : names) {
+        if (!attributes.descriptor().hasGroup(name)) return {};
+        const auto index = attributes.groupIndex(name);
+        const GroupBit bit = {index.first, points::GroupType(1 << index.second)};
+        for (const GroupBit& other : bits) {
+            if (other.array == bit.array && other.mask == bit.mask) return {};
+        }
+        bits.push_back(bit);
+    }
+    return bits;
+}
+
+/// Whether each point of a leaf is in the group of its level alone. Groups of others may have bits
+/// of the same bytes.
+bool holdsGroups(const PointLeaf& leaf, const std::vector<GroupBit>& bits, const int32_t* levels)
+{
+    std::map<std::size_t, points::GroupType> ours; // bits of each array
+    for (const GroupBit& bit : bits) ours[bit.array] |= bit.mask;
+    for (const auto& [array, mask] : ours) {
+        const points::AttributeHandle<points::GroupType, points::GroupCodec> handle(
+            leaf.constAttributeArray(array));
+        for (Index n = 0; n < handle.size(); ++n) {
+            const GroupBit& own = bits[std::size_t(levels[n])];
+            const int expected = own.array == array ? own.mask : 0;
+            if ((handle.get(n) & mask) != expected) return false;
+        }
+    }
+    return !bits.empty();
 }
 
 } // namespace
@@ -177,6 +219,19 @@ PointReader::PointReader(const points::PointDataGrid& grid)
         leaf->validateOffsets();
         mBegin.push_back(mBegin.back() + std::size_t(leaf->getLastValue()));
     }
+}
+
+void PointReader::requireGroups(
+    const std::vector<std::string>& names, const std::vector<int32_t>& groups) const
+{
+    const std::size_t wrong = firstWrong(mLeaves.size(), [&](std::size_t i) {
+        const PointLeaf& leaf = *mLeaves[i];
+        return !holdsGroups(leaf, groupBits(leaf, names), groups.data() + mBegin[i]);
+    });
+    if (wrong == mLeaves.size()) return;
+    OPENVDB_THROW(openvdb::IoError,
+        "its groups are not as they were written: of the points near "
+            << mLeaves[wrong]->origin() << ", some are not in the group of their level alone");
 }
 
 std::vector<Vec3d> PointReader::positions(int scale) const

@@ -113,6 +113,12 @@ public:
         return values;
     }
 
+    /// @brief Requires that each point is in one of these groups, and in no other of them.
+    /// @param groups  index of the group of each point
+    /// @throw openvdb::IoError if one is not, or a group is missing
+    void requireGroups(
+        const std::vector<std::string>& names, const std::vector<int32_t>& groups) const;
+
     /// @return positions in the index space of the source grid.
     std::vector<openvdb::Vec3d> positions(int scale) const;
 

@@ -51,6 +51,14 @@ void Session::runOne(const ActionCall& call)
               << std::endl;
 }
 
+void Session::noteIfUnverified(const StackItem& item)
+{
+    if (!item.unverified) return;
+    note(item.description()
+        + " has no checksum, as trees of version 0.1: whether all of it is as it was written is not "
+          "known");
+}
+
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
 
 void Session::print(const std::string& text, std::ostream& out)
