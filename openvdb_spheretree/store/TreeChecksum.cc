@@ -103,8 +103,8 @@ std::vector<std::string> missingFrom(
 
 [[noreturn]] void throwDamaged(const std::string& parts)
 {
-    OPENVDB_THROW(openvdb::IoError,
-        "by its checksum it is not as it was written: " << parts << " changed");
+    OPENVDB_THROW(
+        openvdb::IoError, "by its checksum it is not as it was written: " << parts << " changed");
 }
 
 } // namespace
@@ -152,7 +152,8 @@ void verifyDescription(const GridBase& grid)
     if (missingFrom(grid, kTransformChecksumKey, {transformChecksum(grid)}).empty()) return;
     OPENVDB_THROW(openvdb::IoError,
         "its transform is not the one it was written with. If it was moved on purpose, remove the "
-        "metadata '" << kTransformChecksumKey << "'");
+        "metadata '"
+            << kTransformChecksumKey << "'");
 }
 
 void verifyContent(const GridBase& grid, const std::vector<PartChecksum>& content)
@@ -166,9 +167,6 @@ void verifyContent(const GridBase& grid, const std::vector<PartChecksum>& conten
 
 } // namespace detail
 
-bool hasChecksum(const GridBase& grid)
-{
-    return grid[kChecksumKey] || grid[kTransformChecksumKey];
-}
+bool hasChecksum(const GridBase& grid) { return grid[kChecksumKey] || grid[kTransformChecksumKey]; }
 
 } // namespace openvdb_spheretree

@@ -55,8 +55,7 @@ void Session::noteIfUnverified(const StackItem& item)
 {
     if (!item.unverified) return;
     note(item.description()
-        + " has no checksum, as trees of version 0.1: whether all of it is as it was written is not "
-          "known");
+        + " has no checksum, as those of version 0.1: nobody can tell whether it is whole");
 }
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
