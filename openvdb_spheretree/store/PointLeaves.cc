@@ -234,21 +234,42 @@ void PointReader::requireGroups(
             << mLeaves[wrong]->origin() << ", some are not in the group of their level alone");
 }
 
+template <typename Body>
+void PointReader::forPositions(std::size_t leaf, int scale, const Body& body) const
+{
+    const PointLeaf& here = *mLeaves[leaf];
+    const points::AttributeHandle<Vec3f> offsets(*here.attributeSet().getConst("P"));
+    const PointLeaf::ValueType* const ends = here.buffer().data();
+    for (Index v = 0, n = 0; v < PointLeaf::SIZE; ++v) {
+        if (n == ends[v]) continue; // most voxels have no point
+        const Vec3d voxel = here.offsetToGlobalCoord(v).asVec3d();
+        for (; n < ends[v]; ++n) {
+            body(mBegin[leaf] + n, (voxel + Vec3d(offsets.get(n))) * double(scale));
+        }
+    }
+}
+
 std::vector<Vec3d> PointReader::positions(int scale) const
 {
-    const std::vector<Vec3f> offsets = attribute<Vec3f>("P");
+    requireAttribute<Vec3f>("P");
     std::vector<Vec3d> positions(size());
     parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-        Index n = 0;
-        for (Index v = 0; v < PointLeaf::SIZE; ++v) {
-            const Vec3d voxel = mLeaves[i]->offsetToGlobalCoord(v).asVec3d();
-            for (const Index end = mLeaves[i]->getValue(v); n < end; ++n) {
-                const std::size_t at = mBegin[i] + n;
-                positions[at] = (voxel + Vec3d(offsets[at])) * double(scale);
-            }
-        }
+        forPositions(i, scale, [&](std::size_t n, const Vec3d& at) { positions[n] = at; });
     });
     return positions;
+}
+
+std::size_t PointReader::firstAstray(
+    int scale, const std::vector<Vec3d>& places, const std::vector<int32_t>& indices) const
+{
+    requireAttribute<Vec3f>("P");
+    std::atomic<std::size_t> first{size()};
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        forPositions(i, scale, [&](std::size_t n, const Vec3d& at) {
+            if (at != places[std::size_t(indices[n])]) lowerTo(first, n);
+        });
+    });
+    return first;
 }
 
 } // namespace openvdb_spheretree::detail

@@ -181,18 +181,6 @@ SphereTree readTree(const PointDataGrid& points)
     return tree;
 }
 
-/// The points of edges are at their parents' centers: @a parents are those of the points.
-void checkEdgePositions(const std::vector<openvdb::Vec3d>& positions,
-    const std::vector<int32_t>& parents, const SphereTree& tree)
-{
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        if (positions[i] == tree.spheres.center[parents[i]]) continue;
-        OPENVDB_THROW(openvdb::IoError,
-            "an edge from node " << parents[i] << " is not at the centre of that node, but at "
-                                 << positions[i]);
-    }
-}
-
 std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
 {
     if (hasChecksum(grid)) detail::verifyDescription(grid);
@@ -212,7 +200,12 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     detail::throwFirst(detail::edgeDamage(edges, tree));
     if (hasChecksum(grid)) {
         detail::verifyContent(grid, detail::edgeChecksums(edges));
-        checkEdgePositions(reader.positions(detail::readPointScale(grid)), parents, tree);
+        const std::size_t astray =
+            reader.firstAstray(detail::readPointScale(grid), tree.spheres.center, parents);
+        if (astray < parents.size()) {
+            OPENVDB_THROW(openvdb::IoError,
+                "an edge from node " << parents[astray] << " is not at the centre of that node");
+        }
     }
     return edges;
 }

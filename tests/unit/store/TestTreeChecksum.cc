@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/store/TreeChecksum.h>
 
 #include "support/CheckedTrees.h"
 #include "support/Messages.h"
@@ -324,6 +325,23 @@ TEST(TreeChecksum, WhatIsNotOursMayComeAndGo)
     SphereTree renamed = sampleTree();
     renamed.settings.name = "another name";
     expectSameTree(stored.tree(), renamed);
+}
+
+/// Metadata, attributes and parts of the checksum that this version does not know.
+TEST(TreeChecksum, WhatALaterVersionMayAddIsSkipped)
+{
+    const SphereTree tree = tightSampleTree();
+    const Stored stored(tree);
+    for (const PointDataGrid::Ptr& grid : stored.grids()) {
+        removeChecksum(*grid);
+        grid->insertMeta("spheretree_level_0_roughness", openvdb::DoubleMetadata(0.5));
+        points::appendAttribute<float>(grid->tree(), "curvature", 2.0f);
+        auto parts =
+            grid == stored.nodes ? detail::nodeChecksums(tree) : detail::cutsChecksums(tree.cuts);
+        parts.insert(parts.begin(), {"curvature", 0x12345678u});
+        detail::writeChecksum(*grid, parts);
+    }
+    expectSameTree(stored.tree(), tree);
 }
 
 /// With each codec, and saved again with each other one.
