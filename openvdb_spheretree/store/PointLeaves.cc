@@ -97,20 +97,25 @@ std::vector<GroupBit> groupBits(const PointLeaf& leaf, const std::vector<std::st
 
 /// Whether each point of a leaf is in the group of its level alone. Groups of others may have bits
 /// of the same bytes.
+/// @param bits    not empty
+/// @param levels  of the points, of which there is one or more
 bool holdsGroups(const PointLeaf& leaf, const std::vector<GroupBit>& bits, const int32_t* levels)
 {
     std::map<std::size_t, points::GroupType> ours; // bits of each array
     for (const GroupBit& bit : bits) ours[bit.array] |= bit.mask;
     for (const auto& [array, mask] : ours) {
-        const points::AttributeHandle<points::GroupType, points::GroupCodec> handle(
-            leaf.constAttributeArray(array));
+        const points::AttributeArray& bytes = leaf.constAttributeArray(array);
+        const points::AttributeHandle<points::GroupType, points::GroupCodec> handle(bytes);
+        const points::GroupType uniform = handle.get(0);
+        const bool isUniform = handle.isUniform();
+        const auto* const each = isUniform ? &uniform : rawValues<points::GroupType>(bytes);
         for (Index n = 0; n < handle.size(); ++n) {
             const GroupBit& own = bits[std::size_t(levels[n])];
             const int expected = own.array == array ? own.mask : 0;
-            if ((handle.get(n) & mask) != expected) return false;
+            if ((each[isUniform ? 0 : n] & mask) != expected) return false;
         }
     }
-    return !bits.empty();
+    return true;
 }
 
 } // namespace
@@ -224,9 +229,16 @@ PointReader::PointReader(const points::PointDataGrid& grid)
 void PointReader::requireGroups(
     const std::vector<std::string>& names, const std::vector<int32_t>& groups) const
 {
+    if (mLeaves.empty()) return;
+    // Leaves of a file share their descriptor as a rule: names are looked up once.
+    const auto shared = mLeaves.front()->attributeSet().descriptorPtr();
+    const std::vector<GroupBit> sharedBits = groupBits(*mLeaves.front(), names);
     const std::size_t wrong = firstWrong(mLeaves.size(), [&](std::size_t i) {
         const PointLeaf& leaf = *mLeaves[i];
-        return !holdsGroups(leaf, groupBits(leaf, names), groups.data() + mBegin[i]);
+        const bool isShared = leaf.attributeSet().descriptorPtr() == shared;
+        const std::vector<GroupBit> bits = isShared ? sharedBits : groupBits(leaf, names);
+        if (bits.empty()) return true;
+        return mBegin[i] < mBegin[i + 1] && !holdsGroups(leaf, bits, groups.data() + mBegin[i]);
     });
     if (wrong == mLeaves.size()) return;
     OPENVDB_THROW(openvdb::IoError,
@@ -240,11 +252,15 @@ void PointReader::forPositions(std::size_t leaf, int scale, const Body& body) co
     const PointLeaf& here = *mLeaves[leaf];
     const points::AttributeHandle<Vec3f> offsets(*here.attributeSet().getConst("P"));
     const PointLeaf::ValueType* const ends = here.buffer().data();
-    for (Index v = 0, n = 0; v < PointLeaf::SIZE; ++v) {
-        if (n == ends[v]) continue; // most voxels have no point
-        const Vec3d voxel = here.offsetToGlobalCoord(v).asVec3d();
-        for (; n < ends[v]; ++n) {
-            body(mBegin[leaf] + n, (voxel + Vec3d(offsets.get(n))) * double(scale));
+    Index n = 0;
+    for (Index row = 0; row < PointLeaf::SIZE; row += PointLeaf::DIM) {
+        if (n == ends[row + PointLeaf::DIM - 1]) continue; // most voxels have no point
+        for (Index v = row; v < row + PointLeaf::DIM; ++v) {
+            if (n == ends[v]) continue;
+            const Vec3d voxel = here.offsetToGlobalCoord(v).asVec3d();
+            for (; n < ends[v]; ++n) {
+                body(mBegin[leaf] + n, (voxel + Vec3d(offsets.get(n))) * double(scale));
+            }
         }
     }
 }

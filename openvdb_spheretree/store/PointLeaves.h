@@ -17,6 +17,7 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointDataGrid.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,6 +29,14 @@ namespace openvdb_spheretree::detail {
 constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
+
+/// @return the values of an array that is loaded, not uniform, and not compressed: half the time of
+/// asking for each.
+template <typename T>
+const T* rawValues(const openvdb::points::AttributeArray& array)
+{
+    return reinterpret_cast<const T*>(array.constDataAsByteArray());
+}
 
 /// A point grid under construction; points know the index they came in with.
 class PointWriter {
@@ -92,10 +101,14 @@ public:
         requireAttribute<T>(name);
         std::vector<T> values(size());
         parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-            const openvdb::points::AttributeHandle<T> handle(
-                *mLeaves[i]->attributeSet().getConst(name));
+            const openvdb::points::AttributeArray& array =
+                *mLeaves[i]->attributeSet().getConst(name);
+            const openvdb::points::AttributeHandle<T> handle(array); // loads what is in a file
             T* const here = values.data() + mBegin[i];
-            for (openvdb::Index n = 0; n < handle.size(); ++n) here[n] = handle.get(n);
+            const std::size_t count = mBegin[i + 1] - mBegin[i];
+            if (count == 0) return;
+            if (handle.isUniform()) std::fill_n(here, count, handle.get(0));
+            else std::copy_n(rawValues<T>(array), count, here);
         });
         return values;
     }
