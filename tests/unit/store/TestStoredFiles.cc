@@ -13,15 +13,12 @@
 #include "support/DataFolder.h"
 #include "support/SampleTrees.h"
 
-#include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -35,22 +32,6 @@ using openvdb::points::PointDataGrid;
 using spheretree_test::expectSameTree;
 
 std::string pathOf(const std::string& name) { return spheretree_test::dataPath(name); }
-
-/// @return what a file holds, unpacked if it is packed by gzip.
-std::string unpacked(const std::string& path)
-{
-    const gzFile file = gzopen(path.c_str(), "rb");
-    EXPECT_TRUE(file) << "no file " << path;
-    std::string bytes;
-    char part[4096];
-    for (int size = 1; file && size > 0;) {
-        size = gzread(file, part, sizeof(part));
-        EXPECT_GE(size, 0) << path;
-        bytes.append(part, std::size_t(std::max(size, 0)));
-    }
-    if (file) gzclose(file);
-    return bytes;
-}
 
 std::string textOf(const std::string& name)
 {
@@ -69,9 +50,7 @@ struct StoredTree {
     explicit StoredTree(const std::string& name)
     {
         openvdb::initialize();
-        const std::string path = pathOf(name + ".vdb");
-        const bool isPacked = !std::filesystem::exists(path);
-        std::istringstream bytes(unpacked(isPacked ? path + ".gz" : path));
+        std::istringstream bytes(spheretree_test::unpackedData(name + ".vdb"));
         const auto grids = openvdb::io::Stream(bytes, /*delayLoad=*/false).getGrids();
         const std::string treeName = name.substr(name.find('/') + 1);
         for (const openvdb::GridBase::Ptr& grid : *grids) {
@@ -193,9 +172,9 @@ TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
 TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
 {
     openvdb::initialize();
-    openvdb::io::File file(pathOf("0.1/levelset.vdb"));
-    file.open();
-    const auto object = objectOf(*file.readGrid("levelset"));
+    std::istringstream file(spheretree_test::unpackedData("0.1/levelset.vdb"));
+    const auto grids = openvdb::io::Stream(file, /*delayLoad=*/false).getGrids();
+    const auto object = objectOf(*grids->at(0));
     const SphereTreeSettings settings = ReversibleOptions();
     std::ostringstream csv;
     writeCsv(buildSphereTree(*object, settings), csv);
