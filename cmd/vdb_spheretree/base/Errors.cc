@@ -12,6 +12,8 @@
 #include <ios>
 #include <iostream>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 namespace command {
 
@@ -37,6 +39,13 @@ std::string oneLine(const std::string& text, size_t limit)
 
 std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
 
+bool isLackOfThreads(const std::exception& error)
+{
+    const auto* const system = dynamic_cast<const std::system_error*>(&error);
+    if (system && system->code() == std::errc::resource_unavailable_try_again) return true;
+    return std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
+}
+
 void rethrowNamed(const std::string& where, ExitCode fallback)
 {
     try {
@@ -57,6 +66,7 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
     } catch (const std::ios_base::failure&) {
         throw CommandError(fallback, joined(where, "reading or writing failed"));
     } catch (const std::exception& error) {
+        if (isLackOfThreads(error)) throw CommandError(kInput, joined(where, kNoThread));
         throw CommandError(fallback, joined(where, error.what()));
     }
 }
@@ -72,7 +82,14 @@ int reportError(std::exception_ptr error)
     } catch (const Interrupted&) {
         std::cerr << "vdb_spheretree: interrupted" << std::endl;
         return kInterrupted;
+    } catch (const std::bad_alloc&) {
+        std::cerr << start << "not enough memory" << std::endl;
+        return kInput;
     } catch (const std::exception& e) {
+        if (isLackOfThreads(e)) {
+            std::cerr << start << kNoThread << std::endl;
+            return kInput;
+        }
         std::cerr << start << "unexpected: " << oneLine(e.what()) << std::endl;
     } catch (...) {
         std::cerr << start << "unexpected" << std::endl;

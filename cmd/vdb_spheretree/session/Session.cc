@@ -41,6 +41,7 @@ void Session::runOne(const ActionCall& call)
     if (!silent) progress.beginAction(call.typed());
     try {
         call.spec().run(call, *this);
+        requireUnchangedInputs();
     } catch (...) {
         finish();
         rethrowNamed(call.label(), call.spec().failure);
@@ -49,6 +50,11 @@ void Session::runOne(const ActionCall& call)
     if (silent) return;
     std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
               << std::endl;
+}
+
+void Session::requireUnchangedInputs() const
+{
+    for (const InputStamp& input : inputs) input.requireUnchanged();
 }
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Progress.h"
+#include "files/InputStamp.h"
 #include "line/Action.h"
 #include "line/Plan.h"
 #include "Stack.h"
@@ -16,6 +17,7 @@
 
 #include <iosfwd>
 #include <memory>
+#include <vector>
 
 namespace command {
 
@@ -39,6 +41,10 @@ struct Session {
     ///         stack after it.
     bool isLastAction() const { return mIsLast; }
 
+    /// @brief To be called after what has read values, and before what results from them is kept.
+    /// @throw CommandError (input) if a file of @a inputs has been written to
+    void requireUnchangedInputs() const;
+
     /// Tables and lists go to stdout, or to stderr if data goes to stdout.
     std::ostream& textOut() const;
     /// Prints @a text there, or to another stream. A reader that stops reading (`| head`) is no error.
@@ -56,6 +62,8 @@ struct Session {
     Stack stack;
     Progress progress;
     Verbosity verbosity = Verbosity::Normal;
+    /// Files whose values may not all be in memory yet.
+    std::vector<InputStamp> inputs;
     Stopwatch total;
     StageSeconds seconds;
     std::unique_ptr<tbb::global_control> threads;
