@@ -71,6 +71,7 @@ void FaultyCommandTest::SetUp()
     writeBlock("a.vol");
     const Result made = run("-read a.vol -spheretree tree=extended dag=1 -write tree.vdb");
     ASSERT_EQ(made.exitCode, 0) << made.err;
+    mBefore = files();
 }
 
 Running FaultyCommandTest::startWith(const std::string& arguments, const std::string& faults) const

@@ -54,7 +54,7 @@ protected:
     void expectFailure(const Result& result, int code, const std::vector<std::string>& words,
         const std::vector<std::string>& targets) const;
 
-    std::vector<std::string> mBefore; ///< files at the last writeOld()
+    std::vector<std::string> mBefore; ///< files after SetUp(), or the last writeOld()
 };
 
 } // namespace command_test

@@ -32,7 +32,7 @@ protected:
 
     void expectWhole(const std::string& name) const
     {
-        EXPECT_EQ(run("-read " + name + " -check").exitCode, 0) << name << " is not whole";
+        EXPECT_EQ(run("-read " + name + " -print").exitCode, 0) << name << " is not whole";
     }
 };
 

@@ -60,7 +60,8 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
         throw CommandError(
             fallback, joined(where, std::string(openvdb_spheretree::detail::withoutType(what))));
     } catch (const std::bad_alloc&) {
-        throw CommandError(fallback, joined(where, "not enough memory"));
+        const ExitCode code = fallback == kUsage ? kInput : fallback; // the line may be right
+        throw CommandError(code, joined(where, "not enough memory"));
     } catch (const std::length_error&) {
         throw CommandError(fallback, joined(where, "asks for more memory than there can be"));
     } catch (const std::ios_base::failure&) {

@@ -5,9 +5,10 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <cstring>
+#include <memory>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -67,13 +68,14 @@ void removeIfAbandoned(const std::string& path)
     close(fd);
 }
 
+/// By readdir(), as the standard library's iterator calls std::terminate for want of memory.
 void removeAbandoned(const std::string& folder, const std::string& start)
 {
-    std::error_code error;
-    std::filesystem::directory_iterator entry(folder, error), end;
-    for (; !error && entry != end; entry.increment(error)) {
-        const std::string path = folder + "/" + entry->path().filename().string();
-        if (path.compare(0, start.size(), start) == 0) removeIfAbandoned(path);
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
+    const std::string name = start.substr(folder.size() + 1);
+    while (const dirent* const entry = entries ? readdir(entries.get()) : nullptr) {
+        if (std::strncmp(entry->d_name, name.c_str(), name.size()) != 0) continue;
+        removeIfAbandoned(folder + "/" + entry->d_name);
     }
 }
 

@@ -3,8 +3,11 @@
 
 #include "base/Terminal.h"
 
+#include <tbb/global_control.h>
+
 #include <cerrno>
 #include <iostream>
+#include <memory>
 
 namespace command {
 
@@ -50,6 +53,15 @@ void Session::runOne(const ActionCall& call)
     if (silent) return;
     std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
               << std::endl;
+}
+
+void Session::limitThreads(size_t count)
+{
+    // Never destroyed at the end: the limit before would be in force again, and oneTBB would start
+    // threads for it, which may fail.
+    static tbb::global_control* sLimit = nullptr;
+    const std::unique_ptr<tbb::global_control> before(sLimit);
+    sLimit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, count);
 }
 
 void Session::requireUnchangedInputs() const

@@ -13,10 +13,8 @@
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
-#include <tbb/global_control.h>
 
 #include <iosfwd>
-#include <memory>
 #include <vector>
 
 namespace command {
@@ -40,6 +38,9 @@ struct Session {
     /// @return whether the running action is the last of the line, so that nothing will need the
     ///         stack after it.
     bool isLastAction() const { return mIsLast; }
+
+    /// Has parallel work take so many threads at most, until the program ends.
+    void limitThreads(size_t count);
 
     /// @brief To be called after what has read values, and before what results from them is kept.
     /// @throw CommandError (input) if a file of @a inputs has been written to
@@ -66,7 +67,6 @@ struct Session {
     std::vector<InputStamp> inputs;
     Stopwatch total;
     StageSeconds seconds;
-    std::unique_ptr<tbb::global_control> threads;
 
 private:
     void runOne(const ActionCall& call);
