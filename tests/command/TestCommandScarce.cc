@@ -64,10 +64,10 @@ TEST_F(CommandScarce, AnyRequestForMemoryMayFail)
 TEST_F(CommandScarce, LimitsOnMemoryInSteps)
 {
     const std::string line = "-threads 2 -generate ball voxels=6000000 -spheretree quality=fast "
-                             "spheres=64 errors=0 topology=0 -write t.vdb t.csv t.png";
+                             "spheres=64 errors=0 topology=0 -write t.vdb t.csv t.png width=64 height=48";
     expectOf(line);
     int refused = 0, done = 0;
-    for (rlim_t megabytes = 150; megabytes <= 450; megabytes += 20) {
+    for (rlim_t megabytes = 150; megabytes <= 400; megabytes += megabytes < 200 ? 10 : 50) {
         SCOPED_TRACE(megabytes);
         const Result result = start(split(line), "/dev/null", [=] {
             const rlimit limit = {megabytes << 20, megabytes << 20};
@@ -101,7 +101,7 @@ TEST_F(CommandScarce, NoThreadIsSaidByEachActionThatNeedsOne)
     const std::string fault = failing("thread", beforeWork + 1, EAGAIN);
     writeOld({"t.vdb"});
     for (const std::string line : {"-generate ball voxels=50000", "-read a.vol -spheretree",
-             "-read tree.vdb -spheres2ls voxel=0.1", "-read tree.vdb -write t.png"}) {
+             "-read tree.vdb -spheres2ls voxel=0.3", "-read tree.vdb -write t.png"}) {
         expectFailure(runWith("-threads 4 " + line, fault), 3, {"no thread can be started"}, {});
         const Result alone = runWith("-threads 1 " + line, fault);
         EXPECT_EQ(alone.exitCode, 0) << "the message promises that: " << alone.err;
