@@ -185,9 +185,10 @@ protected:
     }
 
     /// The second file without a name is that of the output; the first was a trial.
-    Result changedBeforeWriting(const std::function<void()>& change) const
+    Result changedBeforeWriting(
+        const std::function<void()>& change, const std::string& faults = "") const
     {
-        return changedAt("-read big.vdb delayed=1 -write t.vdb", "tmpfile", 2, change);
+        return changedAt("-read big.vdb delayed=1 -write t.vdb", "tmpfile", 2, change, faults);
     }
 
     std::string mWhole;
@@ -195,9 +196,11 @@ protected:
 
 TEST_F(CommandDelayed, AnInputCutShortIsAnErrorAndNoSignal)
 {
-    const Result result =
-        changedBeforeWriting([&] { std::filesystem::resize_file(path("big.vdb"), 5000); });
-    expectFailure(result, 3, {"became shorter"}, {"t.vdb"});
+    const auto cut = [&] { std::filesystem::resize_file(path("big.vdb"), 5000); };
+    expectFailure(changedBeforeWriting(cut), 3, {"became shorter"}, {"t.vdb"});
+    writeText(path("big.vdb"), mWhole);
+    const Result named = changedBeforeWriting(cut, namedFilesOnly() + ";");
+    expectFailure(named, 3, {"became shorter"}, {"t.vdb"});
 }
 
 TEST_F(CommandDelayed, AnInputWrittenOverIsAnError)

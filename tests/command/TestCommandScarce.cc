@@ -51,20 +51,24 @@ protected:
 TEST_F(CommandScarce, AnyRequestForMemoryMayFail)
 {
     expectOf(kWork);
-    const long requests = callsOf(kWork)["malloc"];
-    writeOld(kTargets);
     int refused = 0;
-    for (const long n : spread(requests, 80)) {
-        SCOPED_TRACE(n);
-        refused += !expectOldOrNew(runWith(kWork, failingOnce("malloc", n, ENOMEM)), "memory");
+    for (const std::string& kind : {std::string(), namedFilesOnly() + ";"}) {
+        const long requests = callsOf(kWork, kind)["malloc"];
+        writeOld(kTargets);
+        for (const long n : spread(requests, 60)) {
+            SCOPED_TRACE(n);
+            const Result result = runWith(kWork, kind + failingOnce("malloc", n, ENOMEM));
+            refused += !expectOldOrNew(result, "memory");
+        }
     }
-    EXPECT_GT(refused, 40);
+    EXPECT_GT(refused, 60);
 }
 
 TEST_F(CommandScarce, LimitsOnMemoryInSteps)
 {
-    const std::string line = "-threads 2 -generate ball voxels=6000000 -spheretree quality=fast "
-                             "spheres=64 errors=0 topology=0 -write t.vdb t.csv t.png width=64 height=48";
+    const std::string line =
+        "-threads 2 -generate ball voxels=8000000 -spheretree quality=fast "
+        "spheres=64 errors=0 topology=0 -write t.vdb t.csv t.png width=64 height=48";
     expectOf(line);
     int refused = 0, done = 0;
     for (rlim_t megabytes = 150; megabytes <= 400; megabytes += megabytes < 200 ? 10 : 50) {

@@ -3,6 +3,8 @@
 
 #include "Errors.h"
 
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -14,6 +16,9 @@ namespace command {
 
 namespace {
 
+std::array<std::atomic<const char*>, 64> sFiles{};
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads them");
+
 /// Plain system calls: streams may not be there yet, and a signal handler may call nothing else.
 [[noreturn]] void endWith(ExitCode code, const char* words)
 {
@@ -23,6 +28,9 @@ namespace {
     say("vdb_spheretree: error: ");
     say(words);
     say("\n");
+    for (const auto& file : sFiles) {
+        if (const char* const path = file.load()) unlink(path);
+    }
     _exit(code);
 }
 
@@ -62,6 +70,22 @@ void catchLostPages()
     action.sa_flags = SA_SIGINFO;
     sigemptyset(&action.sa_mask);
     sigaction(SIGBUS, &action, nullptr);
+}
+
+void rememberFile(const char* path) noexcept
+{
+    for (auto& file : sFiles) {
+        const char* none = nullptr;
+        if (file.compare_exchange_strong(none, path)) return;
+    }
+}
+
+void forgetFile(const char* path) noexcept
+{
+    for (auto& file : sFiles) {
+        const char* same = path;
+        if (file.compare_exchange_strong(same, nullptr)) return;
+    }
 }
 
 #ifdef __linux__

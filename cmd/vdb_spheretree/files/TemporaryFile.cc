@@ -2,6 +2,7 @@
 #include "TemporaryFile.h"
 
 #include "base/Errors.h"
+#include "base/LastWords.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -100,7 +101,10 @@ TemporaryFile::TemporaryFile(const std::string& target)
 
 TemporaryFile::~TemporaryFile()
 {
-    if (!mName.empty()) unlink(mName.c_str());
+    if (!mName.empty()) {
+        unlink(mName.c_str());
+        forgetFile(mName.c_str());
+    }
     close(mFd);
 }
 
@@ -135,6 +139,7 @@ bool TemporaryFile::openNamed()
         lock(mFd, LOCK_EX);
         if (isNameOf(name, mFd)) {
             mName = name;
+            rememberFile(mName.c_str());
             return true;
         }
         close(mFd);
@@ -148,7 +153,7 @@ bool TemporaryFile::nameIt()
         const std::string name = mStart + std::to_string(getpid()) + "-" + std::to_string(i);
         const int result =
             linkat(AT_FDCWD, path().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
-        if (result == 0) mName = name;
+        if (result == 0) mName = name; // not remembered: what is published next needs no memory
         if (result != 0 && errno != EEXIST) return false;
     }
     return !mName.empty();
@@ -160,14 +165,15 @@ bool TemporaryFile::sync() const
     do {
         result = fsync(mFd);
     } while (result != 0 && errno == EINTR);
-    return result == 0 || errno == EINVAL
-        || errno == ENOTSUP; // some file systems have nothing to do
+    // Some file systems have nothing to do, and say so.
+    return result == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
 bool TemporaryFile::publish()
 {
     fchmod(mFd, permissionsFor(mTarget));
     if (!nameIt() || std::rename(mName.c_str(), mTarget.c_str()) != 0) return false;
+    forgetFile(mName.c_str());
     mName.clear();
     return true;
 }

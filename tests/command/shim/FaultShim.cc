@@ -83,6 +83,8 @@ enum class Verdict { Go, Half, Fail };
 /// Counts a call, and sends the signal that is due. Fail: errno is set.
 Verdict countCall(Call call)
 {
+    Verdict verdict = Verdict::Go;
+    int error = 0;
     const long count = ++sCounts[call];
     if (sFaultCount < 0) sFaultCount = readFaults();
     for (int i = 0; i < sFaultCount; ++i) {
@@ -92,11 +94,12 @@ Verdict countCall(Call call)
         if (fault.effect == Effect::Signal) {
             if (isNow) kill(getpid(), fault.number);
         } else if (isNow || fault.effect == Effect::Error) {
-            errno = fault.number;
-            return isNow ? Verdict::Half : Verdict::Fail;
+            verdict = isNow ? Verdict::Half : Verdict::Fail;
+            error = fault.number;
         }
     }
-    return Verdict::Go;
+    if (verdict != Verdict::Go) errno = error;
+    return verdict;
 }
 
 bool fails(Call call) { return countCall(call) != Verdict::Go; }
