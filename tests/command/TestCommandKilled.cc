@@ -42,7 +42,8 @@ class CommandSignalled : public CommandKilled, public testing::WithParamInterfac
 TEST_P(CommandSignalled, AtThirtyMoments)
 {
     const long beforeWork = callsOf("-version")["malloc"];
-    const long work = callsOf(kWork + kWrite)["malloc"] - beforeWork;
+    // The number differs a little from run to run, so the last moment is some before the end.
+    const long work = callsOf(kWork + kWrite)["malloc"] * 95 / 100 - beforeWork;
     ASSERT_GT(work, 1000);
     int stopped = 0;
     for (const long moment : spread(work, 30)) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -131,14 +132,15 @@ bool TemporaryFile::openNameless()
 bool TemporaryFile::openNamed()
 {
     for (int i = 0; i < kMostNames; ++i) {
-        const std::string name = mStart + std::to_string(getpid()) + "-" + std::to_string(i);
+        std::string name = mStart + std::to_string(getpid()) + "-" + std::to_string(i);
+        // From here on nothing asks for memory: an exception would leave the file.
         mFd = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         if (mFd < 0 && errno == EEXIST) continue;
         if (mFd < 0) return false;
         // Another run may have seen the file before it was locked, and removed it.
         lock(mFd, LOCK_EX);
         if (isNameOf(name, mFd)) {
-            mName = name;
+            mName = std::move(name);
             rememberFile(mName.c_str());
             return true;
         }
@@ -149,11 +151,13 @@ bool TemporaryFile::openNamed()
 
 bool TemporaryFile::nameIt()
 {
+    const std::string nameless = path();
     for (int i = 0; mName.empty() && i < kMostNames; ++i) {
-        const std::string name = mStart + std::to_string(getpid()) + "-" + std::to_string(i);
+        std::string name = mStart + std::to_string(getpid()) + "-" + std::to_string(i);
         const int result =
-            linkat(AT_FDCWD, path().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
-        if (result == 0) mName = name; // not remembered: what is published next needs no memory
+            linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+        // Not remembered: what is published next neither throws nor terminates.
+        if (result == 0) mName = std::move(name);
         if (result != 0 && errno != EEXIST) return false;
     }
     return !mName.empty();
