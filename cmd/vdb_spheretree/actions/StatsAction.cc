@@ -29,6 +29,7 @@ void runStats(const ActionCall& call, Session& session)
     if (path == "-") return session.print(json, std::cout);
     AtomicFile file(path);
     file.write([&](std::ostream& out) { out << json; });
+    throwIfStopped();
     file.commit();
 }
 
