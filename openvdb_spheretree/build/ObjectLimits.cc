@@ -2,6 +2,7 @@
 #include "ObjectLimits.h"
 
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
@@ -49,6 +50,20 @@ void requireRoomForSquares(const ObjectInfo& object, const Distance& distance)
                        << ": use smaller weights, or larger voxels");
 }
 
+/// Squared lengths in 1/16 voxel have to fit in 64 bits, here and in programs that read the tree. None
+/// is longer than twice the object's diagonal.
+void requireRoomForFineSquares(const ObjectInfo& object)
+{
+    constexpr int64_t kMost = int64_t(1) << 61;
+    const auto side = sidesOf(object.bbox);
+    const auto far = [&](int axis) { return 2 * tight::kFine * (side[axis] + 1); };
+    if (Distance().lengthSq(far(0), far(1), far(2)) < kMost) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the object '" << object.name << "', of " << side[0] << " x " << side[1] << " x " << side[2]
+                       << " voxels, is too wide for tree=tight: use tree=extended, or larger "
+                          "voxels");
+}
+
 /// @return the side of the single voxel that the pyramid ends in; with the first tree that ends at
 ///         one, other trees are no wider.
 int64_t widthOfTop(const openvdb::CoordBBox& box, const SphereTreeSettings& settings)
@@ -64,9 +79,10 @@ int64_t widthOfTop(const openvdb::CoordBBox& box, const SphereTreeSettings& sett
 
 /// @return the longest radius there may be, in widths of the top voxel. Of a pyramid's spheres it is
 ///         the voxel's diagonal, 1.74 for l2 and at most 3 for norms, and 1.87 with scale=paper.
-///         Tight ones are no longer than twice the diagonal of the object.
+///         Tight ones are no longer than twice the diagonal of the object, inner ones lie in it.
 int radiusInWidths(const SphereTreeSettings& settings)
 {
+    if (settings.isInner()) return 1;
     if (settings.type() == TreeType::Tight) return 4;
     return settings.dist().isEuclidean() ? 2 : 3;
 }
@@ -106,6 +122,7 @@ void requireValidObject(const ObjectInfo& object, const SphereTreeSettings& sett
     pyramidOrigin(object.bbox); // refuses boxes that are too wide
     if (settings.dim == 2) requireFlat(object);
     requireRoomForSquares(object, settings.dist());
+    if (settings.find<TightOptions>()) requireRoomForFineSquares(object);
     requireRoomAround(object, settings);
 }
 

@@ -13,7 +13,7 @@ namespace openvdb_spheretree::detail {
 /// @param settings  valid ones
 /// @throw openvdb::ValueError naming the object, what is wrong with it and what to do: it has no
 ///        voxels, is wider than kMaxExtent, is not flat though dim = 2, is too wide for its
-///        distance, or lies so near the end of 32-bit coordinates that spheres may reach beyond
+///        distance or for a tight tree, or lies so near the end of 32-bit coordinates that spheres may reach beyond
 /// Cost: O(1).
 void requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings);
 

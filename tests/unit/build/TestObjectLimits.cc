@@ -87,7 +87,7 @@ std::vector<SphereTreeSettings> everyKind()
     SphereTreeSettings inner;
     inner.kind = InnerOptions();
     return {tight(Quality::Fast), tight(Quality::Normal), tight(Quality::Best),
-        tight(Quality::Fast, Cover::Balls), paper<ExtendedOptions>(2), paper<ExtendedOptions>(64),
+        tight(Quality::Fast, Cover::Balls), paper<ExtendedOptions>(2), paper<ExtendedOptions>(8),
         paper<ReversibleOptions>(2), paper<ReversibleOptions>(3, Distance::chamfer(3, 4, 5)),
         paper<ExtendedOptions>(2, Distance::l1()), inner};
 }
@@ -134,7 +134,7 @@ TEST(ObjectLimits, ACubeNearTheEndsOfCoordinatesIsRefusedByEveryKindOfTree)
 TEST(ObjectLimits, ACubeFartherFromTheEndsIsRightInEveryKindOfTree)
 {
     for (const SphereTreeSettings& settings : everyKind()) {
-        for (const CubeAtEnd& cube : cubesAtEnds({1 << 17, 1 << 20, 1 << 28})) {
+        for (const CubeAtEnd& cube : cubesAtEnds({1 << 17, 1 << 28})) {
             SCOPED_TRACE(cube.text() + " " + toString(settings.type()));
             const auto why = refusal(*cube.grid(), settings);
             EXPECT_FALSE(why.has_value()) << *why;
@@ -147,10 +147,20 @@ TEST(ObjectLimits, TheRoomThatIsAskedForGrowsWithTheFactor)
 {
     for (const CubeAtEnd& cube : cubesAtEnds({1 << 17})) {
         SCOPED_TRACE(cube.text());
-        EXPECT_FALSE(refusal(*cube.grid(), paper<ExtendedOptions>(1 << 10)).has_value());
+        EXPECT_FALSE(refusal(*cube.grid(), paper<ExtendedOptions>(1 << 6)).has_value());
     }
     const auto grid = CubeAtEnd{1, false, 1 << 17}.grid();
     EXPECT_TRUE(refusal(*grid, paper<ExtendedOptions>(1 << 15)).has_value());
+}
+
+TEST(ObjectLimits, AnObjectThatIsTooWideAnywhereIsNotSaidToLieAtTheEnd)
+{
+    auto grid = openvdb::BoolGrid::create();
+    grid->tree().setValueOn(Coord(0), true);
+    grid->tree().setValueOn(Coord((1 << 28) - 1), true);
+    const auto why = refusal(*grid, tight(Quality::Fast));
+    ASSERT_TRUE(why.has_value());
+    EXPECT_TRUE(mentions(*why, "too wide for tree=tight"));
 }
 
 TEST(ObjectLimits, ABoxFromEndToEndIsTooWide)
