@@ -357,7 +357,7 @@ TEST(SpherePicture, AnInterrupterStopsItAtAnyPixelOfATile)
     }
 }
 
-/// Corners are 2^31 from voxel 0, and their sum does not fit 32 bits.
+/// The sum of its corners does not fit 32 bits: a sanitizer would stop here.
 TEST(SpherePicture, AnObjectAtTheEndOfCoordinatesLooksAsElsewhere)
 {
     const auto pictureAt = [](int from) {
