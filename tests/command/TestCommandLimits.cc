@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects at the ends of coordinates, and results that would not fit anywhere: exit code 3 and a sentence before the work, or the
-// right result.
+// Objects at the ends of coordinates, and results that would not fit anywhere: exit code 3 and a
+// sentence before the work, or the right result.
 
 #include "CommandRunner.h"
 
