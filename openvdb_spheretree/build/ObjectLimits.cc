@@ -50,8 +50,8 @@ void requireRoomForSquares(const ObjectInfo& object, const Distance& distance)
                        << ": use smaller weights, or larger voxels");
 }
 
-/// Squared lengths in 1/16 voxel have to fit in 64 bits, here and in programs that read the tree. None
-/// is longer than twice the object's diagonal.
+/// Squared lengths in 1/16 voxel have to fit in 64 bits, here and in programs that read the tree.
+/// None is longer than twice the object's diagonal.
 void requireRoomForFineSquares(const ObjectInfo& object)
 {
     constexpr int64_t kMost = int64_t(1) << 61;
