@@ -57,9 +57,10 @@ double implausibleVoxels(const CheckReport& check, const SphereTreeLevel& level)
 {
     const auto* pyramid = check.tree.settings.find<PyramidOptions>();
     const double scale = pyramid ? std::pow(double(pyramid->factor), level.level) : 1;
-    const openvdb::Coord size = check.box.extents();
+    const openvdb::Vec3d size =
+        check.box.max().asVec3d() - check.box.min().asVec3d() + openvdb::Vec3d(1);
     double voxels = 1;
-    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
+    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * size[axis] / scale + 64;
     return voxels;
 }
 

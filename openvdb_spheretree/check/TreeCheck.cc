@@ -88,9 +88,10 @@ void checkTransform(Check& check)
     const openvdb::CoordBBox& box = check.box;
     double farthest = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const openvdb::Vec3d at(box.min()[0] + (corner & 1) * box.extents()[0],
-            box.min()[1] + (corner >> 1 & 1) * box.extents()[1],
-            box.min()[2] + (corner >> 2) * box.extents()[2]);
+        openvdb::Vec3d at;
+        for (int a = 0; a < 3; ++a) {
+            at[a] = corner >> a & 1 ? double(box.max()[a]) + 1 : double(box.min()[a]);
+        }
         const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
         farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
     }
