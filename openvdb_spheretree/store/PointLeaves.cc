@@ -86,6 +86,7 @@ std::vector<GroupBit> groupBits(const PointLeaf& leaf, const std::vector<std::st
     for (const std::string& name : names) {
         if (!attributes.descriptor().hasGroup(name)) return {};
         const auto index = attributes.groupIndex(name);
+        if (!points::isGroup(*attributes.getConst(index.first))) return {};
         const GroupBit bit = {index.first, points::GroupType(1 << index.second)};
         for (const GroupBit& other : bits) {
             if (other.array == bit.array && other.mask == bit.mask) return {};
@@ -97,22 +98,16 @@ std::vector<GroupBit> groupBits(const PointLeaf& leaf, const std::vector<std::st
 
 /// Whether each point of a leaf is in the group of its level alone. Groups of others may have bits
 /// of the same bytes.
-/// @param bits    not empty
-/// @param levels  of the points, of which there is one or more
 bool holdsGroups(const PointLeaf& leaf, const std::vector<GroupBit>& bits, const int32_t* levels)
 {
     std::map<std::size_t, points::GroupType> ours; // bits of each array
     for (const GroupBit& bit : bits) ours[bit.array] |= bit.mask;
     for (const auto& [array, mask] : ours) {
-        const points::AttributeArray& bytes = leaf.constAttributeArray(array);
-        const points::AttributeHandle<points::GroupType, points::GroupCodec> handle(bytes);
-        const points::GroupType uniform = handle.get(0);
-        const bool isUniform = handle.isUniform();
-        const auto* const each = isUniform ? &uniform : rawValues<points::GroupType>(bytes);
-        for (Index n = 0; n < handle.size(); ++n) {
+        const ArrayValues<points::GroupType> bytes(leaf.constAttributeArray(array));
+        for (Index n = 0; n < leaf.getLastValue(); ++n) {
             const GroupBit& own = bits[std::size_t(levels[n])];
             const int expected = own.array == array ? own.mask : 0;
-            if ((each[isUniform ? 0 : n] & mask) != expected) return false;
+            if ((bytes[n] & mask) != expected) return false;
         }
     }
     return true;
@@ -237,8 +232,7 @@ void PointReader::requireGroups(
         const PointLeaf& leaf = *mLeaves[i];
         const bool isShared = leaf.attributeSet().descriptorPtr() == shared;
         const std::vector<GroupBit> bits = isShared ? sharedBits : groupBits(leaf, names);
-        if (bits.empty()) return true;
-        return mBegin[i] < mBegin[i + 1] && !holdsGroups(leaf, bits, groups.data() + mBegin[i]);
+        return bits.empty() || !holdsGroups(leaf, bits, groups.data() + mBegin[i]);
     });
     if (wrong == mLeaves.size()) return;
     OPENVDB_THROW(openvdb::IoError,
@@ -250,7 +244,7 @@ template <typename Body>
 void PointReader::forPositions(std::size_t leaf, int scale, const Body& body) const
 {
     const PointLeaf& here = *mLeaves[leaf];
-    const points::AttributeHandle<Vec3f> offsets(*here.attributeSet().getConst("P"));
+    const ArrayValues<Vec3f> offsets(*here.attributeSet().getConst("P"));
     const PointLeaf::ValueType* const ends = here.buffer().data();
     Index n = 0;
     for (Index row = 0; row < PointLeaf::SIZE; row += PointLeaf::DIM) {
@@ -259,7 +253,7 @@ void PointReader::forPositions(std::size_t leaf, int scale, const Body& body) co
             if (n == ends[v]) continue;
             const Vec3d voxel = here.offsetToGlobalCoord(v).asVec3d();
             for (; n < ends[v]; ++n) {
-                body(mBegin[leaf] + n, (voxel + Vec3d(offsets.get(n))) * double(scale));
+                body(mBegin[leaf] + n, (voxel + Vec3d(offsets[n])) * double(scale));
             }
         }
     }

@@ -17,7 +17,6 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointDataGrid.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -30,13 +29,22 @@ constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
 
-/// @return the values of an array that is loaded, not uniform, and not compressed: half the time of
-/// asking for each.
+/// The values of an array of type T and without a codec, in half the time of an AttributeHandle's.
 template <typename T>
-const T* rawValues(const openvdb::points::AttributeArray& array)
-{
-    return reinterpret_cast<const T*>(array.constDataAsByteArray());
-}
+class ArrayValues {
+public:
+    explicit ArrayValues(const openvdb::points::AttributeArray& array)
+    {
+        array.loadData(); // which may still be in a file
+        mIsUniform = array.isUniform();
+        mValues = reinterpret_cast<const T*>(array.constDataAsByteArray());
+    }
+    const T& operator[](std::size_t i) const { return mValues[mIsUniform ? 0 : i]; }
+
+private:
+    bool mIsUniform;
+    const T* mValues;
+};
 
 /// A point grid under construction; points know the index they came in with.
 class PointWriter {
@@ -101,14 +109,9 @@ public:
         requireAttribute<T>(name);
         std::vector<T> values(size());
         parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-            const openvdb::points::AttributeArray& array =
-                *mLeaves[i]->attributeSet().getConst(name);
-            const openvdb::points::AttributeHandle<T> handle(array); // loads what is in a file
-            T* const here = values.data() + mBegin[i];
-            const std::size_t count = mBegin[i + 1] - mBegin[i];
-            if (count == 0) return;
-            if (handle.isUniform()) std::fill_n(here, count, handle.get(0));
-            else std::copy_n(rawValues<T>(array), count, here);
+            const ArrayValues<T> here(*mLeaves[i]->attributeSet().getConst(name));
+            const std::size_t begin = mBegin[i], count = mBegin[i + 1] - begin;
+            for (std::size_t n = 0; n < count; ++n) values[begin + n] = here[n];
         });
         return values;
     }

@@ -73,7 +73,7 @@ bool hasChecksum(const openvdb::GridBase& grid);
 ///        attributes, edges, groups, metadata or transform. Names of grids, and attributes, groups and
 ///        metadata of others may come and go. Who moves a tree removes the metadata
 ///        `spheretree_checksum_transform` of its grids; radii are in world units, and stay.
-/// @note Linear, all threads. Less than a tenth of the time goes into checksums.
+/// @note Linear. Checksums, all threads: 64 bytes a node, 8 an edge, at 6 GB a second and thread.
 SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
     const openvdb::points::PointDataGrid* dag = nullptr,
     const openvdb::points::PointDataGrid* cuts = nullptr);
