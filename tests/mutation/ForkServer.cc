@@ -83,7 +83,7 @@ void note(const std::string& what)
     std::snprintf(gShare->what, sizeof(gShare->what), "%s", what.c_str());
 }
 
-void tryOne(const std::function<bool(int64_t)>& tryInput, const ForkLimits& limits)
+void tryOne(const std::function<bool(int64_t)>& tryInput)
 {
     try {
         (tryInput(gShare->next) ? gShare->read : gShare->refused)++;
@@ -92,7 +92,7 @@ void tryOne(const std::function<bool(int64_t)>& tryInput, const ForkLimits& limi
     } catch (...) {
         note("threw something that is no std::exception");
     }
-    if (gShare->outOfMemory && !limits.mayAskForMore) note("asked for more memory than it may");
+    if (gShare->outOfMemory) note("asked for more memory than it may");
     gShare->outOfMemory = false;
 }
 
@@ -108,7 +108,7 @@ void tryOne(const std::function<bool(int64_t)>& tryInput, const ForkLimits& limi
         const auto tryInput = prepare();
         while (gShare->next < gShare->end && gShare->what[0] == '\0') {
             alarm(limits.seconds);
-            tryOne(tryInput, limits);
+            tryOne(tryInput);
             if (gShare->what[0] == '\0') gShare->next += gShare->step;
         }
         alarm(0);

@@ -23,7 +23,6 @@ struct ForkLimits {
     int children = 2;
     unsigned seconds = 60;               ///< for one input, before it counts as a hang
     uint64_t memory = uint64_t(1) << 30; ///< bytes that a child may take beyond its start
-    bool mayAskForMore = false;          ///< whether to be refused memory is no finding
 };
 
 struct Finding {

@@ -136,22 +136,16 @@ TEST_P(Mutants, AreReadOrRefused)
 {
     const MutantList mutants(sampleFile(GetParam()));
     const std::string& extension = mutants.sample().extension;
-    ForkLimits limits;
-    // The header of a volume may ask for memory that is never touched: VolFile.cc.
-    limits.mayAskForMore = extension == ".vol" || extension == ".longvol";
-    const ForkedRun run = runForked(
-        mutants.size(),
-        [&] {
-            const auto reader = std::make_shared<InputReader>(extension);
-            return [&, reader](int64_t number) {
-                const bool isRead = reader->read(mutants.bytes(number), /*delayed=*/number / 2 % 2);
-                if (isRead && number < mutants.cuts() && mutants.sample().saysItsLength) {
-                    throw std::logic_error("a part of the file was read as if it were whole");
-                }
-                return isRead;
-            };
-        },
-        limits);
+    const ForkedRun run = runForked(mutants.size(), [&] {
+        const auto reader = std::make_shared<InputReader>(extension);
+        return [&, reader](int64_t number) {
+            const bool isRead = reader->read(mutants.bytes(number), /*delayed=*/number / 2 % 2);
+            if (isRead && number < mutants.cuts() && mutants.sample().saysItsLength) {
+                throw std::logic_error("a part of the file was read as if it were whole");
+            }
+            return isRead;
+        };
+    });
     report(mutants, run);
 }
 
