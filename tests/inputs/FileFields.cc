@@ -1,46 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FileFields.h"
 
+#include <openvdb_spheretree/input/vdb/VdbGuard.h>
+
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
-#include <algorithm>
-#include <cstring>
 #include <istream>
+#include <sstream>
 #include <streambuf>
 
 namespace spheretree_test {
 
+using openvdb_spheretree::detail::DelayedMetadata;
+using openvdb_spheretree::detail::VdbGuard;
+
 namespace {
 
-/// Reads from memory, and notes what is read.
+/// Hands on what another buffer has, and notes what is read.
 class NotingBuffer : public std::streambuf {
 public:
-    explicit NotingBuffer(const std::string& bytes) : mBytes(bytes) {}
+    explicit NotingBuffer(std::streambuf& source) : mSource(source) {}
 
     std::vector<Field> fields;
 
 protected:
     std::streamsize xsgetn(char* to, std::streamsize count) override
     {
-        const std::size_t left = mBytes.size() - mPosition;
-        const std::size_t some = std::min(left, std::size_t(count));
-        if (some > 0) fields.push_back({mPosition, some});
-        std::memcpy(to, mBytes.data() + mPosition, some);
-        mPosition += some;
-        return std::streamsize(some);
+        const std::streamsize some = mSource.sgetn(to, count);
+        if (some > 0) fields.push_back({mPosition, std::size_t(some)});
+        mPosition += std::size_t(some);
+        return some;
     }
     /// One character at a time: the header's identifier is read so.
-    int_type underflow() override
-    {
-        return mPosition < mBytes.size() ? traits_type::to_int_type(mBytes[mPosition])
-                                         : traits_type::eof();
-    }
+    int_type underflow() override { return mSource.sgetc(); }
     int_type uflow() override
     {
-        const int_type next = underflow();
-        if (next != traits_type::eof()) ++mPosition;
-        return next;
+        ++mPosition;
+        return mSource.sbumpc();
     }
     pos_type seekoff(
         off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode) override
@@ -50,7 +47,7 @@ protected:
     }
 
 private:
-    const std::string& mBytes;
+    std::streambuf& mSource;
     std::size_t mPosition = 0;
 };
 
@@ -59,7 +56,9 @@ private:
 std::vector<Field> vdbFields(const std::string& bytes)
 {
     openvdb::initialize();
-    NotingBuffer buffer(bytes);
+    std::stringbuf source(bytes, std::ios::in);
+    VdbGuard guard(source, DelayedMetadata::Keep); // it hands on every byte
+    NotingBuffer buffer(guard);
     try {
         std::istream in(&buffer);
         in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);

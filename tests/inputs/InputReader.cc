@@ -13,6 +13,8 @@
 
 #include <stdexcept>
 
+#include <unistd.h>
+
 namespace spheretree_test {
 
 using openvdb_spheretree::isVolFileName;
@@ -30,10 +32,24 @@ void checkMessage(const std::string& message, const std::string& path)
     }
 }
 
+/// Closes what was opened during its life. What is read with delayed loading keeps its file open for as
+/// long as the program runs, which is too long for thousands of files.
+class FileCloser {
+public:
+    FileCloser() : mFirst(dup(STDIN_FILENO)) { close(mFirst); }
+    ~FileCloser() { close_range(unsigned(mFirst), ~0u, 0); }
+    FileCloser(const FileCloser&) = delete;
+    FileCloser& operator=(const FileCloser&) = delete;
+
+private:
+    int mFirst; ///< the lowest number that was free
+};
+
 } // namespace
 
 void InputReader::readVdb(bool delayed) const
 {
+    const FileCloser closer;
     const auto line =
         command::parseLine({"-quiet", "-read", mFile.path(), delayed ? "delayed=1" : "delayed=0"});
     const command::Plan plan = command::checkLine(line);
