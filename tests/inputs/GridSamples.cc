@@ -5,6 +5,7 @@
 #include "SampleFiles.h"
 #include "VdbSamples.h"
 
+#include <openvdb/points/AttributeArrayString.h>
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
 #include <openvdb/points/PointGroup.h>
@@ -79,7 +80,7 @@ points::PointDataGrid::Ptr dust()
     auto& tree = grid->tree();
     points::appendAttribute<openvdb::Vec3f>(tree, "v", openvdb::Vec3f(1, 2, 3));
     points::appendAttribute<float>(tree, "pscale", 0.5f);
-    points::appendAttribute<openvdb::Name, points::StringCodec<>>(tree, "from");
+    points::appendAttribute(tree, "from", points::StringAttributeArray::attributeType());
     points::appendGroup(tree, "chosen");
     points::setGroup(tree, "chosen", true);
     float size = 0;
