@@ -51,7 +51,8 @@ typename GridT::Ptr numbers()
     using Value = typename GridT::ValueType;
     const auto grid = GridT::create(Value(0));
     int number = 0;
-    for (auto voxel = sampleObject()->cbeginValueOn(); voxel; ++voxel) {
+    const auto object = sampleObject();
+    for (auto voxel = object->cbeginValueOn(); voxel; ++voxel) {
         grid->tree().setValue(voxel.getCoord(), Value(++number));
     }
     grid->tree().addTile(/*level=*/1, openvdb::Coord(64, 0, 0), Value(1), /*active=*/true);

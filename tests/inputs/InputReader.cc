@@ -77,9 +77,9 @@ bool InputReader::read(const std::string& bytes, bool delayed)
         else readMeshFile(path);
         return true;
     } catch (const command::CommandError& error) {
-        const bool expected =
-            error.code() == command::kInput || (isConfig && error.code() == command::kUsage);
-        if (!expected) throw;
+        // Actions in the wrong order may be the fault of the line that the file is a part of.
+        if (isConfig && error.code() == command::kUsage) return false;
+        if (error.code() != command::kInput) throw;
         checkMessage(error.what(), path);
     } catch (const openvdb::IoError& error) { // what the readers of the library throw
         checkMessage(error.what(), path);
