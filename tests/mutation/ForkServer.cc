@@ -103,6 +103,7 @@ void tryOne(const std::function<bool(int64_t)>& tryInput)
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
     limitMemory(limits.memory);
+    if (!freopen("/dev/null", "w", stderr)) _exit(1); // OpenVDB warns of what it then refuses
     std::set_new_handler(noteOutOfMemory);
     {
         const auto tryInput = prepare();
