@@ -17,6 +17,7 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointDataGrid.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,6 +29,14 @@ namespace openvdb_spheretree::detail {
 constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
+
+/// @return the values of an array that is loaded, not uniform, and not compressed: half the time of
+/// asking for each.
+template <typename T>
+const T* rawValues(const openvdb::points::AttributeArray& array)
+{
+    return reinterpret_cast<const T*>(array.constDataAsByteArray());
+}
 
 /// A point grid under construction; points know the index they came in with.
 class PointWriter {
@@ -89,6 +98,39 @@ public:
     template <typename T>
     std::vector<T> attribute(const std::string& name) const
     {
+        requireAttribute<T>(name);
+        std::vector<T> values(size());
+        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+            const openvdb::points::AttributeArray& array =
+                *mLeaves[i]->attributeSet().getConst(name);
+            const openvdb::points::AttributeHandle<T> handle(array); // loads what is in a file
+            T* const here = values.data() + mBegin[i];
+            const std::size_t count = mBegin[i + 1] - mBegin[i];
+            if (count == 0) return;
+            if (handle.isUniform()) std::fill_n(here, count, handle.get(0));
+            else std::copy_n(rawValues<T>(array), count, here);
+        });
+        return values;
+    }
+
+    /// @return positions in the index space of the source grid.
+    std::vector<openvdb::Vec3d> positions(int scale) const;
+
+    /// @return the first point that is not where it should be, or size(): point i at
+    ///         places[indices[i]].
+    std::size_t firstAstray(int scale, const std::vector<openvdb::Vec3d>& places,
+        const std::vector<int32_t>& indices) const;
+
+    /// @brief Requires that each point is in one of these groups, and in no other of them.
+    /// @param groups  index of the group of each point
+    /// @throw openvdb::IoError if one is not, or a group is missing
+    void requireGroups(
+        const std::vector<std::string>& names, const std::vector<int32_t>& groups) const;
+
+private:
+    template <typename T>
+    void requireAttribute(const std::string& name) const
+    {
         const openvdb::NamePair& expected =
             openvdb::points::TypedAttributeArray<T>::attributeType();
         for (const PointLeaf* leaf : mLeaves) {
@@ -103,20 +145,12 @@ public:
                               << " with " << array->stride() << " values a point, not "
                               << expected.first << "/" << expected.second << " with 1");
         }
-        std::vector<T> values(size());
-        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-            const openvdb::points::AttributeHandle<T> handle(
-                *mLeaves[i]->attributeSet().getConst(name));
-            T* const here = values.data() + mBegin[i];
-            for (openvdb::Index n = 0; n < handle.size(); ++n) here[n] = handle.get(n);
-        });
-        return values;
     }
 
-    /// @return positions in the index space of the source grid.
-    std::vector<openvdb::Vec3d> positions(int scale) const;
+    /// Calls body(point, position) for the points of a leaf, whose attribute P has been required.
+    template <typename Body>
+    void forPositions(std::size_t leaf, int scale, const Body& body) const;
 
-private:
     std::vector<const PointLeaf*> mLeaves;
     std::vector<std::size_t> mBegin; ///< of each leaf's points in the arrays
 };

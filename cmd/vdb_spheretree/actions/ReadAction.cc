@@ -70,6 +70,11 @@ StackItem treeItem(
     const PointDataGrid& points, const Companions& companions, const std::string& path)
 {
     StackItem item;
+    const auto isUnverified = [](const PointDataGrid* grid) {
+        return grid && !openvdb_spheretree::hasChecksum(*grid);
+    };
+    item.unverified = isUnverified(&points) || isUnverified(companions.dag.get())
+        || isUnverified(companions.cuts.get());
     try {
         item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
             openvdb_spheretree::fromPoints(points, companions.dag.get(), companions.cuts.get()));

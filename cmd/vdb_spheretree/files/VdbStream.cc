@@ -38,13 +38,14 @@ public:
     }
     int fd() const { return mFd; }
 
-    /// Leave it open for as long as the program runs.
-    /// @return a path to this very file, even if another one has its name by now
-    std::string keepOpen()
+    /// @return whether it still is what @a path names, unchanged.
+    bool isStill(const std::string& path) const
     {
-        const std::string path = "/proc/self/fd/" + std::to_string(mFd);
-        mFd = STDIN_FILENO; // which is not closed
-        return path;
+        struct stat opened, named;
+        return fstat(mFd, &opened) == 0 && stat(path.c_str(), &named) == 0
+            && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino
+            && opened.st_size == named.st_size && opened.st_mtim.tv_sec == named.st_mtim.tv_sec
+            && opened.st_mtim.tv_nsec == named.st_mtim.tv_nsec;
     }
 
 private:
@@ -87,15 +88,15 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
 {
     return naming(path, [&] {
         openvdb::GridPtrVec grids;
-        InputFile input(path);
+        const InputFile input(path);
         FdBuffer buffer(input.fd());
         const auto names = openvdb_spheretree::requireSoundVdb(buffer);
         if (!names) return grids;
-        // OpenVDB looks at the file's time whenever it reads values.
-        const std::string samePath = input.keepOpen();
-        openvdb::io::File file(samePath);
+        openvdb::io::File file(path);
         file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
         file.open(/*delayLoad=*/true);
+        // OpenVDB has opened it by its name, and must have got what was looked at.
+        if (!input.isStill(path)) throwInput("the file was replaced while it was read");
         for (const std::string& name : *names) {
             throwIfStopped();
             grids.push_back(file.readGrid(name));

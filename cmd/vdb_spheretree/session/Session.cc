@@ -51,6 +51,13 @@ void Session::runOne(const ActionCall& call)
               << std::endl;
 }
 
+void Session::noteIfUnverified(const StackItem& item)
+{
+    if (!item.unverified) return;
+    note(item.description()
+        + " has no checksum, as those of version 0.1: nobody can tell whether it is whole");
+}
+
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
 
 void Session::print(const std::string& text, std::ostream& out)

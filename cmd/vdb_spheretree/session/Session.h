@@ -49,7 +49,9 @@ struct Session {
     void remark(const std::string& line) { say(Verbosity::Verbose, "    ", line); }
     /// Prints a line on stderr unless -quiet has been given.
     void note(const std::string& line) { say(Verbosity::Normal, "vdb_spheretree: note: ", line); }
-    /// The same, for what may be a mistake.
+    /// Notes that nobody can tell whether a tree is whole, if that is so.
+    void noteIfUnverified(const StackItem& item);
+    /// As a note, for what may be a mistake.
     void warn(const std::string& line);
 
     const Plan& plan;

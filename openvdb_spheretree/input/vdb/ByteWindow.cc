@@ -25,12 +25,15 @@ void ByteWindow::clear()
 void ByteWindow::require(uint64_t count)
 {
     while (mArrived - mTaken < count) {
-        const auto piece = size_t(std::min(count - (mArrived - mTaken), kPiece));
+        const uint64_t missing = std::min(count - (mArrived - mTaken), kPiece);
+        // What the source has at hand costs nothing; to ask for more could wait for ever on a pipe.
+        const auto atHand = uint64_t(std::max<std::streamsize>(mSource.in_avail(), 0));
+        const auto piece = size_t(std::max(missing, std::min(atHand, kPiece)));
         if (mBytes.size() < mArrived + piece) mBytes.resize(2 * mArrived + piece);
         const std::streamsize some =
             mSource.sgetn(mBytes.data() + mArrived, std::streamsize(piece));
         mArrived += size_t(some);
-        if (size_t(some) < piece) fail("it ends too early");
+        if (size_t(some) < missing) fail("it ends too early");
     }
 }
 

@@ -6,7 +6,7 @@
 /// sizes of attributes; headers of the pages of attribute 1, ..., n; the voxel values; the pages of
 /// attribute 1, ..., n; nothing. A page holds an attribute of many leaves, packed by Blosc. Without
 /// Blosc there are no pages, and each leaf's attribute stands for itself.
-/// (openvdb/points/PointDataGrid.h, AttributeArray.h and StreamCompression.cc of version 10.)
+/// (After OpenVDB 10, which reads them in PointDataLeafNode::readBuffers.)
 
 #pragma once
 

@@ -3,7 +3,7 @@
 /// @brief The values of a node as a `.vdb` has them: which are stored, and how they are compressed.
 ///
 /// OpenVDB believes the length of a block before it compares it with the size of its buffer
-/// (io/Compression.cc of version 10: bloscFromStream, unzipFromStream). Here it is compared first.
+/// (version 10, bloscFromStream and unzipFromStream). Here it is compared first.
 
 #pragma once
 
