@@ -159,6 +159,20 @@ TEST(RoundUp, IntegerRootIsTheLargestWhoseSquareIsNotAbove)
     EXPECT_EQ(floorSqrtWide(0), 0);
 }
 
+TEST(RoundUp, RootsOfIntegersLieOnBothSidesOfTheTrueOne)
+{
+    std::mt19937_64 random(9);
+    for (int i = 0; i < kTrials; ++i) {
+        const int64_t n = 2 + randomInteger(random, 31), nSq = n * n;
+        for (const int64_t root : {floorSqrt(nSq), ceilSqrt(nSq), ceilSqrt(nSq - 1)}) {
+            ASSERT_EQ(root, n);
+        }
+        ASSERT_EQ(floorSqrt(nSq - 1), n - 1);
+        ASSERT_EQ(floorSqrt(nSq + 2 * n), n);
+        ASSERT_EQ(ceilSqrt(nSq + 1), n + 1);
+    }
+}
+
 TEST(RoundDown, NeverComesOutAboveAndIsNextToTheTrueValue)
 {
     std::mt19937 random(5);
