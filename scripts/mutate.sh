@@ -12,10 +12,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
 case " $* " in
     *" --check "* | *" --help "* | *" -h "*) ;;
     *)
-        if [ -z "${SPHERETREE_NO_BUILD:-}" ]; then
-            install_packages "${build_packages[@]}" "${test_packages[@]}"
-            build_preset test
-        fi
+        install_packages "${build_packages[@]}" "${test_packages[@]}"
+        build_preset test
         ;;
 esac
 cd "$project_root"
