@@ -12,7 +12,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
 
 export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
 export LSAN_OPTIONS="suppressions=$project_root/scripts/sanitizers/leaks.supp:print_suppressions=0"
-export UBSAN_OPTIONS="print_stacktrace=1"
+export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+UBSAN_OPTIONS+=":suppressions=$project_root/scripts/sanitizers/undefined.supp"
 
 # The same lines as a user's. They stop at the first report.
 run_lines() {
