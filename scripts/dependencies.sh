@@ -10,6 +10,7 @@ build_packages=(
     libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
     zlib1g-dev libpng-dev libhwy-dev libassimp-dev)
 test_packages=(libgtest-dev libbenchmark-dev nlohmann-json3-dev python3-matplotlib)
+clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report
 
 say() { printf '%s\n' "== $*" >&2; }
 fail() { printf '%s\n' "${0##*/}: $*" >&2; exit 1; }

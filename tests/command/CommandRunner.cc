@@ -19,6 +19,16 @@
 #include <unistd.h>
 
 namespace command_test {
+namespace {
+
+// The one that was built, or another build of it: a mutant, say (scripts/mutate.sh).
+std::string program()
+{
+    const char* other = std::getenv("SPHERETREE_TESTED_PROGRAM");
+    return other ? other : VDB_SPHERETREE_COMMAND;
+}
+
+} // namespace
 
 std::string readText(const std::filesystem::path& path)
 {
@@ -143,14 +153,14 @@ std::vector<std::string> CommandTest::files() const
 Running CommandTest::start(const std::vector<std::string>& arguments, const std::string& input,
     const std::function<void()>& prepare) const
 {
-    std::vector<std::string> line = {VDB_SPHERETREE_COMMAND};
+    std::vector<std::string> line = {program()};
     line.insert(line.end(), arguments.begin(), arguments.end());
     return Running(line, mWork, input, prepare);
 }
 
 Result CommandTest::shell(const std::string& line) const
 {
-    setenv("VDB_SPHERETREE", VDB_SPHERETREE_COMMAND, 1);
+    setenv("VDB_SPHERETREE", program().c_str(), 1);
     return Running({"/bin/sh", "-c", line}, mWork).wait();
 }
 

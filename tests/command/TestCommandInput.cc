@@ -4,6 +4,7 @@
 
 #include "CommandRunner.h"
 
+#include <openvdb/io/File.h>
 #include <openvdb/points/PointConversion.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
@@ -66,6 +67,12 @@ TEST_F(CommandInput, MissingFile)
     expectInputError("-read nowhere.vdb -spheretree -write t.vdb", "nowhere.vdb");
     expectInputError("-read nowhere.vol -spheretree -write t.vdb", "nowhere.vol");
     expectInputError("-read nowhere.obj -mesh2ls -spheretree -write t.vdb", "nowhere.obj");
+}
+
+TEST_F(CommandInput, AFileWithoutGrids)
+{
+    openvdb::io::File(path("none.vdb").string()).write(openvdb::GridPtrVec());
+    expectInputError("-read none.vdb", "none.vdb: the file holds no grid");
 }
 
 TEST_F(CommandInput, AMissingFileIsFoundBeforeAnyWork)

@@ -106,15 +106,16 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
             near.max()[a] = int32_t((box.hi[a] + width) >> log2);
         }
         const auto& cells = grid.cells;
-        forEachCluster(grid.clusters, near >> 2, [&](const Coord& cluster, uint64_t bits) {
-            for (; bits; bits &= bits - 1) {
-                const int bit = __builtin_ctzll(bits);
-                const Coord at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
-                    4 * cluster[2] + (bit & 3));
-                if (!near.isInside(at)) continue;
-                for (const Entry& entry : cells.find(at)->second) body(entry);
-            }
-        });
+        forEachCluster(
+            grid.clusters, near >> std::size_t(2), [&](const Coord& cluster, uint64_t bits) {
+                for (; bits; bits &= bits - 1) {
+                    const int bit = __builtin_ctzll(bits);
+                    const Coord at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
+                        4 * cluster[2] + (bit & 3));
+                    if (!near.isInside(at)) continue;
+                    for (const Entry& entry : cells.find(at)->second) body(entry);
+                }
+            });
     }
 }
 

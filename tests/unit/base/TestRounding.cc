@@ -73,8 +73,22 @@ TEST(RoundUp, ProductsAreTheSmallestDoubleNotBelow)
     }
 }
 
-/// x as an integer times 2^-shift, shift at most 52.
+/// x as an integer times 2^-shift, with shift = 52 - ilogb(x).
 Wide mantissa(double x, int shift) { return Wide(std::ldexp(x, shift)); }
+
+TEST(RoundUp, QuotientsAreTheSmallestDoubleNotBelow)
+{
+    EXPECT_EQ(divideUp(3.5, 7), 0.5);
+    std::mt19937_64 random(8);
+    for (int i = 0; i < kTrials; ++i) {
+        const int64_t m = 1 + randomInteger(random, 52), n = 1 + randomInteger(random, 52);
+        const double up = divideUp(double(m), double(n));
+        const int shift = 52 - std::ilogb(up);
+        const Wide quotient = mantissa(up, shift), exact = Wide(m) << shift; // times n, below 2^106
+        ASSERT_GE(quotient * n, exact) << m << " / " << n;
+        ASSERT_LT((quotient - 1) * n, exact) << m << " / " << n;
+    }
+}
 
 TEST(RoundUp, RootsAreTheSmallestDoubleNotBelow)
 {
@@ -143,6 +157,20 @@ TEST(RoundUp, IntegerRootIsTheLargestWhoseSquareIsNotAbove)
         ASSERT_EQ(floorSqrtWide(square + Unsigned(n) + Unsigned(n) + 1), n + 1);
     }
     EXPECT_EQ(floorSqrtWide(0), 0);
+}
+
+TEST(RoundUp, RootsOfIntegersLieOnBothSidesOfTheTrueOne)
+{
+    std::mt19937_64 random(9);
+    for (int i = 0; i < kTrials; ++i) {
+        const int64_t n = 2 + randomInteger(random, 31), nSq = n * n;
+        for (const int64_t root : {floorSqrt(nSq), ceilSqrt(nSq), ceilSqrt(nSq - 1)}) {
+            ASSERT_EQ(root, n);
+        }
+        ASSERT_EQ(floorSqrt(nSq - 1), n - 1);
+        ASSERT_EQ(floorSqrt(nSq + 2 * n), n);
+        ASSERT_EQ(ceilSqrt(nSq + 1), n + 1);
+    }
 }
 
 TEST(RoundDown, NeverComesOutAboveAndIsNextToTheTrueValue)

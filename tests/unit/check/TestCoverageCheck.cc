@@ -67,6 +67,9 @@ TEST(CoverageCheck, SaysWhenLevel0DoesNotRebuildTheObject)
     expectFault(
         FaultKind::DigitalBalls, [](SphereTree& tree) { tree.ijk[4].x() = 12; },
         "level 0 does not rebuild the object: its digital balls lack 1 voxel (first: [9, 2, 2])");
+    expectFault(
+        FaultKind::DigitalBalls, [](SphereTree& tree) { tree.radiusSq[4] = 16; },
+        "level 0: the digital ball is larger than the level's 8 voxels for 1 node (first: id 4)");
     const auto huge = [](SphereTree& tree) { tree.radiusSq[4] = 2000000000; };
     expectFault(FaultKind::DigitalBalls, huge,
         "level 0: the digital ball is larger than the level's 8 voxels for 1 node (first: id 4)");

@@ -184,6 +184,18 @@ TEST_F(TreeCheck, SaysWhenNumbersAreOutOfRange)
         "radius_sq is less than 1 for 1 node (first: id 2)");
 }
 
+TEST_F(TreeCheck, SaysWhenARadiusOfANormIsNoSquare)
+{
+    expectFault(
+        FaultKind::Shape,
+        [](SphereTree& tree) {
+            tree.settings.pyramid().dist = Distance::linf();
+            std::fill(tree.radiusSq.begin(), tree.radiusSq.end(), 4);
+            tree.radiusSq[2] = 5;
+        },
+        "radius_sq is no square, as those of a norm are, for 1 node (first: id 2)");
+}
+
 TEST_F(TreeCheck, SaysWhenWhatIsRecordedOfTheObjectIsWrong)
 {
     expectFault(

@@ -57,7 +57,8 @@ TEST(Thresholds, AThresholdThatIsNoFiniteNumberIsAnError)
     const auto grid = named<FloatGrid>("fog", 0.0f);
     grid->tree().setValueOn(Coord(0, 0, 0), 1.0f);
     for (double value : {std::nan(""), kInfinity, -kInfinity}) {
-        EXPECT_TRUE(mentions(whyNot(*grid, threshold(value)), "threshold="));
+        const std::string why = whyNot(*grid, threshold(value));
+        EXPECT_TRUE(mentions(why, "threshold=") && mentions(why, "is not a finite number")) << why;
     }
 }
 

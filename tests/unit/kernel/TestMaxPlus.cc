@@ -278,9 +278,7 @@ void expectOneSite(int64_t radius)
 
 TEST(MaxPlus, HoldsTheLargestRadiusOfEachWidth)
 {
-    expectOneSite<NarrowPower>(60);
-    expectOneSite<NarrowPower>(61);
-    expectOneSite<NarrowPower>(127);
+    for (const int64_t radius : {60, 61, 64, 90, 127}) expectOneSite<NarrowPower>(radius);
     expectOneSite<WidePower>(128);
     expectOneSite<WidePower>(32767);
 }

@@ -206,6 +206,20 @@ TEST(DistanceTransform, ActiveVoxelsOfValueFalseCount)
     EXPECT_EQ(distances->tree().getValue(Coord(1, 2, 3)), 1);
 }
 
+TEST(DistanceTransform, OfANormTheSquareOfTheLargestFits32BitsOrIsRefused)
+{
+    const Distance norm = Distance::chamfer(255, 255, 255); // 46340 is 181.7 steps
+    for (const int steps : {181, 182}) {
+        const int side = 2 * steps - 1;
+        const LeafLayout layout(*maskOf(shapes::box(Coord(side, side, 1))));
+        if (steps == 181) {
+            EXPECT_EQ(distanceTransform(layout, 2, norm).largest(), 181u * 255);
+        } else {
+            EXPECT_THROW(distanceTransform(layout, 2, norm), openvdb::ValueError);
+        }
+    }
+}
+
 TEST(DistanceTransform, StopsWhenInterrupted)
 {
     const auto mask = maskOf(shapes::ball(100));

@@ -136,6 +136,17 @@ TEST(PackedStore, AFullDiskIsAnError)
     EXPECT_EQ(folder.files(), 0);
 }
 
+/// Of what is to come, the store knows the number of blocks, and what those before took.
+TEST(PackedStore, SaysAtTheFirstBlockWhenThereIsNoRoomForAll)
+{
+    const TemporaryFolder folder;
+    PackedStore store(std::size_t(1) << 22, 0);
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::IoError>([&] { put(store, 1, numbersOf(1, std::size_t(1) << 23)); }),
+        "there is room for"));
+    EXPECT_EQ(folder.openFiles(), 1) << "which goes with the store";
+}
+
 TEST(SpillFile, KnowsWhetherThereIsRoom)
 {
     const TemporaryFolder folder;

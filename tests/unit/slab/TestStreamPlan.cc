@@ -94,11 +94,18 @@ TEST(StreamPlan, PacksWhatHasNoWindow)
     EXPECT_TRUE(mentions(why, "memory="));
 }
 
-/// Every leaf is in one group of its slab, and in the band of its run.
-void expectGroups(const LeafLayout& layout, const LeafGroups& cut)
+/// Every leaf is in one group of its slab, and in the band of its run; a band has one run, or no more leaves
+/// than it may.
+void expectGroups(const LeafLayout& layout, const LeafGroups& cut, int64_t leavesOfBand)
 {
     std::vector<uint32_t> bandOf(layout.leafCount());
     for (std::size_t band = 0; band + 1 < cut.firstRunOfBand.size(); ++band) {
+        const uint32_t runs = cut.firstRunOfBand[band + 1] - cut.firstRunOfBand[band];
+        int64_t leaves = 0;
+        for (uint32_t i = 0; i < runs; ++i) {
+            leaves += layout.run(Axis::X, cut.firstRunOfBand[band] + i).count;
+        }
+        ASSERT_TRUE(runs == 1 || leaves <= leavesOfBand) << leaves << " in band " << band;
         for (uint32_t i = cut.firstRunOfBand[band]; i < cut.firstRunOfBand[band + 1]; ++i) {
             const LeafLayout::Run run = layout.run(Axis::X, i);
             for (uint32_t k = 0; k < run.count; ++k) bandOf[run.leaves[k]] = uint32_t(band);
@@ -130,7 +137,7 @@ TEST(LeafGroups, ArePartsOfSlabsAndOfBands)
         for (const int64_t bytes : {0, 1, 2, 5, 1 << 20}) {
             const LeafGroups cut(layout, 1, bytes);
             SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(bytes));
-            ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut));
+            ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut, bytes));
             const std::size_t bands = cut.firstOfBand.size() - 1;
             EXPECT_TRUE(bytes > 0 || bands == layout.runCount(Axis::X));
             EXPECT_TRUE(bytes < 1000 || bands == 1);
@@ -145,7 +152,7 @@ TEST(LeafGroups, LargeSlabsHaveSeveral)
 {
     const LeafLayout layout(*maskOf(CoordBBox(Coord(0), Coord(15, 399, 399)))); // 2 x 2500
     const LeafGroups cut(layout, 1, INT64_MAX);
-    ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut));
+    ASSERT_NO_FATAL_FAILURE(expectGroups(layout, cut, INT64_MAX));
     EXPECT_EQ(cut.groups.size(), 6u);
     EXPECT_EQ(cut.ofSlab[1].size(), 3u);
 }

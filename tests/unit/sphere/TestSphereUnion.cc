@@ -455,6 +455,10 @@ TEST_F(SphereUnion, DrawnWithinAMaskNodesWithoutVoxelsOfTheMaskAreLeftOut)
     EXPECT_EQ(whole->leafCount(), 0u);
     EXPECT_LE(whole->activeTileCount(), 2u); // of the leaves of (0, 0, 0) and (1000, 1000, 1000)
     EXPECT_TRUE(whole->isValueOn(Coord(0)) && whole->isValueOn(Coord(1000)));
+    MaskTree last(false);
+    last.setValueOn(Coord(70000));
+    const MaskTree::Ptr far = detail::rasterSpheres(surface, Distance(), kWide, &last, nullptr);
+    EXPECT_EQ(far->activeTileCount(), 0u); // none for the 4096^3 voxels at the origin
 }
 
 TEST_F(SphereUnion, StopsWhenInterrupted)

@@ -3,6 +3,7 @@
 /// @brief Trees as JSON, read back by a parser that is not ours: every number is the tree's.
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/store/JsonWriter.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
 
 #include "support/BuiltTrees.h"
@@ -16,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
 
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -215,6 +217,15 @@ TEST(SphereTreeJson, ADagWithoutEdgesIsAnEmptyArray)
     EXPECT_TRUE(json::parse(textOf(tree)).at("dag").is_null());
     tree.hasDag = true;
     EXPECT_EQ(json::parse(textOf(tree)).at("dag"), json::array());
+}
+
+TEST(SphereTreeJson, NumbersThatJsonDoesNotHaveAreNull)
+{
+    JsonWriter json;
+    json.beginArray("", /*onOneLine=*/true);
+    for (const double number : {1.5, std::nan(""), HUGE_VAL, -HUGE_VAL}) json.value("", number);
+    json.endArray();
+    EXPECT_EQ(nlohmann::json::parse(json.text()).dump(), "[1.5,null,null,null]");
 }
 
 TEST(SphereTreeJson, AFullDiskIsAnError)

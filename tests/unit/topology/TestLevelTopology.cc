@@ -68,6 +68,28 @@ TEST(LevelTopology, CubesThatShareAnEdgeOrACornerAreOnePart)
     }
 }
 
+/// An arch in one leaf: its feet meet only above, or below, or beside, the planes that they stand on.
+TEST(LevelTopology, AnArchIsOnePartWhicheverWayItStands)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int foot : {1, 6}) {
+            const int top = foot == 1 ? 4 : 3, step = foot == 1 ? 1 : -1;
+            Voxels arch;
+            const auto add = [&](int height, int aside) {
+                Coord& voxel = arch.emplace_back(0, 0, 0);
+                voxel[axis] = height;
+                voxel[(axis + 1) % 3] = aside;
+            };
+            for (int aside = 1; aside <= 4; ++aside) add(top, aside);
+            for (int height = foot; height != top; height += step) add(height, 1), add(height, 4);
+            std::sort(arch.begin(), arch.end());
+            EXPECT_EQ(topologyOf(arch), betti(1, 0, 0)) << axis << ' ' << foot;
+        }
+    }
+    EXPECT_EQ(topologyOf({Coord(0, 0, 0), Coord(0, 0, 2), Coord(1, 0, 1)}), betti(1, 0, 0));
+    EXPECT_EQ(topologyOf({Coord(6, 0, 1), Coord(7, 0, 0), Coord(7, 0, 2)}), betti(1, 0, 0));
+}
+
 TEST(LevelTopology, BackgroundThatSharesOnlyACornerOrAnEdgeIsNotConnected)
 {
     Voxels cube = shapes::box(Coord(6));

@@ -5,6 +5,8 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
+#include "support/Messages.h"
+
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -24,6 +26,7 @@ namespace {
 
 using namespace openvdb_spheretree;
 using openvdb::Coord;
+using spheretree_test::mentions;
 
 constexpr std::uint64_t kInt64Max = std::numeric_limits<std::int64_t>::max();
 
@@ -211,6 +214,18 @@ TEST(VolFile, RejectsEveryTruncationOfASmallFile)
                     << "version " << version << " cut to " << length << " of " << whole.size();
             }
         }
+    }
+}
+
+TEST(VolFile, RejectsAWholeStreamOfTooFewValues)
+{
+    const Volume volume = randomVolume({9, 4, 10}, 30, 255);
+    const std::string bytes = bytesOf(volume, 1);
+    for (const std::size_t missing : {std::size_t(1), bytes.size() / 2, bytes.size()}) {
+        const std::string some = bytes.substr(0, bytes.size() - missing);
+        EXPECT_TRUE(mentions(errorOf("few.vol", headerOf(volume.dim, 3) + zipped(some)),
+            "ends before the X*Y*Z values"))
+            << missing;
     }
 }
 
