@@ -8,6 +8,13 @@
 
 #include <stdexcept>
 
+// A leak of OpenVDB's (10.0.1), where a file ends between the sizes of attributes and their values.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions()
+{
+    return "leak:compression::PagedInputStream::createHandle\n";
+}
+
 namespace spheretree_test {
 
 int readAsFile(const char* extension, const uint8_t* data, std::size_t size, bool delayed)
