@@ -19,6 +19,7 @@
 #include "voxel/MedialBall.h"
 
 // A grid to the object that it stands for.
+#include "input/DelayedValues.h"
 #include "input/Object.h"
 
 // The object to a pyramid of ever coarser ones.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InputReader.h"
 
+#include <openvdb_spheretree/input/DelayedValues.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
@@ -12,8 +13,6 @@
 #include <openvdb/Grid.h>
 
 #include <stdexcept>
-
-#include <unistd.h>
 
 namespace spheretree_test {
 
@@ -32,24 +31,10 @@ void checkMessage(const std::string& message, const std::string& path)
     }
 }
 
-/// Closes what was opened during its life. What is read with delayed loading keeps its file open for as
-/// long as the program runs, which is too long for thousands of files.
-class FileCloser {
-public:
-    FileCloser() : mFirst(dup(STDIN_FILENO)) { close(mFirst); }
-    ~FileCloser() { close_range(unsigned(mFirst), ~0u, 0); }
-    FileCloser(const FileCloser&) = delete;
-    FileCloser& operator=(const FileCloser&) = delete;
-
-private:
-    int mFirst; ///< the lowest number that was free
-};
-
 } // namespace
 
 void InputReader::readVdb(bool delayed) const
 {
-    const FileCloser closer;
     const auto line =
         command::parseLine({"-quiet", "-read", mFile.path(), delayed ? "delayed=1" : "delayed=0"});
     const command::Plan plan = command::checkLine(line);
@@ -58,7 +43,7 @@ void InputReader::readVdb(bool delayed) const
     for (const auto& item : session.stack.items()) {
         if (!item->grid) continue;
         try {
-            item->grid->baseTree().readNonresidentBuffers();
+            openvdb_spheretree::requireReadableValues(*item->grid);
         } catch (...) {
             command::rethrowNamed(mFile.path(), command::kInput);
         }

@@ -5,10 +5,12 @@
 #include "base/Progress.h"
 #include "FdBuffer.h"
 
+#include <openvdb_spheretree/input/DelayedValues.h>
+#include <openvdb_spheretree/input/vdb/VdbGrids.h>
+
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
-
-#include <openvdb_spheretree/input/vdb/VdbGrids.h>
+#include <openvdb/points/PointDataGrid.h>
 
 #include <cstring>
 #include <fstream>
@@ -100,6 +102,10 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
         for (const std::string& name : *names) {
             throwIfStopped();
             grids.push_back(file.readGrid(name));
+            // Who takes points takes their voxels in place; of them there are few.
+            if (grids.back()->isType<openvdb::points::PointDataGrid>()) {
+                openvdb_spheretree::requireReadableValues(*grids.back());
+            }
         }
         return grids;
     });
@@ -123,6 +129,16 @@ void checkVoxelCount(const openvdb::GridBase& grid, const std::string& path)
     throwInput(path + ": grid '" + oneLine(grid.getName(), 80) + "' has " + std::to_string(count)
         + " active voxels where the file says " + std::to_string(stored->value())
         + ": it is truncated or damaged");
+}
+
+/// Values that are still in a damaged file are the input's fault, whoever asks for them.
+void requireReadable(const openvdb::GridBase& grid)
+{
+    try {
+        openvdb_spheretree::requireReadableValues(grid);
+    } catch (const openvdb::Exception& error) {
+        throwInput("grid '" + oneLine(grid.getName(), 80) + "' cannot be read: " + error.what());
+    }
 }
 
 /// OpenVDB's own writer, given our stream: io::File would not notice a full disk.
@@ -209,6 +225,7 @@ openvdb::GridPtrVec readVdb(const std::string& path, Loading loading)
 void writeVdb(
     std::iostream& out, const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable)
 {
+    for (const auto& grid : grids) requireReadable(*grid);
     ArchiveWriter archive;
     archive.setCompression(compression);
     archive.writeTo(out, grids, seekable);

@@ -58,7 +58,9 @@ void takeEntries(ByteWindow& window, std::optional<DelayedSizes>* delayed)
         const auto bytes = window.value<uint32_t>();
         if (type != io::DelayedLoadMetadata::staticTypeName()) {
             requireSize(window, type, bytes);
-            window.take(bytes);
+            const char* value = window.take(bytes);
+            const bool boolean = type == openvdb::BoolMetadata::staticTypeName();
+            if (boolean && *value != 0 && *value != 1) window.fail("neither true nor false");
         } else if (delayed) {
             *delayed = takeDelayedSizes(window, bytes);
         } else {

@@ -53,18 +53,31 @@ Coord takeOrigin(ByteWindow& window)
     return Coord(x, y, z);
 }
 
+/// The background, or the value of a tile. A new leaf of points asserts that it has no other value than zero.
+void takeValue(ByteWindow& window, const ValueType& type)
+{
+    const char* bytes = window.take(type.bytes);
+    const bool points = type.leaf == LeafKind::Points;
+    const bool boolean = type.leaf == LeafKind::Bool || type.leaf == LeafKind::Mask;
+    for (uint32_t i = 0; i < type.bytes; ++i) {
+        if ((points && bytes[i] != 0) || (boolean && bytes[i] != 0 && bytes[i] != 1)) {
+            window.fail("the grid's background, or a tile, has a value that it cannot have");
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Coord> takeNodes(ByteWindow& window, const BlockFormat& format)
 {
     std::vector<Coord> leaves;
     window.value<int32_t>();        // buffers a leaf, which nobody reads
-    window.take(format.type.bytes); // background
+    takeValue(window, format.type); // background
     const auto tiles = window.value<uint32_t>();
     const auto children = window.value<uint32_t>();
     for (uint32_t i = 0; i < tiles; ++i) {
         takeOrigin(window);
-        window.take(format.type.bytes);
+        takeValue(window, format.type);
         if (window.value<uint8_t>() > 1) window.fail("a tile is neither active nor inactive");
     }
     Coord last;

@@ -18,6 +18,7 @@ using LeafMask = openvdb::util::NodeMask<3>;
 constexpr uint64_t kOffsetBytes = LeafMask::SIZE * sizeof(uint32_t); // of a leaf's voxel values
 constexpr uint16_t kNotPacked = std::numeric_limits<uint16_t>::max();
 constexpr uint64_t kPadded = 128; // bytes that OpenVDB fills fewer up to before it packs them
+constexpr uint64_t kUsualPage = 1 << 21; // bytes, and more than a page of several arrays has
 constexpr uint64_t kLargestArray = std::numeric_limits<int32_t>::max(); // bytes
 
 // How an attribute is stored (AttributeArray::SerializationFlag), and what may vary (Flag).
@@ -170,6 +171,9 @@ private:
             const int64_t bytes =
                 page.packedBytes > 0 ? window.value<int32_t>() : -int64_t(page.packedBytes);
             if (bytes <= 0 || bytes > int64_t(kLargestArray)) window.fail("a page is empty");
+            // OpenVDB takes memory for a page before it reads it, which is when we see its end.
+            const auto stored = uint64_t(std::abs(int64_t(page.packedBytes)));
+            if (stored > kUsualPage) window.require(stored);
             page.bytes = uint32_t(bytes);
             mPages[attribute].push_back(page);
             mCursor.start(page);

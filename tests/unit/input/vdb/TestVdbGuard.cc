@@ -160,6 +160,63 @@ TEST_F(GuardedVdb, FindsMetadataThatIsLongerThanItsType)
     expectSaid(bytes, "longer or shorter than its type");
 }
 
+TEST_F(GuardedVdb, FindsTruthValuesThatAreNeitherTrueNorFalse)
+{
+    auto grid = openvdb::FloatGrid::create();
+    grid->insertMeta("truth", openvdb::BoolMetadata(true));
+    std::string bytes = vdbBytes({grid}, io::COMPRESS_NONE);
+    bytes.at(behind(bytes, "truth") + 4 + 4 + 4) = 2;
+    expectSaid(bytes, "neither true nor false");
+}
+
+TEST_F(GuardedVdb, FindsABackgroundOfPointsOrMasksThatCannotBe)
+{
+    for (const char* name : {"points", "bool", "mask"}) {
+        SCOPED_TRACE(name);
+        const auto nodes = fileOf(name, kBlosc);
+        size_t refused = 0;
+        for (size_t at = 0; at < 2000; ++at) { // one of them is the background
+            std::string damaged = nodes;
+            damaged[at] = 7;
+            refused += saidOf(damaged).find("that it cannot have") != std::string::npos;
+        }
+        EXPECT_GE(refused, 1u);
+    }
+}
+
+/// @return how many bytes of a damaged file are handed on before it is refused.
+size_t handedOn(const std::string& bytes)
+{
+    std::stringbuf source(bytes);
+    VdbGuard guard(source);
+    size_t count = 0;
+    try {
+        while (guard.sbumpc() != std::char_traits<char>::eof()) ++count;
+    } catch (const openvdb::Exception&) {}
+    return count;
+}
+
+TEST_F(GuardedVdb, KeepsTheHeaderOfAPageThatIsLongerThanTheFile)
+{
+    // The header comes long before the page, and OpenVDB takes memory for the page in between.
+    const std::string bytes = fileOf("points", kBlosc);
+    const size_t all = handedOn(bytes);
+    size_t late = 0, pages = 0;
+    for (size_t at = 0; at + 8 < bytes.size(); ++at) {
+        int32_t packed, unpacked;
+        std::memcpy(&packed, &bytes[at], 4);
+        std::memcpy(&unpacked, &bytes[at + 4], 4);
+        const bool header = packed > 16 && packed < unpacked && unpacked == 3000 * 3 * 8; // strided
+        if (!header) continue;
+        ++pages;
+        std::string damaged = bytes;
+        write<int32_t>(damaged, at, 0x40000000);
+        late += handedOn(damaged) > at && handedOn(damaged) < all;
+    }
+    EXPECT_GT(pages, 0u);
+    EXPECT_EQ(late, 0u);
+}
+
 TEST_F(GuardedVdb, FindsNodesWhereNoneCanBeOrOutOfOrder)
 {
     auto grid = openvdb::MaskGrid::create();
