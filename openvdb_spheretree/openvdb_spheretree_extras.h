@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file openvdb_spheretree_extras.h
-/// @brief The public headers of the library openvdb_spheretree_extras: objects from meshes, volume
-/// files and formulas, and pictures of objects and trees.
+/// @brief The public headers of the library openvdb_spheretree_extras: grids from files of
+/// strangers, objects from meshes, volume files and formulas, and pictures of objects and trees.
 
 #pragma once
 
 #include "input/mesh/MeshFile.h"
 #include "input/shapes/GeneratedObject.h"
+#include "input/vdb/VdbGrids.h"
 #include "input/vol/VolFile.h"
 #include "picture/Camera.h"
 #include "picture/Picture.h"

@@ -4,6 +4,7 @@
 /// action.
 
 #include "actions/Help.h"
+#include "base/LastWords.h"
 #include "line/ActionParser.h"
 #include "session/Session.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char* argv[])
     }
     try {
         catchSignals();
+        catchLostPages();
         openvdb::initialize();
         const std::vector<ActionCall> line = parseLine({argv + 1, argv + argc});
         const Plan plan = checkLine(line);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 
 namespace openvdb_spheretree::detail {
@@ -42,17 +43,39 @@ private:
     std::atomic<std::size_t> mDone{0};
 };
 
+/// Calls body(i) for the places of a range, and asks the interrupter before the first, and again
+/// whenever kAskEvery has passed: a range may be a large part of a loop. The clock is read after
+/// every body that takes long, and after kMostAtOnce of those that do not.
+template <typename Body>
+void runRange(std::size_t begin, std::size_t end, LoopProgress& progress, const Body& body)
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kAskEvery(20);
+    constexpr std::size_t kMostAtOnce = 64;
+    progress.check();
+    Clock::time_point asked = Clock::now();
+    for (std::size_t i = begin, atOnce = 1; i < end;) {
+        const std::size_t first = i, last = std::min(end, i + atOnce);
+        for (; i < last; ++i) body(i);
+        progress.add(last - first);
+        atOnce = std::min(2 * atOnce, kMostAtOnce);
+        if (i == end) return;
+        const Clock::time_point now = Clock::now();
+        if (now - asked < kAskEvery) continue;
+        progress.check();
+        asked = now;
+        atOnce = 1;
+    }
+}
+
 /// Calls body(i) for i in [0, count). An exception in a body, Interrupted included, cancels the
 /// loop and is passed on.
 template <typename Body>
 void parallelFor(std::size_t count, openvdb::util::NullInterrupter* interrupter, const Body& body)
 {
     LoopProgress progress(count, interrupter);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        progress.check();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-        progress.add(range.size());
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
+        [&](const auto& range) { runRange(range.begin(), range.end(), progress, body); });
 }
 
 /// The same with scratch memory, made by make(), for each thread that takes part: body(i, scratch).
@@ -63,10 +86,8 @@ void parallelForWith(std::size_t count, openvdb::util::NullInterrupter* interrup
     tbb::enumerable_thread_specific<decltype(make())> scratches(make);
     LoopProgress progress(count, interrupter);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        progress.check();
         auto& scratch = scratches.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, scratch);
-        progress.add(range.size());
+        runRange(range.begin(), range.end(), progress, [&](std::size_t i) { body(i, scratch); });
     });
 }
 

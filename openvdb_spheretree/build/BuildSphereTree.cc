@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BuildSphereTree.h"
 
+#include "ObjectLimits.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Rounding.h>
@@ -33,27 +34,6 @@ namespace {
 
 using detail::LevelNodes;
 
-void requireValidObject(const ObjectInfo& info, const SphereTreeSettings& settings)
-{
-    if (info.voxels == 0) {
-        OPENVDB_THROW(openvdb::ValueError, "the object '" << info.name << "' has no voxels");
-    }
-    const openvdb::Coord size = info.bbox.extents();
-    if (settings.dim == 2 && flatAxisOf(info.bbox) < 0) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "dim=2 needs an object one voxel thick along an axis, but '"
-                << info.name << "' has " << size[0] << " x " << size[1] << " x " << size[2]
-                << " voxels: use dim=3");
-    }
-    // Twice the centers, and radii beyond the object's own size: four times its extent is enough.
-    const auto far = [&](int axis) { return 4 * int64_t(size[axis]); };
-    if (settings.dist().lengthSq(far(0), far(1), far(2)) == INT64_MAX) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the object '" << info.name << "' is too wide for dist=" << toString(settings.dist())
-                           << ": use smaller weights, or larger voxels");
-    }
-}
-
 /// What a tree says of its object, before it has nodes.
 SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSettings& settings)
 {
@@ -63,7 +43,8 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     tree.object = {object.getName(), int64_t(object.activeVoxelCount()),
         int64_t(object.tree().leafCount()), int64_t(object.tree().activeTileCount()),
         object.evalActiveVoxelBoundingBox()};
-    requireValidObject(tree.object, settings);
+    detail::requireValidObject(tree.object, settings);
+    detail::requireRoomForNodes(object);
     tree.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
     if (const auto* options = settings.find<PyramidOptions>()) tree.hasDag = options->dag;
     if (const auto* options = settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;

@@ -47,6 +47,10 @@ std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeL
 /// @return whether each sphere is at least as large as its counterpart.
 bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than);
 
+/// The topology that a level records, if any, is that of its voxels.
+void checkTopologyOf(
+    CheckReport& check, const SphereTreeLevel& level, const openvdb::MaskTree& voxels);
+
 /// Level 0's digital balls are the object; those of other levels have the recorded volume. A level
 /// whose spheres are no digital balls records no volume.
 void checkDigitalBalls(CheckReport& check);

@@ -4,7 +4,9 @@
 
 #include "CheckReport.h"
 #include <openvdb_spheretree/sphere/SphereRaster.h>
+#include <openvdb_spheretree/topology/LevelTopology.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
@@ -55,9 +57,10 @@ double implausibleVoxels(const CheckReport& check, const SphereTreeLevel& level)
 {
     const auto* pyramid = check.tree.settings.find<PyramidOptions>();
     const double scale = pyramid ? std::pow(double(pyramid->factor), level.level) : 1;
-    const openvdb::Coord size = check.box.extents();
+    const openvdb::Vec3d size =
+        check.box.max().asVec3d() - check.box.min().asVec3d() + openvdb::Vec3d(1);
     double voxels = 1;
-    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * double(size[axis]) / scale + 64;
+    for (int axis = 0; axis < 3; ++axis) voxels *= 4 * size[axis] / scale + 64;
     return voxels;
 }
 
@@ -140,10 +143,27 @@ bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<Exac
     return true;
 }
 
+void checkTopologyOf(
+    CheckReport& check, const SphereTreeLevel& level, const openvdb::MaskTree& voxels)
+{
+    if (!level.topology) return;
+    check.kind = FaultKind::Topology;
+    const LevelTopology& recorded = *level.topology;
+    const LevelTopology actual = levelTopology(LeafLayout(voxels), check.interrupter);
+    const char* const whose =
+        level.level == 0 ? " of the object, which has " : " of its voxels, which have ";
+    const auto compare = [&](const char* what, int64_t was, int64_t is) {
+        if (was != is) check.fail("level ", level.level, " records ", was, ' ', what, whose, is);
+    };
+    compare("components", recorded.components, actual.components);
+    compare("tunnels", recorded.tunnels, actual.tunnels);
+    compare("cavities", recorded.cavities, actual.cavities);
+}
+
 void checkDigitalBalls(CheckReport& check)
 {
-    check.kind = FaultKind::DigitalBalls;
     for (const SphereTreeLevel& level : check.tree.levels) {
+        check.kind = FaultKind::DigitalBalls;
         const auto ids = check.tree.radiusSq.begin();
         if (std::find(ids + level.begin, ids + level.end, -1) != ids + level.end) {
             checkNoVolume(check, level);
@@ -162,6 +182,8 @@ void checkDigitalBalls(CheckReport& check)
         // An extended tree drops balls without children above level 0.
         const int64_t count = countVoxels(*rebuilt);
         const bool fewer = !finest && check.tree.settings.type() == TreeType::Extended;
+        if (count == level.pyramidVoxels && !finest) checkTopologyOf(check, level, *rebuilt);
+        check.kind = FaultKind::DigitalBalls;
         if (count == level.pyramidVoxels || (fewer && count < level.pyramidVoxels)) continue;
         check.fail("level ", level.level, " records ", level.pyramidVoxels,
             " pyramid voxels, but its digital balls rebuild ", count);

@@ -7,7 +7,8 @@
 ///
 /// 1. checkShape, checkNodes: arrays, level ranges and numbers that the rest relies on. If these
 ///    fail, nothing else is looked at
-/// 2. checkTransform, checkObject, checkTopology, checkErrors: the place, and recorded counts
+/// 2. checkTransform, checkObject, checkRecords, checkTopology, checkErrors: the place, and
+///    recorded counts
 /// 3. checkRadii, checkParents, checkChildren, checkLeavesContained: node against node;
 ///    checkDagEdges: stored edges against those of the object
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (CoverageCheck.cc), and
@@ -23,7 +24,6 @@
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
-#include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
@@ -88,9 +88,10 @@ void checkTransform(Check& check)
     const openvdb::CoordBBox& box = check.box;
     double farthest = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const openvdb::Vec3d at(box.min()[0] + (corner & 1) * box.extents()[0],
-            box.min()[1] + (corner >> 1 & 1) * box.extents()[1],
-            box.min()[2] + (corner >> 2) * box.extents()[2]);
+        openvdb::Vec3d at;
+        for (int a = 0; a < 3; ++a) {
+            at[a] = corner >> a & 1 ? double(box.max()[a]) + 1 : double(box.min()[a]);
+        }
         const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
         farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
     }
@@ -119,21 +120,34 @@ void checkObject(Check& check)
     }
 }
 
+/// What is recorded of one level is recorded of all that can have it: nothing got lost.
+void checkRecords(Check& check)
+{
+    check.kind = FaultKind::Records;
+    const SphereTree& tree = check.tree;
+    const auto wasTried = [](const SphereTreeLevel& level) {
+        return level.error || !level.errorUnknown.empty();
+    };
+    const bool anyTried = std::any_of(tree.levels.begin(), tree.levels.end(), wasTried);
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (anyTried && !wasTried(level)) {
+            check.fail("level ", level.level, " records no errors, though other levels do");
+        }
+        if (level.error && !level.errorUnknown.empty()) {
+            check.fail("level ", level.level, " records errors, and why it has none");
+        }
+        if (!tree.settings.find<PyramidOptions>()) continue;
+        if (level.topology.has_value() == tree.settings.topology) continue;
+        check.fail("level ", level.level, " records ", level.topology ? "a" : "no",
+            " topology, but the tree was made with topology=", int(tree.settings.topology));
+    }
+}
+
 /// What is recorded of level 0, whose voxels are the object's, is so.
 void checkTopology(Check& check)
 {
-    check.kind = FaultKind::Topology;
     const SphereTreeLevel& finest = check.tree.levels.front();
-    if (finest.level != 0 || !finest.topology) return;
-    const LevelTopology& recorded = *finest.topology;
-    const LevelTopology actual = levelTopology(LeafLayout(check.mask), check.interrupter);
-    const auto compare = [&](const char* what, int64_t was, int64_t is) {
-        if (was == is) return;
-        check.fail("level 0 records ", was, ' ', what, " of the object, which has ", is);
-    };
-    compare("components", recorded.components, actual.components);
-    compare("tunnels", recorded.tunnels, actual.tunnels);
-    compare("cavities", recorded.cavities, actual.cavities);
+    if (finest.level == 0) detail::checkTopologyOf(check, finest, check.mask);
 }
 
 /// Errors that are recorded are right; levels without one are not measured.
@@ -337,6 +351,7 @@ std::string toString(FaultKind kind)
     case FaultKind::Shape: return "shape";
     case FaultKind::Place: return "place";
     case FaultKind::Counts: return "counts";
+    case FaultKind::Records: return "records";
     case FaultKind::Topology: return "topology";
     case FaultKind::Radii: return "radii";
     case FaultKind::Links: return "links";
@@ -364,6 +379,7 @@ std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::Bo
 
     checkTransform(check);
     checkObject(check);
+    checkRecords(check);
     checkTopology(check);
     checkRadii(check, tree.spheres, "");
     checkRadii(check, tree.cuts.spheres, kInCuts);

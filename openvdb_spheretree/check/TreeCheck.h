@@ -18,7 +18,8 @@ enum class FaultKind {
     Shape,        ///< arrays, levels, cuts or numbers: nothing else has been checked
     Place,        ///< the object lies where the tree has it, in world space
     Counts,       ///< recorded voxels, leaves, tiles and bounding box are the object's
-    Topology,     ///< and so are the components, tunnels and cavities of level 0
+    Records,      ///< topology and errors are recorded of each level that can have them, or of none
+    Topology,     ///< recorded components, tunnels and cavities are those of the levels' voxels
     Radii,        ///< the three radii of a sphere agree
     Links,        ///< every node has one parent on the next level, and a child where it must
     Edges,        ///< edges of the Sphere-DAG are the object's
@@ -47,6 +48,11 @@ struct TreeFault {
 /// where there are cuts, those of 1, 2, 4, ... and all spheres have such chains up to them.
 /// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
 /// these two.
+///
+/// Topology: of level 0, and of levels whose digital balls rebuild all their voxels. In extended
+/// trees, which drop balls, those above level 0 need not.
+/// Records: levels of extended and reversible trees have a topology where the settings say so.
+/// Either all levels have an error, or a reason for none, or no level has.
 ///
 /// Not checked: *which* node of the next level is a parent, beyond what it must contain; and whether
 /// spheres of a level differ, which those of tight trees need not. Edges are held against the object's

@@ -8,8 +8,11 @@
 #include "Object.h"
 
 #include "LeafValues.h"
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
+#include <openvdb_spheretree/voxel/NodeBytes.h>
+#include <openvdb_spheretree/voxel/TopologyCopy.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/points/PointDataGrid.h>
@@ -170,6 +173,17 @@ void decideTiles(const SourceNodeT& source, MaskNodeT& mask, const Criterion& cr
     }
 }
 
+/// Nodes take memory whatever they hold: a voxel alone in its 4096^3 takes 300 KB.
+template <typename SourceTreeT>
+void requireRoomForNodes(const SourceTreeT& source)
+{
+    const double bytes = detail::nodeBytes(source);
+    detail::requireMemory(double(source.memUsage()) + 2 * bytes, // the mask and the object
+        "the voxels of the object lie so far apart that its "
+            + std::to_string(source.nonLeafCount() + source.leafCount()) + " nodes",
+        detail::kNodeRemedy);
+}
+
 template <typename SourceTreeT, typename Criterion>
 MaskTree::Ptr decide(const SourceTreeT& source, const Criterion& criterion,
     openvdb::util::NullInterrupter* interrupter)
@@ -181,7 +195,8 @@ MaskTree::Ptr decide(const SourceTreeT& source, const Criterion& criterion,
     using MaskLower = MaskNodes::Get<1>;
     using MaskUpper = MaskNodes::Get<2>;
 
-    const auto mask = std::make_shared<MaskTree>(source, false, true, openvdb::TopologyCopy());
+    requireRoomForNodes(source);
+    const auto mask = detail::copyTopology<MaskTree>(source, interrupter);
     forEachNodePair<typename SourceTreeT::LeafNodeType, MaskTree::LeafNodeType>(
         source, *mask, interrupter, [&](const auto& from, auto& to) {
             LeafBits bits;
@@ -309,8 +324,8 @@ openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSetti
             detail::describe(grid) << " holds no object: it has " << op.criterion);
     }
 
-    openvdb::BoolGrid::Ptr object = openvdb::BoolGrid::create(
-        std::make_shared<openvdb::BoolTree>(*op.mask, false, true, openvdb::TopologyCopy()));
+    openvdb::BoolGrid::Ptr object =
+        openvdb::BoolGrid::create(detail::copyTopology<openvdb::BoolTree>(*op.mask, interrupter));
     object->setName(grid.getName());
     object->setTransform(grid.transform().copy());
     return object;

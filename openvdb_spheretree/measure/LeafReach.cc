@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace openvdb_spheretree::detail {
 namespace {
@@ -17,6 +18,17 @@ constexpr uint64_t kEveryByte = 0x0101010101010101u;
 /// Bytes of which the upper n bits are on, or the lower ones.
 constexpr uint64_t upper(int n) { return kEveryByte * (0xffu & (0xff00u >> n)); }
 constexpr uint64_t lower(int n) { return kEveryByte * (0xffu & ~(0xffu << n)); }
+
+/// @return the origin of the leaf so many leaves away; none beyond the ends of coordinates.
+std::optional<Coord> leafBeside(const Coord& origin, int dx, int dy, int dz)
+{
+    const int64_t at[3] = {
+        int64_t(origin[0]) + 8 * dx, int64_t(origin[1]) + 8 * dy, int64_t(origin[2]) + 8 * dz};
+    for (const int64_t c : at) {
+        if (c != int32_t(c)) return std::nullopt;
+    }
+    return Coord(int32_t(at[0]), int32_t(at[1]), int32_t(at[2]));
+}
 
 } // namespace
 
@@ -49,9 +61,9 @@ bool LeafReach::gather(const MaskTree& object, const Coord& origin)
     bool any = false;
     for (int n = 0; n < 27; ++n) {
         const int x = n / 9, y = n / 3 % 3, z = n % 3;
-        const Coord at = origin.offsetBy(8 * (x - 1), 8 * (y - 1), 8 * (z - 1));
-        const MaskTree::LeafNodeType* leaf = accessor.probeConstLeaf(at);
-        const uint64_t tile = !leaf && accessor.isValueOn(at) ? ~uint64_t(0) : 0;
+        const std::optional<Coord> at = leafBeside(origin, x - 1, y - 1, z - 1);
+        const MaskTree::LeafNodeType* leaf = at ? accessor.probeConstLeaf(*at) : nullptr;
+        const uint64_t tile = at && !leaf && accessor.isValueOn(*at) ? ~uint64_t(0) : 0;
         any = any || leaf || tile;
         for (int i = 0; i < 8; ++i) {
             const uint64_t word = leaf ? leaf->getValueMask().getWord<uint64_t>(i) : tile;

@@ -6,6 +6,7 @@
 #include "RayScene.h"
 #include "RayShapes.h"
 #include <openvdb_spheretree/base/Hash.h>
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
@@ -17,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace openvdb_spheretree {
 
@@ -34,9 +36,21 @@ void requireRange(const char* name, int value, int lowest, int highest)
         name << "=" << value << " is out of range: it takes " << lowest << " to " << highest);
 }
 
+/// CoordBBox::getCenter() would add up the corners in 32 bits.
 openvdb::Coord middleOf(const openvdb::CoordBBox& box)
 {
-    return openvdb::Coord::round(box.getCenter());
+    return openvdb::Coord::round((box.min().asVec3d() + box.max().asVec3d()) / 2);
+}
+
+/// @throw openvdb::ValueError, before shapes are made
+void requireRoom(std::size_t shapes, const PictureSettings& settings)
+{
+    constexpr double kBytesPerShape = 400; // itself, its colour and bound, and nodes of two trees
+    const double pixels = double(settings.width) * settings.height;
+    detail::requireMemory(double(shapes) * kBytesPerShape + 3 * pixels,
+        "the " + std::to_string(shapes) + " shapes and the " + std::to_string(settings.width)
+            + " x " + std::to_string(settings.height) + " pixels of a picture",
+        "draw a coarser level, or fewer pixels");
 }
 
 /// What a picture needs besides shapes and their colours.
@@ -87,7 +101,7 @@ public:
         const std::size_t across = (picture.width + kTile - 1) / kTile;
         const std::size_t tiles = across * ((picture.height + kTile - 1) / kTile);
         detail::parallelFor(tiles, interrupter, [&](std::size_t tile) {
-            paintTile(int(tile % across) * kTile, int(tile / across) * kTile, picture);
+            paintTile(int(tile % across) * kTile, int(tile / across) * kTile, picture, interrupter);
         });
         return picture;
     }
@@ -134,13 +148,17 @@ private:
         Pixel& at(int x, int y) { return pixels[std::size_t(y - top) * (right - left) + x - left]; }
     };
 
-    void paintTile(int left, int top, Picture& picture) const
+    /// A pixel takes microseconds, or milliseconds where it sends thousands of rays: every one asks
+    /// the interrupter.
+    void paintTile(
+        int left, int top, Picture& picture, openvdb::util::NullInterrupter* interrupter) const
     {
         Patch patch(left, top, picture);
         const int right = std::min(left + kTile, picture.width);
         const int bottom = std::min(top + kTile, picture.height);
         for (int y = patch.top; y < patch.bottom; ++y) {
             for (int x = patch.left; x < patch.right; ++x) {
+                detail::checkInterrupt(interrupter);
                 const bool isInTile = x >= left && x < right && y >= top && y < bottom;
                 patch.at(x, y) = pixel(x, y, isInTile);
             }
@@ -348,6 +366,7 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     camera.validate();
     settings.validate();
     const SphereTreeLevel& drawn = tree.level(level);
+    requireRoom(std::size_t(drawn.size()), settings);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
     if (tree.settings.dist().isEuclidean()) {
@@ -367,6 +386,7 @@ Picture renderObject(const openvdb::BoolGrid& object, const Camera& camera,
     requireUniformVoxels(object);
     if (object.empty()) OPENVDB_THROW(openvdb::ValueError, "the object has no active voxels");
     const openvdb::CoordBBox box = object.evalActiveVoxelBoundingBox();
+    requireRoom(object.tree().leafCount() + object.tree().activeTileCount(), settings);
     const auto shapes = voxelShapesOf(object.tree(), middleOf(box).asVec3d());
     const Vec3d color =
         settings.color == PictureColor::Fixed ? settings.fixed : PictureSettings().fixed;

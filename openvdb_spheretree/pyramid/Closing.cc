@@ -2,6 +2,7 @@
 #include "Closing.h"
 
 #include "OrPyramid.h"
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/medial/DistanceMap.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -92,6 +94,29 @@ MaskTree::Ptr nearOutside(const MaskTree& set, int radius, int dim, NullInterrup
     return result;
 }
 
+/// @return how many leaf cubes are on throughout.
+int64_t fullCubes(const MaskTree& set)
+{
+    int64_t count = 0;
+    for (auto leaf = set.cbeginLeaf(); leaf; ++leaf) count += leaf->isDense();
+    detail::forEachTile(
+        set, [&](const CoordBBox& tile) { count += int64_t(tile.volume() / kLeafVoxels); });
+    return count;
+}
+
+/// For objects of many parts far apart the band is far larger than they are.
+/// @param cubes  all leaf cubes of the set and of the band
+/// @throw openvdb::ValueError, before the band is made
+void requireRoomForBand(const MaskTree& cubes, const MaskTree& set, int radius)
+{
+    constexpr double kBytes = kLeafVoxels * 2 * sizeof(uint32_t) + 400; // distances, and the layout
+    const int64_t band = int64_t(cubes.activeVoxelCount()) - fullCubes(set);
+    detail::requireMemory(double(band) * kBytes,
+        "closing=" + std::to_string(radius) + " looks at " + std::to_string(band)
+            + " leaf nodes around the object, which",
+        "use a smaller radius or a larger voxel, or split the object");
+}
+
 /// Off voxels at most @a radius away from an on one, by the distance transform of a band of off
 /// voxels. To it, what lies behind the band is on like the set. The band is twice as wide as the
 /// cubes that can be near the set, so voxels of these cubes are farther than the radius from what
@@ -102,7 +127,9 @@ MaskTree::Ptr nearSet(const MaskTree& set, int radius, int dim, NullInterrupter*
     set.evalActiveVoxelBoundingBox(box);
     const int cubes = (radius + 7) / 8;
     const MaskTree::Ptr inReach = grown(*leafCubesOf(set, interrupter), cubes);
-    const MaskTree::Ptr band = voxelsOfCubes(*grown(*inReach, cubes), box, dim);
+    const MaskTree::Ptr around = grown(*inReach, cubes);
+    requireRoomForBand(*around, set, radius);
+    const MaskTree::Ptr band = voxelsOfCubes(*around, box, dim);
     band->topologyDifference(set);
     const MaskTree::Ptr near = nearOutside(*band, radius, dim, interrupter);
     near->topologyIntersection(*voxelsOfCubes(*inReach, box, dim));

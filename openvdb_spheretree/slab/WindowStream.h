@@ -129,7 +129,7 @@ private:
     {
         const uint32_t last = mEntered - 1;
         const bool touchesNext =
-            mEntered < mLayout.slabCount() && xOf(last) + kLeafDim == xOf(mEntered);
+            mEntered < mLayout.slabCount() && int64_t(xOf(last)) + kLeafDim == xOf(mEntered);
         if (!touchesNext) return mEntered;
         const int64_t end = int64_t(xOf(last)) + 7 - detail::ceilSqrt(mLargestDistSq[last]);
         uint32_t slab = mFinal;

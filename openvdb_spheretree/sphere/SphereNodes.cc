@@ -37,6 +37,13 @@ void enterUpperNode(
     node.balls.push_back(index);
 }
 
+/// By multiplication: negative numbers must not be shifted to the left.
+Coord cornerOf(const Coord& upperNode)
+{
+    constexpr int32_t kSide = 1 << kUpperLog2;
+    return {upperNode[0] * kSide, upperNode[1] * kSide, upperNode[2] * kSide};
+}
+
 /// @param visited  nodes so far, of this and other balls
 void enterUpperNodes(NodesByOrigin& nodes, const ClippedSphere& ball, int32_t index,
     const ClipMask& clipMask, int64_t& visited, NullInterrupter* interrupter)
@@ -51,7 +58,7 @@ void enterUpperNodes(NodesByOrigin& nodes, const ClippedSphere& ball, int32_t in
     }
     for (auto at = range.begin(); at; ++at) {
         if (++visited % 4096 == 0) checkInterrupt(interrupter);
-        const Coord origin = *at << kUpperLog2;
+        const Coord origin = cornerOf(*at);
         if (clipMask.hasUpperNode(origin)) enterUpperNode(nodes, origin, ball, index);
     }
 }

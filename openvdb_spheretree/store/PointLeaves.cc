@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace openvdb_spheretree::detail {
 
@@ -69,6 +70,47 @@ void checkRange(const std::vector<Vec3d>& positions)
     OPENVDB_THROW(openvdb::ValueError,
         "point " << wrong << " at " << positions[wrong]
                  << " is out of the range of voxel coordinates (2^31)");
+}
+
+/// A group of a leaf: a bit of each byte of an array.
+struct GroupBit {
+    std::size_t array;
+    points::GroupType mask;
+};
+
+/// @return the groups' bits in a leaf; nothing if one is missing, or two share one.
+std::vector<GroupBit> groupBits(const PointLeaf& leaf, const std::vector<std::string>& names)
+{
+    const points::AttributeSet& attributes = leaf.attributeSet();
+    std::vector<GroupBit> bits;
+    for (const std::string& name : names) {
+        if (!attributes.descriptor().hasGroup(name)) return {};
+        const auto index = attributes.groupIndex(name);
+        if (!points::isGroup(*attributes.getConst(index.first))) return {};
+        const GroupBit bit = {index.first, points::GroupType(1 << index.second)};
+        for (const GroupBit& other : bits) {
+            if (other.array == bit.array && other.mask == bit.mask) return {};
+        }
+        bits.push_back(bit);
+    }
+    return bits;
+}
+
+/// Whether each point of a leaf is in the group of its level alone. Groups of others may have bits
+/// of the same bytes.
+bool holdsGroups(const PointLeaf& leaf, const std::vector<GroupBit>& bits, const int32_t* levels)
+{
+    std::map<std::size_t, points::GroupType> ours; // bits of each array
+    for (const GroupBit& bit : bits) ours[bit.array] |= bit.mask;
+    for (const auto& [array, mask] : ours) {
+        const ArrayValues<points::GroupType> bytes(leaf.constAttributeArray(array));
+        for (Index n = 0; n < leaf.getLastValue(); ++n) {
+            const GroupBit& own = bits[std::size_t(levels[n])];
+            const int expected = own.array == array ? own.mask : 0;
+            if ((bytes[n] & mask) != expected) return false;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -179,21 +221,65 @@ PointReader::PointReader(const points::PointDataGrid& grid)
     }
 }
 
-std::vector<Vec3d> PointReader::positions(int scale) const
+void PointReader::requireGroups(
+    const std::vector<std::string>& names, const std::vector<int32_t>& groups) const
 {
-    const std::vector<Vec3f> offsets = attribute<Vec3f>("P");
-    std::vector<Vec3d> positions(size());
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-        Index n = 0;
-        for (Index v = 0; v < PointLeaf::SIZE; ++v) {
-            const Vec3d voxel = mLeaves[i]->offsetToGlobalCoord(v).asVec3d();
-            for (const Index end = mLeaves[i]->getValue(v); n < end; ++n) {
-                const std::size_t at = mBegin[i] + n;
-                positions[at] = (voxel + Vec3d(offsets[at])) * double(scale);
+    if (mLeaves.empty()) return;
+    // Leaves of a file share their descriptor as a rule: names are looked up once.
+    const auto shared = mLeaves.front()->attributeSet().descriptorPtr();
+    const std::vector<GroupBit> sharedBits = groupBits(*mLeaves.front(), names);
+    const std::size_t wrong = firstWrong(mLeaves.size(), [&](std::size_t i) {
+        const PointLeaf& leaf = *mLeaves[i];
+        const bool isShared = leaf.attributeSet().descriptorPtr() == shared;
+        const std::vector<GroupBit> bits = isShared ? sharedBits : groupBits(leaf, names);
+        return bits.empty() || !holdsGroups(leaf, bits, groups.data() + mBegin[i]);
+    });
+    if (wrong == mLeaves.size()) return;
+    OPENVDB_THROW(openvdb::IoError,
+        "its groups are not as they were written: of the points near "
+            << mLeaves[wrong]->origin() << ", some are not in the group of their level alone");
+}
+
+template <typename Body>
+void PointReader::forPositions(std::size_t leaf, int scale, const Body& body) const
+{
+    const PointLeaf& here = *mLeaves[leaf];
+    const ArrayValues<Vec3f> offsets(*here.attributeSet().getConst("P"));
+    const PointLeaf::ValueType* const ends = here.buffer().data();
+    Index n = 0;
+    for (Index row = 0; row < PointLeaf::SIZE; row += PointLeaf::DIM) {
+        if (n == ends[row + PointLeaf::DIM - 1]) continue; // most voxels have no point
+        for (Index v = row; v < row + PointLeaf::DIM; ++v) {
+            if (n == ends[v]) continue;
+            const Vec3d voxel = here.offsetToGlobalCoord(v).asVec3d();
+            for (; n < ends[v]; ++n) {
+                body(mBegin[leaf] + n, (voxel + Vec3d(offsets[n])) * double(scale));
             }
         }
+    }
+}
+
+std::vector<Vec3d> PointReader::positions(int scale) const
+{
+    requireAttribute<Vec3f>("P");
+    std::vector<Vec3d> positions(size());
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        forPositions(i, scale, [&](std::size_t n, const Vec3d& at) { positions[n] = at; });
     });
     return positions;
+}
+
+std::size_t PointReader::firstAstray(
+    int scale, const std::vector<Vec3d>& places, const std::vector<int32_t>& indices) const
+{
+    requireAttribute<Vec3f>("P");
+    std::atomic<std::size_t> first{size()};
+    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        forPositions(i, scale, [&](std::size_t n, const Vec3d& at) {
+            if (at != places[std::size_t(indices[n])]) lowerTo(first, n);
+        });
+    });
+    return first;
 }
 
 } // namespace openvdb_spheretree::detail

@@ -29,6 +29,23 @@ constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;
 
+/// The values of an array of type T and without a codec, in half the time of an AttributeHandle's.
+template <typename T>
+class ArrayValues {
+public:
+    explicit ArrayValues(const openvdb::points::AttributeArray& array)
+    {
+        array.loadData(); // which may still be in a file
+        mIsUniform = array.isUniform();
+        mValues = reinterpret_cast<const T*>(array.constDataAsByteArray());
+    }
+    const T& operator[](std::size_t i) const { return mValues[mIsUniform ? 0 : i]; }
+
+private:
+    bool mIsUniform;
+    const T* mValues;
+};
+
 /// A point grid under construction; points know the index they came in with.
 class PointWriter {
 public:
@@ -89,6 +106,34 @@ public:
     template <typename T>
     std::vector<T> attribute(const std::string& name) const
     {
+        requireAttribute<T>(name);
+        std::vector<T> values(size());
+        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+            const ArrayValues<T> here(*mLeaves[i]->attributeSet().getConst(name));
+            const std::size_t begin = mBegin[i], count = mBegin[i + 1] - begin;
+            for (std::size_t n = 0; n < count; ++n) values[begin + n] = here[n];
+        });
+        return values;
+    }
+
+    /// @return positions in the index space of the source grid.
+    std::vector<openvdb::Vec3d> positions(int scale) const;
+
+    /// @return the first point that is not where it should be, or size(): point i at
+    ///         places[indices[i]].
+    std::size_t firstAstray(int scale, const std::vector<openvdb::Vec3d>& places,
+        const std::vector<int32_t>& indices) const;
+
+    /// @brief Requires that each point is in one of these groups, and in no other of them.
+    /// @param groups  index of the group of each point
+    /// @throw openvdb::IoError if one is not, or a group is missing
+    void requireGroups(
+        const std::vector<std::string>& names, const std::vector<int32_t>& groups) const;
+
+private:
+    template <typename T>
+    void requireAttribute(const std::string& name) const
+    {
         const openvdb::NamePair& expected =
             openvdb::points::TypedAttributeArray<T>::attributeType();
         for (const PointLeaf* leaf : mLeaves) {
@@ -103,20 +148,12 @@ public:
                               << " with " << array->stride() << " values a point, not "
                               << expected.first << "/" << expected.second << " with 1");
         }
-        std::vector<T> values(size());
-        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
-            const openvdb::points::AttributeHandle<T> handle(
-                *mLeaves[i]->attributeSet().getConst(name));
-            T* const here = values.data() + mBegin[i];
-            for (openvdb::Index n = 0; n < handle.size(); ++n) here[n] = handle.get(n);
-        });
-        return values;
     }
 
-    /// @return positions in the index space of the source grid.
-    std::vector<openvdb::Vec3d> positions(int scale) const;
+    /// Calls body(point, position) for the points of a leaf, whose attribute P has been required.
+    template <typename Body>
+    void forPositions(std::size_t leaf, int scale, const Body& body) const;
 
-private:
     std::vector<const PointLeaf*> mLeaves;
     std::vector<std::size_t> mBegin; ///< of each leaf's points in the arrays
 };

@@ -2,6 +2,7 @@
 #include "SphereTreePoints.h"
 
 #include "PointLeaves.h"
+#include "TreeChecksum.h"
 #include "TreeMetadata.h"
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
@@ -54,8 +55,10 @@ auto blaming(const GridBase& grid, const char* kind, const Read& read)
     try {
         return read();
     } catch (const openvdb::Exception& error) {
-        OPENVDB_THROW(openvdb::ValueError,
-            describe(grid) << " is a damaged " << kind << ": " << detail::messageOf(error));
+        const std::string why =
+            describe(grid) + " is a damaged " + kind + ": " + detail::messageOf(error);
+        if (dynamic_cast<const openvdb::IoError*>(&error)) OPENVDB_THROW(openvdb::IoError, why);
+        OPENVDB_THROW(openvdb::ValueError, why);
     }
 }
 
@@ -140,8 +143,19 @@ void checkLevels(const SphereTree& tree, const std::vector<int32_t>& levels)
     }
 }
 
+/// @return the names of the groups of a tree, level 0 first.
+std::vector<std::string> groupNames(const SphereTree& tree)
+{
+    std::vector<std::string> names;
+    for (const SphereTreeLevel& level : tree.levels) {
+        names.push_back("level_" + std::to_string(level.level));
+    }
+    return names;
+}
+
 SphereTree readTree(const PointDataGrid& points)
 {
+    if (hasChecksum(points)) detail::verifyDescription(points);
     SphereTree tree = detail::readTreeMetadata(points);
     const detail::PointReader reader(points);
     const std::size_t expected = std::size_t(tree.levels.front().end);
@@ -154,15 +168,22 @@ SphereTree readTree(const PointDataGrid& points)
     const auto order = readSpheres(reader, detail::readPointScale(points), tree.spheres);
     gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
     gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
+    std::vector<int32_t> levelsOfPoints = reader.attribute<int32_t>("level");
     std::vector<int32_t> levels;
-    gather(reader.attribute<int32_t>("level"), order, levels);
+    gather(levelsOfPoints, order, levels);
     checkLevels(tree, levels);
     detail::throwFirst(detail::treeDamage(tree));
+    if (hasChecksum(points)) {
+        detail::verifyContent(points, detail::nodeChecksums(tree));
+        for (int32_t& level : levelsOfPoints) level -= tree.levels.front().level;
+        reader.requireGroups(groupNames(tree), levelsOfPoints);
+    }
     return tree;
 }
 
 std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
 {
+    if (hasChecksum(grid)) detail::verifyDescription(grid);
     const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
     const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_edges");
     const detail::PointReader reader(grid);
@@ -177,11 +198,21 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
     std::sort(edges.begin(), edges.end());
     detail::throwFirst(detail::edgeDamage(edges, tree));
+    if (hasChecksum(grid)) {
+        detail::verifyContent(grid, detail::edgeChecksums(edges));
+        const std::size_t astray =
+            reader.firstAstray(detail::readPointScale(grid), tree.spheres.center, parents);
+        if (astray < parents.size()) {
+            OPENVDB_THROW(openvdb::IoError,
+                "an edge from node " << parents[astray] << " is not at the centre of that node");
+        }
+    }
     return edges;
 }
 
 SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
 {
+    if (hasChecksum(grid)) detail::verifyDescription(grid);
     const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
     const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_cuts_nodes");
     const detail::PointReader reader(grid);
@@ -195,6 +226,7 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
     gather(reader.attribute<int32_t>("first"), order, cuts.first);
     gather(reader.attribute<int32_t>("last"), order, cuts.last);
     detail::requireCuts(cuts, tree.subdivision);
+    if (hasChecksum(grid)) detail::verifyContent(grid, detail::cutsChecksums(cuts));
     return cuts;
 }
 
@@ -223,6 +255,7 @@ template <typename Tree, typename Written>
 PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 {
     requireStorable(tree);
+    const auto checksums = detail::nodeChecksums(tree);
     detail::PointWriter writer(tree.spheres.center);
     written(tree.spheres.center);
     addSpheres(writer, tree.spheres, written);
@@ -232,15 +265,12 @@ PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
     written(tree.radiusSq);
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
     written(tree.ijk);
-    std::vector<std::string> groups;
-    for (const SphereTreeLevel& level : tree.levels) {
-        groups.push_back("level_" + std::to_string(level.level));
-    }
     const int lowest = tree.levels.front().level;
-    writer.addGroups(groups, [&](uint32_t id) { return levelOf(id) - lowest; });
+    writer.addGroups(groupNames(tree), [&](uint32_t id) { return levelOf(id) - lowest; });
 
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
     detail::writeTreeMetadata(*grid, tree, writer.scale());
+    detail::writeChecksum(*grid, checksums);
     return grid;
 }
 
@@ -264,8 +294,10 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
     const PointDataGrid::Ptr grid = writer.finish(*tree.transform);
     grid->setName(tree.settings.name + "_dag");
     detail::setMeta<int32_t>(*grid, detail::kDagFormatKey, kPointsFormat);
+    detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
     detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
     detail::setMeta<int32_t>(*grid, "spheretree_edges", int32_t(tree.dag.size()));
+    detail::writeChecksum(*grid, detail::edgeChecksums(tree.dag));
     return grid;
 }
 
@@ -285,6 +317,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
     detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
     detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
     detail::setMeta<int32_t>(*grid, "spheretree_cuts_nodes", tree.cuts.size());
+    detail::writeChecksum(*grid, detail::cutsChecksums(tree.cuts));
     return grid;
 }
 

@@ -11,6 +11,8 @@
 /// parent's center, with int32 attributes `parent`, `child`. Cuts (SphereCuts.h) travel as a point
 /// grid named `<name>_cuts`: one point a node, with `pscale`, `id`, `parent`, `radius`, `cover_sq`
 /// as above and int32 attributes `first`, `last`.
+///
+/// Each grid carries a checksum of all this (TreeChecksum.h), and a tree is read whole or refused.
 
 #pragma once
 
@@ -53,6 +55,10 @@ bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
 /// @return whether a grid claims to be what cutsToPoints() makes of a tree of that name.
 bool isCutsOf(const openvdb::GridBase& grid, const std::string& treeName);
 
+/// @return whether a grid of a tree carries a checksum, by which fromPoints() knows that all of it is
+///         as it was written. Grids of version 0.1 do not.
+bool hasChecksum(const openvdb::GridBase& grid);
+
 /// @brief The tree that toPoints() was given: identical, but for `settings.memory`, which is not
 /// stored, and a custom model, which cannot be (unknownModel() stands in its place).
 /// @param points  a grid written by toPoints(), also after a round trip through a file
@@ -62,6 +68,12 @@ bool isCutsOf(const openvdb::GridBase& grid, const std::string& treeName);
 /// @throw openvdb::ValueError if @a points is no sphere-tree or a damaged one (an attribute missing
 ///        or of another type, ids not 0...n-1, a parent out of range or not on the next level up, a
 ///        level missing, a radius that is no number or negative ...); the message names the damage
+/// @throw openvdb::IoError if a grid contradicts its checksum: any one bit that is not as it was
+///        written, of what toPoints(), dagToPoints() and cutsToPoints() write. The message names the
+///        attributes, edges, groups, metadata or transform. Names of grids, and attributes, groups and
+///        metadata of others may come and go. Who moves a tree removes the metadata
+///        `spheretree_checksum_transform` of its grids; radii are in world units, and stay.
+/// @note Linear. Checksums, all threads: 64 bytes a node, 8 an edge, at 6 GB a second and thread.
 SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
     const openvdb::points::PointDataGrid* dag = nullptr,
     const openvdb::points::PointDataGrid* cuts = nullptr);

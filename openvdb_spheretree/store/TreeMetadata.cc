@@ -6,6 +6,8 @@
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 namespace openvdb_spheretree::detail {
@@ -206,11 +208,15 @@ SphereTreeLevel readLevel(const GridBase& grid, int number)
                      << " spheres by its metadata, every level must have one or more");
     }
     level.pyramidVoxels = getMeta<int64_t>(grid, key("pyramid_voxels"));
-    if (grid[key("components")]) {
+    const auto hasAny = [&](std::initializer_list<const char*> ends) {
+        return std::any_of(
+            ends.begin(), ends.end(), [&](const char* what) { return bool(grid[key(what)]); });
+    };
+    if (hasAny({"components", "tunnels", "cavities"})) {
         level.topology = LevelTopology{getMeta<int64_t>(grid, key("components")),
             getMeta<int64_t>(grid, key("tunnels")), getMeta<int64_t>(grid, key("cavities"))};
     }
-    if (grid[key("covered")]) {
+    if (hasAny({"covered", "excess", "missing", "hamming_percent", "hausdorff"})) {
         LevelError error;
         error.covered = getMeta<int64_t>(grid, key("covered"));
         error.excess = getMeta<int64_t>(grid, key("excess"));

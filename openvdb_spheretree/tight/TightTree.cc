@@ -79,27 +79,11 @@ bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb
     return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, object, interrupter));
 }
 
-/// Squared lengths in 1/16 voxel have to fit in 64 bits, here and in programs that read the tree. None
-/// is longer than twice the object's diagonal.
-void requireRoom(const SphereTree& tree)
-{
-    const openvdb::Coord size = tree.object.bbox.extents();
-    constexpr int64_t kMost = int64_t(1) << 61;
-    const auto far = [&](int axis) { return 2 * kFine * (int64_t(size[axis]) + 1); };
-    if (Distance().lengthSq(far(0), far(1), far(2)) < kMost) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object '" << tree.object.name << "', of " << size[0] << " x " << size[1] << " x "
-                       << size[2]
-                       << " voxels, is too wide for tree=tight: use tree=extended, or larger "
-                          "voxels");
-}
-
 } // namespace
 
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
-    requireRoom(tree);
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
     const auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));

@@ -3,9 +3,12 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 
+#include <openvdb/math/Math.h>
 #include <openvdb/tools/ParticlesToLevelSet.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace openvdb_spheretree {
 namespace {
@@ -27,6 +30,70 @@ struct StoredSpheres {
         radius = tree.spheres.radiusWorld[size_t(level.begin) + n];
     }
 };
+
+/// What the rasterizer will write: every voxel in a sphere or its band, once for each sphere that
+/// it is in; and no more than the box of all of them has.
+class LevelSetSize {
+public:
+    explicit LevelSetSize(const openvdb::math::Transform& transform, double halfWidth)
+        : mTransform(transform), mVoxel(transform.voxelSize()[0]), mHalfWidth(halfWidth)
+    {}
+
+    void add(const openvdb::Vec3d& world, double radiusWorld)
+    {
+        const double reach = radiusWorld / mVoxel + mHalfWidth + 1;
+        const openvdb::Vec3d center = mTransform.worldToIndex(world);
+        mBox.expand(center - openvdb::Vec3d(reach));
+        mBox.expand(center + openvdb::Vec3d(reach));
+        mVoxels += 4.0 / 3.0 * openvdb::math::pi<double>() * reach * reach * reach;
+    }
+
+    double voxels() const
+    {
+        const openvdb::Vec3d side = mBox.max() - mBox.min();
+        return std::min(mVoxels, side[0] * side[1] * side[2]);
+    }
+
+    /// @return how far from voxel 0 it reaches along an axis, in voxels.
+    double farthest() const
+    {
+        double far = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            far = std::max({far, -mBox.min()[axis], mBox.max()[axis]});
+        }
+        return far;
+    }
+
+private:
+    const openvdb::math::Transform& mTransform;
+    double mVoxel, mHalfWidth, mVoxels = 0;
+    openvdb::BBoxd mBox;
+};
+
+/// @throw openvdb::ValueError with the number of voxels, before any is made
+void requireRoom(const StoredSpheres& spheres, const openvdb::FloatGrid& grid, double halfWidth)
+{
+    LevelSetSize size(grid.transform(), halfWidth);
+    for (std::size_t n = 0; n < spheres.size(); ++n) {
+        openvdb::Vec3R center;
+        openvdb::Real radius;
+        spheres.getPosRad(n, center, radius);
+        size.add(center, radius);
+    }
+    const std::string what = "the level set of level " + std::to_string(spheres.level.level)
+        + " with voxels of " + std::to_string(grid.voxelSize()[0]);
+    constexpr double kFarthest = double(int64_t(1) << 30); // as of meshes
+    if (!(size.farthest() <= kFarthest)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            what << " would reach voxel " << size.farthest()
+                 << ", beyond 2^30: use a larger voxel, or move the object towards the origin");
+    }
+    if (size.voxels() <= double(kMaxLevelSetVoxels)) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        what << " may take " << size.voxels() << " voxels inside and near its " << spheres.size()
+             << " spheres, and " << kMaxLevelSetVoxels
+             << " is the most: use a larger voxel, a narrower band or a finer level");
+}
 
 } // namespace
 
@@ -52,12 +119,14 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     const double voxel = voxelSize.value_or(tree.voxelSize());
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, halfWidth);
     if (!voxelSize) grid->setTransform(tree.transform->copy());
+    const StoredSpheres spheres{tree, level};
+    requireRoom(spheres, *grid, halfWidth);
     openvdb::util::NullInterrupter silent;
     openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid, void, openvdb::util::NullInterrupter>
         raster(*grid, interrupter ? interrupter : &silent);
     raster.setRmax(1e15); // by default it leaves out small and large spheres
     raster.setRmin(0);
-    raster.rasterizeSpheres(StoredSpheres{tree, level});
+    raster.rasterizeSpheres(spheres);
     if (openvdb::util::wasInterrupted(interrupter)) throw Interrupted();
     raster.finalize(/*prune=*/true);
     return grid;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlatAxis.h"
 
+#include "Masks.h"
+
 #include <openvdb/Grid.h>
 
 #include <memory>
@@ -17,9 +19,14 @@ MaskTree::Ptr turned(const MaskTree& mask, const Turn& turn)
 {
     auto result = std::make_shared<MaskTree>(false);
     openvdb::tree::ValueAccessor<MaskTree> accessor(*result);
-    for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel) {
-        accessor.setValueOn(turn(voxel.getCoord()));
+    for (auto leaf = mask.cbeginLeaf(); leaf; ++leaf) {
+        for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel) {
+            accessor.setValueOn(turn(voxel.getCoord()));
+        }
     }
+    detail::forEachTile(mask, [&](const openvdb::CoordBBox& box) {
+        for (const Coord& voxel : box) accessor.setValueOn(turn(voxel));
+    });
     return result;
 }
 

@@ -175,7 +175,8 @@ void LeafLayout::cutRuns(Axis axis)
     const int along = int(axis), first = along == 0 ? 1 : 0, second = along == 2 ? 1 : 2;
     Lines& lines = mLines[along];
     const auto touches = [&](const openvdb::Coord& a, const openvdb::Coord& b) {
-        return a[first] == b[first] && a[second] == b[second] && a[along] + kLeafDim == b[along];
+        return a[first] == b[first] && a[second] == b[second]
+            && int64_t(a[along]) + kLeafDim == b[along];
     };
     std::size_t slab = 0;
     for (uint32_t i = 0; i < leafCount(); ++i) {

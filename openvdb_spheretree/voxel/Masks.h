@@ -19,17 +19,32 @@ using BoolRoot = openvdb::BoolTree::RootNodeType;
 using BoolUpperNode = BoolRoot::ChildNodeType;
 using BoolLowerNode = BoolUpperNode::ChildNodeType;
 
-/// Calls f(box) for every active tile of a tree, of whatever size; box is inclusive.
+/// Calls f(box) for the active tiles of a node and of those below it, but not of leaves.
+/// Recursion: as deep as the tree, three nodes.
+template <typename NodeType, typename F>
+void forEachTileOf(const NodeType& node, const F& f)
+{
+    using ChildType = typename NodeType::ChildNodeType;
+    auto tile = node.cbeginValueOn();
+    auto child = node.cbeginChildOn();
+    while (tile || child) {
+        if (tile && !(child && child.getCoord() < tile.getCoord())) {
+            f(openvdb::CoordBBox::createCube(tile.getCoord(), ChildType::DIM));
+            ++tile;
+            continue;
+        }
+        if constexpr (ChildType::LEVEL > 0) forEachTileOf(*child, f);
+        ++child;
+    }
+}
+
+/// Calls f(box) for every active tile of a tree, of whatever size, in the order of OpenVDB's
+/// iterators; box is inclusive. (Those take a step along the root for each of its nodes before, at
+/// every one: with 10,000 nodes of 4096^3 voxels that was three quarters of a build.)
 template <typename TreeType, typename F>
 void forEachTile(const TreeType& tree, const F& f)
 {
-    auto tile = tree.cbeginValueOn();
-    tile.setMaxDepth(TreeType::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        openvdb::CoordBBox box;
-        tile.getBoundingBox(box);
-        f(box);
-    }
+    forEachTileOf(tree.root(), f);
 }
 
 } // namespace openvdb_spheretree::detail

@@ -61,6 +61,28 @@ Work writePoints(const InputPtr& in)
     };
 }
 
+Work readPoints(const InputPtr& in)
+{
+    auto file = std::make_shared<const TemporaryFile>(".vdb");
+    writeVdbFile(st::toPoints(*extendedTree(*in)), file->path());
+    return [file] {
+        const openvdb::GridBase::Ptr grid = readVdbFile(file->path());
+        const auto points = openvdb::gridPtrCast<openvdb::points::PointDataGrid>(grid);
+        benchmark::DoNotOptimize(st::fromPoints(*points));
+        return int64_t(0);
+    };
+}
+
+/// Of the stage before: all but the file, its checksum included.
+Work takePoints(const InputPtr& in)
+{
+    const auto points = st::toPoints(*extendedTree(*in));
+    return [points] {
+        benchmark::DoNotOptimize(st::fromPoints(*points));
+        return int64_t(0);
+    };
+}
+
 } // namespace
 
 std::vector<BenchmarkStage> readingStages()
@@ -71,7 +93,8 @@ std::vector<BenchmarkStage> readingStages()
 
 std::vector<BenchmarkStage> writingStages()
 {
-    return {{"points", makePoints, {}}, {"write-points", writePoints, {}}};
+    return {{"points", makePoints, {}}, {"write-points", writePoints, {}},
+        {"read-points", readPoints, {}}, {"take-points", takePoints, {}}};
 }
 
 } // namespace spheretree_benchmark

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FileStages.h
-/// @brief Stages at the two ends: reading objects, and making and writing points.
+/// @brief Stages at the two ends: reading objects, and making, writing and reading points.
 
 #pragma once
 

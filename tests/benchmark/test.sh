@@ -21,7 +21,7 @@ expect() {
 
 expect 0 '% of copy' --objects=gyroid-1000,gyroid-4000
 stages=(read-vdb object-mask layout distance distance-int32 distance+power+medial labels-kept topology
-    pyramid dag extended errors points write-points)
+    pyramid dag extended errors points write-points read-points take-points)
 for stage in "${stages[@]}"; do
     for object in gyroid-1000 gyroid-4000; do
         grep -Eq "^$object +[0-9.]+  ${stage//+/[+]} +1( +[-0-9.]+){4}$" said.txt ||

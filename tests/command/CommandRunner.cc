@@ -82,6 +82,19 @@ bool Running::waitForError(const std::string& text)
     return false;
 }
 
+bool Running::waitUntilStopped()
+{
+    for (int i = 0; i < 3000; ++i) {
+        siginfo_t info = {};
+        // WNOWAIT: wait() is to see how it ended.
+        waitid(P_PID, id_t(mProcess), &info, WSTOPPED | WEXITED | WNOHANG | WNOWAIT);
+        if (info.si_code == CLD_STOPPED) return true;
+        if (info.si_pid == mProcess) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
 Result Running::wait()
 {
     int status = 0;
@@ -98,6 +111,7 @@ Result Running::wait()
     mProcess = -1;
     Result result;
     if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
     result.out = readText(mFolder / "stdout.txt");
     result.err = readText(mFolder / "stderr.txt");
     return result;

@@ -24,6 +24,7 @@ using Grids = std::vector<openvdb::SharedPtr<openvdb::GridBase>>;
 
 struct Result {
     int exitCode = -1; ///< -1: killed by a signal
+    int signal = 0;    ///< the one that killed it
     std::string out, err;
 };
 
@@ -47,6 +48,10 @@ public:
 
     /// @return whether @a text has come on stderr, waiting for it half a minute at most.
     bool waitForError(const std::string& text);
+
+    /// @return whether the program has stopped (SIGSTOP) by itself, waiting for it half a minute at
+    ///         most. All of it stands still until it is sent SIGCONT.
+    bool waitUntilStopped();
 
     /// Waits five minutes at most, so that a command that hangs fails its test and no more.
     Result wait();

@@ -258,6 +258,16 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     EXPECT_NE(missing.err.find("nowhere.txt"), std::string::npos);
 }
 
+TEST_F(CommandUsage, ConfigFilesThatNeverEndAreRefused)
+{
+    for (const std::string line : {"read a.vol", "", "read"}) {
+        const Result result = shell("yes '" + line + "' | $VDB_SPHERETREE -config /dev/stdin");
+        EXPECT_EQ(result.exitCode, 3) << line;
+        EXPECT_NE(result.err.find("no text file"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(run("-config /dev/zero").exitCode, 3);
+}
+
 TEST_F(CommandUsage, HelpGoesToStdout)
 {
     const Result all = run("-help");

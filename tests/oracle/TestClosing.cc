@@ -9,10 +9,14 @@
 #include "support/RandomObjects.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/pyramid/Closing.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 
 #include <tbb/global_control.h>
+
+#include <cmath>
+#include <string>
 
 namespace {
 
@@ -142,6 +146,23 @@ TEST(Closing, AsAModelIsOrAfterAClosingOnEveryLevel)
             step.origin = Coord();
         }
     }
+}
+
+/// As many voxels, far apart, as make the band larger than the machine's memory: it is not made.
+TEST(Closing, RefusesABandThatDoesNotFitInMemoryBeforeItIsMade)
+{
+    constexpr double kBandBytes = 33.0 * 33 * 33 * 4096; // of a voxel and a radius of 64, or more
+    constexpr int kApart = 512;
+    const double there = detail::physicalMemory();
+    if (there == 0) GTEST_SKIP() << "how much memory there is cannot be told";
+    const int side = int(std::cbrt(there / kBandBytes)) + 1;
+    MaskTree mask(false);
+    for (const Coord& at : openvdb::CoordBBox::createCube(Coord(0), side)) {
+        mask.setValueOn(Coord(at[0] * kApart, at[1] * kApart, at[2] * kApart));
+    }
+    const std::string why = messageOf<openvdb::ValueError>([&] { closing(mask, 64); });
+    EXPECT_TRUE(mentions(why, "closing=64 looks at "));
+    EXPECT_TRUE(mentions(why, "use a smaller radius"));
 }
 
 } // namespace

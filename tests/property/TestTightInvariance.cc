@@ -200,7 +200,7 @@ TEST(TightInvariance, OfObjectsTooWideForTheirUnitsAreRefused)
 TEST(TightInvariance, OfObjectsAtTheEndsOfCoordinatesKeepTheirChains)
 {
     for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
-        for (const int end : {INT32_MAX - 4000, INT32_MIN + 4000}) {
+        for (const int end : {INT32_MAX - (1 << 17), INT32_MIN + (1 << 17)}) {
             const Voxels voxels =
                 joined(translated(shapes::ball(9), Coord(end, 0, end)), {Coord(end, 60, end + 9)});
             const auto grid = gridOf(voxels);

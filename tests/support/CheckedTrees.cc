@@ -65,7 +65,7 @@ SphereTree plusAndDotTree(const BoolGrid& object, TreeType type)
         tree.levels[k].end = k == 0 ? 5 : begins[k - 1];
         tree.levels[k].pyramidVoxels = voxels[k];
     }
-    tree.levels[0].topology = LevelTopology{2, 0, 0};
+    for (int k = 0; k < 3; ++k) tree.levels[k].topology = LevelTopology{k < 2 ? 2 : 1, 0, 0};
     tree.dag = {{0, 1}, {0, 2}, {1, 3}, {2, 4}};
     computeLevelErrors(tree, object);
     return tree;

@@ -52,4 +52,10 @@ std::string bytesOf(const PointDataGrid::Ptr& grid)
     return out.str().erase(kUuidBegin, kUuidSize);
 }
 
+void removeChecksum(PointDataGrid& grid)
+{
+    grid.removeMeta("spheretree_checksum");
+    grid.removeMeta("spheretree_checksum_transform");
+}
+
 } // namespace spheretree_test

@@ -21,6 +21,9 @@ std::vector<PointDataGrid::Ptr> throughFile(const openvdb::GridCPtrVec& grids);
 /// The grid as bytes, without the random number that every file starts with.
 std::string bytesOf(const PointDataGrid::Ptr& grid);
 
+/// Removes the checksum, as version 0.1 wrote none.
+void removeChecksum(PointDataGrid& grid);
+
 /// Sets an attribute of the node with that id.
 template <typename T>
 void damage(PointDataGrid& grid, const char* attribute, int32_t id, const T& value)

@@ -67,7 +67,6 @@ ActionSpec generateAction()
             "size of a voxel in world units"),
         nameOption("", "name of the grid (by default that of the shape)")};
     action.isSource = true;
-    action.failure = kUsage;
     action.check = check;
     action.run = run;
     return action;

@@ -49,8 +49,7 @@ ActionSpec threadsAction()
         if (!call.given("threads")) throwUsage("a number of threads is missing");
     };
     action.run = [](const ActionCall& call, Session& session) {
-        session.threads = std::make_unique<tbb::global_control>(
-            tbb::global_control::max_allowed_parallelism, size_t(call.integer("threads")));
+        session.limitThreads(size_t(call.integer("threads")));
     };
     return action;
 }

@@ -70,6 +70,11 @@ StackItem treeItem(
     const PointDataGrid& points, const Companions& companions, const std::string& path)
 {
     StackItem item;
+    const auto isUnverified = [](const PointDataGrid* grid) {
+        return grid && !openvdb_spheretree::hasChecksum(*grid);
+    };
+    item.unverified = isUnverified(&points) || isUnverified(companions.dag.get())
+        || isUnverified(companions.cuts.get());
     try {
         item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
             openvdb_spheretree::fromPoints(points, companions.dag.get(), companions.cuts.get()));
@@ -109,9 +114,8 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
     }
 }
 
-void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+void readContent(const std::string& path, Loading loading, NameFilter& filter, Session& session)
 {
-    session.stack.setSource(path);
     const FileKind kind = fileKind(path);
     if (kind == FileKind::Vdb) return readVdbFile(path, loading, filter, session);
     StackItem item;
@@ -123,6 +127,15 @@ void readFile(const std::string& path, Loading loading, NameFilter& filter, Sess
         if (!filter.accepts(item.grid->getName())) return;
     }
     session.stack.push(item);
+}
+
+void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+{
+    session.stack.setSource(path);
+    const InputStamp stamp(path);
+    readContent(path, loading, filter, session);
+    stamp.requireUnchanged();
+    if (loading != Loading::Whole) session.inputs.push_back(stamp);
 }
 
 void check(const ActionCall& call, Plan& plan)

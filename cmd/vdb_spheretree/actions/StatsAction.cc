@@ -19,6 +19,7 @@ namespace {
 void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
+    session.noteIfUnverified(item);
     const auto& levels = item.tree->levels;
     const bool lacksErrors = std::any_of(levels.begin(), levels.end(),
         [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
@@ -28,6 +29,7 @@ void runStats(const ActionCall& call, Session& session)
     if (path == "-") return session.print(json, std::cout);
     AtomicFile file(path);
     file.write([&](std::ostream& out) { out << json; });
+    throwIfStopped();
     file.commit();
 }
 
@@ -65,6 +67,7 @@ void runPrint(const ActionCall&, Session& session)
         const bool isMesh = bool((*item)->mesh);
         out << (isMesh ? "geo " : "vdb ") << (isMesh ? meshAge++ : age++) << ": ";
         printItem(out, **item);
+        session.noteIfUnverified(**item);
     }
     session.print(out.str());
 }

@@ -120,6 +120,7 @@ void runLevel(const ActionCall& call, Session& session)
     StackItem& input = session.stack.selectTree(call.text("vdb"));
     StackItem result;
     result.object = input.object;
+    result.unverified = input.unverified;
     result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
     if (call.given("name")) result.tree->settings.name = call.text("name");
     if (!call.flag("keep")) session.stack.drop(&input);
@@ -130,6 +131,7 @@ void runLevel(const ActionCall& call, Session& session)
 void runCheck(const ActionCall& call, Session& session)
 {
     const StackItem& item = session.stack.selectTree("");
+    session.noteIfUnverified(item);
     BoolGrid::ConstPtr object = item.object;
     if (call.given("vdb") || !object) {
         object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);

@@ -165,7 +165,17 @@ public:
     void commit()
     {
         if (mToStdout) writeToStdout(grids(), mCompression);
-        for (auto& file : mFiles) file->commit();
+        mSession.requireUnchangedInputs();
+        throwIfStopped(); // for the last time: from here on it is all files, or an error
+        std::string done;
+        for (auto& file : mFiles) {
+            try {
+                file->commit();
+            } catch (...) {
+                rethrowNamed(done.empty() ? "" : "written: " + done + "; not written", kOutput);
+            }
+            done += (done.empty() ? "" : ", ") + file->path();
+        }
     }
 
 private:

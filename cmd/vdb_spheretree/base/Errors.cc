@@ -12,6 +12,8 @@
 #include <ios>
 #include <iostream>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 namespace command {
 
@@ -37,6 +39,13 @@ std::string oneLine(const std::string& text, size_t limit)
 
 std::string systemError(const std::string& path) { return path + ": " + std::strerror(errno); }
 
+bool isLackOfThreads(const std::exception& error)
+{
+    const auto* const system = dynamic_cast<const std::system_error*>(&error);
+    if (system && system->code() == std::errc::resource_unavailable_try_again) return true;
+    return std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
+}
+
 void rethrowNamed(const std::string& where, ExitCode fallback)
 {
     try {
@@ -51,12 +60,14 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
         throw CommandError(
             fallback, joined(where, std::string(openvdb_spheretree::detail::withoutType(what))));
     } catch (const std::bad_alloc&) {
-        throw CommandError(fallback, joined(where, "not enough memory"));
+        const ExitCode code = fallback == kUsage ? kInput : fallback; // the line may be right
+        throw CommandError(code, joined(where, "not enough memory"));
     } catch (const std::length_error&) {
         throw CommandError(fallback, joined(where, "asks for more memory than there can be"));
     } catch (const std::ios_base::failure&) {
         throw CommandError(fallback, joined(where, "reading or writing failed"));
     } catch (const std::exception& error) {
+        if (isLackOfThreads(error)) throw CommandError(kInput, joined(where, kNoThread));
         throw CommandError(fallback, joined(where, error.what()));
     }
 }
@@ -72,7 +83,14 @@ int reportError(std::exception_ptr error)
     } catch (const Interrupted&) {
         std::cerr << "vdb_spheretree: interrupted" << std::endl;
         return kInterrupted;
+    } catch (const std::bad_alloc&) {
+        std::cerr << start << "not enough memory" << std::endl;
+        return kInput;
     } catch (const std::exception& e) {
+        if (isLackOfThreads(e)) {
+            std::cerr << start << kNoThread << std::endl;
+            return kInput;
+        }
         std::cerr << start << "unexpected: " << oneLine(e.what()) << std::endl;
     } catch (...) {
         std::cerr << start << "unexpected" << std::endl;

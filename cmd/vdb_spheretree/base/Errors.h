@@ -44,10 +44,19 @@ std::string oneLine(const std::string& text, size_t limit = 400);
 /// @return `path: reason`, with the reason of the last system call that failed.
 std::string systemError(const std::string& path);
 
+/// @return whether @a error says that the system has started no thread. The standard library says so
+/// by a code; oneTBB only by its text.
+bool isLackOfThreads(const std::exception& error);
+
+/// What there is to say then.
+inline constexpr char kNoThread[] = "no thread can be started: a limit on processes or on memory "
+                                    "is reached (ulimit -u, ulimit -v); "
+                                    "raise it, or ask for fewer threads with -threads";
+
 /// @brief Rethrow the exception that is being handled as a CommandError. Interrupted is rethrown as
 /// it is.
 /// @param where     the action or file that the message names; may be empty
-/// @param fallback  exit code for an exception that has none
+/// @param fallback  exit code for an exception that has none. A lack of threads is always kInput
 [[noreturn]] void rethrowNamed(const std::string& where, ExitCode fallback);
 
 /// @brief Print the exception to stderr.

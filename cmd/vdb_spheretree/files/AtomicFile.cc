@@ -2,12 +2,10 @@
 #include "AtomicFile.h"
 
 #include "base/Errors.h"
-#include "base/Progress.h"
 
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include <sys/stat.h>
@@ -17,63 +15,39 @@ namespace command {
 
 namespace {
 
-std::string folderOf(const std::string& path)
-{
-    const size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
-}
+/// Linux gives up after as many.
+constexpr int kMostLinks = 40;
 
-/// A link is followed, so that the file it names is replaced and not the link.
-std::string followed(const std::string& path)
+/// A folder that is missing, named with the link that leads to it.
+void requireFolder(const std::string& path, const std::string& target)
 {
-    std::error_code error;
-    const auto resolved = std::filesystem::canonical(path, error);
-    return error ? path : resolved.string();
-}
-
-/// @return the name of a new, empty file in @a folder; empty (and errno) if it could not be made.
-std::string makeTemporary(const std::string& folder)
-{
-    std::string name = folder + "/.vdb_spheretree.XXXXXX";
-    const int fd = mkstemp(name.data());
-    if (fd < 0) return {};
-    close(fd);
-    return name;
-}
-
-/// The permissions of the file it replaces, or those that any new file gets.
-mode_t permissionsFor(const std::string& target)
-{
+    const std::filesystem::path parent = std::filesystem::path(target).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    const std::string start = "cannot write " + path + ": "
+        + (target == path ? "" : "it is a link to " + target + ", and ") + "its folder ";
     struct stat info;
-    if (stat(target.c_str(), &info) == 0) return info.st_mode & 07777;
-    const mode_t mask = umask(0);
-    umask(mask);
-    return 0666 & ~mask;
-}
-
-void checkFolder(const std::string& path, const std::string& folder)
-{
-    struct stat info;
-    if (stat(folder.c_str(), &info) != 0) {
-        throwOutput("cannot write " + path + ": its folder " + systemError(folder));
-    }
-    if (!S_ISDIR(info.st_mode)) {
-        throwOutput("cannot write " + path + ": " + folder + " is no folder");
-    }
-    const std::string trial = makeTemporary(folder);
-    if (trial.empty()) {
-        throwOutput(
-            "cannot write " + path + ": no file can be made in its folder " + systemError(folder));
-    }
-    unlink(trial.c_str());
+    if (stat(folder.c_str(), &info) != 0) throwOutput(start + systemError(folder));
+    if (!S_ISDIR(info.st_mode)) throwOutput(start + folder + " is no folder");
 }
 
 } // namespace
 
+std::string AtomicFile::targetOf(const std::string& path)
+{
+    std::filesystem::path target = path;
+    for (int i = 0; i < kMostLinks; ++i) {
+        std::error_code error;
+        const auto link = std::filesystem::read_symlink(target, error);
+        if (error) return target.string(); // no link
+        target = target.parent_path() / link;
+    }
+    return path; // they go round in a circle; whoever opens it is told
+}
+
 void AtomicFile::checkTarget(const std::string& path)
 {
-    const std::string target = followed(path);
+    const std::string target = targetOf(path);
+    requireFolder(path, target);
     struct stat info;
     if (stat(target.c_str(), &info) == 0) {
         if (S_ISDIR(info.st_mode)) throwOutput("cannot write " + path + ": it is a folder");
@@ -84,45 +58,40 @@ void AtomicFile::checkTarget(const std::string& path)
     } else if (errno != ENOENT) {
         throwOutput("cannot write " + systemError(path));
     }
-    checkFolder(path, folderOf(target));
+    const AtomicFile trial(path);
 }
 
-AtomicFile::AtomicFile(const std::string& path) : mPath(path), mTarget(followed(path))
-{
-    mTemporary = makeTemporary(folderOf(mTarget));
-    if (mTemporary.empty()) throwOutput("cannot write " + systemError(path));
-    mStream.open(mTemporary, std::ios::in | std::ios::out | std::ios::binary | std::ios::trunc);
-    if (!mStream) {
-        unlink(mTemporary.c_str());
-        throwOutput("cannot write " + systemError(path));
-    }
-    mStream.exceptions(std::ios::badbit | std::ios::failbit);
-}
-
-AtomicFile::~AtomicFile()
-{
-    if (!mCommitted) unlink(mTemporary.c_str());
+AtomicFile::AtomicFile(const std::string& path)
+try : mPath(path), mTemporary(targetOf(path)) {
+} catch (...) {
+    rethrowNamed("cannot write " + path, kOutput);
 }
 
 void AtomicFile::write(const std::function<void(std::iostream&)>& content)
 {
+    errno = 0;
+    std::fstream stream(mTemporary.path(), std::ios::in | std::ios::out | std::ios::binary);
+    if (!stream) fail();
+    stream.exceptions(std::ios::badbit | std::ios::failbit);
     try {
-        content(mStream);
-        mStream.flush();
-        mStream.close();
+        content(stream);
+        stream.flush();
+        stream.close();
     } catch (const std::ios_base::failure&) {
-        throwOutput("cannot write " + mPath + ": the disk is full, or a limit is reached");
+        fail();
     }
+    if (!mTemporary.sync()) fail();
 }
 
 void AtomicFile::commit()
 {
-    throwIfStopped();
-    chmod(mTemporary.c_str(), permissionsFor(mTarget));
-    if (std::rename(mTemporary.c_str(), mTarget.c_str()) != 0) {
-        throwOutput("cannot write " + systemError(mPath));
-    }
-    mCommitted = true;
+    if (!mTemporary.publish()) fail();
+}
+
+void AtomicFile::fail() const
+{
+    if (errno == 0) throwOutput("cannot write " + mPath + ": the stream has failed");
+    throwOutput("cannot write " + systemError(mPath));
 }
 
 } // namespace command

@@ -7,8 +7,8 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
-#include <openvdb/io/GridDescriptor.h>
-#include <openvdb/io/Stream.h>
+
+#include <openvdb_spheretree/input/vdb/VdbGrids.h>
 
 #include <cstring>
 #include <fstream>
@@ -38,6 +38,16 @@ public:
     }
     int fd() const { return mFd; }
 
+    /// @return whether it still is what @a path names, unchanged.
+    bool isStill(const std::string& path) const
+    {
+        struct stat opened, named;
+        return fstat(mFd, &opened) == 0 && stat(path.c_str(), &named) == 0
+            && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino
+            && opened.st_size == named.st_size && opened.st_mtim.tv_sec == named.st_mtim.tv_sec
+            && opened.st_mtim.tv_nsec == named.st_mtim.tv_nsec;
+    }
+
 private:
     int mFd;
 };
@@ -59,54 +69,10 @@ openvdb::GridPtrVec readWhole(const std::string& path)
 {
     const InputFile file(path);
     FdBuffer buffer(file.fd());
-    std::istream in(&buffer);
-    in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-    return naming(path, [&] {
-        openvdb::io::Stream stream(in, /*delayLoad=*/false);
-        return *stream.getGrids();
-    });
+    return naming(path, [&] { return openvdb_spheretree::readVdbGrids(buffer); });
 }
 
 #ifdef OPENVDB_USE_DELAYED_LOADING
-
-/// Where the grids of a file are, read with every check that OpenVDB leaves out when it maps the
-/// file into memory.
-class GridIndex : public openvdb::io::Archive {
-public:
-    /// @throw std::ios_base::failure if the file ends before what it says it holds
-    explicit GridIndex(const std::string& path)
-    {
-        std::ifstream in;
-        in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-        in.open(path, std::ios::binary);
-        const std::streamoff size = in.seekg(0, std::ios::end).tellg();
-        in.seekg(0);
-        readHeader(in);
-        setFormatVersion(in);
-        setLibraryVersion(in);
-        setDataCompression(in);
-        if (!isSeekable()) return;
-        openvdb::MetaMap().readMeta(in);
-        for (int32_t left = readGridCount(in); left > 0; --left) {
-            openvdb::io::GridDescriptor grid;
-            grid.read(in);
-            const bool inOrder = grid.getGridPos() >= in.tellg()
-                && grid.getBlockPos() >= grid.getGridPos() && grid.getEndPos() >= grid.getBlockPos()
-                && grid.getEndPos() <= size;
-            if (!inOrder) throw std::ios_base::failure("truncated");
-            mNames.push_back(grid.uniqueName());
-            in.seekg(grid.getEndPos());
-        }
-    }
-
-    /// @return whether it says where its grids are; what went through a pipe does not.
-    bool isSeekable() const { return inputHasGridOffsets(); }
-    /// @return the names by which OpenVDB tells the grids apart, in the file's order.
-    const std::vector<std::string>& names() const { return mNames; }
-
-private:
-    std::vector<std::string> mNames;
-};
 
 bool worthDelaying(const std::string& path, Loading loading)
 {
@@ -122,12 +88,16 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
 {
     return naming(path, [&] {
         openvdb::GridPtrVec grids;
-        const GridIndex index(path);
-        if (!index.isSeekable()) return grids;
+        const InputFile input(path);
+        FdBuffer buffer(input.fd());
+        const auto names = openvdb_spheretree::requireSoundVdb(buffer);
+        if (!names) return grids;
         openvdb::io::File file(path);
         file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
         file.open(/*delayLoad=*/true);
-        for (const std::string& name : index.names()) {
+        // OpenVDB has opened it by its name, and must have got what was looked at.
+        if (!input.isStill(path)) throwInput("the file was replaced while it was read");
+        for (const std::string& name : *names) {
             throwIfStopped();
             grids.push_back(file.readGrid(name));
         }

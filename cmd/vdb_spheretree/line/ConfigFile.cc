@@ -6,12 +6,13 @@
 #include "Plan.h"
 
 #include <fstream>
+#include <sstream>
 
 namespace command {
 
 namespace {
 
-constexpr size_t kLongestLine = 1 << 20; // a line of a binary file may be longer
+constexpr size_t kLongestFile = 1 << 20; // a device or a pipe may never end
 
 /// @return the words of a line. @throw CommandError (usage) if a quote is not closed
 std::vector<std::string> wordsOf(const std::string& line, const std::string& where)
@@ -45,20 +46,31 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
     return words;
 }
 
-} // namespace
-
-std::vector<std::string> readConfigFile(const std::string& path)
+/// @throw CommandError (input) if the file cannot be read, or is none of people's making
+std::string textOf(const std::string& path)
 {
     checkReadable(path);
     std::ifstream in(path, std::ios::binary);
     if (!in) throwInput("cannot read " + systemError(path));
+    std::string text(kLongestFile + 1, '\0');
+    in.read(text.data(), std::streamsize(text.size()));
+    text.resize(size_t(in.gcount()));
+    if (text.size() > kLongestFile || text.find('\0') != std::string::npos) {
+        throwInput(path + ": this is no text file, or one of more than "
+            + std::to_string(kLongestFile) + " bytes");
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<std::string> readConfigFile(const std::string& path)
+{
+    std::istringstream in(textOf(path));
     std::vector<std::string> tokens;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
         const std::string where = path + ", line " + std::to_string(number);
-        if (line.size() > kLongestLine || line.find('\0') != std::string::npos) {
-            throwInput(where + ": this is no text file");
-        }
         std::vector<std::string> words = wordsOf(line, where);
         if (words.empty() || (number == 1 && words.front() == "vdb_spheretree")) continue;
         if (words.front().empty() || words.front().front() != '-') words.front().insert(0, "-");

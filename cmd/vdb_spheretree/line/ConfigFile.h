@@ -14,7 +14,8 @@
 namespace command {
 
 /// @return the words of the file, as if they had been typed.
-/// @throw CommandError (input) if it cannot be read, (usage) if a quote is not closed
+/// @throw CommandError (input) if it cannot be read, holds a zero or more than 1 MiB, (usage) if a quote
+///        is not closed
 std::vector<std::string> readConfigFile(const std::string& path);
 
 } // namespace command

@@ -56,7 +56,7 @@ void Plan::addInput(const std::string& path)
         mStdinTaken = true;
         return;
     }
-    const bool willBeWritten = mOutputs.count(absolute(path)) > 0;
+    const bool willBeWritten = mOutputs.count(absolute(AtomicFile::targetOf(path))) > 0;
     if (!willBeWritten) checkReadable(path);
     switch (fileKind(path)) {
     case FileKind::Vdb:
@@ -79,7 +79,8 @@ void Plan::addOutput(const std::string& path)
         mStdoutTaken = true;
         return;
     }
-    if (!mOutputs.insert(absolute(path)).second) throwUsage(path + " is written more than once");
+    const std::string target = absolute(AtomicFile::targetOf(path));
+    if (!mOutputs.insert(target).second) throwUsage(path + " is written more than once");
     AtomicFile::checkTarget(path);
 }
 

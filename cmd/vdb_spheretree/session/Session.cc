@@ -3,8 +3,11 @@
 
 #include "base/Terminal.h"
 
+#include <tbb/global_control.h>
+
 #include <cerrno>
 #include <iostream>
+#include <memory>
 
 namespace command {
 
@@ -41,6 +44,7 @@ void Session::runOne(const ActionCall& call)
     if (!silent) progress.beginAction(call.typed());
     try {
         call.spec().run(call, *this);
+        requireUnchangedInputs();
     } catch (...) {
         finish();
         rethrowNamed(call.label(), call.spec().failure);
@@ -49,6 +53,27 @@ void Session::runOne(const ActionCall& call)
     if (silent) return;
     std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
               << std::endl;
+}
+
+void Session::noteIfUnverified(const StackItem& item)
+{
+    if (!item.unverified) return;
+    note(item.description()
+        + " has no checksum, as those of version 0.1: nobody can tell whether it is whole");
+}
+
+void Session::limitThreads(size_t count)
+{
+    // Never destroyed at the end: the limit before would be in force again, and oneTBB would start
+    // threads for it, which may fail.
+    static tbb::global_control* sLimit = nullptr;
+    const std::unique_ptr<tbb::global_control> before(sLimit);
+    sLimit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, count);
+}
+
+void Session::requireUnchangedInputs() const
+{
+    for (const InputStamp& input : inputs) input.requireUnchanged();
 }
 
 std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Progress.h"
+#include "files/InputStamp.h"
 #include "line/Action.h"
 #include "line/Plan.h"
 #include "Stack.h"
@@ -12,10 +13,9 @@
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
-#include <tbb/global_control.h>
 
 #include <iosfwd>
-#include <memory>
+#include <vector>
 
 namespace command {
 
@@ -39,6 +39,13 @@ struct Session {
     ///         stack after it.
     bool isLastAction() const { return mIsLast; }
 
+    /// Has parallel work take so many threads at most, until the program ends.
+    void limitThreads(size_t count);
+
+    /// @brief To be called after what has read values, and before what results from them is kept.
+    /// @throw CommandError (input) if a file of @a inputs has been written to
+    void requireUnchangedInputs() const;
+
     /// Tables and lists go to stdout, or to stderr if data goes to stdout.
     std::ostream& textOut() const;
     /// Prints @a text there, or to another stream. A reader that stops reading (`| head`) is no error.
@@ -49,16 +56,19 @@ struct Session {
     void remark(const std::string& line) { say(Verbosity::Verbose, "    ", line); }
     /// Prints a line on stderr unless -quiet has been given.
     void note(const std::string& line) { say(Verbosity::Normal, "vdb_spheretree: note: ", line); }
-    /// The same, for what may be a mistake.
+    /// Notes that nobody can tell whether a tree is whole, if that is so.
+    void noteIfUnverified(const StackItem& item);
+    /// As a note, for what may be a mistake.
     void warn(const std::string& line);
 
     const Plan& plan;
     Stack stack;
     Progress progress;
     Verbosity verbosity = Verbosity::Normal;
+    /// Files whose values may not all be in memory yet.
+    std::vector<InputStamp> inputs;
     Stopwatch total;
     StageSeconds seconds;
-    std::unique_ptr<tbb::global_control> threads;
 
 private:
     void runOne(const ActionCall& call);

@@ -28,6 +28,7 @@ struct StackItem {
     /// That a tree was built from; null if not known.
     openvdb::SharedPtr<const openvdb::BoolGrid> object = {};
     std::string source = {}; ///< the file or action that it comes from
+    bool unverified = false; ///< a tree of a file without a checksum
     int batch = 0;           ///< the same number for all items of one action
     bool written = false;    ///< to be dropped when the next item arrives
 

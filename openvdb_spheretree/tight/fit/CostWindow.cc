@@ -4,8 +4,21 @@
 #include "BallRows.h"
 
 #include <cmath>
+#include <limits>
 
 namespace openvdb_spheretree::tight {
+
+namespace {
+
+/// A window may reach beyond the ends of coordinates; samples do not.
+int32_t toCoordinate(int64_t sample)
+{
+    constexpr int64_t kFirst = std::numeric_limits<int32_t>::min();
+    constexpr int64_t kLast = std::numeric_limits<int32_t>::max();
+    return int32_t(std::max(kFirst, std::min(sample, kLast)));
+}
+
+} // namespace
 
 int CostWindow::levelFor(double radius, int samples)
 {
@@ -29,12 +42,15 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
     mWords = (mSize[2] + 63) / 64;
     mSize[2] = 64 * mWords;
     mBits.assign(std::size_t(mSize[0]) * mSize[1] * mWords, ~uint64_t(0));
-    openvdb::Coord first;
-    for (int a = 0; a < 3; ++a) first[a] = int32_t(origin[a]);
-    const openvdb::Coord last = first.offsetBy(mSize[0] - 1, mSize[1] - 1, mSize[2] - 1);
+    openvdb::CoordBBox met; // of the window, where there can be samples
+    for (int a = 0; a < 3; ++a) {
+        met.min()[a] = toCoordinate(origin[a]);
+        met.max()[a] = toCoordinate(origin[a] + mSize[a] - 1);
+    }
     const SampleLevel& samples = object.level(level);
-    samples.forEachLeaf({first, last}, [&](std::size_t leaf) {
-        const openvdb::Coord at = samples.origin(leaf) - first;
+    samples.forEachLeaf(met, [&](std::size_t leaf) {
+        openvdb::Coord at;
+        for (int a = 0; a < 3; ++a) at[a] = int32_t(samples.origin(leaf)[a] - origin[a]);
         const LeafMask& mask = samples.mask(leaf);
         const int x0 = std::max(0, at[0]), x1 = std::min(mSize[0], at[0] + 8);
         const int y0 = std::max(0, at[1]), y1 = std::min(mSize[1], at[1] + 8);

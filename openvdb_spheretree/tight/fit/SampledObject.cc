@@ -59,7 +59,7 @@ SampleLevel::SampleLevel(std::vector<Coord> origins, std::vector<LeafMask> masks
     mColumnBegin.push_back(uint32_t(mOrigins.size()));
 }
 
-std::size_t SampleLevel::firstColumn(int32_t x, int32_t y) const
+std::size_t SampleLevel::firstColumn(int64_t x, int32_t y) const
 {
     const auto before = [&](uint32_t begin, int) {
         const Coord& at = mOrigins[begin];

@@ -41,7 +41,7 @@ public:
             if (at[1] < lo[1]) {
                 c = firstColumn(at[0], lo[1]);
             } else if (at[1] > box.max()[1]) {
-                c = firstColumn(at[0] + 8, lo[1]);
+                c = firstColumn(int64_t(at[0]) + 8, lo[1]); // beyond 32 bits at the end
             } else {
                 for (std::size_t leaf = firstLeaf(c, lo[2]);
                      leaf < mColumnBegin[c + 1] && mOrigins[leaf][2] <= box.max()[2]; ++leaf) {
@@ -54,7 +54,7 @@ public:
 
 private:
     /// @return the first column at or after (x, y).
-    std::size_t firstColumn(int32_t x, int32_t y) const;
+    std::size_t firstColumn(int64_t x, int32_t y) const;
     /// @return the first leaf of a column at or above z.
     std::size_t firstLeaf(std::size_t column, int32_t z) const;
 

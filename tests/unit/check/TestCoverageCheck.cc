@@ -33,6 +33,7 @@ TEST(CoverageCheck, InTwoDimensionsOnlyThePlaneIsLookedAt)
     setType(tree.settings, TreeType::Extended);
     tree.settings.dim = 2;
     tree.settings.padding = 0;
+    tree.settings.topology = false;
     tree.transform = object->transform().copy();
     tree.object = {"", 5, 1, 0, CoordBBox(Coord(1, 1, 5), Coord(3, 3, 5))};
     addSphere(tree, {2, 2, 5}, 4, -1);
@@ -136,6 +137,7 @@ TEST(CoverageCheck, CoverageOfVoxelsFarApartIsCheckedWithoutDrawingWhatIsBetween
     SphereTree tree;
     setType(tree.settings, TreeType::Extended);
     tree.settings.padding = 0;
+    tree.settings.topology = false;
     tree.transform = object->transform().copy();
     tree.object = {"", 2, 2, 0, CoordBBox(Coord(0), Coord(1000000))};
     addSphere(tree, openvdb::Vec3d(500000), int64_t(3) * 1000000 * 1000000, -1);

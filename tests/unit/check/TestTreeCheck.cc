@@ -94,6 +94,7 @@ TEST_F(TreeCheck, KindsOfFaultsHaveNamesOfTheirOwn)
 {
     EXPECT_EQ(toString(FaultKind::Shape), "shape");
     EXPECT_EQ(toString(FaultKind::LeafBalls), "leaf balls");
+    EXPECT_EQ(toString(FaultKind::Records), "records");
     EXPECT_EQ(toString(FaultKind::Chains), "chains");
     EXPECT_EQ(toString(FaultKind::Inside), "inside");
     EXPECT_EQ(toString(FaultKind::Errors), "errors") << "the last one";
@@ -254,6 +255,59 @@ TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)
             tree.levels[0].topology = LevelTopology{2, 0, 5};
         },
         "level 0 records 5 cavities of the object, which has 0");
+}
+
+TEST_F(TreeCheck, SaysWhenTheTopologyOfALevelIsNotThatOfItsVoxels)
+{
+    for (TreeType type : {TreeType::Extended, TreeType::Reversible}) {
+        expectFault(
+            FaultKind::Topology, [](SphereTree& tree) { tree.levels[1].topology->components = 1; },
+            "level 1 records 1 components of its voxels, which have 2", type);
+        expectFault(
+            FaultKind::Topology, [](SphereTree& tree) { tree.levels[2].topology->tunnels = 3; },
+            "level 2 records 3 tunnels of its voxels, which have 0", type);
+    }
+}
+
+TEST_F(TreeCheck, SaysWhenATopologyIsLostOrWasNotAskedFor)
+{
+    for (int level : {0, 1, 2}) {
+        const std::string number = std::to_string(level);
+        expectFault(
+            FaultKind::Records, [=](SphereTree& tree) { tree.levels[level].topology.reset(); },
+            "level " + number + " records no topology, but the tree was made with topology=1");
+        expectFault(
+            FaultKind::Records,
+            [=](SphereTree& tree) {
+                const auto topology = tree.levels[level].topology;
+                for (SphereTreeLevel& each : tree.levels) each.topology.reset();
+                tree.settings.topology = false;
+                tree.levels[level].topology = topology;
+            },
+            "level " + number + " records a topology, but the tree was made with topology=0");
+    }
+}
+
+TEST_F(TreeCheck, SaysWhenTheErrorsOfSomeLevelsAreLost)
+{
+    for (int level : {0, 1, 2}) {
+        expectFault(
+            FaultKind::Records, [=](SphereTree& tree) { tree.levels[level].error.reset(); },
+            "level " + std::to_string(level) + " records no errors, though other levels do");
+    }
+    expectFault(
+        FaultKind::Records, [](SphereTree& tree) { tree.levels[1].errorUnknown = "too large"; },
+        "level 1 records errors, and why it has none");
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = plusAndDotTree(*object);
+    tree.levels[1].error.reset();
+    tree.levels[1].errorUnknown = "too large";
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "nothing was lost";
+    for (SphereTreeLevel& level : tree.levels) {
+        level.error.reset();
+        level.errorUnknown.clear();
+    }
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "they were not asked for";
 }
 
 TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)

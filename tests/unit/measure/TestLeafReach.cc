@@ -97,3 +97,22 @@ TEST(LeafReach, WhereNothingIsNearAllStays)
     reach.takeNear(mask, {}, 0, Coord(0), leaf);
     EXPECT_EQ(leaf.count(), 511);
 }
+
+TEST(LeafReach, SeesNothingBeyondTheEndsOfCoordinates)
+{
+    LeafReach reach;
+    const Coord last(INT32_MAX - 7), first(INT32_MIN);
+    MaskTree atFirst, atLast;
+    atFirst.setValueOn(first);
+    atLast.setValueOn(Coord(INT32_MAX));
+    for (const Distance& distance : kDistances) {
+        LeafMask mask = LeafMask::full();
+        reach.takeNear(atFirst, distance, 25, last, mask); // the other end of the world is not near
+        EXPECT_EQ(mask.count(), kLeafVoxels);
+        reach.takeNear(atLast, distance, 0, last, mask);
+        EXPECT_EQ(mask.count(), kLeafVoxels - 1);
+        mask = LeafMask::full();
+        reach.takeNear(atFirst, distance, 0, first, mask);
+        EXPECT_EQ(mask.count(), kLeafVoxels - 1);
+    }
+}

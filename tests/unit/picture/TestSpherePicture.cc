@@ -343,6 +343,33 @@ TEST(SpherePicture, AnInterrupterStopsIt)
     }
 }
 
+/// A picture of one tile: what asks once a tile would not stop before it is done.
+TEST(SpherePicture, AnInterrupterStopsItAtAnyPixelOfATile)
+{
+    const auto object = gridOf(shapes::ball(60));
+    const SphereTree tree = buildSphereTree(*object);
+    PictureSettings tile;
+    tile.width = tile.height = 40;
+    for (const int after : {100, 800, 1500}) {
+        StopAfter level(after), voxels(after);
+        EXPECT_THROW(renderLevel(tree, 0, viewOfTree(tree), tile, &level), Interrupted);
+        EXPECT_THROW(renderObject(*object, viewOfObject(*object), tile, &voxels), Interrupted);
+    }
+}
+
+/// The sum of its corners does not fit 32 bits: a sanitizer would stop here.
+TEST(SpherePicture, AnObjectAtTheEndOfCoordinatesLooksAsElsewhere)
+{
+    const auto pictureAt = [](int from) {
+        auto object = openvdb::BoolGrid::create();
+        object->tree().addTile(2, Coord(from), true, true); // 128^3 voxels
+        return renderObject(*object, viewOfObject(*object), small()).rgb;
+    };
+    const auto expected = pictureAt(1 << 20);
+    EXPECT_EQ(pictureAt(INT32_MAX - 127), expected);
+    EXPECT_EQ(pictureAt(INT32_MIN), expected);
+}
+
 TEST(SpherePicture, WhatIsOutOfRangeIsNamed)
 {
     const SphereTree tree = treeOf({{Vec3d(0.0), 1}});

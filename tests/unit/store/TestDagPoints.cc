@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include "support/Messages.h"
+#include "support/PointsFiles.h"
 #include "support/SampleTrees.h"
 
 #include <openvdb/points/PointCount.h>
@@ -104,10 +105,37 @@ TEST(DagPoints, ADagThatWasCutShortIsAnError)
 {
     const SphereTree tree = sampleTree();
     const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+    removeChecksum(*dag);
     dag->removeMeta("spheretree_edges");
     dag->insertMeta("spheretree_edges", openvdb::Int32Metadata(int32_t(tree.dag.size()) + 1));
     const std::string why = messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); });
     EXPECT_TRUE(mentions(why, "9 edges of 8 nodes are expected"));
+}
+
+TEST(DagPoints, AnEdgeThatIsNotAtItsParentIsAnError)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+    for (auto leaf = dag->tree().beginLeaf(); leaf; ++leaf) {
+        points::AttributeWriteHandle<openvdb::Vec3f> places(leaf->attributeArray("P"));
+        places.set(0, places.get(0) + openvdb::Vec3f(0, 0.0625f, 0));
+    }
+    EXPECT_TRUE(mentions(messageOf<openvdb::IoError>([&] { fromPoints(*points, dag.get()); }),
+        "an edge from node 0 is not at the centre of that node"));
+    for (const char* key :
+        {"spheretree_checksum", "spheretree_checksum_transform", "spheretree_point_scale"}) {
+        dag->removeMeta(key); // as in version 0.1
+    }
+    EXPECT_EQ(fromPoints(*points, dag.get()).dag, tree.dag);
+}
+
+TEST(DagPoints, ANewerFormatIsAnErrorThatSaysToUpdate)
+{
+    const SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr points = toPoints(tree), dag = dagToPoints(tree);
+    dag->insertMeta("spheretree_dag_format", openvdb::Int32Metadata(kPointsFormat + 1));
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*points, dag.get()); }),
+        "newer than this version reads (1): update openvdb_spheretree"));
 }
 
 TEST(DagPoints, DagEdgesComeBackSortedWhereverTheirPointsAre)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestStoredFiles.cc
-/// @brief Files that released versions wrote (tests/data/<version>/README.md) are read as they
-/// were meant, and written again as they were.
+/// @brief Files that versions wrote (tests/data/<version>/README.md) are read as they were meant, and
+/// written again as they were.
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/input/Object.h>
@@ -13,14 +13,16 @@
 #include "support/DataFolder.h"
 #include "support/SampleTrees.h"
 
-#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -29,7 +31,7 @@ using nlohmann::json;
 using openvdb::points::PointDataGrid;
 using spheretree_test::expectSameTree;
 
-std::string pathOf(const std::string& name) { return spheretree_test::dataPath("0.1/" + name); }
+std::string pathOf(const std::string& name) { return spheretree_test::dataPath(name); }
 
 std::string textOf(const std::string& name)
 {
@@ -44,17 +46,18 @@ std::string textOf(const std::string& name)
 struct StoredTree {
     PointDataGrid::Ptr nodes, dag, cuts;
 
+    /// @param name  with its version, "0.1/tight"
     explicit StoredTree(const std::string& name)
     {
         openvdb::initialize();
-        openvdb::io::File file(pathOf(name + ".vdb"));
-        file.open();
-        const openvdb::GridPtrVec grids = *file.getGrids();
-        for (const openvdb::GridBase::Ptr& grid : grids) {
+        std::istringstream bytes(spheretree_test::unpackedData(name + ".vdb"));
+        const auto grids = openvdb::io::Stream(bytes, /*delayLoad=*/false).getGrids();
+        const std::string treeName = name.substr(name.find('/') + 1);
+        for (const openvdb::GridBase::Ptr& grid : *grids) {
             const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
             if (isSphereTree(*grid)) nodes = points;
-            else if (isDagOf(*grid, name)) dag = points;
-            else if (isCutsOf(*grid, name)) cuts = points;
+            else if (isDagOf(*grid, treeName)) dag = points;
+            else if (isCutsOf(*grid, treeName)) cuts = points;
             else ADD_FAILURE() << grid->getName() << " is no part of a tree";
         }
     }
@@ -99,7 +102,7 @@ void expectSameGrid(const PointDataGrid::Ptr& actual, const PointDataGrid::Ptr& 
     }
 }
 
-class StoredFiles : public testing::TestWithParam<const char*> {};
+class StoredFiles : public testing::TestWithParam<std::string> {};
 
 TEST_P(StoredFiles, AreReadToEveryNodeLevelAndSetting)
 {
@@ -121,15 +124,41 @@ TEST_P(StoredFiles, AreWrittenAgainAsTheyWere)
     expectSameGrid(cutsToPoints(tree), stored.cuts);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of01, StoredFiles,
-    testing::Values("tight", "tight_balls", "inner", "flat", "extended", "miniball", "reversible",
-        "flat_reversible", "norm"),
-    [](const auto& info) { return std::string(info.param); });
+TEST_P(StoredFiles, CarryAChecksumSinceVersion02)
+{
+    const std::string name = GetParam();
+    const bool isOld = name.rfind("0.1/", 0) == 0;
+    const StoredTree stored(name);
+    for (const PointDataGrid::Ptr& grid : {stored.nodes, stored.dag, stored.cuts}) {
+        EXPECT_TRUE(!grid || hasChecksum(*grid) != isOld) << grid->getName();
+    }
+}
+
+std::vector<std::string> filesOf(const std::string& version)
+{
+    std::vector<std::string> names = {"tight", "tight_balls", "inner", "flat", "extended",
+        "miniball", "reversible", "flat_reversible", "norm"};
+    if (version != "0.1") names.insert(names.end(), {"best", "kept"});
+    for (std::string& name : names) name = version + "/" + name;
+    return names;
+}
+
+std::string nameOf(const testing::TestParamInfo<std::string>& info)
+{
+    return info.param.substr(info.param.find('/') + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of01, StoredFiles, testing::ValuesIn(filesOf("0.1")), nameOf);
+INSTANTIATE_TEST_SUITE_P(Of02, StoredFiles, testing::ValuesIn(filesOf("0.2")), nameOf);
 
 TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
 {
-    for (const auto& [object, name] : {std::pair{"ring", "reversible"}, std::pair{"ring", "norm"},
-             std::pair{"ring", "extended"}, std::pair{"flat", "flat_reversible"}}) {
+    for (const auto& [object, name] :
+        {std::pair{"0.1/ring", "0.1/reversible"}, std::pair{"0.1/ring", "0.1/norm"},
+            std::pair{"0.1/ring", "0.1/extended"}, std::pair{"0.1/flat", "0.1/flat_reversible"},
+            std::pair{"0.2/handle", "0.2/reversible"}, std::pair{"0.2/handle", "0.2/norm"},
+            std::pair{"0.2/handle", "0.2/extended"}, std::pair{"0.2/handle", "0.2/tight_balls"},
+            std::pair{"0.2/star", "0.2/flat_reversible"}}) {
         SCOPED_TRACE(name);
         const SphereTree stored = StoredTree(name).tree();
         const auto mask = objectOf(*readVolFile(pathOf(std::string(object) + ".vol")));
@@ -143,13 +172,13 @@ TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
 TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
 {
     openvdb::initialize();
-    openvdb::io::File file(pathOf("levelset.vdb"));
-    file.open();
-    const auto object = objectOf(*file.readGrid("levelset"));
+    std::istringstream file(spheretree_test::unpackedData("0.1/levelset.vdb"));
+    const auto grids = openvdb::io::Stream(file, /*delayLoad=*/false).getGrids();
+    const auto object = objectOf(*grids->at(0));
     const SphereTreeSettings settings = ReversibleOptions();
     std::ostringstream csv;
     writeCsv(buildSphereTree(*object, settings), csv);
-    EXPECT_EQ(csv.str(), textOf("levelset.csv"));
+    EXPECT_EQ(csv.str(), textOf("0.1/levelset.csv"));
 }
 
 } // namespace

@@ -94,3 +94,22 @@ TEST(SphereLevelSet, WhatCannotBeDrawnIsAnError)
     StopAfter stop(0);
     EXPECT_THROW(levelSetOfSpheres(tree, level, {}, 3, &stop), Interrupted);
 }
+
+TEST(SphereLevelSet, RefusesBeforehandWhatWouldTakeTooManyVoxels)
+{
+    const SphereTree tree = treeOf(1);
+    const auto whyNot = [&](double voxel, double width) {
+        return messageOf<openvdb::ValueError>(
+            [&] { levelSetOfSpheres(tree, tree.levels.back(), voxel, width); });
+    };
+    const double radius = tree.spheres.radiusWorld[0];
+    const std::string fine = whyNot(radius / 1000, 3); // 4 10^9 voxels
+    EXPECT_TRUE(mentions(fine, "voxels inside and near its 1 spheres"));
+    EXPECT_TRUE(mentions(fine, "1073741824 is the most: use a larger voxel"));
+    EXPECT_TRUE(mentions(whyNot(tree.voxelSize(), 900), "a narrower band"));
+    SphereTree far = tree;
+    far.transform->postTranslate(openvdb::Vec3d(1e7, 0, 0));
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>(
+                             [&] { levelSetOfSpheres(far, far.levels.back(), 1e-4 * radius, 1); }),
+        "beyond 2^30"));
+}

@@ -293,4 +293,35 @@ TEST(CostWindow, HasTheFinestLevelWithFewSamplesInARadius)
     EXPECT_EQ(CostWindow::levelFor(16 * 40 * 8 + 1, 40), 4);
 }
 
+/// @return what balls around a cube of one leaf at @a corner cost, and balls beside it, at some levels.
+std::vector<int64_t> costsAround(const Coord& corner)
+{
+    openvdb::MaskTree mask(false);
+    mask.addTile(1, corner, true, true);
+    const SampledObject object{openvdb_spheretree::LeafLayout(mask)};
+    std::vector<int64_t> costs;
+    for (const int level : {0, 1, 2}) {
+        for (const int aside :
+            {-60, 0, 60}) { // windows that do not reach the leaf's column as well
+            ExactSphere ball;
+            for (int a = 0; a < 3; ++a) ball.center[a] = kFine * (int64_t(corner[a]) + 4);
+            ball.center[1] += kFine * aside;
+            ball.radiusSq = kFine * kFine * 400;
+            CostWindow window;
+            window.reset(object, FineBox(ball, kFine), level);
+            costs.push_back(window.count(window.toLocal(ball)));
+        }
+    }
+    return costs;
+}
+
+/// Windows reach beyond the ends, and cost there what they cost elsewhere.
+TEST(CostWindow, IsTheSameAtTheEndsOfCoordinates)
+{
+    const auto expected = costsAround(Coord(0));
+    EXPECT_GT(expected[0], expected[1]);
+    EXPECT_EQ(costsAround(Coord(INT32_MIN)), expected);
+    EXPECT_EQ(costsAround(Coord(INT32_MAX - 7)), costsAround(Coord(4096 - 8)));
+}
+
 } // namespace

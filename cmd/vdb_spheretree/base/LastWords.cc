@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LastWords.h"
+
+#include "Errors.h"
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include <unistd.h>
+
+namespace command {
+
+namespace {
+
+std::array<std::atomic<const char*>, 64> sFiles{};
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads them");
+
+/// Plain system calls: streams may not be there yet, and a signal handler may call nothing else.
+[[noreturn]] void endWith(ExitCode code, const char* words)
+{
+    const auto say = [](const char* text) {
+        if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return; // nobody is left to tell
+    };
+    say("vdb_spheretree: error: ");
+    say(words);
+    say("\n");
+    for (const auto& file : sFiles) {
+        if (const char* const path = file.load()) unlink(path);
+    }
+    _exit(code);
+}
+
+[[noreturn]] void endByException()
+{
+    const std::exception_ptr error = std::current_exception();
+    if (!error) endWith(kInternal, "unexpected: std::terminate without an exception");
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        endWith(kInput, "not enough memory");
+    } catch (const std::exception& e) {
+        if (isLackOfThreads(e)) endWith(kInput, kNoThread);
+        endWith(kInternal, "unexpected exception outside of all actions");
+    } catch (...) {
+        endWith(kInternal, "unexpected exception outside of all actions");
+    }
+}
+
+void endByLostPage(int signal, siginfo_t* info, void*)
+{
+    if (info->si_code == BUS_ADRERR) {
+        endWith(kInput,
+            "an input file became shorter, or could not be read any more, while it was in use");
+    }
+    std::signal(signal, SIG_DFL); // and the instruction that failed is tried again
+}
+
+void catchExceptions(int, char**, char**) { std::set_terminate(endByException); }
+
+} // namespace
+
+void catchLostPages()
+{
+    struct sigaction action = {};
+    action.sa_sigaction = endByLostPage;
+    action.sa_flags = SA_SIGINFO;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGBUS, &action, nullptr);
+}
+
+void rememberFile(const char* path) noexcept
+{
+    for (auto& file : sFiles) {
+        const char* none = nullptr;
+        if (file.compare_exchange_strong(none, path)) return;
+    }
+}
+
+void forgetFile(const char* path) noexcept
+{
+    for (auto& file : sFiles) {
+        const char* same = path;
+        if (file.compare_exchange_strong(same, nullptr)) return;
+    }
+}
+
+#ifdef __linux__
+// Run by the dynamic linker before the constructors of any library, which a function of this program
+// could not be otherwise. set_terminate() is a store to a variable, and needs nothing constructed.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kFirstOfAll)(
+    int, char**, char**) = catchExceptions;
+#endif
+
+} // namespace command

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file LastWords.h
+/// @brief What the program says and returns where it can only end at once: an exception that nothing
+/// can catch, and an input file that was cut short after it had been mapped into memory.
+///
+/// It ends without unwinding, so temporary files that have a name are remembered here, and removed.
+
+#pragma once
+
+namespace command {
+
+/// @brief Have SIGBUS reported as the failure of an input (kInput). The handler is called where a
+/// page of a mapped file is not there any more, and for nothing else; other faults stay signals.
+///
+/// Exceptions that reach std::terminate are reported from the program's first instruction on, before
+/// any library has started: OpenVDB's logging starts threads before main(). That needs no call.
+void catchLostPages();
+
+/// @name Files that are removed if the program ends so
+/// @{
+/// @param path  must stay where it is in memory until it is forgotten. There is room for 64; of more,
+///              the last are not remembered.
+void rememberFile(const char* path) noexcept;
+void forgetFile(const char* path) noexcept;
+/// @}
+
+} // namespace command

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signals at moments spread over a whole run, and between the renames of several targets: a request
+// to stop leaves nothing; a kill leaves one file at most, which the next run removes. And several
+// runs that write one file.
+
+#include "FaultyCommand.h"
+
+#include <algorithm>
+#include <cerrno>
+
+namespace {
+
+using namespace command_test;
+
+const std::string kWork = "-threads 1 -read a.vol -spheretree tree=extended dag=1 ";
+const std::string kWrite = "-write t.vdb t.json t.png width=64 height=48";
+const std::vector<std::string> kTargets = {"t.json", "t.png", "t.vdb"};
+
+class CommandKilled : public FaultyCommandTest {
+protected:
+    void SetUp() override
+    {
+        FaultyCommandTest::SetUp();
+        if (!IsSkipped()) writeOld(kTargets);
+    }
+
+    long newTargets() const
+    {
+        return std::count_if(kTargets.begin(), kTargets.end(),
+            [this](const std::string& name) { return !isOld(name); });
+    }
+
+    void expectWhole(const std::string& name) const
+    {
+        EXPECT_EQ(run("-read " + name + " -print").exitCode, 0) << name << " is not whole";
+    }
+};
+
+class CommandSignalled : public CommandKilled, public testing::WithParamInterface<int> {};
+
+/// Memory is asked for in every part of a run, so requests count moments better than a clock does.
+TEST_P(CommandSignalled, AtThirtyMoments)
+{
+    const long beforeWork = callsOf("-version")["malloc"];
+    // The number differs a little from run to run, so the last moment is some before the end.
+    const long work = callsOf(kWork + kWrite)["malloc"] * 95 / 100 - beforeWork;
+    ASSERT_GT(work, 1000);
+    int stopped = 0;
+    for (const long moment : spread(work, 30)) {
+        SCOPED_TRACE(moment);
+        writeOld(kTargets);
+        const Result result =
+            runWith(kWork + kWrite, signalled("malloc", beforeWork + moment, GetParam()));
+        if (GetParam() == SIGKILL) {
+            EXPECT_EQ(result.signal, SIGKILL);
+            EXPECT_LE(leftovers().size(), 1u);
+            for (const std::string& name : leftovers()) std::filesystem::remove(path(name));
+        } else {
+            // After the last look for a signal the run has done its work.
+            EXPECT_EQ(result.exitCode, newTargets() == 3 ? 0 : 5) << result.err;
+            EXPECT_TRUE(newTargets() == 0 || newTargets() == 3);
+            stopped += result.exitCode == 5;
+        }
+        EXPECT_EQ(files(), mBefore);
+    }
+    EXPECT_TRUE(GetParam() == SIGKILL || stopped >= 25) << stopped;
+}
+
+std::string signalName(int signal)
+{
+    return signal == SIGINT ? "INT"
+        : signal == SIGTERM ? "TERM"
+        : signal == SIGHUP  ? "HUP"
+                            : "KILL";
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, CommandSignalled,
+    testing::Values(SIGINT, SIGTERM, SIGHUP, SIGKILL),
+    [](const auto& info) { return signalName(info.param); });
+
+TEST_F(CommandKilled, AStopBeforeTheFirstRenameLeavesAllFilesAndALaterOneNone)
+{
+    for (long k = 1; k <= 3; ++k) {
+        writeOld(kTargets);
+        const Result stopped = runWith(kWork + kWrite, signalled("fsync", k, SIGINT));
+        expectFailure(stopped, 5, {"interrupted"}, kTargets);
+        const Result late = runWith(kWork + kWrite, signalled("rename", k, SIGINT));
+        EXPECT_EQ(late.exitCode, 0) << late.err;
+        EXPECT_EQ(newTargets(), 3) << "some are new and some are old";
+        writeOld(kTargets);
+        const Result before = runWith(kWork + kWrite + " -print", signalled("rename", k, SIGINT));
+        EXPECT_EQ(before.exitCode, 5) << "the next action does not begin";
+        EXPECT_EQ(newTargets(), 3);
+        EXPECT_EQ(files(), mBefore);
+    }
+}
+
+TEST_F(CommandKilled, ARenameThatFailsSaysWhichFilesAreNew)
+{
+    const Result result = runWith(kWork + kWrite, failing("rename", 2, EIO));
+    EXPECT_EQ(result.exitCode, 4);
+    EXPECT_NE(
+        result.err.find("written: t.vdb; not written: cannot write t.json"), std::string::npos)
+        << result.err;
+    EXPECT_FALSE(isOld("t.vdb"));
+    EXPECT_TRUE(isOld("t.json") && isOld("t.png"));
+    EXPECT_EQ(files(), mBefore);
+}
+
+TEST_F(CommandKilled, BetweenRenamesLeavesOneFileWhichTheNextRunRemoves)
+{
+    for (long k = 1; k <= 3; ++k) {
+        SCOPED_TRACE(k);
+        writeOld(kTargets);
+        EXPECT_EQ(runWith(kWork + kWrite, signalled("link", k, SIGKILL)).signal, SIGKILL);
+        EXPECT_EQ(files(), mBefore) << "a file without a name is none";
+        EXPECT_EQ(newTargets(), k - 1);
+        writeOld(kTargets);
+        EXPECT_EQ(runWith(kWork + kWrite, signalled("rename", k, SIGKILL)).signal, SIGKILL);
+        EXPECT_EQ(newTargets(), k - 1);
+        ASSERT_EQ(leftovers().size(), 1u);
+        const std::string target =
+            std::vector<std::string>{"t.vdb", "t.json", "t.png"}[size_t(k - 1)];
+        EXPECT_EQ(leftovers()[0].rfind("." + target + ".vdb_spheretree-tmp.", 0), 0u);
+        EXPECT_EQ(run("-read a.vol -spheretree -write other.vdb").exitCode, 0);
+        EXPECT_EQ(leftovers().size(), 1u) << "it belongs to another target";
+        std::filesystem::remove(path("other.vdb"));
+        EXPECT_EQ(run(kWork + kWrite).exitCode, 0);
+        EXPECT_EQ(files(), mBefore);
+        EXPECT_EQ(newTargets(), 3);
+    }
+}
+
+TEST_F(CommandKilled, NamedFilesAreRemovedByTheNextRunToo)
+{
+    for (const std::string call : {"write", "fsync", "rename"}) {
+        writeOld(kTargets);
+        const Result result =
+            runWith(kWork + kWrite, namedFilesOnly() + ";" + signalled(call, 1, SIGKILL));
+        EXPECT_EQ(result.signal, SIGKILL);
+        EXPECT_FALSE(leftovers().empty());
+        EXPECT_LE(leftovers().size(), 3u) << "one a target";
+        EXPECT_EQ(newTargets(), 0);
+        EXPECT_EQ(runWith(kWork + kWrite, namedFilesOnly()).exitCode, 0);
+        EXPECT_EQ(files(), mBefore);
+    }
+}
+
+TEST_F(CommandKilled, NamesOfAnyLengthHaveATemporaryFile)
+{
+    std::string letters = "x";
+    for (int i = 0; i < 124; ++i) letters += "\xc3\xa9"; // e with an accent; cut between two
+    const std::string line = "-read tree.vdb -write " + letters + ".vdb";
+    EXPECT_EQ(runWith(line, signalled("rename", 1, SIGKILL)).signal, SIGKILL);
+    ASSERT_EQ(leftovers().size(), 1u);
+    EXPECT_EQ(leftovers()[0].substr(0, 201), "." + letters.substr(0, 199) + ".");
+    EXPECT_EQ(run(line).exitCode, 0);
+    EXPECT_EQ(leftovers().size(), 0u);
+}
+
+class CommandTwoWriters : public CommandKilled, public testing::WithParamInterface<bool> {};
+
+/// The first stands still with its file complete, while the second runs from start to end.
+TEST_P(CommandTwoWriters, EachTakesItsTurnAndTheLastOneStays)
+{
+    const std::string kind = GetParam() ? namedFilesOnly() + ";" : "";
+    const std::string first = "-read tree.vdb -write t.vdb", second = "-read a.vol -write t.vdb";
+    ASSERT_EQ(run("-read tree.vdb -write expected.vdb").exitCode, 0);
+    const std::string expected = readText(path("expected.vdb"));
+    writeOld({});
+    for (const char* call : {"write", "fsync", "rename"}) {
+        SCOPED_TRACE(call);
+        Running slow = startWith(first, kind + signalled(call, 1, SIGSTOP));
+        ASSERT_TRUE(slow.waitUntilStopped());
+        const auto ofSlow = leftovers();
+        EXPECT_EQ(ofSlow.empty(), !GetParam() && std::string(call) != "rename");
+        EXPECT_EQ(runWith(second, kind).exitCode, 0);
+        EXPECT_EQ(leftovers(), ofSlow) << "a living writer's file was removed";
+        EXPECT_EQ(readGrids("t.vdb").size(), 1u);
+        EXPECT_NE(readText(path("t.vdb")), expected);
+        slow.send(SIGCONT);
+        EXPECT_EQ(slow.wait().exitCode, 0);
+        EXPECT_EQ(readText(path("t.vdb")), expected);
+        EXPECT_EQ(files(), mBefore);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, CommandTwoWriters, testing::Bool(),
+    [](const auto& info) { return info.param ? "Named" : "Nameless"; });
+
+TEST_F(CommandKilled, SixWritersOfOneFileAtOnceLeaveAWholeOne)
+{
+    const Result result =
+        shell("for i in 1 2 3 4 5 6; do "
+              "$VDB_SPHERETREE -read tree.vdb -write t.vdb || echo failed & done; "
+              "wait");
+    EXPECT_EQ(result.out, "") << result.err;
+    expectWhole("t.vdb");
+    EXPECT_TRUE(leftovers().empty());
+}
+
+} // namespace

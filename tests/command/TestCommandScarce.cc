@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory and threads that are not to be had: an exit code and a sentence, whenever it happens, and
+// no file touched.
+
+#include "FaultyCommand.h"
+
+#include <cerrno>
+
+#include <sys/resource.h>
+
+namespace {
+
+using namespace command_test;
+
+const std::string kWork = "-threads 4 -generate ball voxels=20000 -spheretree "
+                          "-write t.vdb t.csv t.png width=64 height=48";
+
+const std::vector<std::string> kTargets = {"t.csv", "t.png", "t.vdb"};
+
+class CommandScarce : public FaultyCommandTest {
+protected:
+    /// Notes what @a line writes where nothing is missing.
+    void expectOf(const std::string& line)
+    {
+        ASSERT_EQ(run(line).exitCode, 0);
+        for (const std::string& name : kTargets) mExpected.push_back(readText(path(name)));
+        writeOld(kTargets);
+    }
+
+    /// Every file is the old one or the new one, and the message says what is missing.
+    /// @return whether all are new
+    bool expectOldOrNew(const Result& result, const std::string& missing)
+    {
+        const bool done = result.exitCode == 0;
+        EXPECT_TRUE(done || result.exitCode == 3 || result.exitCode == 4)
+            << result.exitCode << ", signal " << result.signal << "\n"
+            << result.err;
+        for (size_t i = 0; i < kTargets.size(); ++i) {
+            const bool isNew = readText(path(kTargets[i])) == mExpected[i];
+            EXPECT_TRUE(isNew || (isOld(kTargets[i]) && !done)) << kTargets[i];
+        }
+        EXPECT_EQ(files(), mBefore);
+        EXPECT_TRUE(done || result.err.find(missing) != std::string::npos) << result.err;
+        writeOld(kTargets);
+        return done;
+    }
+
+    std::vector<std::string> mExpected; ///< what kTargets hold afterwards
+};
+
+/// The first requests are made by constructors of libraries (draco's crash), before the program.
+constexpr long kOfLibraries = 20;
+
+TEST_F(CommandScarce, AnyRequestForMemoryMayFail)
+{
+    expectOf(kWork);
+    int refused = 0;
+    for (const std::string& kind : {std::string(), namedFilesOnly() + ";"}) {
+        const long requests = callsOf(kWork, kind)["malloc"];
+        writeOld(kTargets);
+        for (const long moment : spread(requests - kOfLibraries, 60)) {
+            const long n = kOfLibraries + moment;
+            SCOPED_TRACE(n);
+            const Result result = runWith(kWork, kind + failingOnce("malloc", n, ENOMEM));
+            refused += !expectOldOrNew(result, "memory");
+        }
+    }
+    EXPECT_GT(refused, 60);
+}
+
+TEST_F(CommandScarce, LimitsOnMemoryInSteps)
+{
+    const std::string line =
+        "-threads 2 -generate ball voxels=8000000 -spheretree quality=fast "
+        "spheres=64 errors=0 topology=0 -write t.vdb t.csv t.png width=64 height=48";
+    expectOf(line);
+    int refused = 0, done = 0;
+    for (rlim_t megabytes = 150; megabytes <= 400; megabytes += megabytes < 200 ? 10 : 50) {
+        SCOPED_TRACE(megabytes);
+        const Result result = start(split(line), "/dev/null", [=] {
+            const rlimit limit = {megabytes << 20, megabytes << 20};
+            setrlimit(RLIMIT_AS, &limit);
+        }).wait();
+        (expectOldOrNew(result, "memory") ? done : refused) += 1;
+    }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(done, 0);
+}
+
+TEST_F(CommandScarce, NoThreadIsAnErrorOfItsOwn)
+{
+    expectOf(kWork);
+    const long threads = callsOf(kWork)["thread"];
+    writeOld(kTargets);
+    int refused = 0;
+    for (long n = 1; n <= threads; ++n) {
+        SCOPED_TRACE(n);
+        const Result result = runWith(kWork, failing("thread", n, EAGAIN));
+        if (expectOldOrNew(result, "no thread can be started")) continue;
+        EXPECT_EQ(result.exitCode, 3) << result.err;
+        ++refused;
+    }
+    EXPECT_GT(refused, 1);
+}
+
+TEST_F(CommandScarce, NoThreadIsSaidByEachActionThatNeedsOne)
+{
+    const long beforeWork = callsOf("-version")["thread"];
+    const std::string fault = failing("thread", beforeWork + 1, EAGAIN);
+    writeOld({"t.vdb"});
+    for (const std::string line : {"-generate ball voxels=50000", "-read a.vol -spheretree",
+             "-read tree.vdb -spheres2ls voxel=0.3", "-read tree.vdb -write t.png"}) {
+        expectFailure(runWith("-threads 4 " + line, fault), 3, {"no thread can be started"}, {});
+        const Result alone = runWith("-threads 1 " + line, fault);
+        EXPECT_EQ(alone.exitCode, 0) << "the message promises that: " << alone.err;
+        std::filesystem::remove(path("t.png"));
+    }
+}
+
+TEST_F(CommandScarce, NoThreadBeforeTheProgramBegins)
+{
+    expectFailure(runWith("-version", failing("thread", 1, EAGAIN)), 3,
+        {"vdb_spheretree: error: no thread can be started"}, {});
+}
+
+} // namespace

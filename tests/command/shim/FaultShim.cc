@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file FaultShim.cc
+/// @brief A library that tests load before all others (LD_PRELOAD), so that a chosen system call of
+/// the program fails, or a signal comes just before it: a full disk, or a kill between two renames,
+/// at the same moment in every run.
+///
+/// SPHERETREE_FAULTS holds the faults, separated by `;`, each as `CALL:N:EFFECT:NUMBER`:
+///
+/// - `CALL` is `tmpfile` (open with O_TMPFILE), `write` and `read` (of regular files but the standard
+///   ones), `fsync`, `link`, `rename`, `thread` or `malloc`;
+/// - `N` counts these calls from 1;
+/// - `EFFECT` is `error` (it fails with this errno, and so do all later ones; of a write, half is
+///   written first), `once` (only this one fails), or `signal` (SIGSTOP lets the test act meanwhile).
+///
+/// SPHERETREE_FAULT_COUNTS names a file that gets a line `CALL NUMBER` for each at a normal end.
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+extern "C" void* __libc_malloc(size_t);
+
+namespace {
+
+enum Call { kTmpfile, kWrite, kRead, kFsync, kLink, kRename, kThread, kMalloc, kCalls };
+constexpr const char* kNames[kCalls] = {
+    "tmpfile", "write", "read", "fsync", "link", "rename", "thread", "malloc"};
+
+enum class Effect { Error, Once, Signal };
+
+struct Fault {
+    Call call;
+    Effect effect;
+    long when;
+    int number;
+};
+
+// All of it is there before any constructor has run: malloc comes first of all.
+std::array<Fault, 4> sFaults;
+std::atomic<int> sFaultCount{-1}; // -1: the environment has not been read yet
+std::array<std::atomic<long>, kCalls> sCounts;
+
+int readFaults()
+{
+    const char* text = std::getenv("SPHERETREE_FAULTS");
+    int count = 0;
+    while (text && *text && count < int(sFaults.size())) {
+        char call[16], effect[16];
+        long when = 0;
+        int number = 0;
+        if (std::sscanf(text, "%15[^:]:%ld:%15[^:]:%d", call, &when, effect, &number) != 4) abort();
+        Fault& fault = sFaults[size_t(count++)];
+        int index = 0;
+        while (std::strcmp(kNames[index], call) != 0) {
+            if (++index == kCalls) abort(); // a mistake in the test
+        }
+        fault.call = Call(index);
+        fault.when = when;
+        fault.number = number;
+        fault.effect = *effect == 'e' ? Effect::Error
+            : *effect == 'o'          ? Effect::Once
+                                      : Effect::Signal;
+        text = std::strchr(text, ';');
+        if (text) ++text;
+    }
+    return count;
+}
+
+enum class Verdict { Go, Half, Fail };
+
+/// Counts a call, and sends the signal that is due. Fail: errno is set.
+Verdict countCall(Call call)
+{
+    Verdict verdict = Verdict::Go;
+    int error = 0;
+    const long count = ++sCounts[call];
+    if (sFaultCount < 0) sFaultCount = readFaults();
+    for (int i = 0; i < sFaultCount; ++i) {
+        const Fault& fault = sFaults[size_t(i)];
+        if (fault.call != call || count < fault.when) continue;
+        const bool isNow = count == fault.when;
+        if (fault.effect == Effect::Signal) {
+            if (isNow) kill(getpid(), fault.number);
+        } else if (isNow || fault.effect == Effect::Error) {
+            verdict = isNow ? Verdict::Half : Verdict::Fail;
+            error = fault.number;
+        }
+    }
+    if (verdict != Verdict::Go) errno = error;
+    return verdict;
+}
+
+bool fails(Call call) { return countCall(call) != Verdict::Go; }
+
+bool isFile(int fd)
+{
+    struct stat info;
+    return fd > STDERR_FILENO && fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+template <typename Function>
+Function next(const char* name, Function)
+{
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+struct WriteCounts {
+    ~WriteCounts()
+    {
+        const char* const path = std::getenv("SPHERETREE_FAULT_COUNTS");
+        if (!path) return;
+        FILE* const out = std::fopen(path, "w");
+        for (int i = 0; i < kCalls; ++i) {
+            std::fprintf(out, "%s %ld\n", kNames[i], sCounts[size_t(i)].load());
+        }
+        std::fclose(out);
+    }
+} sWriteCounts;
+
+} // namespace
+
+extern "C" {
+
+void* malloc(size_t size) { return fails(kMalloc) ? nullptr : __libc_malloc(size); }
+
+int open(const char* path, int flags, ...)
+{
+    static const auto real = next("open", &open);
+    mode_t mode = 0;
+    const bool isNameless = (flags & O_TMPFILE) == O_TMPFILE;
+    if (isNameless || (flags & O_CREAT)) {
+        va_list arguments;
+        va_start(arguments, flags);
+        mode = va_arg(arguments, mode_t);
+        va_end(arguments);
+    }
+    if (isNameless && fails(kTmpfile)) return -1;
+    return real(path, flags, mode);
+}
+
+ssize_t write(int fd, const void* data, size_t size)
+{
+    static const auto real = next("write", &write);
+    if (!isFile(fd)) return real(fd, data, size);
+    const Verdict verdict = countCall(kWrite);
+    if (verdict == Verdict::Go) return real(fd, data, size);
+    const bool isHalf = verdict == Verdict::Half && size > 1;
+    return isHalf ? real(fd, data, size / 2) : -1;
+}
+
+ssize_t writev(int fd, const iovec* blocks, int count)
+{
+    static const auto real = next("writev", &writev);
+    if (isFile(fd) && fails(kWrite)) return -1;
+    return real(fd, blocks, count);
+}
+
+ssize_t read(int fd, void* data, size_t size)
+{
+    static const auto real = next("read", &read);
+    if (isFile(fd) && fails(kRead)) return -1;
+    return real(fd, data, size);
+}
+
+int fsync(int fd)
+{
+    static const auto real = next("fsync", &fsync);
+    return fails(kFsync) ? -1 : real(fd);
+}
+
+int linkat(int fromFolder, const char* from, int toFolder, const char* to, int flags)
+{
+    static const auto real = next("linkat", &linkat);
+    return fails(kLink) ? -1 : real(fromFolder, from, toFolder, to, flags);
+}
+
+int rename(const char* from, const char* to)
+{
+    static const auto real = next("rename", &rename);
+    return fails(kRename) ? -1 : real(from, to);
+}
+
+int pthread_create(
+    pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*), void* argument)
+{
+    static const auto real = next("pthread_create", &pthread_create);
+    return fails(kThread) ? errno : real(thread, attributes, body, argument);
+}
+
+} // extern "C"

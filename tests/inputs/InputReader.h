@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file InputReader.h
+/// @brief One way into every reader of files, for fuzz targets and mutation tests alike, and what is
+/// asked of them: an input is read whole, or refused with a message that names the file.
+
+#pragma once
+
+#include "InputFile.h"
+
+#include <string>
+
+namespace spheretree_test {
+
+class InputReader {
+public:
+    /// @param extension  `.vdb`, `.vol`, `.longvol`, a mesh's, or `.cfg` for a file of -config
+    explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}
+
+    /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, and all values of
+    /// other grids are read.
+    /// @param delayed  of a `.vdb`: values are read as they are used
+    /// @return whether it was read; false if it was refused as it should be.
+    /// @throw anything else that the reader throws; std::logic_error for a message that does not name
+    ///        the file, or is too long for people
+    bool read(const std::string& bytes, bool delayed = false);
+
+private:
+    void readVdb(bool delayed) const;
+
+    std::string mExtension;
+    InputFile mFile;
+};
+
+} // namespace spheretree_test

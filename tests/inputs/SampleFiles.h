@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file SampleFiles.h
+/// @brief A small sound file of every kind that is read: what mutation tests damage, and what fuzz
+/// targets start from.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace spheretree_test {
+
+struct SampleFile {
+    std::string name;      ///< such as `tight_blosc`; no other sample has it
+    std::string extension; ///< with its dot; `.cfg` is a file of -config
+    /// Whether a part of the file is never a sound file: true of formats that say how much they hold.
+    bool saysItsLength = true;
+    std::string bytes;
+};
+
+/// @return the names of all samples.
+std::vector<std::string> sampleNames();
+
+/// The same bytes at every call.
+SampleFile sampleFile(const std::string& name);
+
+/// A maker of one sample.
+struct SampleMaker {
+    std::string name, extension;
+    std::string (*make)();
+    bool saysItsLength = true;
+};
+
+/// @name Parts of the list
+/// @{
+const std::vector<SampleMaker>& textSamples(); ///< volumes, meshes, config files
+const std::vector<SampleMaker>& treeSamples(); ///< sphere-trees, as `.vdb`
+const std::vector<SampleMaker>& gridSamples(); ///< other grids, as `.vdb`
+/// @}
+
+} // namespace spheretree_test
