@@ -19,6 +19,7 @@ crashes or does not end in time. It must compile, and the tests must pass withou
 """
 import argparse
 import concurrent.futures
+import contextlib
 import csv
 import datetime
 import os
@@ -27,6 +28,7 @@ import random
 import resource
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -37,7 +39,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build/test"
 TABLE = ROOT / "tests/mutants/mutants.tsv"
 COLUMNS = "id file line replacement compile program filter survives".split()
-SECONDS = 180  # for the tests of one mutant; unbroken, they take a few
+SECONDS = 90  # for the tests of one mutant; unbroken, they take a few
 MEMORY = 8 << 30  # a wrong bound asks for more than there is
 ENOUGH = 0.95  # of all mutants
 
@@ -173,20 +175,25 @@ def limit_child():
 def run_tests(program, test_filter, folder, environment):
     """Whether tests failed, and how: the first one's name, a signal, or the time limit."""
     line = [str(program), f"--gtest_filter={test_filter}", "--gtest_fail_fast", "--gtest_brief=1"]
+    tests = subprocess.Popen(line, cwd=folder, env={**os.environ, **environment}, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                             preexec_fn=limit_child, start_new_session=True)
     try:
-        done = subprocess.run(line, cwd=folder, env={**os.environ, **environment}, timeout=SECONDS,
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
-                              preexec_fn=limit_child)
+        said, _ = tests.communicate(timeout=SECONDS)
     except subprocess.TimeoutExpired:
         return True, "does not end"
-    if done.returncode == 0 and "  PASSED  ] 0 tests" in done.stdout:
+    finally:  # the program under test, too, where the tests did not wait for it
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(tests.pid, signal.SIGKILL)
+        tests.wait()
+    if tests.returncode == 0 and "  PASSED  ] 0 tests" in said:
         return True, "no such test"
     failed = [line.split("]")[1].split(",")[0].split("(")[0].strip()
-              for line in done.stdout.splitlines() if line.startswith("[  FAILED  ]")]
+              for line in said.splitlines() if line.startswith("[  FAILED  ]")]
     if failed:
         return True, failed[0]
-    if done.returncode != 0:
-        return True, f"signal {-done.returncode}" if done.returncode < 0 else f"exit {done.returncode}"
+    if tests.returncode != 0:
+        return True, f"signal {-tests.returncode}" if tests.returncode < 0 else f"exit {tests.returncode}"
     return False, ""
 
 

@@ -43,6 +43,8 @@ const BadLine kBadLines[] = {
     {"UnknownOption", "-read a.vol -spheretree facto=2 facter=3 -write t.vdb",
         "did you mean factor"},
     {"AmbiguousOption", "-read a.vol -spheretree d=3 -write t.vdb", "option d is ambiguous"},
+    {"AmbiguousBetweenTwo", "-read a.vol -spheretree f=2 -write t.vdb",
+        "option f is ambiguous: it could be factor, final_fit"},
     {"RepeatedOption", "-read a.vol -spheretree factor=2 factor=3 -write t.vdb",
         "option factor is given more than once"},
     {"RepeatedByPrefix", "-read a.vol -spheretree factor=2 fac=3 -write t.vdb",

@@ -80,20 +80,6 @@ TEST(MedialAxis, BallsComeInTheOrderOfTheirCentresAcrossLeaves)
     }
 }
 
-TEST(MedialAxis, AFlatObjectIsTurnedOnlyInTwoDimensions)
-{
-    Voxels voxels; // of the plane x = 0, no two of which touch
-    for (const Coord& at : voxelsOfBox(CoordBBox(Coord(0), Coord(0, 5, 9)))) {
-        voxels.push_back(Coord(at[0], 2 * at[1], 2 * at[2]));
-    }
-    const auto isBefore = [](const MedialBall& a, const MedialBall& b) {
-        return a.center < b.center;
-    };
-    const Balls solid = ballsOf(voxels, 3), flat = ballsOf(voxels, 2);
-    EXPECT_TRUE(std::is_sorted(solid.begin(), solid.end(), isBefore));
-    EXPECT_FALSE(std::is_sorted(flat.begin(), flat.end(), isBefore)) << "z stands where x was";
-}
-
 TEST(MedialAxis, TheUnionOfTheBallsIsTheObject)
 {
     for (uint32_t seed = 500; seed < 720; ++seed) {

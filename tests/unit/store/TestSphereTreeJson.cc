@@ -228,6 +228,17 @@ TEST(SphereTreeJson, NumbersThatJsonDoesNotHaveAreNull)
     EXPECT_EQ(nlohmann::json::parse(json.text()).dump(), "[1.5,null,null,null]");
 }
 
+TEST(SphereTreeJson, TextComesBackWhateverItHolds)
+{
+    std::string text;
+    for (int byte = 0; byte < 128; ++byte) text.push_back(char(byte));
+    JsonWriter json;
+    json.beginArray("", /*onOneLine=*/true);
+    json.value("", text);
+    json.endArray();
+    EXPECT_EQ(nlohmann::json::parse(json.text()).at(0).get<std::string>(), text);
+}
+
 TEST(SphereTreeJson, AFullDiskIsAnError)
 {
     for (const SphereTree& tree : {oneVoxelTree(), randomTree(5000, 8)}) {

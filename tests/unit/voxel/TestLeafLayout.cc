@@ -92,6 +92,18 @@ TEST(LeafLayout, HoldsTheVoxelsOfRandomObjectsInTheOrderOfLeaves)
     }
 }
 
+TEST(LeafLayout, KnowsTheSlabOfEveryLeaf)
+{
+    for (uint32_t seed = 0; seed < 11; ++seed) {
+        const LeafLayout layout(*maskOf(randomObject(seed).voxels));
+        for (uint32_t slab = 0; slab < layout.slabCount(); ++slab) {
+            const LeafLayout::Slab leaves = layout.slab(slab);
+            ASSERT_LT(leaves.begin, leaves.end);
+            for (uint32_t k = leaves.begin; k < leaves.end; ++k) ASSERT_EQ(layout.slabOf(k), slab);
+        }
+    }
+}
+
 TEST(LeafLayout, RunsHoldEveryLeafOnceAndEndAtGaps)
 {
     for (uint32_t seed = 0; seed < 55; ++seed) {
@@ -206,6 +218,7 @@ TEST(LeafLayout, AnObjectOfTooManyLeavesIsAnErrorBeforeMemoryIsTaken)
         FAIL() << "17 tiles of 4096^3 voxels fit nowhere";
     } catch (const openvdb::ValueError& error) {
         EXPECT_NE(std::string(error.what()).find("2281701376 leaf nodes"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("more than 2^31"), std::string::npos);
     }
 }
 
