@@ -252,7 +252,7 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     command_test::writeText(path("binary.txt"), std::string("read 'a b.vol'\n\0\n", 17));
     const Result binary = run("-config binary.txt");
     EXPECT_EQ(binary.exitCode, 3);
-    EXPECT_NE(binary.err.find("binary.txt, line 2"), std::string::npos) << binary.err;
+    EXPECT_NE(binary.err.find("binary.txt: this is no text file"), std::string::npos) << binary.err;
     const Result missing = run("-config nowhere.txt");
     EXPECT_EQ(missing.exitCode, 3);
     EXPECT_NE(missing.err.find("nowhere.txt"), std::string::npos);

@@ -7,6 +7,12 @@
 
 namespace spheretree_test {
 
+namespace {
+
+constexpr std::size_t kTagVersion = 35; // where the identifier says how it was made
+
+} // namespace
+
 openvdb::BoolGrid::Ptr sampleObject()
 {
     openvdb::initialize();
@@ -19,11 +25,14 @@ openvdb::BoolGrid::Ptr sampleObject()
     return object;
 }
 
-std::string vdbBytes(const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable)
+std::string vdbBytes(
+    const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable, Saver saver)
 {
     std::stringstream out(std::ios::in | std::ios::out | std::ios::binary);
     command::writeVdb(out, grids, compression, seekable);
-    return out.str();
+    std::string bytes = out.str();
+    if (saver == Saver::OpenVdb) bytes[kTagVersion] = '4';
+    return bytes;
 }
 
 } // namespace spheretree_test

@@ -13,10 +13,17 @@ namespace spheretree_test {
 /// Two blobs of some 100 voxels in four leaves, on both sides of zero.
 openvdb::BoolGrid::Ptr sampleObject();
 
+/// Who has put the identifier into a file.
+enum class Saver {
+    Command, ///< it is a digest of the file, and any damage is refused in the end
+    OpenVdb  ///< it is random, and damage must be found by what it does
+};
+
 /// @brief What the command writes.
 /// @param compression  flags of openvdb::io
 /// @param seekable     false for what goes through a pipe
-std::string vdbBytes(const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable = true);
+std::string vdbBytes(const openvdb::GridCPtrVec& grids, uint32_t compression, bool seekable = true,
+    Saver saver = Saver::OpenVdb);
 
 /// @name Values of `codec=` of the command
 /// @{

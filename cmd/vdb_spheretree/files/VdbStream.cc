@@ -4,6 +4,7 @@
 #include "base/Errors.h"
 #include "base/Progress.h"
 #include "FdBuffer.h"
+#include "VdbTag.h"
 
 #include <openvdb_spheretree/input/DelayedValues.h>
 #include <openvdb_spheretree/input/vdb/VdbGrids.h>
@@ -12,9 +13,7 @@
 #include <openvdb/io/File.h>
 #include <openvdb/points/PointDataGrid.h>
 
-#include <cstring>
-#include <fstream>
-#include <istream>
+#include <iostream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -71,7 +70,12 @@ openvdb::GridPtrVec readWhole(const std::string& path)
 {
     const InputFile file(path);
     FdBuffer buffer(file.fd());
-    return naming(path, [&] { return openvdb_spheretree::readVdbGrids(buffer); });
+    return naming(path, [&] {
+        TagReader reader(buffer);
+        auto grids = openvdb_spheretree::readVdbGrids(reader);
+        reader.requireUnchanged();
+        return grids;
+    });
 }
 
 #ifdef OPENVDB_USE_DELAYED_LOADING
@@ -92,7 +96,9 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
         openvdb::GridPtrVec grids;
         const InputFile input(path);
         FdBuffer buffer(input.fd());
-        const auto names = openvdb_spheretree::requireSoundVdb(buffer);
+        TagReader reader(buffer);
+        const auto names = openvdb_spheretree::requireSoundVdb(reader);
+        reader.requireUnchanged();
         if (!names) return grids;
         openvdb::io::File file(path);
         file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
@@ -150,63 +156,6 @@ public:
     }
 };
 
-/// A header is: magic (8 bytes), file version (4), library version (8), has offsets (1),
-/// identifier.
-constexpr size_t kTagOffset = 21;
-constexpr size_t kTagSize = 36;
-
-/// Two independent 64-bit mixes of a sequence of 8-byte words.
-class Digest {
-public:
-    void add(uint64_t word)
-    {
-        mFirst = mixed((mFirst ^ word) * 0x9fb21c651e98df25u);
-        mSecond = mixed((mSecond + word) * 0xd6e8feb86659fd93u);
-    }
-    /// @return the form of a UUID of version 8 (RFC 9562: bits of the application's own choice).
-    std::string tag() const
-    {
-        const uint64_t high = (mFirst & ~uint64_t(0xf000)) | 0x8000;
-        const uint64_t low = (mSecond & (~uint64_t(0) >> 2)) | uint64_t(1) << 63;
-        char text[kTagSize + 1];
-        std::snprintf(text, sizeof(text), "%08x-%04x-%04x-%04x-%012llx", unsigned(high >> 32),
-            unsigned(high >> 16 & 0xffff), unsigned(high & 0xffff), unsigned(low >> 48),
-            static_cast<unsigned long long>(low & 0xffffffffffffu));
-        return text;
-    }
-
-private:
-    static uint64_t mixed(uint64_t x) { return x ^ x >> 29; }
-    uint64_t mFirst = 0x243f6a8885a308d3u, mSecond = 0x13198a2e03707344u;
-};
-
-/// Needs the stream's identifier to be blanked already.
-std::string digestOf(std::iostream& stream, std::streamoff size)
-{
-    Digest digest;
-    std::vector<char> buffer(1 << 20); // a multiple of the size of a word
-    stream.seekg(0);
-    for (std::streamoff left = size; left > 0;) {
-        const auto some = std::min<std::streamoff>(left, std::streamoff(buffer.size()));
-        stream.read(buffer.data(), some);
-        std::fill(buffer.begin() + some, buffer.end(), '\0');
-        for (std::streamoff i = 0; i < some; i += 8) {
-            uint64_t word;
-            std::memcpy(&word, buffer.data() + i, sizeof(word));
-            digest.add(word);
-        }
-        left -= some;
-    }
-    digest.add(uint64_t(size));
-    return digest.tag();
-}
-
-void replaceTag(std::iostream& stream, const std::string& tag)
-{
-    stream.seekp(kTagOffset);
-    stream.write(tag.data(), std::streamsize(tag.size()));
-}
-
 } // namespace
 
 openvdb::GridPtrVec readVdb(const std::string& path, Loading loading)
@@ -230,15 +179,7 @@ void writeVdb(
     archive.setCompression(compression);
     archive.writeTo(out, grids, seekable);
     throwIfStopped();
-    out.seekp(0, std::ios::end);
-    const std::streamoff size = out.tellp();
-    std::string tag(kTagSize, '\0');
-    out.seekg(kTagOffset);
-    out.read(tag.data(), kTagSize);
-    if (tag != archive.getUniqueTag()) return; // another layout: then leave it alone
-    replaceTag(out, std::string(kTagSize, '0'));
-    replaceTag(out, digestOf(out, size));
-    out.seekp(0, std::ios::end);
+    replaceTag(out, archive.getUniqueTag());
 }
 
 } // namespace command
