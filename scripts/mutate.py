@@ -162,7 +162,7 @@ class Commands:
         for source, built in objects.items():
             if self.object_of(source) in words:
                 words[words.index(self.object_of(source))] = str(built)
-            elif source.startswith("openvdb_spheretree/"):
+            elif source.startswith(("openvdb_spheretree/", "cmd/")):  # in a library that is linked later
                 words.insert(first, str(built))
         return words
 

@@ -8,7 +8,7 @@
 #include "ByteWindow.h"
 #include "ValueBlock.h"
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h> // Coord
 
 #include <vector>
 
