@@ -18,13 +18,14 @@ UBSAN_OPTIONS+=":suppressions=$project_root/scripts/sanitizers/undefined.supp"
 # The same lines as a user's. They stop at the first report.
 run_lines() {
     local program="$project_root/build/asan-quick/bin/vdb_spheretree" data="$project_root/tests/data/0.1"
-    local line work
+    local line packed work
     work="$(mktemp -d)"
     # shellcheck disable=SC2064 # this folder, whatever the variable holds then
     trap "rm -rf '$work'" EXIT
     (
         cd "$work"
         write_meshes
+        for packed in "$data"/*.vdb.gz; do gunzip -c "$packed" >"$(basename "$packed" .gz)"; done
         while read -r line; do
             case "$line" in "" | \#*) continue ;; esac
             # shellcheck disable=SC2086 # words of a command line
