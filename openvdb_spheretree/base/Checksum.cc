@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Checksum.h"
 
+#ifdef SPHERETREE_WITH_LIBDEFLATE
+#include <libdeflate.h>
+#endif
 #include <zlib.h>
 
 namespace openvdb_spheretree::detail {
 
 uint32_t extendedCrc32(uint32_t before, const void* data, std::size_t bytes)
 {
+#ifdef SPHERETREE_WITH_LIBDEFLATE
+    return libdeflate_crc32(before, data, bytes);
+#else
     return uint32_t(crc32_z(before, static_cast<const Bytef*>(data), bytes));
+#endif
 }
 
 uint32_t joinedCrc32(

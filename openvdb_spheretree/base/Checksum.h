@@ -4,7 +4,8 @@
 ///
 /// It finds every single flipped bit, and any damage within 32 bits one after the other; of other damage
 /// all but one in 2^32. Blocks are summed by all threads and joined in their order (zlib's
-/// crc32_combine), which gives what one long run gives. Cost: 6 GB a second and thread.
+/// crc32_combine), which gives what one long run gives. Sums are by libdeflate where the library was
+/// built with it (8 GB a second and thread), and by zlib otherwise (3 GB): the same numbers.
 
 #pragma once
 

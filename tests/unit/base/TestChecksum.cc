@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <zlib.h>
 
 #include <string>
 #include <vector>
@@ -18,6 +19,23 @@ TEST(Checksum, IsTheCrc32OfTheTextbook)
     EXPECT_EQ(crc32Of<char>(digits.size(), [&](std::size_t i) { return digits[i]; }), 0xcbf43926u);
     EXPECT_EQ(extendedCrc32(0, nullptr, 0), 0u);
     EXPECT_EQ(crc32Of<int32_t>(0, [](std::size_t) { return 0; }), 0u);
+}
+
+TEST(Checksum, IsThatOfZlibForAnyLengthAndPlaceInMemory)
+{
+    std::vector<unsigned char> bytes(5000);
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = (unsigned char)(i * i * 7 + i / 256);
+    std::vector<std::size_t> lengths{1000, 1023, 1024, 1025, 4096, 4900};
+    for (std::size_t length = 0; length < 300; ++length) lengths.push_back(length);
+    for (std::size_t length : lengths) {
+        for (std::size_t begin : {0, 1, 3, 8, 31, 64}) {
+            for (uint32_t before : {0u, 0xcbf43926u, 0xffffffffu}) {
+                EXPECT_EQ(extendedCrc32(before, bytes.data() + begin, length),
+                    uint32_t(crc32(before, bytes.data() + begin, uInt(length))))
+                    << length << " bytes from " << begin;
+            }
+        }
+    }
 }
 
 TEST(Checksum, IsThatOfOneRunForAnyNumberOfValuesAndThreads)
