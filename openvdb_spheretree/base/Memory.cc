@@ -68,12 +68,11 @@ void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
 
 void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {
-    constexpr double kGiB = 1 << 30;
     const double there = physicalMemory();
     if (there == 0 || bytes <= there) return;
     OPENVDB_THROW(openvdb::ValueError,
-        what << " need about " << std::ceil(bytes / kGiB) << " GiB, more than the "
-             << std::floor(there / kGiB) << " GiB of this machine: " << remedy);
+        what << " need about " << asText(bytes) << ", more than the " << asText(there, false)
+             << " of this machine: " << remedy);
 }
 
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf)

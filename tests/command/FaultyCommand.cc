@@ -79,6 +79,14 @@ Running FaultyCommandTest::startWith(const std::string& arguments, const std::st
     return start(split(arguments), "/dev/null", [faults] { prepare(faults, ""); });
 }
 
+Result FaultyCommandTest::runWithin(long mebibytes, const std::string& arguments) const
+{
+    return start(split(arguments), "/dev/null", [=] {
+        setenv("SPHERETREE_FAULT_MEMORY", std::to_string(mebibytes).c_str(), 1);
+        prepare("", "");
+    }).wait();
+}
+
 std::map<std::string, long> FaultyCommandTest::callsOf(
     const std::string& arguments, const std::string& faults)
 {

@@ -38,6 +38,9 @@ protected:
         return startWith(arguments, faults).wait();
     }
 
+    /// On a machine that says it has no more memory than this.
+    Result runWithin(long mebibytes, const std::string& arguments) const;
+
     /// @return how often a line that succeeds makes each call.
     std::map<std::string, long> callsOf(
         const std::string& arguments, const std::string& faults = "");

@@ -4,6 +4,9 @@
 
 #include "FaultyCommand.h"
 
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
 #include <cerrno>
 
 #include <sys/resource.h>
@@ -85,6 +88,27 @@ TEST_F(CommandScarce, LimitsOnMemoryInSteps)
     }
     EXPECT_GT(refused, 0);
     EXPECT_GT(done, 0);
+}
+
+/// Each voxel has nodes of 340 KB of its own: 15 MiB in all, from a file of 0.4 MB.
+TEST_F(CommandScarce, VoxelsFarApartAreRefusedWithTheMemoryThatTheyNeed)
+{
+    openvdb::initialize();
+    const auto object = openvdb::BoolGrid::create();
+    object->setName("dust");
+    for (int i = 0; i < 50; ++i) object->tree().setValueOn(openvdb::Coord(5000 * i, 0, 0));
+    openvdb::io::File(path("dust.vdb")).write({object});
+    mBefore = files();
+
+    const std::string spheres = " -spheretree tree=extended errors=0";
+    for (const std::string read : {"-read dust.vdb", "-read dust.vdb delayed=1"}) {
+        EXPECT_EQ(runWithin(70, read + spheres).exitCode, 0);
+        expectFailure(runWithin(30, read + spheres), 3,
+            {"151 nodes", "need about 43.6 MiB", "more than the 30 MiB of this machine"}, {});
+        expectFailure(runWithin(14, read), 3,
+            {"dust.vdb", "'dust'", "need about 14.6 MiB", "more than the 14 MiB of this machine"},
+            {});
+    }
 }
 
 TEST_F(CommandScarce, NoThreadIsAnErrorOfItsOwn)

@@ -4,6 +4,8 @@
 #include <openvdb/util/NodeMasks.h>
 #include <openvdb/version.h>
 
+#include <algorithm>
+
 namespace openvdb_spheretree::detail {
 
 using openvdb::Coord;
@@ -68,9 +70,18 @@ void takeValue(ByteWindow& window, const ValueType& type)
 
 } // namespace
 
-std::vector<Coord> takeNodes(ByteWindow& window, const BlockFormat& format)
+double bytesOf(const GridNodes& nodes, const ValueType& type)
 {
-    std::vector<Coord> leaves;
+    // An entry holds a tile's value or a pointer; there are two bits for each.
+    const double entry = std::max<double>(type.bytes, sizeof(void*)) + 2.0 / 8;
+    constexpr double kLeaf = 128; // its masks, its place, and a pointer to its values
+    return entry * (32768.0 * double(nodes.upper) + 4096.0 * double(nodes.lower))
+        + kLeaf * double(nodes.leaves.size());
+}
+
+GridNodes takeNodes(ByteWindow& window, const BlockFormat& format)
+{
+    GridNodes nodes;
     window.value<int32_t>();        // buffers a leaf, which nobody reads
     takeValue(window, format.type); // background
     const auto tiles = window.value<uint32_t>();
@@ -86,14 +97,16 @@ std::vector<Coord> takeNodes(ByteWindow& window, const BlockFormat& format)
         // Their values follow in the order of the root's table, which has one entry for each place.
         if (i > 0 && !(last < upper)) window.fail("nodes are out of order");
         last = upper;
+        ++nodes.upper;
         takeInternal<5>(window, format, upper, 128, [&](const Coord& lower) {
+            ++nodes.lower;
             takeInternal<4>(window, format, lower, 8, [&](const Coord& leaf) {
                 takeMask<3>(window);
-                leaves.push_back(leaf);
+                nodes.leaves.push_back(leaf);
             });
         });
     }
-    return leaves;
+    return nodes;
 }
 
 } // namespace openvdb_spheretree::detail

@@ -3,6 +3,7 @@
 
 #include "NodeWalk.h"
 #include "ValueBlock.h"
+#include <openvdb_spheretree/base/Memory.h>
 
 namespace openvdb_spheretree::detail {
 
@@ -65,7 +66,11 @@ void VdbGuard::takeGrid()
     format.compression = mGrid.compression;
     format.half = mGrid.half;
     format.type = *type;
-    mBuffers = walkBuffers(format, takeNodes(mWindow, format), std::move(mGrid.delayed));
+    GridNodes nodes = takeNodes(mWindow, format);
+    mNodeBytes += bytesOf(nodes, *type);
+    requireMemory(mNodeBytes, "the nodes of the grids up to '" + mGrid.name + "'",
+        "voxels far apart take a node each; take fewer of them, larger ones, or split the file");
+    mBuffers = walkBuffers(format, std::move(nodes.leaves), std::move(mGrid.delayed));
 }
 
 /// With delayed loading OpenVDB goes where the descriptor says.

@@ -23,7 +23,8 @@
 ///
 /// Memory: the piece in hand; the largest is a grid's nodes without their values, 64 bytes a leaf. What
 /// OpenVDB takes is bounded by what packed bytes can become: 255 times as many by Blosc, and a node of
-/// at most 1 MiB for some hundred bytes. Cost: a copy of the bytes, and some tens of instructions a leaf.
+/// at most 1 MiB for some hundred bytes. Nodes that exceed the machine's memory are refused before
+/// OpenVDB takes it. Cost: a copy of the bytes, and some tens of instructions a leaf.
 
 #pragma once
 
@@ -45,7 +46,8 @@ public:
     explicit VdbGuard(std::streambuf& source, DelayedMetadata treatment = DelayedMetadata::Drop);
 
     /// @brief Walk on to the end without handing anything on.
-    /// @throw openvdb::IoError if the file is truncated or damaged
+    /// @throw openvdb::IoError if the file is truncated or damaged; openvdb::ValueError if the nodes of
+    ///        its grids exceed this machine's memory
     void takeAll();
 
     /// @return whether the file says where its grids are, as delayed loading needs it.
@@ -54,7 +56,7 @@ public:
     const std::vector<std::string>& names() const { return mNames; }
 
 protected:
-    /// @throw openvdb::IoError if the file is truncated or damaged; whatever the source throws
+    /// @throw as takeAll(); whatever the source throws
     int_type underflow() override;
     /// Tells the position, and cannot seek.
     pos_type seekoff(off_type, std::ios_base::seekdir, std::ios_base::openmode) override;
@@ -71,6 +73,7 @@ private:
     GridHead mGrid;
     int32_t mGridsLeft = 0;
     std::vector<std::string> mNames;
+    double mNodeBytes = 0;                ///< that OpenVDB takes for the nodes up to here
     std::unique_ptr<BufferWalk> mBuffers; ///< of the present grid; none between grids
 };
 

@@ -12,6 +12,8 @@
 /// - `EFFECT` is `error` (it fails with this errno, and so do all later ones; of a write, half is
 ///   written first), `once` (only this one fails), or `signal` (SIGSTOP lets the test act meanwhile).
 ///
+/// SPHERETREE_FAULT_MEMORY is how many MiB of memory the machine says it has.
+///
 /// SPHERETREE_FAULT_COUNTS names a file that gets a line `CALL NUMBER` for each at a normal end.
 
 #include <array>
@@ -197,6 +199,14 @@ int pthread_create(
 {
     static const auto real = next("pthread_create", &pthread_create);
     return fails(kThread) ? errno : real(thread, attributes, body, argument);
+}
+
+long sysconf(int name)
+{
+    static const auto real = next("sysconf", &sysconf);
+    const char* const mebibytes = std::getenv("SPHERETREE_FAULT_MEMORY");
+    if (name != _SC_PHYS_PAGES || !mebibytes) return real(name);
+    return std::atol(mebibytes) * (1L << 20) / real(_SC_PAGESIZE);
 }
 
 } // extern "C"
