@@ -372,12 +372,33 @@ TEST(SphereTree, AnyFactorEndsAtOneRoot)
     }
 }
 
+/// Of tight trees what takes long: every quality, bounds, all numbers of spheres, inner ones.
+std::vector<SphereTreeSettings> manyTypes()
+{
+    std::vector<SphereTreeSettings> types = bothTypes();
+    for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
+        TightOptions options;
+        options.quality = quality;
+        types.push_back(options);
+        options.budget.spheres = {8, 2};
+        options.cuts = quality != Quality::Best;
+        types.push_back(options);
+        options.budget = {};
+        options.budget.error = 30;
+        options.cuts = false;
+        types.push_back(options);
+    }
+    types.push_back(InnerOptions());
+    return types;
+}
+
 TEST(SphereTree, StopsWhenInterruptedAtAnyQuestion)
 {
-    const auto grid = gridOf(block());
-    for (const SphereTreeSettings& settings : bothTypes()) {
+    const auto grid = gridOf(shapes::box(Coord(9, 5, 6)));
+    for (const SphereTreeSettings& settings : manyTypes()) {
+        SCOPED_TRACE(describe(settings));
         int questions = 0;
-        for (bool finished = false; !finished; questions = 1 + questions * 5 / 4) {
+        for (bool finished = false; !finished; questions = 1 + questions * 3 / 2) {
             ASSERT_LT(questions, 1000000);
             StopAfter stop(questions);
             try {
