@@ -35,7 +35,7 @@ public:
     /// @note Thread-safe for different arrays; so is get(), once they have been put.
     void put(std::size_t array, const void* data, std::size_t bytes, int typeSize, Bytes& scratch);
     /// @param bytes  as they were put
-    /// @throw openvdb::IoError if the temporary file cannot be read
+    /// @throw openvdb::IoError if the temporary file cannot be read, or has other bytes there
     void get(std::size_t array, void* data, std::size_t bytes, Bytes& scratch) const;
 
     int64_t bytesInMemory() const { return mInMemory; }

@@ -131,6 +131,22 @@ TEST_F(MemoryPlanTest, TooLittleIsRefused)
         messageOf<openvdb::ValueError>([&] { buildSphereTree(*ball, negative); }), "memory=-1"));
 }
 
+TEST_F(MemoryPlanTest, ADagNeedsMoreAndIsRefusedWhereItDoesNotFit)
+{
+    const auto ball = ballGrid(40);
+    SphereTreeSettings settings = settingsOf(TreeType::Reversible, 0);
+    const int64_t needed = memoryPlan(*ball, settings).needed;
+    settings.pyramid().dag = true;
+    EXPECT_GT(memoryPlan(*ball, settings).needed, needed);
+    settings.memory = 2 * kMiB; // enough for a tree without one
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*ball, settings); });
+    EXPECT_EQ(messageOf<openvdb::ValueError>([&] { memoryPlan(*ball, settings); }), why);
+    settings.pyramid().dag = false;
+    EXPECT_NO_THROW(buildSphereTree(*ball, settings));
+    EXPECT_NO_THROW(memoryPlan(*ball, settings));
+}
+
 TEST_F(MemoryPlanTest, NormsNeedAllTheirLabels)
 {
     const auto ball = ballGrid(20);

@@ -163,6 +163,22 @@ TEST(ObjectLimits, AnObjectThatIsTooWideAnywhereIsNotSaidToLieAtTheEnd)
     EXPECT_TRUE(mentions(*why, "too wide for tree=tight"));
 }
 
+TEST(ObjectLimits, AnObjectThatIsTooWideForTheWeightsOfANormIsRefused)
+{
+    auto grid = openvdb::BoolGrid::create();
+    grid->setName("wide");
+    grid->tree().setValueOn(Coord(0), true);
+    grid->tree().setValueOn(Coord(1 << 22, 0, 0), true);
+    const auto settings = [](int weight) {
+        return paper<ReversibleOptions>(2, Distance::chamfer(weight, weight, weight));
+    };
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*grid, settings(255)); });
+    EXPECT_TRUE(mentions(why, "'wide' is too wide for dist="));
+    EXPECT_TRUE(mentions(why, "use smaller weights, or larger voxels"));
+    EXPECT_NO_THROW(buildSphereTree(*grid, settings(1)));
+}
+
 TEST(ObjectLimits, ABoxFromEndToEndIsTooWide)
 {
     auto grid = openvdb::BoolGrid::create();

@@ -233,6 +233,29 @@ TEST(SphereTree, StoresRadiiPaddedInWorldUnitsRoundedUp)
     }
 }
 
+/// As readers add it up, who have nothing but the stored numbers.
+TEST(SphereTree, StoredSpheresContainTheStoredLeafSpheresBelow)
+{
+    for (const RandomObject& object : someObjects(1200, 22)) {
+        for (const double padding : {0.0, SphereTreeSettings::kPadCubes}) {
+            SphereTreeSettings settings = extendedTree();
+            settings.padding = padding;
+            const auto grid = gridOf(object.voxels);
+            grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+            const SphereTree tree = buildSphereTree(*grid, settings);
+            for (int32_t leaf = tree.levels[0].begin; leaf < tree.levels[0].end; ++leaf) {
+                for (int32_t id = tree.spheres.parent[leaf]; id >= 0;
+                     id = tree.spheres.parent[id]) {
+                    const double apart = (tree.centerWorld(id) - tree.centerWorld(leaf)).length();
+                    ASSERT_LE(apart + double(tree.spheres.radiusWorld[leaf]),
+                        double(tree.spheres.radiusWorld[id]))
+                        << object.name << ", node " << id << ", leaf " << leaf;
+                }
+            }
+        }
+    }
+}
+
 TEST(SphereTree, StoresARadiusThatIsAFloatAsItIs)
 {
     SphereTreeSettings settings = ReversibleOptions();

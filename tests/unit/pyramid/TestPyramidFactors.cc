@@ -167,6 +167,22 @@ TEST(PyramidFactors, TilesThatFillACubeOfTheirSizeBecomeOneTile)
     }
 }
 
+/// Tiles of 128 then have 8^3 parents, more than a factor would give: they overlap. Of 16^3 tiles the
+/// parents are as many as the voxels of a cube of 128, which they do not fill.
+TEST(PyramidFactors, TilesWithParentsInCommonFillNoCube)
+{
+    for (const int factor : {18, 20}) {
+        MaskTree tree(false);
+        tree.sparseFill(CoordBBox::createCube(Coord(0, 0, 0), 16 * 128), true);
+        ASSERT_EQ(tree.activeTileCount(), 4096u);
+        const auto parents = coarsen(tree, PyramidStep{Coord(), factor, 3});
+        CoordBBox box;
+        parents->evalActiveVoxelBoundingBox(box);
+        EXPECT_EQ(box, CoordBBox::createCube(Coord(0, 0, 0), (16 * 128 - 1) / factor + 1));
+        EXPECT_EQ(parents->activeVoxelCount(), box.volume()) << factor;
+    }
+}
+
 TEST(PyramidFactors, AreTheSameForAnyNumberOfThreads)
 {
     const RandomObject object = randomObject(3);

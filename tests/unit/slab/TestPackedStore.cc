@@ -68,6 +68,35 @@ TEST(PackedStore, GivesBackWhatItTook)
     }
 }
 
+/// @return a file that is open in the folder, as its number, since it has no name.
+std::fstream openFileIn(const TemporaryFolder& folder)
+{
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code gone; // the folder itself is open while it is listed
+        const auto target = std::filesystem::read_symlink(entry.path(), gone);
+        if (target.string().compare(0, folder.path().size(), folder.path()) != 0) continue;
+        return std::fstream(entry.path(), std::ios::binary | std::ios::in | std::ios::out);
+    }
+    return {};
+}
+
+/// The second block, which is whole but shorter, is written over the first one.
+TEST(PackedStore, ABlockThatIsNotTheOneThatWasPutIsAnError)
+{
+    const TemporaryFolder folder;
+    PackedStore store(2, 0);
+    put(store, 0, numbersOf(1, 3000));
+    const int64_t place = store.bytesInFile();
+    put(store, 1, numbersOf(3, 1000));
+    std::string block(std::size_t(store.bytesInFile() - place), ' ');
+    std::fstream file = openFileIn(folder);
+    ASSERT_TRUE(file.seekg(place) && file.read(block.data(), std::streamsize(block.size())));
+    ASSERT_TRUE(file.seekp(0) && file.write(block.data(), std::streamsize(block.size())).flush());
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::IoError>([&] { got(store, 0, 3001); }), "damaged: 4012 bytes in place"));
+    EXPECT_EQ(got(store, 1, 1003), numbersOf(3, 1000));
+}
+
 TEST(PackedStore, LeavesNoFile)
 {
     const TemporaryFolder folder;

@@ -461,6 +461,20 @@ TEST_F(SphereUnion, DrawnWithinAMaskNodesWithoutVoxelsOfTheMaskAreLeftOut)
     EXPECT_EQ(far->activeTileCount(), 0u); // none for the 4096^3 voxels at the origin
 }
 
+/// The mask has more nodes than the ball's box: those of the box are looked up, one by one.
+TEST_F(SphereUnion, DrawnWithinAMaskOfManyNodesThoseBesideItAreLeftOut)
+{
+    constexpr int kNode = 4096;
+    MaskTree mask(false);
+    for (int i = 2; i < 20; ++i) {
+        for (int k = 0; k < 2; ++k) mask.setValueOn(Coord(kNode * i, kNode * k, 0));
+    }
+    const ExactSpheres around{ball(kNode, kNode, kNode, int64_t(4) * 3600 * 3600)};
+    const MaskTree::Ptr drawn = detail::rasterSpheres(around, Distance(), kWide, &mask, nullptr);
+    EXPECT_FALSE(drawn->isValueOn(Coord(kNode / 2))); // the ball holds all of that node
+    EXPECT_EQ(drawn->activeVoxelCount(), 0u);
+}
+
 TEST_F(SphereUnion, StopsWhenInterrupted)
 {
     struct Stop : openvdb::util::NullInterrupter {

@@ -19,6 +19,7 @@ namespace {
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
+using openvdb::Coord;
 
 constexpr int kQuads[6][4] = {
     {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -166,6 +167,18 @@ TEST(MeshFile, RejectsEveryTruncation)
     }
 }
 
+TEST(MeshFile, SaysOfABinaryPlyThatItIsTruncatedWhereverItEnds)
+{
+    for (const bool bigEndian : {false, true}) {
+        const std::string bytes = binaryPlyCube(bigEndian);
+        const std::size_t begin = bytes.find("end_header\n") + 11;
+        for (std::size_t length = begin; length < bytes.size(); ++length) {
+            const std::string why = errorOf("cut.ply", bytes.substr(0, length));
+            ASSERT_NE(std::string::npos, why.find("it is truncated")) << length << ": " << why;
+        }
+    }
+}
+
 TEST(MeshFile, RejectsATruncatedObjOrReadsTheSmallerMeshThatItIs)
 {
     const std::string bytes = objCube();
@@ -306,6 +319,40 @@ TEST(MeshFile, ReadsWhatOffAndPlyWritersWrite)
         "end_header\r\n7 3 0 1 2 2 0.5 0.5\r\n1 5 0 0\r\n2 5 0 1\r\n3 5 1 0\r\n0 1\r\n");
     ASSERT_EQ(3u, ply.points.size());
     EXPECT_EQ(Vec3s(1, 0, 5), ply.points[1]);
+}
+
+/// The lowest @a size bytes of a whole number.
+std::string bytesOfInteger(int value, int size, bool bigEndian)
+{
+    std::string bytes;
+    for (int i = 0; i < size; ++i) {
+        bytes.push_back(char(value >> (8 * (bigEndian ? size - 1 - i : i))));
+    }
+    return bytes;
+}
+
+TEST(MeshFile, ReadsNegativeWholeNumbersOfABinaryPly)
+{
+    for (const bool bigEndian : {false, true}) {
+        std::string bytes = std::string("ply\nformat binary_") + (bigEndian ? "big" : "little")
+            + "_endian 1.0\nelement vertex 3\n"
+              "property char x\nproperty short y\nproperty int z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        const Coord points[] = {Coord(-1, 2, 3), Coord(-128, -129, 4), Coord(127, 32767, -70000)};
+        for (const Coord& point : points) {
+            for (int axis = 0; axis < 3; ++axis) {
+                bytes += bytesOfInteger(point[axis], 1 << axis, bigEndian);
+            }
+        }
+        bytes += '\3' + bytesOf(0) + bytesOf(1, bigEndian) + bytesOf(2, bigEndian);
+        const TriangleMesh mesh = read("signs.ply", bytes);
+        ASSERT_EQ(3u, mesh.points.size());
+        for (int i = 0; i < 3; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_EQ(float(points[i][axis]), mesh.points[i][axis]) << i << ' ' << axis;
+            }
+        }
+    }
 }
 
 TEST(MeshFile, CutsConcavePolygonsIntoTrianglesThatStayInside)
