@@ -28,16 +28,18 @@ uint32_t extendedCrc32(uint32_t before, const void* data, std::size_t bytes);
 uint32_t joinedCrc32(
     const std::vector<uint32_t>& blocks, std::size_t blockBytes, std::size_t lastBytes);
 
+/// @param interrupter  may be null
+/// @throw Interrupted
 /// @return the CRC-32 of value(0), value(1), ... value(count - 1) as values of @a T, which has no
 ///         gaps between its members, in the machine's byte order: little-endian, as that of .vdb
 ///         files.
 template <typename T, typename Value>
-uint32_t crc32Of(std::size_t count, const Value& value)
+uint32_t crc32Of(std::size_t count, openvdb::util::NullInterrupter* interrupter, const Value& value)
 {
     static_assert(std::is_trivially_copyable_v<T>);
     constexpr std::size_t kRun = 512, kBlock = 16 * kRun; // values
     std::vector<uint32_t> blocks((count + kBlock - 1) / kBlock, 0);
-    parallelFor(blocks.size(), nullptr, [&](std::size_t block) {
+    parallelFor(blocks.size(), interrupter, [&](std::size_t block) {
         const std::size_t end = std::min(count, (block + 1) * kBlock);
         std::array<T, kRun> run;
         for (std::size_t begin = block * kBlock; begin < end; begin += kRun) {

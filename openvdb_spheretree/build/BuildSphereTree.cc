@@ -4,6 +4,7 @@
 #include "ObjectLimits.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
@@ -90,7 +91,7 @@ void placeBalls(
         firstAbove = range.begin;
         begin = range.end;
     }
-    std::sort(tree.dag.begin(), tree.dag.end());
+    detail::parallelSort(tree.dag.begin(), tree.dag.end(), interrupter);
 }
 
 /// Where the balls are in the frame of level 0, and how large. Levels are used up.

@@ -3,8 +3,7 @@
 
 #include "UncoveredVoxels.h"
 #include <openvdb_spheretree/base/Parallel.h>
-
-#include <tbb/parallel_sort.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 
 #include <algorithm>
 #include <numeric>
@@ -59,7 +58,7 @@ private:
     {
         std::vector<int32_t> byRadius(mBalls.size());
         std::iota(byRadius.begin(), byRadius.end(), 0);
-        tbb::parallel_sort(byRadius.begin(), byRadius.end(),
+        parallelSort(byRadius.begin(), byRadius.end(), mInterrupter,
             [this](int32_t a, int32_t b) { return mBalls[a].radiusSq < mBalls[b].radiusSq; });
         std::vector<std::size_t> begins; // of those with one radius
         for (std::size_t i = 0; i < byRadius.size(); ++i) {

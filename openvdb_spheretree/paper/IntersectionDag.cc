@@ -2,9 +2,8 @@
 #include "IntersectionDag.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/index/BoundingTree.h>
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
@@ -85,7 +84,7 @@ std::vector<DagEdge> intersectionDag(
     for (std::size_t k = 1; k < tree.levels.size(); ++k) {
         addEdges(tree, tree.levels[k], tree.levels[k - 1], edges, interrupter);
     }
-    tbb::parallel_sort(edges.begin(), edges.end());
+    detail::parallelSort(edges.begin(), edges.end(), interrupter);
     return edges;
 }
 

@@ -4,9 +4,8 @@
 #include "BallLists.h"
 #include "NodeCanvas.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/voxel/Masks.h>
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -198,7 +197,7 @@ ClippedSpheres clipSpheres(const std::vector<ExactSphere>& spheres, const Sphere
         }
     };
     add(Kind::Large);
-    tbb::parallel_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
+    parallelSort(order.begin(), order.end(), interrupter, [&](int32_t a, int32_t b) {
         const int64_t first = result.balls[a].radiusSq, second = result.balls[b].radiusSq;
         return first != second ? first > second : a < b;
     });

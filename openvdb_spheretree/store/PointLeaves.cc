@@ -3,11 +3,10 @@
 
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/LargeArray.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <openvdb/points/PointGroup.h>
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,16 +22,17 @@ using openvdb::Coord;
 using openvdb::Index;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
+using openvdb::util::NullInterrupter;
 namespace points = openvdb::points;
 
 Coord leafOrigin(const Coord& voxel) { return voxel & ~int32_t(PointLeaf::DIM - 1); }
 
 /// @return the lowest index that is wrong, or @a count: of several it is always the same one.
 template <typename Wrong>
-std::size_t firstWrong(std::size_t count, const Wrong& wrong)
+std::size_t firstWrong(std::size_t count, NullInterrupter* interrupter, const Wrong& wrong)
 {
     std::atomic<std::size_t> first{count};
-    parallelFor(count, nullptr, [&](std::size_t i) {
+    parallelFor(count, interrupter, [&](std::size_t i) {
         if (i < first.load(std::memory_order_relaxed) && wrong(i)) lowerTo(first, i);
     });
     return first;
@@ -40,21 +40,21 @@ std::size_t firstWrong(std::size_t count, const Wrong& wrong)
 
 /// Whether a voxel holds too few points on average. On fine scales some of the points have more
 /// voxels than all of them should, and need no others to be counted.
-bool isTooFine(const std::vector<Vec3d>& positions, int scale)
+bool isTooFine(const std::vector<Vec3d>& positions, int scale, NullInterrupter* interrupter)
 {
     constexpr std::size_t kPointsPerVoxel = 4;
     const auto tooMany = [&](std::size_t count) { // voxels that the first points are in
         const LargeArray<Coord> voxels = makeLargeArray<Coord>(count);
         Coord *const begin = voxels.get(), *const end = begin + count;
-        parallelFor(count, nullptr,
+        parallelFor(count, interrupter,
             [&](std::size_t i) { begin[i] = Coord::round(positions[i] / double(scale)); });
-        tbb::parallel_sort(begin, end);
+        parallelSort(begin, end, interrupter);
         return std::size_t(std::unique(begin, end) - begin) * kPointsPerVoxel > positions.size();
     };
     return tooMany(positions.size() / 3) || tooMany(positions.size());
 }
 
-void checkRange(const std::vector<Vec3d>& positions)
+void checkRange(const std::vector<Vec3d>& positions, NullInterrupter* interrupter)
 {
     if (positions.size() > std::size_t(std::numeric_limits<int32_t>::max())) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -62,7 +62,7 @@ void checkRange(const std::vector<Vec3d>& positions)
                                 "voxel, or split the object");
     }
     const double limit = double(std::numeric_limits<int32_t>::max()); // of voxel coordinates
-    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
+    const std::size_t wrong = firstWrong(positions.size(), interrupter, [&](std::size_t i) {
         const Vec3d& p = positions[i];
         return !(std::abs(p[0]) < limit && std::abs(p[1]) < limit && std::abs(p[2]) < limit);
     });
@@ -115,15 +115,16 @@ bool holdsGroups(const PointLeaf& leaf, const std::vector<GroupBit>& bits, const
 
 } // namespace
 
-PointWriter::PointWriter(const std::vector<Vec3d>& positions)
-    : mGrid(makeGrid<points::PointDataGrid>())
+PointWriter::PointWriter(const std::vector<Vec3d>& positions, NullInterrupter* interrupter)
+    : mInterrupter(interrupter), mGrid(makeGrid<points::PointDataGrid>())
 {
-    checkRange(positions);
-    while (mScale < kMaxPointScale && isTooFine(positions, mScale)) mScale *= 2;
+    checkRange(positions, interrupter);
+    while (mScale < kMaxPointScale && isTooFine(positions, mScale, interrupter)) mScale *= 2;
     const std::vector<Place> sorted = places(positions);
     openvdb::tree::ValueAccessor<points::PointDataTree> accessor(mGrid->tree());
     mOrder.reserve(sorted.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) {
+        if (i % (1 << 18) == 0) checkInterrupt(interrupter);
         const Coord origin = leafOrigin(sorted[i].voxel);
         if (i == 0 || leafOrigin(sorted[i - 1].voxel) != origin) {
             mLeaves.push_back(accessor.touchLeaf(origin));
@@ -137,17 +138,18 @@ PointWriter::PointWriter(const std::vector<Vec3d>& positions)
         points::TypedAttributeArray<Vec3f>::attributeType());
     {
         const points::AttributeArray::ScopedRegistryLock lock;
-        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
             mLeaves[i]->initializeAttributes(descriptor, countOf(i), &lock);
         });
     }
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) { writeLeaf(i, sorted, positions); });
+    parallelFor(
+        mLeaves.size(), mInterrupter, [&](std::size_t i) { writeLeaf(i, sorted, positions); });
 }
 
 std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& positions) const
 {
     std::vector<Place> places(positions.size());
-    const std::size_t wrong = firstWrong(positions.size(), [&](std::size_t i) {
+    const std::size_t wrong = firstWrong(positions.size(), mInterrupter, [&](std::size_t i) {
         const Vec3d position = positions[i] / double(mScale); // exact: a power of two
         const Coord voxel = Coord::round(position);
         const Vec3f offset(position - voxel.asVec3d());
@@ -159,7 +161,7 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
             "point " << wrong << " at " << positions[wrong]
                      << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
     }
-    tbb::parallel_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    parallelSort(places.begin(), places.end(), mInterrupter, [](const Place& a, const Place& b) {
         const Coord leafA = leafOrigin(a.voxel), leafB = leafOrigin(b.voxel);
         if (leafA != leafB) return leafA < leafB;
         if (a.voxel != b.voxel) return a.voxel < b.voxel; // the order of voxels in a leaf, too
@@ -188,7 +190,7 @@ void PointWriter::addGroups(
     const std::vector<std::string>& names, const std::function<int(uint32_t)>& groupOf)
 {
     points::appendGroups(mGrid->tree(), names);
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+    parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
         std::vector<int> groups(countOf(i));
         for (uint32_t n = 0; n < countOf(i); ++n) groups[n] = groupOf(mOrder[mBegin[i] + n]);
         for (int group = 0; group < int(names.size()); ++group) {
@@ -211,7 +213,8 @@ points::PointDataGrid::Ptr PointWriter::finish(const openvdb::math::Transform& s
     return mGrid;
 }
 
-PointReader::PointReader(const points::PointDataGrid& grid)
+PointReader::PointReader(const points::PointDataGrid& grid, NullInterrupter* interrupter)
+    : mInterrupter(interrupter)
 {
     grid.tree().getNodes(mLeaves);
     mBegin.push_back(0);
@@ -228,7 +231,7 @@ void PointReader::requireGroups(
     // Leaves of a file share their descriptor as a rule: names are looked up once.
     const auto shared = mLeaves.front()->attributeSet().descriptorPtr();
     const std::vector<GroupBit> sharedBits = groupBits(*mLeaves.front(), names);
-    const std::size_t wrong = firstWrong(mLeaves.size(), [&](std::size_t i) {
+    const std::size_t wrong = firstWrong(mLeaves.size(), mInterrupter, [&](std::size_t i) {
         const PointLeaf& leaf = *mLeaves[i];
         const bool isShared = leaf.attributeSet().descriptorPtr() == shared;
         const std::vector<GroupBit> bits = isShared ? sharedBits : groupBits(leaf, names);
@@ -263,7 +266,7 @@ std::vector<Vec3d> PointReader::positions(int scale) const
 {
     requireAttribute<Vec3f>("P");
     std::vector<Vec3d> positions(size());
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+    parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
         forPositions(i, scale, [&](std::size_t n, const Vec3d& at) { positions[n] = at; });
     });
     return positions;
@@ -274,7 +277,7 @@ std::size_t PointReader::firstAstray(
 {
     requireAttribute<Vec3f>("P");
     std::atomic<std::size_t> first{size()};
-    parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+    parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
         forPositions(i, scale, [&](std::size_t n, const Vec3d& at) {
             if (at != places[std::size_t(indices[n])]) lowerTo(first, n);
         });

@@ -49,9 +49,11 @@ private:
 /// A point grid under construction; points know the index they came in with.
 class PointWriter {
 public:
-    /// @param positions  index space of the source grid
+    /// @param positions    index space of the source grid
+    /// @param interrupter  may be null, and outlives the writer; each call may throw Interrupted
     /// @throw openvdb::ValueError if a position cannot be stored exactly
-    explicit PointWriter(const std::vector<openvdb::Vec3d>& positions);
+    PointWriter(
+        const std::vector<openvdb::Vec3d>& positions, openvdb::util::NullInterrupter* interrupter);
 
     /// Source voxels along a voxel of the point grid: the smallest power of two for which a voxel
     /// holds four points on average, or kMaxPointScale.
@@ -62,7 +64,7 @@ public:
     void addAttribute(const std::string& name, const Value& value)
     {
         openvdb::points::appendAttribute<T>(mGrid->tree(), name);
-        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
             openvdb::points::AttributeWriteHandle<T> handle(mLeaves[i]->attributeArray(name));
             const uint32_t begin = mBegin[i];
             for (uint32_t n = 0; n < countOf(i); ++n) handle.set(n, T(value(mOrder[begin + n])));
@@ -87,6 +89,7 @@ private:
         const std::vector<openvdb::Vec3d>& positions);
     uint32_t countOf(std::size_t leaf) const { return mBegin[leaf + 1] - mBegin[leaf]; }
 
+    openvdb::util::NullInterrupter* mInterrupter;
     int mScale = 1;
     openvdb::points::PointDataGrid::Ptr mGrid;
     std::vector<PointLeaf*> mLeaves;
@@ -97,8 +100,10 @@ private:
 /// The points of a grid as flat arrays, in an order of its own that all of them share.
 class PointReader {
 public:
+    /// @param interrupter  may be null, and outlives the reader; each call may throw Interrupted
     /// @throw openvdb::ValueError if the leaves contradict themselves
-    explicit PointReader(const openvdb::points::PointDataGrid& grid);
+    PointReader(
+        const openvdb::points::PointDataGrid& grid, openvdb::util::NullInterrupter* interrupter);
 
     std::size_t size() const { return mBegin.back(); }
 
@@ -108,7 +113,7 @@ public:
     {
         requireAttribute<T>(name);
         std::vector<T> values(size());
-        parallelFor(mLeaves.size(), nullptr, [&](std::size_t i) {
+        parallelFor(mLeaves.size(), mInterrupter, [&](std::size_t i) {
             const ArrayValues<T> here(*mLeaves[i]->attributeSet().getConst(name));
             const std::size_t begin = mBegin[i], count = mBegin[i + 1] - begin;
             for (std::size_t n = 0; n < count; ++n) values[begin + n] = here[n];
@@ -154,6 +159,7 @@ private:
     template <typename Body>
     void forPositions(std::size_t leaf, int scale, const Body& body) const;
 
+    openvdb::util::NullInterrupter* mInterrupter;
     std::vector<const PointLeaf*> mLeaves;
     std::vector<std::size_t> mBegin; ///< of each leaf's points in the arrays
 };

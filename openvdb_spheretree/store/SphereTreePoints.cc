@@ -4,6 +4,7 @@
 #include "PointLeaves.h"
 #include "TreeChecksum.h"
 #include "TreeMetadata.h"
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
 
@@ -18,6 +19,7 @@ namespace {
 using openvdb::GridBase;
 using openvdb::Vec3i;
 using openvdb::points::PointDataGrid;
+using openvdb::util::NullInterrupter;
 
 // ---- Writing
 
@@ -153,11 +155,11 @@ std::vector<std::string> groupNames(const SphereTree& tree)
     return names;
 }
 
-SphereTree readTree(const PointDataGrid& points)
+SphereTree readTree(const PointDataGrid& points, NullInterrupter* interrupter)
 {
     if (hasChecksum(points)) detail::verifyDescription(points);
     SphereTree tree = detail::readTreeMetadata(points);
-    const detail::PointReader reader(points);
+    const detail::PointReader reader(points, interrupter);
     const std::size_t expected = std::size_t(tree.levels.front().end);
     if (reader.size() != expected) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -174,19 +176,20 @@ SphereTree readTree(const PointDataGrid& points)
     checkLevels(tree, levels);
     detail::throwFirst(detail::treeDamage(tree));
     if (hasChecksum(points)) {
-        detail::verifyContent(points, detail::nodeChecksums(tree));
+        detail::verifyContent(points, detail::nodeChecksums(tree, interrupter));
         for (int32_t& level : levelsOfPoints) level -= tree.levels.front().level;
         reader.requireGroups(groupNames(tree), levelsOfPoints);
     }
     return tree;
 }
 
-std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
+std::vector<DagEdge> readDag(
+    const PointDataGrid& grid, const SphereTree& tree, NullInterrupter* interrupter)
 {
     if (hasChecksum(grid)) detail::verifyDescription(grid);
     const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
     const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_edges");
-    const detail::PointReader reader(grid);
+    const detail::PointReader reader(grid, interrupter);
     if (nodes != tree.size() || reader.size() != std::size_t(count)) {
         OPENVDB_THROW(openvdb::ValueError,
             "it has " << reader.size() << " edges of " << nodes << " nodes, " << count
@@ -196,10 +199,10 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     const std::vector<int32_t> children = reader.attribute<int32_t>("child");
     std::vector<DagEdge> edges(parents.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = {parents[i], children[i]};
-    std::sort(edges.begin(), edges.end());
+    detail::parallelSort(edges.begin(), edges.end(), interrupter);
     detail::throwFirst(detail::edgeDamage(edges, tree));
     if (hasChecksum(grid)) {
-        detail::verifyContent(grid, detail::edgeChecksums(edges));
+        detail::verifyContent(grid, detail::edgeChecksums(edges, interrupter));
         const std::size_t astray =
             reader.firstAstray(detail::readPointScale(grid), tree.spheres.center, parents);
         if (astray < parents.size()) {
@@ -210,12 +213,12 @@ std::vector<DagEdge> readDag(const PointDataGrid& grid, const SphereTree& tree)
     return edges;
 }
 
-SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
+SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree, NullInterrupter* interrupter)
 {
     if (hasChecksum(grid)) detail::verifyDescription(grid);
     const int32_t nodes = detail::getMeta<int32_t>(grid, "spheretree_nodes");
     const int32_t count = detail::getMeta<int32_t>(grid, "spheretree_cuts_nodes");
-    const detail::PointReader reader(grid);
+    const detail::PointReader reader(grid, interrupter);
     if (nodes != tree.size() || reader.size() != std::size_t(count)) {
         OPENVDB_THROW(openvdb::ValueError,
             "it has " << reader.size() << " spheres beside a tree of " << nodes << " nodes, "
@@ -226,7 +229,7 @@ SphereCuts readCuts(const PointDataGrid& grid, const SphereTree& tree)
     gather(reader.attribute<int32_t>("first"), order, cuts.first);
     gather(reader.attribute<int32_t>("last"), order, cuts.last);
     detail::requireCuts(cuts, tree.subdivision);
-    if (hasChecksum(grid)) detail::verifyContent(grid, detail::cutsChecksums(cuts));
+    if (hasChecksum(grid)) detail::verifyContent(grid, detail::cutsChecksums(cuts, interrupter));
     return cuts;
 }
 
@@ -252,11 +255,11 @@ void addSpheres(detail::PointWriter& writer, Nodes& nodes, const Written& writte
 /// Attribute by attribute: where @a written releases arrays, one at most is both in the tree and in
 /// the grid.
 template <typename Tree, typename Written>
-PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
+PointDataGrid::Ptr writeTree(Tree& tree, NullInterrupter* interrupter, const Written& written)
 {
     requireStorable(tree);
-    const auto checksums = detail::nodeChecksums(tree);
-    detail::PointWriter writer(tree.spheres.center);
+    const auto checksums = detail::nodeChecksums(tree, interrupter);
+    detail::PointWriter writer(tree.spheres.center, interrupter);
     written(tree.spheres.center);
     addSpheres(writer, tree.spheres, written);
     const auto levelOf = [&](uint32_t id) { return tree.levelOf(int32_t(id)); };
@@ -276,18 +279,24 @@ PointDataGrid::Ptr writeTree(Tree& tree, const Written& written)
 
 } // namespace
 
-PointDataGrid::Ptr toPoints(const SphereTree& tree) { return writeTree(tree, kKeep); }
+PointDataGrid::Ptr toPoints(const SphereTree& tree, NullInterrupter* interrupter)
+{
+    return writeTree(tree, interrupter, kKeep);
+}
 
-PointDataGrid::Ptr releaseToPoints(SphereTree& tree) { return writeTree(tree, kRelease); }
+PointDataGrid::Ptr releaseToPoints(SphereTree& tree, NullInterrupter* interrupter)
+{
+    return writeTree(tree, interrupter, kRelease);
+}
 
-PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
+PointDataGrid::Ptr dagToPoints(const SphereTree& tree, NullInterrupter* interrupter)
 {
     if (tree.dag.empty()) return nullptr;
     requireStorable(tree);
     std::vector<openvdb::Vec3d> positions;
     positions.reserve(tree.dag.size());
     for (const DagEdge& edge : tree.dag) positions.push_back(tree.spheres.center[edge.parent]);
-    detail::PointWriter writer(positions);
+    detail::PointWriter writer(positions, interrupter);
     writer.addAttribute<int32_t>("parent", [&](uint32_t i) { return tree.dag[i].parent; });
     writer.addAttribute<int32_t>("child", [&](uint32_t i) { return tree.dag[i].child; });
 
@@ -297,16 +306,16 @@ PointDataGrid::Ptr dagToPoints(const SphereTree& tree)
     detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
     detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
     detail::setMeta<int32_t>(*grid, "spheretree_edges", int32_t(tree.dag.size()));
-    detail::writeChecksum(*grid, detail::edgeChecksums(tree.dag));
+    detail::writeChecksum(*grid, detail::edgeChecksums(tree.dag, interrupter));
     return grid;
 }
 
-PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
+PointDataGrid::Ptr cutsToPoints(const SphereTree& tree, NullInterrupter* interrupter)
 {
     if (tree.cuts.empty()) return nullptr;
     requireStorable(tree);
     requireStorable("in its cuts, ", [&] { detail::requireCuts(tree.cuts, tree.subdivision); });
-    detail::PointWriter writer(tree.cuts.spheres.center);
+    detail::PointWriter writer(tree.cuts.spheres.center, interrupter);
     addSpheres(writer, tree.cuts.spheres, kKeep);
     writer.addAttribute<int32_t>("first", [&](uint32_t i) { return tree.cuts.first[i]; });
     writer.addAttribute<int32_t>("last", [&](uint32_t i) { return tree.cuts.last[i]; });
@@ -317,7 +326,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree)
     detail::setMeta<int32_t>(*grid, detail::kScaleKey, writer.scale());
     detail::setMeta<int32_t>(*grid, "spheretree_nodes", tree.size());
     detail::setMeta<int32_t>(*grid, "spheretree_cuts_nodes", tree.cuts.size());
-    detail::writeChecksum(*grid, detail::cutsChecksums(tree.cuts));
+    detail::writeChecksum(*grid, detail::cutsChecksums(tree.cuts, interrupter));
     return grid;
 }
 
@@ -338,25 +347,25 @@ bool isCutsOf(const GridBase& grid, const std::string& treeName)
         && grid.getName() == treeName + "_cuts";
 }
 
-SphereTree fromPoints(
-    const PointDataGrid& points, const PointDataGrid* dag, const PointDataGrid* cuts)
+SphereTree fromPoints(const PointDataGrid& points, const PointDataGrid* dag,
+    const PointDataGrid* cuts, NullInterrupter* interrupter)
 {
     if (!isSphereTree(points)) {
         OPENVDB_THROW(openvdb::ValueError,
             describe(points) << " is no sphere-tree: it has no metadata '" << detail::kFormatKey
                              << "'. Point grids become one by way of a mask");
     }
-    SphereTree tree =
-        readGrid(points, "sphere-tree", detail::kFormatKey, [&] { return readTree(points); });
+    SphereTree tree = readGrid(
+        points, "sphere-tree", detail::kFormatKey, [&] { return readTree(points, interrupter); });
     tree.hasDag = tree.hasDag && dag;
     tree.hasCuts = tree.hasCuts && cuts;
     if (dag) {
-        tree.dag = readGrid(
-            *dag, "Sphere-DAG", detail::kDagFormatKey, [&] { return readDag(*dag, tree); });
+        tree.dag = readGrid(*dag, "Sphere-DAG", detail::kDagFormatKey,
+            [&] { return readDag(*dag, tree, interrupter); });
     }
     if (cuts) {
-        tree.cuts = readGrid(
-            *cuts, "list of cuts", detail::kCutsFormatKey, [&] { return readCuts(*cuts, tree); });
+        tree.cuts = readGrid(*cuts, "list of cuts", detail::kCutsFormatKey,
+            [&] { return readCuts(*cuts, tree, interrupter); });
     }
     return tree;
 }

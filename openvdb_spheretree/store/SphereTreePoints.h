@@ -19,6 +19,7 @@
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/points/PointDataGrid.h>
+#include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {
 
@@ -27,9 +28,11 @@ constexpr int kPointsFormat = 1;
 
 /// @brief The tree as a point grid, named settings.name. The grid is the same for any number of
 /// threads.
+/// @param interrupter  may be null, here and below; any call may throw Interrupted
 /// @throw openvdb::ValueError if the tree is inconsistent, or a center is no multiple of the
 ///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
-openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
+openvdb::points::PointDataGrid::Ptr toPoints(
+    const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief The same grid, in about half the memory: the tree loses its nodes. Each of their arrays
 /// (`spheres`, `ijk`, `radiusSq`) is freed as soon as the grid has it, and is empty afterwards.
@@ -37,14 +40,17 @@ openvdb::points::PointDataGrid::Ptr toPoints(const SphereTree& tree);
 /// them before.
 /// @throw openvdb::ValueError as above; the tree is then unchanged. After any other exception it is
 ///        lost, as its nodes are after success: of both use levels and description alone.
-openvdb::points::PointDataGrid::Ptr releaseToPoints(SphereTree& tree);
+openvdb::points::PointDataGrid::Ptr releaseToPoints(
+    SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief The tree's DAG edges as a point grid; null if it has none.
-openvdb::points::PointDataGrid::Ptr dagToPoints(const SphereTree& tree);
+openvdb::points::PointDataGrid::Ptr dagToPoints(
+    const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief The tree's cuts as a point grid; null if it has none.
 /// @throw openvdb::ValueError if the tree or its cuts are inconsistent
-openvdb::points::PointDataGrid::Ptr cutsToPoints(const SphereTree& tree);
+openvdb::points::PointDataGrid::Ptr cutsToPoints(
+    const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
 bool isSphereTree(const openvdb::GridBase& grid);
@@ -76,6 +82,7 @@ bool hasChecksum(const openvdb::GridBase& grid);
 /// @note Linear. Checksums, all threads: 64 bytes a node, 8 an edge, at 6 GB a second and thread.
 SphereTree fromPoints(const openvdb::points::PointDataGrid& points,
     const openvdb::points::PointDataGrid* dag = nullptr,
-    const openvdb::points::PointDataGrid* cuts = nullptr);
+    const openvdb::points::PointDataGrid* cuts = nullptr,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

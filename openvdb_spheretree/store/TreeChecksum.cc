@@ -16,6 +16,7 @@ namespace {
 
 using detail::PartChecksum;
 using openvdb::GridBase;
+using openvdb::util::NullInterrupter;
 
 constexpr char kChecksumKey[] = "spheretree_checksum";
 constexpr char kTransformChecksumKey[] = "spheretree_checksum_transform";
@@ -29,18 +30,19 @@ std::array<double, 3> position(const openvdb::Vec3d& center)
 }
 
 template <typename T>
-uint32_t crcOf(const std::vector<T>& values)
+uint32_t crcOf(const std::vector<T>& values, NullInterrupter* interrupter)
 {
-    return detail::crc32Of<T>(values.size(), [&](std::size_t i) { return values[i]; });
+    return detail::crc32Of<T>(values.size(), interrupter, [&](std::size_t i) { return values[i]; });
 }
 
 /// Attributes that nodes of trees and of cuts have in common.
-std::vector<PartChecksum> sphereChecksums(const Spheres& nodes)
+std::vector<PartChecksum> sphereChecksums(const Spheres& nodes, NullInterrupter* interrupter)
 {
-    const uint32_t positions = detail::crc32Of<std::array<double, 3>>(
-        nodes.center.size(), [&](std::size_t id) { return position(nodes.center[id]); });
-    return {{"P", positions}, {"pscale", crcOf(nodes.radiusWorld)}, {"parent", crcOf(nodes.parent)},
-        {"radius", crcOf(nodes.radius)}, {"cover_sq", crcOf(nodes.coverRadiusSq)}};
+    const uint32_t positions = detail::crc32Of<std::array<double, 3>>(nodes.center.size(),
+        interrupter, [&](std::size_t id) { return position(nodes.center[id]); });
+    return {{"P", positions}, {"pscale", crcOf(nodes.radiusWorld, interrupter)},
+        {"parent", crcOf(nodes.parent, interrupter)}, {"radius", crcOf(nodes.radius, interrupter)},
+        {"cover_sq", crcOf(nodes.coverRadiusSq, interrupter)}};
 }
 
 /// Of key, type and value of all metadata that is ours, by keys.
@@ -111,27 +113,28 @@ std::vector<std::string> missingFrom(
 
 namespace detail {
 
-std::vector<PartChecksum> nodeChecksums(const SphereTree& tree)
+std::vector<PartChecksum> nodeChecksums(const SphereTree& tree, NullInterrupter* interrupter)
 {
-    std::vector<PartChecksum> sums = sphereChecksums(tree.spheres);
-    sums.push_back({"radius_sq", crcOf(tree.radiusSq)});
+    std::vector<PartChecksum> sums = sphereChecksums(tree.spheres, interrupter);
+    sums.push_back({"radius_sq", crcOf(tree.radiusSq, interrupter)});
     const auto ijk = [&](std::size_t id) -> std::array<int32_t, 3> {
         return {tree.ijk[id][0], tree.ijk[id][1], tree.ijk[id][2]};
     };
-    sums.push_back({"ijk", crc32Of<std::array<int32_t, 3>>(tree.ijk.size(), ijk)});
+    sums.push_back({"ijk", crc32Of<std::array<int32_t, 3>>(tree.ijk.size(), interrupter, ijk)});
     return sums;
 }
 
-std::vector<PartChecksum> edgeChecksums(const std::vector<DagEdge>& edges)
+std::vector<PartChecksum> edgeChecksums(
+    const std::vector<DagEdge>& edges, NullInterrupter* interrupter)
 {
-    return {{"edges", crcOf(edges)}};
+    return {{"edges", crcOf(edges, interrupter)}};
 }
 
-std::vector<PartChecksum> cutsChecksums(const SphereCuts& cuts)
+std::vector<PartChecksum> cutsChecksums(const SphereCuts& cuts, NullInterrupter* interrupter)
 {
-    std::vector<PartChecksum> sums = sphereChecksums(cuts.spheres);
-    sums.push_back({"first", crcOf(cuts.first)});
-    sums.push_back({"last", crcOf(cuts.last)});
+    std::vector<PartChecksum> sums = sphereChecksums(cuts.spheres, interrupter);
+    sums.push_back({"first", crcOf(cuts.first, interrupter)});
+    sums.push_back({"last", crcOf(cuts.last, interrupter)});
     return sums;
 }
 

@@ -19,6 +19,7 @@
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/Grid.h>
+#include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
 #include <string>
@@ -33,10 +34,14 @@ struct PartChecksum {
 };
 
 /// @name The parts of the three grids, but for metadata and transform. Linear; all threads
+/// @throw Interrupted
 /// @{
-std::vector<PartChecksum> nodeChecksums(const SphereTree& tree);
-std::vector<PartChecksum> edgeChecksums(const std::vector<DagEdge>& edges);
-std::vector<PartChecksum> cutsChecksums(const SphereCuts& cuts);
+std::vector<PartChecksum> nodeChecksums(
+    const SphereTree& tree, openvdb::util::NullInterrupter* interrupter);
+std::vector<PartChecksum> edgeChecksums(
+    const std::vector<DagEdge>& edges, openvdb::util::NullInterrupter* interrupter);
+std::vector<PartChecksum> cutsChecksums(
+    const SphereCuts& cuts, openvdb::util::NullInterrupter* interrupter);
 /// @}
 
 /// @brief Puts the checksum of a grid into its metadata, all else of which is there, as is the

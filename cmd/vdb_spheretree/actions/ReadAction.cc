@@ -66,8 +66,8 @@ struct Companions {
     }
 };
 
-StackItem treeItem(
-    const PointDataGrid& points, const Companions& companions, const std::string& path)
+StackItem treeItem(const PointDataGrid& points, const Companions& companions,
+    const std::string& path, Progress& progress)
 {
     StackItem item;
     const auto isUnverified = [](const PointDataGrid* grid) {
@@ -76,8 +76,8 @@ StackItem treeItem(
     item.unverified = isUnverified(&points) || isUnverified(companions.dag.get())
         || isUnverified(companions.cuts.get());
     try {
-        item.tree = std::make_shared<openvdb_spheretree::SphereTree>(
-            openvdb_spheretree::fromPoints(points, companions.dag.get(), companions.cuts.get()));
+        item.tree = std::make_shared<openvdb_spheretree::SphereTree>(openvdb_spheretree::fromPoints(
+            points, companions.dag.get(), companions.cuts.get(), &progress));
     } catch (...) {
         rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
     }
@@ -110,7 +110,8 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
-        session.stack.push(treeItem(*points, Companions(grids, grid->getName()), path));
+        session.stack.push(
+            treeItem(*points, Companions(grids, grid->getName()), path, session.progress));
     }
 }
 

@@ -74,7 +74,7 @@ void check(const ActionCall& call, Plan& plan)
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
 ///                and its grid together take twice the memory
-openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
+openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp, Progress& progress)
 {
     namespace st = openvdb_spheretree;
     openvdb::GridCPtrVec grids;
@@ -84,9 +84,10 @@ openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp)
             continue;
         }
         st::SphereTree& tree = *item->tree;
-        const auto dag = st::dagToPoints(tree), cuts = st::cutsToPoints(tree);
+        const auto dag = st::dagToPoints(tree, &progress), cuts = st::cutsToPoints(tree, &progress);
         if (giveUp) item->object = nullptr;
-        grids.push_back(giveUp ? st::releaseToPoints(tree) : st::toPoints(tree));
+        grids.push_back(
+            giveUp ? st::releaseToPoints(tree, &progress) : st::toPoints(tree, &progress));
         if (dag) grids.push_back(dag);
         if (cuts) grids.push_back(cuts);
     }
@@ -198,7 +199,8 @@ private:
     {
         if (!mGrids.empty()) return mGrids;
         requireDistinctTrees(mItems);
-        return mGrids = gridsOf(mItems, mSession.isLastAction() && !needsTrees());
+        const bool giveUp = mSession.isLastAction() && !needsTrees();
+        return mGrids = gridsOf(mItems, giveUp, mSession.progress);
     }
 
     /// Whether a file is written of the trees themselves.

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestParallel.cc
-/// @brief Loops do every body once, and ask their interrupter often enough.
+/// @brief Loops do every body once, and ask their interrupter often enough; so do sorts.
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -65,6 +69,27 @@ TEST(Parallel, ARangeStopsInItsMiddle)
     };
     EXPECT_THROW(detail::runRange(0, 100, progress, wait), Interrupted);
     EXPECT_EQ(called, 1);
+}
+
+TEST(Parallel, ASortAsksAndStops)
+{
+    std::mt19937 random(1);
+    std::vector<uint32_t> values(1000000);
+    for (uint32_t& value : values) value = random() % 1000;
+    const std::vector<uint32_t> given = values;
+    std::vector<uint32_t> sorted = given;
+    std::sort(sorted.begin(), sorted.end());
+
+    detail::parallelSort(values.begin(), values.end(), nullptr);
+    EXPECT_EQ(values, sorted);
+    Asked never(kNever);
+    values = given;
+    detail::parallelSort(values.begin(), values.end(), &never, std::greater<>());
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), sorted.rbegin()));
+    EXPECT_GT(never.count(), 20);
+    Asked tenth(9);
+    values = given;
+    EXPECT_THROW(detail::parallelSort(values.begin(), values.end(), &tenth), Interrupted);
 }
 
 } // namespace

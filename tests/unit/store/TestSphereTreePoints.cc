@@ -2,8 +2,10 @@
 /// @file TestSphereTreePoints.cc
 /// @brief A tree becomes a grid of points and comes back; and what other programs see of it.
 
+#include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
+#include "support/CoreStages.h"
 #include "support/Messages.h"
 #include "support/PointsFiles.h"
 #include "support/TreeSettings.h"
@@ -343,6 +345,25 @@ TEST(SphereTreePoints, TheNameOfTheGridIsTheNameOfTheTree)
     const PointDataGrid::Ptr grid = toPoints(sampleTree());
     grid->setName("renamed");
     EXPECT_EQ(fromPoints(*grid).settings.name, "renamed");
+}
+
+TEST(SphereTreePoints, WritingAndReadingStopAtAnyQuestion)
+{
+    const SphereTree tree = sampleTree();
+    const auto roundTrip = [&](openvdb::util::NullInterrupter* stop) {
+        const auto nodes = toPoints(tree, stop), dag = dagToPoints(tree, stop);
+        expectSameTree(fromPoints(*nodes, dag.get(), nullptr, stop), tree);
+    };
+    int questions = 0;
+    for (bool finished = false; !finished; questions = 1 + questions * 5 / 4) {
+        ASSERT_LT(questions, 1000000);
+        StopAfter stop(questions);
+        try {
+            roundTrip(&stop);
+            finished = true;
+        } catch (const Interrupted&) {}
+    }
+    EXPECT_GT(questions, 20) << "they hardly ask";
 }
 
 TEST(SphereTreePoints, OnlySphereTreesClaimToBeOne)

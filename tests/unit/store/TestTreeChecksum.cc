@@ -338,8 +338,8 @@ TEST(TreeChecksum, WhatALaterVersionMayAddIsSkipped)
         removeChecksum(*grid);
         grid->insertMeta("spheretree_level_0_roughness", openvdb::DoubleMetadata(0.5));
         points::appendAttribute<float>(grid->tree(), "curvature", 2.0f);
-        auto parts =
-            grid == stored.nodes ? detail::nodeChecksums(tree) : detail::cutsChecksums(tree.cuts);
+        auto parts = grid == stored.nodes ? detail::nodeChecksums(tree, nullptr)
+                                          : detail::cutsChecksums(tree.cuts, nullptr);
         parts.insert(parts.begin(), {"curvature", 0x12345678u});
         detail::writeChecksum(*grid, parts);
     }
