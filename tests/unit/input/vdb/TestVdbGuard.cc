@@ -255,7 +255,7 @@ TEST_F(GuardedVdb, FindsNodesWhereNoneCanBeOrOutOfOrder)
     std::string third = vdbBytes({grid}, kBlosc);
     const int32_t last[] = {8192, 0, 0};
     const std::string lastPattern(reinterpret_cast<const char*>(last), sizeof(last));
-    write<int32_t>(third, third.find(lastPattern, third.find(lastPattern) + 1), 0); // again
+    write<int32_t>(third, third.find(lastPattern, third.find(lastPattern) + 1), 4096);
     expectSaid(third, "out of order");
 }
 
@@ -486,6 +486,10 @@ TEST_F(GuardedVdb, FindsSizesForDelayedLoadingThatAreMissingOrWrong)
     fewer.sizes.selections.pop_back();
     fewer.sizes.storedBytes.pop_back();
     expectSaid(fewer.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
+    TestedSizes notPacked(fileOf("float", io::COMPRESS_ACTIVE_MASK));
+    EXPECT_EQ(saidOf(notPacked.bytes(), DelayedMetadata::Keep), "");
+    notPacked.sizes.selections.pop_back();
+    expectSaid(notPacked.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
     none.sizes.storedBytes.clear();
     expectSaid(none.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
     ++longer.sizes.storedBytes.back();
