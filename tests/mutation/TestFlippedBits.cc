@@ -10,11 +10,15 @@
 #include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
+#include <base/Errors.h>
 #include <files/VdbTag.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <streambuf>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -55,6 +59,54 @@ TEST(FlippedBits, OfATreeAreFound) { expectFlipsFound(treeFile()); }
 
 TEST(FlippedBits, OfAnObjectAreFound) { expectFlipsFound(fileOf(sampleObject())); }
 
+TEST(FlippedBits, NothingMayFollowBehindTheLastGrid)
+{
+    const std::string bytes = fileOf(sampleObject());
+    InputReader reader(".vdb");
+    EXPECT_TRUE(reader.read(bytes));
+    EXPECT_FALSE(reader.read(bytes + "x"));
+    EXPECT_FALSE(reader.read(bytes + "x", /*delayed=*/true));
+}
+
+/// A source that has its bytes at hand piece by piece, as a pipe has.
+class Pieces : public std::streambuf {
+public:
+    explicit Pieces(std::vector<std::string> pieces) : mPieces(std::move(pieces)) {}
+
+protected:
+    int_type underflow() override
+    {
+        if (mNext == mPieces.size()) return traits_type::eof();
+        std::string& piece = mPieces[mNext++];
+        setg(piece.data(), piece.data(), piece.data() + piece.size());
+        return traits_type::to_int_type(*gptr());
+    }
+
+private:
+    std::vector<std::string> mPieces;
+    std::size_t mNext = 0;
+};
+
+TEST(FlippedBits, NorWhatComesWhenAllGridsAreRead)
+{
+    std::string bytes = std::string(command::kTagOffset, 'h') + std::string(command::kTagSize, '0')
+        + "nodes and values";
+    command::FileDigest digest;
+    digest.add(bytes.data(), bytes.size());
+    bytes.replace(command::kTagOffset, command::kTagSize, digest.tag());
+    const auto requireUnchanged = [&](const std::vector<std::string>& pieces) {
+        Pieces source(pieces);
+        command::TagReader reader(source);
+        std::string read(bytes.size(), '\0');
+        reader.sgetn(read.data(), std::streamsize(read.size()));
+        EXPECT_EQ(read, bytes);
+        reader.requireUnchanged();
+    };
+    EXPECT_NO_THROW(requireUnchanged({bytes}));
+    EXPECT_NO_THROW(requireUnchanged({bytes.substr(0, 30), bytes.substr(30)}));
+    EXPECT_THROW(requireUnchanged({bytes, "more"}), command::CommandError);
+}
+
 TEST(FlippedBits, InAFileThatOpenVdbHasSavedAreItsOwnAffair)
 {
     // What nobody reads: no digest, and no value that would be wrong.
@@ -63,9 +115,9 @@ TEST(FlippedBits, InAFileThatOpenVdbHasSavedAreItsOwnAffair)
     EXPECT_TRUE(InputReader(".vdb").read(bytes));
 }
 
-TEST(FlippedBits, ADigestIsTheSameInAnyPieces)
+TEST(FlippedBits, ADigestIsTheSameInAnyPiecesAndOfEveryByte)
 {
-    std::string bytes(1000, '\0');
+    std::string bytes(1003, '\0'); // the last word is not complete
     std::mt19937 random(4);
     for (char& byte : bytes) byte = char(random());
     command::FileDigest whole;
@@ -77,10 +129,13 @@ TEST(FlippedBits, ADigestIsTheSameInAnyPieces)
         }
         EXPECT_EQ(pieces.tag(), whole.tag()) << piece;
     }
-    bytes.push_back('\0');
-    command::FileDigest longer;
-    longer.add(bytes.data(), bytes.size());
-    EXPECT_NE(longer.tag(), whole.tag());
+    std::string longer = bytes + '\0', other = bytes;
+    other.back() = char(other.back() ^ 1);
+    for (const std::string& changed : {longer, other}) {
+        command::FileDigest digest;
+        digest.add(changed.data(), changed.size());
+        EXPECT_NE(digest.tag(), whole.tag());
+    }
 }
 
 } // namespace

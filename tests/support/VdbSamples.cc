@@ -28,7 +28,8 @@ Value valueOf(double x)
     return Value(x);
 }
 
-/// Leaves by their origin's x: full, few, inactive of one value, of two, of many; then tiles.
+/// Leaves by their origin's x: full, few, inactive of the background and its negative, of three values, of
+/// many, of two that are not the background, of one that is not, of the background and another; then tiles.
 template <typename GridT>
 typename GridT::Ptr sampleOf(double background)
 {
@@ -45,6 +46,13 @@ typename GridT::Ptr sampleOf(double background)
         tree.setValueOff(Coord(32 + i % 8, i / 8, 0), valueOf<Value>(i));
         tree.setValueOn(Coord(-9000, -1, -1 - i), valueOf<Value>(random() % 100));
     }
+    for (int i = 0; i < 512; ++i) {
+        const Coord voxel(i >> 6, i >> 3 & 7, i & 7);
+        tree.setValueOff(voxel.offsetBy(40, 0, 0), valueOf<Value>(i % 3 ? 5 : 6));
+        tree.setValueOff(voxel.offsetBy(48, 0, 0), valueOf<Value>(5));
+        if (i % 3) tree.setValueOff(voxel.offsetBy(56, 0, 0), valueOf<Value>(5));
+    }
+    for (int x : {40, 48, 56}) tree.setValueOn(Coord(x, 0, 0), valueOf<Value>(4));
     tree.addTile(1, Coord(64, 0, 0), valueOf<Value>(1), true);
     tree.addTile(1, Coord(72, 0, 0), valueOf<Value>(2), false);
     tree.addTile(2, Coord(256, 0, 0), valueOf<Value>(1), true);

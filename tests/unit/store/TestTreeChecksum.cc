@@ -313,6 +313,17 @@ TEST(TreeChecksum, ATreeWithoutOneIsReadAsBefore)
     expectSameTree(stored.tree(), tree);
 }
 
+TEST(TreeChecksum, ATreeThatWasMovedOnPurposeIsRead)
+{
+    SphereTree tree = sampleTree();
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    grid->transform().postTranslate({1, 2, 3});
+    EXPECT_TRUE(mentions(messageOf<openvdb::IoError>([&] { fromPoints(*grid); }),
+        "remove the metadata 'spheretree_checksum_transform'"));
+    grid->removeMeta("spheretree_checksum_transform");
+    EXPECT_EQ(fromPoints(*grid).spheres.center, tree.spheres.center);
+}
+
 TEST(TreeChecksum, WhatIsNotOursMayComeAndGo)
 {
     const Stored stored(sampleTree());

@@ -8,6 +8,7 @@
 
 #include <openvdb_spheretree/input/vdb/VdbGrids.h>
 
+#include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 
@@ -99,6 +100,45 @@ TEST_F(VdbGrids, OfAPipeDoNotSayWhereTheyAre)
     EXPECT_FALSE(requireSoundVdb(source));
 }
 
+TEST_F(VdbGrids, WithASizeForDelayedLoadingThatIsWrongAreNotSound)
+{
+    std::string bytes = vdbBytes({vdbSamples().front()}, io::COMPRESS_ACTIVE_MASK);
+    const std::string type = io::DelayedLoadMetadata::staticTypeName();
+    char& selection = bytes.at(bytes.rfind(type) + type.size() + 12);
+    selection = char(selection ^ 1);
+    std::stringbuf source(bytes), again(bytes);
+    EXPECT_THROW(requireSoundVdb(source), openvdb::IoError);
+    EXPECT_EQ(readVdbGrids(again).size(), 1u);
+}
+
+/// What metadata says of half precision holds for real values alone.
+TEST_F(VdbGrids, OfIntegersSaidToBeInHalfPrecision)
+{
+    for (const auto& grid : vdbSamples()) {
+        if (grid->getName() != "int32" && grid->getName() != "vec3i") continue;
+        grid->setSaveFloatAsHalf(true);
+        for (const uint32_t compression : vdbCompressions()) {
+            const std::string bytes = vdbBytes({grid}, compression);
+            expectSame(readGuarded(bytes), readByOpenVdb(bytes));
+        }
+    }
+}
+
+/// Their layout is the present one, but for types and compressions that came later.
+TEST_F(VdbGrids, AreReadFromFilesOfVersions222And223)
+{
+    const auto samples = vdbSamples();
+    for (const uint32_t compression : vdbCompressions()) {
+        if (compression & io::COMPRESS_BLOSC) continue;
+        for (const char version : {'\xde', '\xdf'}) {
+            std::string bytes = vdbBytes({samples.begin(), samples.begin() + 8}, compression);
+            ASSERT_EQ(bytes.at(8), '\xe0');
+            bytes.at(8) = version;
+            expectSame(readGuarded(bytes), readByOpenVdb(bytes));
+        }
+    }
+}
+
 TEST_F(VdbGrids, OfPointIndicesAreReadFromOneLeafAndRefusedFromMore)
 {
     const std::string one = vdbBytes({pointIndexSample(1)}, io::COMPRESS_BLOSC);
@@ -116,15 +156,21 @@ TEST_F(VdbGrids, TakeNothingBehindTheLastGridForTheirOwn)
 /// A `.vdb` of one leaf as early versions wrote it: 219 and 220 have no more than their header in common.
 class EarlyFile {
 public:
-    EarlyFile(uint32_t version, uint32_t library) { header(version, library); }
-
-    std::string levelSet(bool zip)
+    /// @param zip  versions that can do without say so
+    EarlyFile(uint32_t version, uint32_t library, bool zip) : mVersion(version), mZip(zip)
     {
+        header(library);
+    }
+
+    std::string levelSet(bool frustum = false)
+    {
+        const bool zip = mZip;
         text("density");
         text("Tree_float_5_4_3");
         text(""); // no instance
         for (int i = 0; i < 3; ++i) put<int64_t>(0);
         put<uint32_t>(0); // metadata
+        if (frustum) frustumMap();
         text("ScaleMap");
         for (int i = 0; i < 15; ++i) put<double>(1);
         put<int32_t>(1);  // buffers
@@ -150,18 +196,28 @@ private:
         put(uint32_t(text.size()));
         mBytes += text;
     }
-    void header(uint32_t version, uint32_t library)
+    void header(uint32_t library)
     {
         put<int64_t>(openvdb::OPENVDB_MAGIC);
-        put(version);
+        put(mVersion);
         put(library);
         put<uint32_t>(0);
         put<char>(0); // no offsets
-        mVersion = version;
-        if (version >= 220 && version < 222) put<char>(1); // compressed by zip
+        if (mVersion >= 220 && mVersion < 222) put<char>(mZip);
         mBytes += "01234567-89ab-cdef-0123-456789abcdef";
         put<uint32_t>(0); // metadata
         put<int32_t>(1);  // grids
+    }
+    /// Up to the linear map that is part of it.
+    void frustumMap()
+    {
+        text("NonlinearFrustumMap");
+        for (const int corner : {0, 0, 0, 8, 9, 10}) {
+            if (mVersion < 221) put<int32_t>(corner);
+            if (mVersion >= 221) put<double>(corner);
+        }
+        put<double>(0.5); // taper
+        put<double>(2);   // depth
     }
     /// A mask of so many bytes with its bit @a on set.
     template <size_t Bytes>
@@ -192,16 +248,23 @@ private:
     }
 
     std::string mBytes;
-    uint32_t mVersion = 0;
+    uint32_t mVersion;
+    bool mZip;
 };
 
 TEST_F(VdbGrids, AreReadFromFilesOfEarlyVersions)
 {
     for (const uint32_t version : {219u, 220u, 221u}) {
         SCOPED_TRACE(version);
-        const std::string bytes = EarlyFile(version, 1).levelSet(/*zip=*/true);
+        const std::string bytes = EarlyFile(version, 1, /*zip=*/true).levelSet();
         const auto grids = readGuarded(bytes);
         expectSame(grids, readByOpenVdb(bytes));
+        const std::string frustum = EarlyFile(version, 1, /*zip=*/true).levelSet(/*frustum=*/true);
+        expectSame(readGuarded(frustum), readByOpenVdb(frustum));
+        if (version > 219) {
+            const std::string plain = EarlyFile(version, 1, /*zip=*/false).levelSet();
+            expectSame(readGuarded(plain), readByOpenVdb(plain));
+        }
         const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(grids.at(0));
         EXPECT_EQ(grid->activeVoxelCount(), 1u);
         EXPECT_EQ(grid->tree().getValue(openvdb::Coord(0, 4096, 8197)), 5.0f);
@@ -210,7 +273,7 @@ TEST_F(VdbGrids, AreReadFromFilesOfEarlyVersions)
 
 TEST_F(VdbGrids, OfFilesOlderThanOpenVdbOneAreRefused)
 {
-    const std::string bytes = EarlyFile(218, 0).levelSet(/*zip=*/true);
+    const std::string bytes = EarlyFile(218, 0, /*zip=*/true).levelSet();
     try {
         readGuarded(bytes);
         FAIL() << "it was read";
