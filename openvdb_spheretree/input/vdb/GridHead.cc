@@ -13,6 +13,7 @@
 #include <cctype>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace openvdb_spheretree::detail {
 
@@ -45,24 +46,25 @@ void requireSize(const ByteWindow& window, const std::string& type, uint32_t byt
     }
 }
 
-/// @param delayed  where what serves delayed loading goes; without, it is dropped
-void takeEntries(ByteWindow& window, std::optional<DelayedSizes>* delayed)
+/// @return what is said of the leaves in the entry that OpenVDB asks: with Keep, and if there is one
+std::optional<DelayedSizes> takeEntries(ByteWindow& window, DelayedMetadata treatment)
 {
+    std::optional<DelayedSizes> delayed;
     const size_t begin = window.size();
     const uint32_t count = takeCount(window);
     uint32_t kept = count;
     for (uint32_t i = 0; i < count; ++i) {
         const size_t entry = window.size();
-        window.string(); // name
-        const std::string type = window.string();
+        const std::string name = window.string(), type = window.string();
         const auto bytes = window.value<uint32_t>();
         if (type != io::DelayedLoadMetadata::staticTypeName()) {
             requireSize(window, type, bytes);
             const char* value = window.take(bytes);
             const bool boolean = type == openvdb::BoolMetadata::staticTypeName();
             if (boolean && *value != 0 && *value != 1) window.fail("neither true nor false");
-        } else if (delayed) {
-            *delayed = takeDelayedSizes(window, bytes);
+        } else if (treatment == DelayedMetadata::Keep) { // OpenVDB parses all, and asks one
+            DelayedSizes sizes = takeDelayedSizes(window, bytes);
+            if (name == openvdb::GridBase::META_FILE_DELAYED_LOAD) delayed = std::move(sizes);
         } else {
             window.take(bytes);
             window.eraseFrom(entry);
@@ -70,6 +72,7 @@ void takeEntries(ByteWindow& window, std::optional<DelayedSizes>* delayed)
         }
     }
     std::memcpy(window.data() + begin, &kept, sizeof(kept));
+    return delayed;
 }
 
 void requireTag(ByteWindow& window)
@@ -123,9 +126,9 @@ bool savesHalf(const char* metadata, size_t bytes)
 
 } // namespace
 
-void takeMetadata(ByteWindow& window) { takeEntries(window, nullptr); }
+void takeMetadata(ByteWindow& window) { takeEntries(window, DelayedMetadata::Keep); }
 
-FileHead takeFileHead(ByteWindow& window)
+FileHead takeFileHead(ByteWindow& window, DelayedMetadata treatment)
 {
     if (window.value<int64_t>() != openvdb::OPENVDB_MAGIC) {
         OPENVDB_THROW(openvdb::IoError, "not a VDB file");
@@ -147,7 +150,7 @@ FileHead takeFileHead(ByteWindow& window)
         file.compression = window.value<char>() ? io::COMPRESS_ZIP : io::COMPRESS_NONE;
     }
     requireTag(window);
-    takeEntries(window, nullptr);
+    takeEntries(window, treatment);
     file.gridCount = window.value<int32_t>();
     if (file.gridCount < 0) window.fail("it has fewer grids than none");
     window.require(uint64_t(file.gridCount) * kLeastGrid);
@@ -170,8 +173,7 @@ GridHead takeGridHead(ByteWindow& window, const FileHead& file, DelayedMetadata 
         grid.compression = window.value<uint32_t>();
     }
     const size_t metadata = window.size();
-    const bool keep = treatment == DelayedMetadata::Keep;
-    takeEntries(window, keep ? &grid.delayed : nullptr);
+    grid.delayed = takeEntries(window, treatment);
     if (file.staleSizes) grid.delayed.reset();
     grid.half = savesHalf(window.data() + metadata, window.size() - metadata);
     takeTransform(window, file.fileVersion);

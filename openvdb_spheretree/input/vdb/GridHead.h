@@ -32,7 +32,7 @@ struct FileHead {
 
 /// @brief Walk over the header, the file's metadata and the number of grids.
 /// @throw openvdb::IoError if it is no `.vdb`, too old, truncated or damaged
-FileHead takeFileHead(ByteWindow& window);
+FileHead takeFileHead(ByteWindow& window, DelayedMetadata treatment);
 
 struct GridHead {
     std::string name;         ///< unique in the file
@@ -50,7 +50,7 @@ struct GridHead {
 /// @throw openvdb::IoError if the file is truncated or damaged
 GridHead takeGridHead(ByteWindow& window, const FileHead& file, DelayedMetadata treatment);
 
-/// @brief Walk over a list of metadata. Entries that serve delayed loading are dropped.
+/// @brief Walk over a list of metadata that is not a grid's, and keep all of it.
 /// @throw openvdb::IoError if an entry is longer or shorter than its type
 void takeMetadata(ByteWindow& window);
 

@@ -37,7 +37,7 @@ VdbGuard::pos_type VdbGuard::seekoff(
 bool VdbGuard::takePiece()
 {
     if (!mStarted) {
-        mFile = takeFileHead(mWindow);
+        mFile = takeFileHead(mWindow, mTreatment);
         mGridsLeft = mFile.gridCount;
         mStarted = true;
         return true;

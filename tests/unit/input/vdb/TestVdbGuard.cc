@@ -454,6 +454,13 @@ public:
     /// @param more  bytes that the entry claims to have, and has, behind its end
     std::string bytes(uint32_t more = 0) const
     {
+        std::string all = mBytes;
+        return all.replace(mBegin, mEnd - mBegin, value(more));
+    }
+
+    /// @return all of the entry behind its type.
+    std::string value(uint32_t more = 0) const
+    {
         std::string value;
         const auto put = [&](uint32_t number) {
             value.append(reinterpret_cast<const char*>(&number), sizeof(number));
@@ -465,10 +472,9 @@ public:
         value.append(reinterpret_cast<const char*>(sizes.storedBytes.data()),
             sizeof(int64_t) * sizes.storedBytes.size());
         value += std::string(more, '\0');
-        std::string all = mBytes;
         std::string length(4, '\0');
         write(length, 0, uint32_t(value.size()));
-        return all.replace(mBegin, mEnd - mBegin, length + value);
+        return length + value;
     }
 
     DelayedSizes sizes;
@@ -497,6 +503,53 @@ TEST_F(GuardedVdb, FindsSizesForDelayedLoadingThatAreMissingOrWrong)
     --shorter.sizes.storedBytes.front();
     expectSaid(shorter.bytes(), "a leaf is longer or shorter", DelayedMetadata::Keep);
     expectSaid(sound.bytes(/*more=*/4), "have a wrong length", DelayedMetadata::Keep);
+}
+
+/// @return an entry of metadata, to be put before others.
+std::string delayedEntry(const std::string& name, const std::string& value)
+{
+    std::string entry;
+    for (const std::string& text : {name, std::string(io::DelayedLoadMetadata::staticTypeName())}) {
+        entry += std::string(4, '\0');
+        write(entry, entry.size() - 4, uint32_t(text.size()));
+        entry += text;
+    }
+    return entry + value;
+}
+
+void insertEntry(std::string& bytes, size_t count, const std::string& entry)
+{
+    uint32_t entries;
+    std::memcpy(&entries, &bytes.at(count), sizeof(entries));
+    write(bytes, count, entries + 1);
+    bytes.insert(count + sizeof(entries), entry);
+}
+
+TEST_F(GuardedVdb, HoldsAgainstTheLeavesTheSizesThatOpenVdbAsks)
+{
+    const TestedSizes sound(fileOf("float", io::COMPRESS_ACTIVE_MASK));
+    TestedSizes wrong = sound;
+    wrong.sizes.selections.resize(1);
+    const size_t count = behind(sound.bytes(), "Tree_float_5_4_3") + 4 + 3 * 8 + 4;
+    std::string other = sound.bytes(), late = wrong.bytes();
+    const size_t end = late.rfind("file_delayed_load") - 4;
+    insertEntry(other, count, delayedEntry("other", wrong.value()));
+    EXPECT_EQ(saidOf(other, DelayedMetadata::Keep), "");
+    late.insert(end + delayedEntry("file_delayed_load", wrong.value()).size(),
+        delayedEntry("other", sound.value()));
+    write(late, count, uint32_t(late.at(count) + 1));
+    expectSaid(late, "sizes of leaves are missing", DelayedMetadata::Keep);
+    EXPECT_EQ(saidOf(late), "");
+}
+
+TEST_F(GuardedVdb, FindsSizesForDelayedLoadingWhereNoneBelong)
+{
+    constexpr size_t kFileMetadata = 57;
+    const std::string claim = delayedEntry("any", std::string("\10\0\0\0\0\377\377\377\0\0\0", 12));
+    std::string bytes = fileOf("float", kBlosc);
+    insertEntry(bytes, kFileMetadata, claim);
+    expectSaid(bytes, "it ends too early", DelayedMetadata::Keep);
+    EXPECT_EQ(saidOf(bytes), "") << "OpenVDB never sees them";
 }
 
 TEST_F(GuardedVdb, FindsSizesForDelayedLoadingThatDoNotUnpack)
