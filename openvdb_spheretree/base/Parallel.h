@@ -34,7 +34,11 @@ public:
         : mCount(count), mInterrupter(interrupter)
     {}
     /// @throw Interrupted
-    void check() { checkInterrupt(mInterrupter, int(100.0 * double(mDone) / double(mCount))); }
+    void check()
+    {
+        const double all = double(std::max<std::size_t>(mCount, 1));
+        checkInterrupt(mInterrupter, int(100.0 * double(mDone) / all));
+    }
     void add(std::size_t done) { mDone.fetch_add(done, std::memory_order_relaxed); }
 
 private:

@@ -77,7 +77,9 @@ TEST(TopologyOracle, EmptyLeavesInsideAndBetweenObjects)
     for (uint32_t seed = 1; seed <= 150; ++seed) {
         Random random(seed);
         const double rate = 0.2 + 0.1 * (seed % 7);
-        const Coord at = (random.coord(-5, 5) << 3) + (seed % 3 ? Coord(0) : random.coord(0, 7));
+        const Coord leaf = random.coord(-5, 5); // << of a negative number is undefined in C++17
+        const Coord at = Coord(8 * leaf[0], 8 * leaf[1], 8 * leaf[2])
+            + (seed % 3 ? Coord(0) : random.coord(0, 7));
         Voxels voxels;
         for (const Coord& block : shapes::noise(Coord(4, 5, 6), rate, random)) {
             const CoordBBox box = CoordBBox::createCube(at + (block << 3), 8);

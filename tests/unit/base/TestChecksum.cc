@@ -42,14 +42,14 @@ TEST(Checksum, IsThatOfZlibForAnyLengthAndPlaceInMemory)
 TEST(Checksum, IsThatOfOneRunForAnyNumberOfValuesAndThreads)
 {
     constexpr std::size_t kBlock = 8192;
-    std::vector<int64_t> values(3 * kBlock + 5);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = int64_t(i * i) << (i % 40);
+    std::vector<uint64_t> values(3 * kBlock + 5);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = uint64_t(i * i) << (i % 40);
     for (std::size_t threads : {1, 2, 7}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         for (std::size_t count : {std::size_t(1), std::size_t(511), std::size_t(512),
                  std::size_t(513), kBlock - 1, kBlock, kBlock + 1, 2 * kBlock, values.size()}) {
-            EXPECT_EQ(crc32Of<int64_t>(count, nullptr, [&](std::size_t i) { return values[i]; }),
-                extendedCrc32(0, values.data(), count * sizeof(int64_t)))
+            EXPECT_EQ(crc32Of<uint64_t>(count, nullptr, [&](std::size_t i) { return values[i]; }),
+                extendedCrc32(0, values.data(), count * sizeof(uint64_t)))
                 << count << " values, " << threads << " threads";
         }
     }

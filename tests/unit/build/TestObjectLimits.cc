@@ -36,8 +36,12 @@ struct CubeAtEnd {
         corner[axis] = int32_t(from);
         auto result = openvdb::BoolGrid::create();
         result->setName("cube");
-        for (const Coord& voxel : openvdb::CoordBBox::createCube(corner, kSide)) {
-            result->tree().setValueOn(voxel, true);
+        for (int x = 0; x < kSide; ++x) { // a loop over a box would step beyond the last coordinate
+            for (int y = 0; y < kSide; ++y) {
+                for (int z = 0; z < kSide; ++z) {
+                    result->tree().setValueOn(corner.offsetBy(x, y, z), true);
+                }
+            }
         }
         return result;
     }
