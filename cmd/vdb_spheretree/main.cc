@@ -5,6 +5,8 @@
 
 #include "actions/Help.h"
 #include "base/LastWords.h"
+#include "base/Progress.h"
+#include "base/Terminal.h"
 #include "line/ActionParser.h"
 #include "session/Session.h"
 
@@ -20,6 +22,7 @@ int main(int argc, char* argv[])
         return kUsage;
     }
     try {
+        divertLibraries();
         catchSignals();
         catchLostPages();
         openvdb::initialize();

@@ -50,6 +50,11 @@ std::string signalled(const std::string& call, long n, int signal)
     return faultOf(call, n, "signal", signal);
 }
 
+std::string hanging(const std::string& call, long n, int seconds)
+{
+    return faultOf(call, n, "hang", seconds);
+}
+
 std::string namedFilesOnly() { return failing("tmpfile", 1, EOPNOTSUPP); }
 
 std::vector<long> spread(long last, long most)

@@ -19,6 +19,8 @@ std::string failing(const std::string& call, long n, int error);
 std::string failingOnce(const std::string& call, long n, int error);
 /// A signal comes just before the n-th call.
 std::string signalled(const std::string& call, long n, int signal);
+/// The n-th call takes so many seconds, whatever signals come.
+std::string hanging(const std::string& call, long n, int seconds);
 /// No file without a name, as on network file systems.
 std::string namedFilesOnly();
 /// @}

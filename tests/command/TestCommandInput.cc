@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <limits>
+#include <set>
 
 namespace {
 
@@ -339,6 +340,63 @@ TEST_F(CommandInput, ATreeOfAnObjectElsewhereFailsItsCheck)
     const Result result = run("-read here.vdb -read tree.vdb -check");
     EXPECT_EQ(result.exitCode, 6);
     EXPECT_NE(result.out.find("transform"), std::string::npos) << result.out;
+}
+
+TEST_F(CommandInput, GridsThatShareATreeOrANameAreReadAlikeWithAndWithoutDelay)
+{
+    const auto first = sphereGrid("b"), other = sphereGrid("a", 4);
+    const auto copy = first->copy(); // shares the tree
+    copy->setName("c");
+    const auto namesake = sphereGrid("b", 3);
+    writeGrids("many.vdb", {first, other, copy, namesake});
+    const auto whole = run("-read many.vdb delayed=0 -print -write whole.vdb");
+    const auto delayed = run("-read many.vdb delayed=1 -print -write delayed.vdb");
+    EXPECT_EQ(whole.exitCode, 0) << whole.err;
+    EXPECT_EQ(delayed.exitCode, 0) << delayed.err;
+    for (const Result& result : {whole, delayed}) {
+        std::vector<std::string> names;
+        for (size_t at = 0; (at = result.out.find("grid '", at)) != std::string::npos; at += 6) {
+            names.push_back(result.out.substr(at + 6, 1));
+        }
+        EXPECT_EQ(names, (std::vector<std::string>{"b", "c", "a", "b"})) << result.out;
+    }
+    const auto expected = readGrids("whole.vdb"), grids = readGrids("delayed.vdb");
+    ASSERT_EQ(grids.size(), 4u);
+    std::set<const openvdb::TreeBase*> trees;
+    for (size_t i = 0; i < grids.size(); ++i) {
+        EXPECT_EQ(grids[i]->getName(), expected[i]->getName());
+        EXPECT_EQ(grids[i]->activeVoxelCount(), expected[i]->activeVoxelCount());
+        trees.insert(&grids[i]->constBaseTree());
+    }
+    EXPECT_EQ(trees.size(), 3u) << "one of four is shared";
+}
+
+/// OpenVDB warns of such a file, and does so on std::cout.
+TEST_F(CommandInput, WarningsOfOpenVdbStayOutOfAFileOnStdout)
+{
+    writeGrids("later.vdb", {sphereGrid("ball")});
+    std::string bytes = command_test::readText(path("later.vdb"));
+    bytes[8] = char(openvdb::OPENVDB_FILE_VERSION + 1);
+    command_test::writeText(path("later.vdb"), bytes);
+    for (const std::string delayed : {"0", "1"}) {
+        const Result result =
+            run("-quiet -read later.vdb delayed=" + delayed + " -write stdout.vdb");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_EQ(result.out.substr(0, 8), bytes.substr(0, 8)); // the file's magic number
+    }
+}
+
+TEST_F(CommandInput, StatisticsDoNotReplaceWhatTheyAreOf)
+{
+    makeTree();
+    const std::string tree = command_test::readText(path("source.vdb"));
+    for (const std::string line : {"-stats source.vdb", "-stats json=source.vol", "-stats x.ply"}) {
+        const Result result = run("-read source.vdb " + line);
+        EXPECT_EQ(result.exitCode, 2);
+        EXPECT_NE(result.err.find("name a .json file"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(command_test::readText(path("source.vdb")), tree);
+    EXPECT_FALSE(exists("x.ply"));
 }
 
 } // namespace

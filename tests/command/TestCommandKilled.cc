@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 
 namespace {
 
@@ -156,6 +157,32 @@ TEST_F(CommandKilled, NamesOfAnyLengthHaveATemporaryFile)
     EXPECT_EQ(leftovers()[0].substr(0, 201), "." + letters.substr(0, 199) + ".");
     EXPECT_EQ(run(line).exitCode, 0);
     EXPECT_EQ(leftovers().size(), 0u);
+}
+
+/// Whatever the program is at, a second is what it gets.
+TEST_F(CommandKilled, WhatHangsIsLeftBehindASecondAfterARequestToStop)
+{
+    writeOld(kTargets);
+    for (const std::string& kind : {std::string(), namedFilesOnly() + ";"}) {
+        for (const std::string call : {"read", "fsync"}) {
+            SCOPED_TRACE(kind + call);
+            const auto start = std::chrono::steady_clock::now();
+            const Result result = runWith(
+                kWork + kWrite, kind + signalled(call, 1, SIGTERM) + ";" + hanging(call, 1, 60));
+            EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(50));
+            expectFailure(result, 5, {"vdb_spheretree: interrupted"}, kTargets);
+        }
+    }
+}
+
+TEST_F(CommandKilled, FilesThatTakeTheirPlacesHaveTheTimeThatTheyNeed)
+{
+    writeOld(kTargets);
+    const Result result =
+        runWith(kWork + kWrite, signalled("rename", 2, SIGTERM) + ";" + hanging("rename", 2, 3));
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(newTargets(), 3);
+    EXPECT_EQ(files(), mBefore);
 }
 
 class CommandTwoWriters : public CommandKilled, public testing::WithParamInterface<bool> {};

@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace command {
@@ -54,16 +55,40 @@ private:
 /// The grids that travel with a sphere-tree; null where there is none.
 struct Companions {
     PointDataGrid::Ptr dag, cuts;
+};
 
-    Companions(const openvdb::GridPtrVec& grids, const std::string& treeName)
+/// Finds the companions of any tree of a file, of which there may be thousands.
+class CompanionIndex {
+public:
+    explicit CompanionIndex(const openvdb::GridPtrVec& grids)
     {
         for (const GridBase::Ptr& grid : grids) {
-            const bool isDag = !dag && openvdb_spheretree::isDagOf(*grid, treeName);
-            const bool isCuts = !cuts && openvdb_spheretree::isCutsOf(*grid, treeName);
-            if (isDag) dag = openvdb::gridPtrCast<PointDataGrid>(grid);
-            if (isCuts) cuts = openvdb::gridPtrCast<PointDataGrid>(grid);
+            if (auto points = openvdb::gridPtrCast<PointDataGrid>(grid)) {
+                mByName[grid->getName()].push_back(points);
+            }
         }
     }
+
+    Companions of(const std::string& tree) const
+    {
+        return {first(tree, "_dag", openvdb_spheretree::isDagOf),
+            first(tree, "_cuts", openvdb_spheretree::isCutsOf)};
+    }
+
+private:
+    template <typename Claims>
+    PointDataGrid::Ptr first(
+        const std::string& tree, const char* suffix, const Claims& claims) const
+    {
+        const auto found = mByName.find(tree + suffix);
+        if (found == mByName.end()) return nullptr;
+        for (const PointDataGrid::Ptr& grid : found->second) {
+            if (claims(*grid, tree)) return grid;
+        }
+        return nullptr;
+    }
+
+    std::map<std::string, std::vector<PointDataGrid::Ptr>> mByName;
 };
 
 StackItem treeItem(const PointDataGrid& points, const Companions& companions,
@@ -94,14 +119,16 @@ Loading loadingOf(const ActionCall& call)
 void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
 {
     openvdb::GridPtrVec grids = readVdb(path, loading);
+    const CompanionIndex index(grids);
     std::set<GridBase::Ptr> ofTrees;
     for (const GridBase::Ptr& grid : grids) {
         if (!openvdb_spheretree::isSphereTree(*grid)) continue;
-        const Companions companions(grids, grid->getName());
+        const Companions companions = index.of(grid->getName());
         ofTrees.insert(companions.dag);
         ofTrees.insert(companions.cuts);
     }
     for (const GridBase::Ptr& grid : grids) {
+        throwIfStopped();
         if (ofTrees.count(grid) || !filter.accepts(grid->getName())) continue;
         if (!openvdb_spheretree::isSphereTree(*grid)) {
             StackItem item;
@@ -110,8 +137,7 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
-        session.stack.push(
-            treeItem(*points, Companions(grids, grid->getName()), path, session.progress));
+        session.stack.push(treeItem(*points, index.of(grid->getName()), path, session.progress));
     }
 }
 

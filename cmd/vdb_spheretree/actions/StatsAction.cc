@@ -2,6 +2,7 @@
 /// @file StatsAction.cc
 /// @brief -stats and -print: what is on the stack, in words and numbers.
 
+#include "base/LastWords.h"
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
 #include "line/Actions.h"
@@ -26,9 +27,10 @@ void runStats(const ActionCall& call, Session& session)
     if (item.object && lacksErrors) computeErrors(item, session);
     if (!call.given("json")) return session.print(statsTable(*item.tree, session));
     const std::string json = statsJson(*item.tree, session), path = call.text("json");
-    if (path == "-") return session.print(json, std::cout);
+    if (path == "-") return session.print(json, standardOutput());
     AtomicFile file(path);
     file.write([&](std::ostream& out) { out << json; });
+    const Uninterrupted untilItIsThere;
     throwIfStopped();
     file.commit();
 }
@@ -82,7 +84,15 @@ ActionSpec statsAction()
         text("json", "", "write the same as JSON to this file, or to stdout (-), and no table"),
         vdbOption("the tree")};
     action.check = [](const ActionCall& call, Plan& plan) {
-        if (call.given("json")) plan.addOutput(call.text("json"));
+        if (!call.given("json")) return;
+        const std::string path = call.text("json");
+        const FileKind kind = fileKind(path);
+        if (kind != FileKind::Json && kind != FileKind::Unknown) {
+            throwUsage(path
+                + ": -stats writes JSON, and files of this name are something else; "
+                  "name a .json file, or - for stdout");
+        }
+        plan.addOutput(path);
     };
     action.run = runStats;
     return action;

@@ -3,6 +3,7 @@
 /// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are
 /// complete before the first takes its place.
 
+#include "base/LastWords.h"
 #include "files/AtomicFile.h"
 #include "files/FdBuffer.h"
 #include "files/VdbStream.h"
@@ -167,6 +168,7 @@ public:
     {
         if (mToStdout) writeToStdout(grids(), mCompression);
         mSession.requireUnchangedInputs();
+        const Uninterrupted untilAllAreThere;
         throwIfStopped(); // for the last time: from here on it is all files, or an error
         std::string done;
         for (auto& file : mFiles) {

@@ -16,8 +16,13 @@ namespace command {
 
 namespace {
 
+constexpr unsigned kPatience = 1; // seconds
+
 std::array<std::atomic<const char*>, 64> sFiles{};
-static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads them");
+std::atomic<int> sUninterrupted{0};
+static_assert(
+    std::atomic<const char*>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+    "signal handlers read them");
 
 /// Plain system calls: streams may not be there yet, and a signal handler may call nothing else.
 [[noreturn]] void endWith(ExitCode code, const char* words)
@@ -25,7 +30,8 @@ static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler r
     const auto say = [](const char* text) {
         if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return; // nobody is left to tell
     };
-    say("vdb_spheretree: error: ");
+    say("vdb_spheretree: ");
+    if (code != kInterrupted) say("error: ");
     say(words);
     say("\n");
     for (const auto& file : sFiles) {
@@ -59,6 +65,15 @@ void endByLostPage(int signal, siginfo_t* info, void*)
     std::signal(signal, SIG_DFL); // and the instruction that failed is tried again
 }
 
+void endOverdue(int)
+{
+    if (sUninterrupted > 0) {
+        startCountdown();
+        return;
+    }
+    endWith(kInterrupted, "interrupted");
+}
+
 void catchExceptions(int, char**, char**) { std::set_terminate(endByException); }
 
 } // namespace
@@ -71,6 +86,20 @@ void catchLostPages()
     sigemptyset(&action.sa_mask);
     sigaction(SIGBUS, &action, nullptr);
 }
+
+void endOverdueStops()
+{
+    struct sigaction action = {};
+    action.sa_handler = endOverdue;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGALRM, &action, nullptr);
+}
+
+void startCountdown() noexcept { alarm(kPatience); }
+
+Uninterrupted::Uninterrupted() { ++sUninterrupted; }
+Uninterrupted::~Uninterrupted() { --sUninterrupted; }
 
 void rememberFile(const char* path) noexcept
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LastWords.h
 /// @brief What the program says and returns where it can only end at once: an exception that nothing
-/// can catch, and an input file that was cut short after it had been mapped into memory.
+/// can catch, an input file that was cut short after it had been mapped into memory, and a stop that
+/// was asked for and is overdue.
 ///
 /// It ends without unwinding, so temporary files that have a name are remembered here, and removed.
 
@@ -15,6 +16,21 @@ namespace command {
 /// Exceptions that reach std::terminate are reported from the program's first instruction on, before
 /// any library has started: OpenVDB's logging starts threads before main(). That needs no call.
 void catchLostPages();
+
+/// @brief Have the program end (kInterrupted) a second after it was asked to stop, if it has not done so
+/// by then: it may be in a library that asks nobody, or give back gigabytes.
+void endOverdueStops();
+/// Called when a stop is asked for; may be called by the handler of a signal.
+void startCountdown() noexcept;
+/// As long as one lives the program goes on nevertheless: files are about to take their places, all of
+/// them or none.
+class Uninterrupted {
+public:
+    Uninterrupted();
+    Uninterrupted(const Uninterrupted&) = delete;
+    Uninterrupted& operator=(const Uninterrupted&) = delete;
+    ~Uninterrupted();
+};
 
 /// @name Files that are removed if the program ends so
 /// @{

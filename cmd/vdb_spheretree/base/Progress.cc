@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Progress.h"
 
+#include "LastWords.h"
 #include "Terminal.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
@@ -21,7 +22,11 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 constexpr auto kQuietTime = std::chrono::milliseconds(500);
 constexpr auto kDrawEvery = std::chrono::milliseconds(100);
 
-void requestStop(int) { sStop.store(true, std::memory_order_relaxed); }
+void requestStop(int)
+{
+    sStop.store(true, std::memory_order_relaxed);
+    startCountdown();
+}
 
 } // namespace
 
@@ -35,6 +40,7 @@ void catchSignals()
     struct sigaction before = {};
     sigaction(SIGHUP, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr); // nohup stays in force
+    endOverdueStops();
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -9,9 +9,21 @@
 
 namespace command {
 
+std::ostream& standardOutput()
+{
+    static std::ostream sOut(std::cout.rdbuf());
+    return sOut;
+}
+
+void divertLibraries()
+{
+    standardOutput();
+    std::cout.rdbuf(std::cerr.rdbuf());
+}
+
 bool isTerminal(const std::ostream& stream)
 {
-    if (&stream == &std::cout) return isatty(STDOUT_FILENO);
+    if (&stream == &standardOutput()) return isatty(STDOUT_FILENO);
     if (&stream == &std::cerr) return isatty(STDERR_FILENO);
     return false;
 }

@@ -9,9 +9,16 @@
 
 namespace command {
 
+/// @return what tables and JSON are written to. Nothing else gets there: see below.
+std::ostream& standardOutput();
+
+/// @brief Have whatever libraries print to std::cout go to stderr: OpenVDB's warnings would get into
+/// the middle of a `.vdb` on stdout.
+void divertLibraries();
+
 enum class Colour { Red, Green, Yellow, Bold };
 
-/// @return whether std::cout or std::cerr (no other stream) is a terminal.
+/// @return whether standardOutput() or std::cerr (no other stream) is a terminal.
 bool isTerminal(const std::ostream& stream);
 
 /// @return @a text, coloured if @a stream is a terminal and NO_COLOR is not set.

@@ -11,9 +11,12 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/points/PointDataGrid.h>
 
+#include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -89,6 +92,23 @@ bool worthDelaying(const std::string& path, Loading loading)
     return loading == Loading::Delayed || int64_t(info.st_size) >= kLargeFile;
 }
 
+/// @param byName  grids in the order of their names, those of one name as in the file: io::File's
+/// @param names   in the order of the file, made unique
+openvdb::GridPtrVec inFileOrder(
+    const openvdb::GridPtrVec& byName, const std::vector<std::string>& names)
+{
+    std::vector<std::pair<std::string, std::size_t>> order; // names as the grids have them
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        order.emplace_back(openvdb::io::GridDescriptor::stripSuffix(names[i]), i);
+    }
+    std::sort(order.begin(), order.end());
+    if (byName.size() != order.size()) throwInput("the file was replaced while it was read");
+    openvdb::GridPtrVec grids(byName.size());
+    for (std::size_t i = 0; i < order.size(); ++i) grids[order[i].second] = byName[i];
+    return grids;
+}
+
+/// All at once, so that grids that share a tree still do.
 /// @return nothing if the file does not say where its grids are.
 openvdb::GridPtrVec readDelayed(const std::string& path)
 {
@@ -105,12 +125,12 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
         file.open(/*delayLoad=*/true);
         // OpenVDB has opened it by its name, and must have got what was looked at.
         if (!input.isStill(path)) throwInput("the file was replaced while it was read");
-        for (const std::string& name : *names) {
+        grids = inFileOrder(*file.getGrids(), *names);
+        for (const auto& grid : grids) {
             throwIfStopped();
-            grids.push_back(file.readGrid(name));
             // Who takes points takes their voxels in place; of them there are few.
-            if (grids.back()->isType<openvdb::points::PointDataGrid>()) {
-                openvdb_spheretree::requireReadableValues(*grids.back());
+            if (grid->isType<openvdb::points::PointDataGrid>()) {
+                openvdb_spheretree::requireReadableValues(*grid);
             }
         }
         return grids;

@@ -73,7 +73,7 @@ void Plan::addOutput(const std::string& path)
 {
     if (path == "-" || path == "stdout.vdb") {
         if (mStdoutTaken) throwUsage("two outputs go to stdout");
-        if (path != "-" && isTerminal(std::cout)) {
+        if (path != "-" && isTerminal(standardOutput())) {
             throwOutput("stdout.vdb: stdout is a terminal; pipe it into another command");
         }
         mStdoutTaken = true;

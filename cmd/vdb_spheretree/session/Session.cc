@@ -76,7 +76,10 @@ void Session::requireUnchangedInputs() const
     for (const InputStamp& input : inputs) input.requireUnchanged();
 }
 
-std::ostream& Session::textOut() const { return plan.stdoutIsTaken() ? std::cerr : std::cout; }
+std::ostream& Session::textOut() const
+{
+    return plan.stdoutIsTaken() ? std::cerr : standardOutput();
+}
 
 void Session::print(const std::string& text, std::ostream& out)
 {

@@ -10,7 +10,8 @@
 ///   ones), `fsync`, `link`, `rename`, `thread` or `malloc`;
 /// - `N` counts these calls from 1;
 /// - `EFFECT` is `error` (it fails with this errno, and so do all later ones; of a write, half is
-///   written first), `once` (only this one fails), or `signal` (SIGSTOP lets the test act meanwhile).
+///   written first), `once` (only this one fails), `signal` (SIGSTOP lets the test act meanwhile), or
+///   `hang` (it takes so many seconds, whatever signals come).
 ///
 /// SPHERETREE_FAULT_MEMORY is how many MiB of memory the machine says it has.
 ///
@@ -30,6 +31,7 @@
 #include <pthread.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 extern "C" void* __libc_malloc(size_t);
@@ -40,7 +42,7 @@ enum Call { kTmpfile, kWrite, kRead, kFsync, kLink, kRename, kThread, kMalloc, k
 constexpr const char* kNames[kCalls] = {
     "tmpfile", "write", "read", "fsync", "link", "rename", "thread", "malloc"};
 
-enum class Effect { Error, Once, Signal };
+enum class Effect { Error, Once, Signal, Hang };
 
 struct Fault {
     Call call;
@@ -73,11 +75,18 @@ int readFaults()
         fault.number = number;
         fault.effect = *effect == 'e' ? Effect::Error
             : *effect == 'o'          ? Effect::Once
+            : *effect == 'h'          ? Effect::Hang
                                       : Effect::Signal;
         text = std::strchr(text, ';');
         if (text) ++text;
     }
     return count;
+}
+
+void hangFor(int seconds)
+{
+    timespec left = {seconds, 0};
+    while (nanosleep(&left, &left) != 0) {}
 }
 
 enum class Verdict { Go, Half, Fail };
@@ -95,6 +104,8 @@ Verdict countCall(Call call)
         const bool isNow = count == fault.when;
         if (fault.effect == Effect::Signal) {
             if (isNow) kill(getpid(), fault.number);
+        } else if (fault.effect == Effect::Hang) {
+            if (isNow) hangFor(fault.number);
         } else if (isNow || fault.effect == Effect::Error) {
             verdict = isNow ? Verdict::Half : Verdict::Fail;
             error = fault.number;
