@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <openvdb/math/Transform.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -17,7 +18,7 @@ void addNode(SphereTree& tree, const openvdb::Vec3d& center, const openvdb::Coor
     int32_t radiusSq, int32_t parent)
 {
     const double radius =
-        std::sqrt(double(radiusSq) - 1) + 0.1 * double(tree.spheres.center.size());
+        std::sqrt(std::max(double(radiusSq) - 1, 0.0)) + 0.1 * double(tree.spheres.center.size());
     tree.spheres.center.push_back(center);
     tree.spheres.radius.push_back(radius);
     tree.spheres.coverRadiusSq.push_back(int64_t(4 * radius * radius));

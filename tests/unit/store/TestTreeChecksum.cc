@@ -192,7 +192,10 @@ TEST(TreeChecksum, EveryFlippedBitOfMetadataAndItsKeysIsFound)
                 const std::string key = it->first;
                 if (key.rfind("spheretree_", 0) != 0) continue;
                 if (key.rfind("_format") != key.npos) continue; // whether it is a tree at all
-                for (std::size_t bit = 0; bit < 8 * it->second->size(); ++bit) {
+                // A bool has one bit: where others are set, the file is refused before.
+                const bool isBool =
+                    it->second->typeName() == openvdb::BoolMetadata::staticTypeName();
+                for (std::size_t bit = 0; bit < (isBool ? 1 : 8 * it->second->size()); ++bit) {
                     grid->insertMeta(key, *flippedMeta(*it->second, bit));
                     expectFoundOrEqual(stored, whole, key + ", bit " + std::to_string(bit), flips);
                 }
