@@ -111,6 +111,27 @@ TEST_F(CommandScarce, VoxelsFarApartAreRefusedWithTheMemoryThatTheyNeed)
     }
 }
 
+TEST_F(CommandScarce, AMeshWhoseSurfaceDoesNotFitTheMemoryIsRefused)
+{
+    std::string faces;
+    for (const char* face : {"1 3 2", "1 2 4", "1 4 3", "2 3 4"}) {
+        faces += std::string("f ") + face + "\n";
+    }
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    command_test::writeText(path("once.obj"), points + faces);
+    std::string often = points;
+    for (int i = 0; i < 101; ++i) often += faces; // an odd number, so that it is closed
+    command_test::writeText(path("often.obj"), often);
+    mBefore = files();
+    expectFailure(runWithin(60, "-read once.obj -mesh2ls voxel=0.002"), 3,
+        {"-mesh2ls", "voxels at the surface of mesh 'once' need about",
+            "more than the 60 MiB of this machine: use a larger voxel"},
+        {});
+    // By the area alone it would need four times as much as there is.
+    const Result result = runWithin(60, "-read often.obj -mesh2ls voxel=0.01");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+}
+
 TEST_F(CommandScarce, NoThreadIsAnErrorOfItsOwn)
 {
     expectOf(kWork);

@@ -14,6 +14,7 @@
 #include "MeshFormats.h"
 #include "Polygon.h"
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/tools/MeshToVolume.h>
@@ -32,8 +33,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <limits>
 #include <new>
+#include <sstream>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -266,6 +269,28 @@ void checkMesh(const TriangleMesh& mesh)
     }
 }
 
+/// By the area of its triangles a mesh has a narrow band of so many voxels, unless triangles lie upon
+/// each other: by its box it cannot have more. Measured are 35 bytes for each of the former.
+void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfWidth)
+{
+    constexpr double kBytes = 20, kBytesOfDense = 8;
+    double area = 0; // in faces of voxels
+    openvdb::BBoxd box;
+    for (const Vec3I& triangle : mesh.triangles) {
+        const Vec3d a(mesh.points[triangle[0]]), b(mesh.points[triangle[1]]),
+            c(mesh.points[triangle[2]]);
+        area += (b - a).cross(c - a).length() / 2 / (voxelSize * voxelSize);
+        for (const Vec3d& corner : {a, b, c}) box.expand(corner);
+    }
+    const Vec3d sides = box.extents() / voxelSize + Vec3d(2 * halfWidth);
+    const double band = 2 * halfWidth * area;
+    const double bytes = std::min(kBytes * band, kBytesOfDense * sides[0] * sides[1] * sides[2]);
+    std::ostringstream what;
+    what << "the " << std::setprecision(2) << band << " voxels at the surface of mesh '"
+         << mesh.name << "'";
+    detail::requireMemory(bytes, what.str(), "use a larger voxel");
+}
+
 openvdb::math::Transform::Ptr transformOf(double voxelSize)
 {
     if (std::isfinite(voxelSize) && voxelSize > 0) {
@@ -345,6 +370,7 @@ openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSiz
     }
     checkMesh(mesh);
     const openvdb::Coord shift = middleLeaf(mesh, voxelSize);
+    requireRoomForBand(mesh, voxelSize, halfWidth);
     std::vector<Vec3s> points; // in index space, around the origin
     points.reserve(mesh.points.size());
     for (const Vec3s& world : mesh.points) {

@@ -48,7 +48,7 @@ int64_t openEdges(const TriangleMesh& mesh);
 /// @param voxelSize   world units, > 0
 /// @param halfWidth   of the narrow band, in voxels, 1 to 1000
 /// @throw openvdb::ValueError if an argument is out of range, or the mesh empty, damaged, or too
-///        large for the voxel size
+///        large for the voxel size, or for this machine's memory: by the area of its triangles
 /// @throw Interrupted if the interrupter said so
 openvdb::SharedPtr<openvdb::FloatGrid> meshToLevelSet(const TriangleMesh& mesh, double voxelSize,
     double halfWidth = 3, openvdb::util::NullInterrupter* interrupter = nullptr);

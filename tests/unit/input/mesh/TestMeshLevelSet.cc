@@ -7,6 +7,8 @@
 
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include "support/Messages.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +17,7 @@
 namespace {
 
 using namespace openvdb_spheretree;
+using namespace spheretree_test;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
 using openvdb::Vec3s;
@@ -99,6 +102,18 @@ TEST(MeshLevelSet, RejectsAMeshTooLargeForItsVoxels)
     EXPECT_THROW(meshToLevelSet(mesh, 1), openvdb::ValueError);
     mesh.points[3] = Vec3s(0, -3e38f, 0);
     EXPECT_THROW(meshToLevelSet(mesh, 0.01), openvdb::ValueError);
+}
+
+TEST(MeshLevelSet, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
+{
+    TriangleMesh mesh; // half of a square of 10^6 x 10^6
+    mesh.name = "field";
+    mesh.points = {Vec3s(0), Vec3s(1e6f, 0, 0), Vec3s(0, 1e6f, 0)};
+    mesh.triangles = {Vec3I(0, 1, 2)};
+    const std::string message =
+        messageOf<openvdb::ValueError>([&] { meshToLevelSet(mesh, 1.0, 3.0); });
+    EXPECT_TRUE(mentions(message, "the 3e+12 voxels at the surface of mesh 'field' need about"));
+    EXPECT_TRUE(mentions(message, "use a larger voxel"));
 }
 
 TEST(MeshLevelSet, RejectsADamagedMesh)
