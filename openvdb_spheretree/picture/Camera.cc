@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 namespace openvdb_spheretree {
 
@@ -16,9 +18,22 @@ namespace {
 
 using openvdb::Vec3d;
 
-void requireFinite(const char* name, const Vec3d& v)
+/// @return the numbers as the command takes them.
+std::string listed(const Vec3d& v)
 {
-    if (!v.isFinite()) OPENVDB_THROW(openvdb::ValueError, name << "=" << v << " is not finite");
+    std::ostringstream text;
+    text << v[0] << "," << v[1] << "," << v[2];
+    return text.str();
+}
+
+void requireInRange(const char* name, const Vec3d& v)
+{
+    constexpr double kMax = Camera::kMaxCoordinate;
+    const Vec3d size = openvdb::math::Abs(v);
+    if (size[0] <= kMax && size[1] <= kMax && size[2] <= kMax) return; // false for NaN as well
+    OPENVDB_THROW(openvdb::ValueError,
+        name << "=" << listed(v) << " is out of range: coordinates are " << -kMax << " to "
+             << kMax);
 }
 
 /// @return the unit vector towards a viewer in front, to the right and above.
@@ -32,25 +47,35 @@ Vec3d frontRightAbove(const Vec3d& up)
 
 } // namespace
 
+void Camera::validateRanges() const
+{
+    requireInRange("eye", eye);
+    requireInRange("lookat", lookAt);
+    if (!(up.length() >= kMinUp && up.length() <= kMaxUp)) { // false for NaN as well
+        OPENVDB_THROW(openvdb::ValueError,
+            "up=" << listed(up) << " is no direction: its length must be " << kMinUp << " to "
+                  << kMaxUp);
+    }
+    if (!(fovDegrees >= kMinFov && fovDegrees <= kMaxFov)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "fov=" << fovDegrees << " is out of range: it takes degrees, " << kMinFov << " to "
+                   << kMaxFov);
+    }
+}
+
 void Camera::validate() const
 {
     constexpr double kParallel = 1e-6; // sine of the angle
-    requireFinite("eye", eye);
-    requireFinite("lookat", lookAt);
-    requireFinite("up", up);
-    if (!(fovDegrees > 0 && fovDegrees < 180)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "fov=" << fovDegrees << " is out of range: it takes degrees, above 0 and below 180");
-    }
+    validateRanges();
     const Vec3d view = lookAt - eye;
     if (!(view.length() > 0)) {
         OPENVDB_THROW(openvdb::ValueError,
-            "eye and lookat are the same point, " << eye
+            "eye and lookat are the same point, " << listed(eye)
                                                   << ", so there is no direction to look in");
     }
-    if (!(view.cross(up).length() > kParallel * view.length() * up.length())) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "up=" << up << " points along the view, or nowhere: give another up");
+    if (!(view.unit().cross(up.unit()).length() > kParallel)) {
+        OPENVDB_THROW(
+            openvdb::ValueError, "up=" << listed(up) << " points along the view: give another up");
     }
 }
 
@@ -60,6 +85,7 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
     Camera camera;
     camera.up = up;
     camera.fovDegrees = fovDegrees;
+    camera.validateRanges();
     const Vec3d lo = transform.indexToWorld(box.min().asVec3d() - Vec3d(0.5));
     const Vec3d hi = transform.indexToWorld(box.max().asVec3d() + Vec3d(0.5));
     camera.lookAt = (lo + hi) / 2;

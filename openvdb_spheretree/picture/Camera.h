@@ -10,13 +10,24 @@ namespace openvdb_spheretree {
 
 /// A perspective camera, in world space.
 struct Camera {
+    /// @name What is possible; far beyond it, squares are out of the range of double
+    /// @{
+    static constexpr double kMaxCoordinate = 1e100;
+    static constexpr double kMinUp = 1e-100, kMaxUp = 1e100;
+    static constexpr double kMinFov = 0.001, kMaxFov = 179.999;
+    /// @}
+
     openvdb::Vec3d eye{0, 0, 1};    ///< where it stands, world units
     openvdb::Vec3d lookAt{0, 0, 0}; ///< the point in the middle of the picture, world units
-    openvdb::Vec3d up{0, 1, 0};     ///< upright in the picture; of any length
-    double fovDegrees = 30;         ///< vertical angle of view in degrees, above 0 and below 180
+    openvdb::Vec3d up{0, 1, 0};     ///< upright in the picture; its length is kMinUp to kMaxUp
+    double fovDegrees = 30;         ///< vertical angle of view in degrees, kMinFov to kMaxFov
 
-    /// @throw openvdb::ValueError if a number is not finite, the angle of view out of range, eye the
-    ///        same point as lookAt, or up zero or parallel to the view
+    /// @brief Looks at each member by itself.
+    /// @throw openvdb::ValueError if one is out of its range or not finite
+    void validateRanges() const;
+
+    /// @throw openvdb::ValueError if a member is out of its range, eye the same point as lookAt, or
+    ///        up parallel to the view
     void validate() const;
 };
 
@@ -28,9 +39,10 @@ struct Camera {
 /// dim=2) it looks along that axis; if `up` is that axis, another direction is upright.
 /// @param box         of the active voxels, in index space, inclusive, not empty
 /// @param transform   index space to world, with uniform voxels
-/// @param up          upright in the picture, not zero
-/// @param fovDegrees  vertical angle of view, in degrees
+/// @param up          upright in the picture, as in Camera
+/// @param fovDegrees  vertical angle of view, in degrees, as in Camera
 /// @param aspect      width of the picture over its height
+/// @throw openvdb::ValueError if @a up or @a fovDegrees is out of its range
 Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& transform,
     const openvdb::Vec3d& up, double fovDegrees, double aspect);
 

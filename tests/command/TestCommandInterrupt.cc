@@ -3,7 +3,9 @@
 
 #include "CommandRunner.h"
 
+#include <chrono>
 #include <random>
+#include <thread>
 
 #include <sys/stat.h>
 
@@ -54,6 +56,40 @@ TEST_F(CommandInterrupt, WakesACommandThatWaitsForItsInput)
     command.send(SIGINT);
     EXPECT_EQ(command.wait().exitCode, 5);
     EXPECT_EQ(files(), before);
+}
+
+TEST_F(CommandInterrupt, WakesACommandThatWaitsForTheWriterOfAPipe)
+{
+    for (const char* name : {"first", "second", "silent.vdb"}) {
+        ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+    }
+    const auto before = files();
+    const std::vector<std::string> lines[] = {
+        {"-config", "first", "second"}, {"-config", "first", "-read", "silent.vdb"}};
+    for (const auto& line : lines) {
+        Running command = start(line);
+        command_test::writeText(path("first"), "quiet\n"); // waits for the command to open it
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        command.send(SIGTERM);
+        const Result result = command.wait();
+        EXPECT_EQ(result.exitCode, 5) << result.err;
+        EXPECT_NE(result.err.find("interrupted"), std::string::npos) << result.err;
+        EXPECT_EQ(files(), before);
+    }
+}
+
+TEST_F(CommandInterrupt, ReadsAPipeWhoseWriterComesLate)
+{
+    writeBlock("block.vol");
+    ASSERT_EQ(run("-read block.vol -write block.vdb").exitCode, 0);
+    for (const char* name : {"late.vdb", "late.txt"}) {
+        ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+    }
+    const Result result =
+        shell("(sleep 0.5; echo read late.vdb > late.txt; sleep 0.5; cat block.vdb > late.vdb) & "
+              "$VDB_SPHERETREE -config late.txt -print");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("block"), std::string::npos) << result.out;
 }
 
 } // namespace

@@ -99,7 +99,20 @@ TEST_F(CommandPicture, ACameraThatOnlyTheObjectProvesWrongWritesNothing)
     const Result along = run("-read a.vol -write u.vdb p.png eye=3.5,99,2");
     EXPECT_EQ(along.exitCode, 2) << along.err;
     EXPECT_NE(along.err.find("up="), std::string::npos) << along.err;
+    // The camera would move with it, and be rounded to the very point.
+    const Result far = run("-read a.vol -write u.vdb p.png lookat=1e30,0,1e30");
+    EXPECT_EQ(far.exitCode, 2) << far.err;
+    EXPECT_NE(far.err.find("lookat=1e30,0,1e30 is too far"), std::string::npos) << far.err;
     EXPECT_EQ(files(), before);
+}
+
+TEST_F(CommandPicture, IsDrawnFromAsFarAsACameraMayStand)
+{
+    for (const char* camera : {"eye=1e100,0,0", "eye=1e100,0,0 lookat=-1e100,0,9 up=0,1e-100,0",
+             "lookat=1e6,0,0", "fov=0.001", "fov=179.999"}) {
+        draw("-read t.vdb -write p.png vdb=tree " + std::string(camera));
+        draw("-read a.vol -write p.png " + std::string(camera));
+    }
 }
 
 } // namespace

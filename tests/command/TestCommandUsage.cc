@@ -194,6 +194,12 @@ const BadLine kBadLines[] = {
     {"EyeNoNumber", "-read a.vol -write t.vdb t.png eye=1,2,nan", "eye=1,2,nan"},
     {"EyeIsLookat", "-read a.vol -write t.vdb t.png eye=1,2,3 lookat=1,2,3", "eye and lookat"},
     {"UpAlongView", "-read a.vol -write t.vdb t.png eye=1,9,3 lookat=1,2,3", "up="},
+    {"UpTooShort", "-read a.vol -write t.vdb t.png up=1e-320,0,0", "1e-100 to 1e+100"},
+    {"UpTooLong", "-read a.vol -write t.vdb t.png up=1e300,0,0", "up=1e+300,0,0 is no direction"},
+    {"FovTooNarrow", "-read a.vol -write t.vdb t.png fov=1e-300", "fov=1e-300 is out of range"},
+    {"EyeTooFar", "-read a.vol -write t.vdb t.png eye=1e308,0,0", "eye=1e+308,0,0 is out of range"},
+    {"LookatTooFar", "-read a.vol -write t.vdb t.png lookat=1e300,0,0",
+        "lookat=1e+300,0,0 is out of range"},
     {"UpNowhere", "-read a.vol -write t.vdb t.png up=0,0,0", "up=0,0,0"},
     {"UnknownColor", "-read a.vol -write t.vdb t.png color=blue", "color=blue"},
     {"ColorTooBright", "-read a.vol -write t.vdb t.png color=0,2,0", "color="},
@@ -244,7 +250,9 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_NE(result.out.find("\"factor\": 3"), std::string::npos);
     command_test::writeText(path("self.txt"), "config self.txt\n");
-    EXPECT_EQ(run("-config self.txt").exitCode, 2);
+    const Result self = run("-config self.txt");
+    EXPECT_EQ(self.exitCode, 2);
+    EXPECT_NE(self.err.find("more than 8 deep"), std::string::npos) << self.err;
     command_test::writeText(path("bad.txt"), "read 'a b.vol\n");
     const Result bad = run("-config bad.txt");
     EXPECT_EQ(bad.exitCode, 2);
@@ -266,6 +274,42 @@ TEST_F(CommandUsage, ConfigFilesThatNeverEndAreRefused)
         EXPECT_NE(result.err.find("no text file"), std::string::npos) << result.err;
     }
     EXPECT_EQ(run("-config /dev/zero").exitCode, 3);
+}
+
+TEST_F(CommandUsage, ConfigFilesThatMultiplyAreRefused)
+{
+    // 100^7 actions, in files of 1900 bytes.
+    for (int i = 1; i <= 7; ++i) {
+        std::string text;
+        for (int line = 0; line < 100; ++line) {
+            text += i < 7 ? "-config chain" + std::to_string(i + 1) + ".txt\n" : "-quiet\n";
+        }
+        command_test::writeText(path("chain" + std::to_string(i) + ".txt"), text);
+    }
+    const Result chain = run("-config chain1.txt");
+    EXPECT_EQ(chain.exitCode, 2) << chain.err;
+    EXPECT_NE(chain.err.find("-config chain7.txt: all files"), std::string::npos) << chain.err;
+    EXPECT_NE(chain.err.find("4194304 bytes"), std::string::npos) << chain.err;
+    // Files that hold nothing multiply as well.
+    std::string list = "-config empty.txt";
+    for (int i = 0; i < 100000; ++i) list += ",empty.txt";
+    command_test::writeText(path("list.txt"), list);
+    command_test::writeText(path("empty.txt"), "");
+    const Result empty = run("-config list.txt");
+    EXPECT_EQ(empty.exitCode, 2) << empty.err;
+    EXPECT_NE(empty.err.find("-config empty.txt: all files"), std::string::npos) << empty.err;
+}
+
+TEST_F(CommandUsage, AConfigFileMayBeginWithAByteOrderMark)
+{
+    command_test::writeText(path("marked.txt"),
+        "\xEF\xBB\xBF"
+        "vdb_spheretree 0.1.0\nversion\n");
+    const Result result = run("-config marked.txt");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out.rfind("vdb_spheretree ", 0), 0u);
+    command_test::writeText(path("marked.txt"), "\xEF\xBB\xBFversion");
+    EXPECT_EQ(run("-config marked.txt").exitCode, 0);
 }
 
 TEST_F(CommandUsage, HelpGoesToStdout)

@@ -48,6 +48,16 @@ PictureSettings settingsOf(const ActionCall& call)
     return settings;
 }
 
+/// Far from the object, rounding would turn the camera, or put its eye on the point it looks at.
+void requireKeptView(const ActionCall& call, const Camera& view, const Camera& moved)
+{
+    constexpr double kMaxTurn = 1e-3; // radians; a pixel or so
+    const openvdb::Vec3d before = view.eye - view.lookAt, after = moved.eye - moved.lookAt;
+    if ((after - before).length() <= kMaxTurn * before.length()) return;
+    throwUsage("lookat=" + call.text("lookat")
+        + " is too far from the object for a camera that nothing but the object places: give eye");
+}
+
 /// @param view  has the values of what the user has not chosen
 Camera cameraOf(const ActionCall& call, const Camera& view)
 {
@@ -57,6 +67,7 @@ Camera cameraOf(const ActionCall& call, const Camera& view)
         camera.eye = vectorOf(call, "eye");
     } else {
         camera.eye += camera.lookAt - view.lookAt;
+        requireKeptView(call, view, camera);
     }
     try {
         camera.validate();
@@ -121,7 +132,8 @@ std::vector<OptionSpec> pictureOptions()
                 "the object, the same for every level)"),
         vector("lookat", "", ".png: the point in the middle (by default the object's)"),
         vector("up", "0,1,0", ".png: the direction that is upright"),
-        real("fov", "30", 0, 180, ".png: vertical angle of view in degrees, below 180"),
+        real("fov", "30", Camera::kMinFov, Camera::kMaxFov,
+            ".png: vertical angle of view in degrees"),
         integer("width", "1280", 1, kMaxSide, ".png: pixels, at most 16384"),
         integer("height", "960", 1, kMaxSide, ".png: pixels, at most 16384"),
         integer(
@@ -141,16 +153,13 @@ void checkPictureOptions(const ActionCall& call)
     }
     settingsOf(call);
     if (!picture) return;
-    Camera camera; // what is not known before the object is stays as it is, which is fine
+    Camera camera; // what is not known before the object is stays as it is, which is in range
     camera.fovDegrees = call.real("fov");
-    if (call.given("eye") && call.given("lookat")) {
-        camera.eye = vectorOf(call, "eye");
-        camera.lookAt = vectorOf(call, "lookat");
-        camera.up = vectorOf(call, "up");
-    } else if (vectorOf(call, "up").isZero()) {
-        throwUsage("up=" + call.text("up") + " has no direction");
-    }
-    camera.validate();
+    camera.up = vectorOf(call, "up");
+    if (call.given("eye")) camera.eye = vectorOf(call, "eye");
+    if (call.given("lookat")) camera.lookAt = vectorOf(call, "lookat");
+    camera.validateRanges();
+    if (call.given("eye") && call.given("lookat")) camera.validate();
 }
 
 Picture pictureOf(const ActionCall& call, const std::string& path,

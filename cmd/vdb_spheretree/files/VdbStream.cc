@@ -4,6 +4,7 @@
 #include "base/Errors.h"
 #include "base/Progress.h"
 #include "FdBuffer.h"
+#include "InputFile.h"
 #include "VdbTag.h"
 
 #include <openvdb_spheretree/input/DelayedValues.h>
@@ -18,43 +19,16 @@
 #include <iostream>
 #include <utility>
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 namespace command {
 
 namespace {
 
-/// Closes what it opened; standard input stays open.
-class InputFile {
-public:
-    explicit InputFile(const std::string& path)
-        : mFd(path == "stdin.vdb" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC))
-    {
-        if (mFd < 0) throwInput("cannot read " + systemError(path));
-    }
-    InputFile(const InputFile&) = delete;
-    InputFile& operator=(const InputFile&) = delete;
-    ~InputFile()
-    {
-        if (mFd != STDIN_FILENO) close(mFd);
-    }
-    int fd() const { return mFd; }
-
-    /// @return whether it still is what @a path names, unchanged.
-    bool isStill(const std::string& path) const
-    {
-        struct stat opened, named;
-        return fstat(mFd, &opened) == 0 && stat(path.c_str(), &named) == 0
-            && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino
-            && opened.st_size == named.st_size && opened.st_mtim.tv_sec == named.st_mtim.tv_sec
-            && opened.st_mtim.tv_nsec == named.st_mtim.tv_nsec;
-    }
-
-private:
-    int mFd;
-};
+InputFile inputOf(const std::string& path)
+{
+    return path == "stdin.vdb" ? InputFile::standardInput() : InputFile(path);
+}
 
 /// Runs @a read; whatever goes wrong is the file's.
 template <typename Read>
@@ -71,7 +45,7 @@ auto naming(const std::string& path, const Read& read)
 
 openvdb::GridPtrVec readWhole(const std::string& path)
 {
-    const InputFile file(path);
+    const InputFile file = inputOf(path);
     FdBuffer buffer(file.fd());
     return naming(path, [&] {
         TagReader reader(buffer);

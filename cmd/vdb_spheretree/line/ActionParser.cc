@@ -161,7 +161,8 @@ std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
 }
 
 /// Puts the actions of its files in the place of each -config. @a depth: a file may name itself.
-std::vector<ActionCall> withConfigFiles(const std::vector<ActionCall>& calls, int depth)
+std::vector<ActionCall> withConfigFiles(
+    const std::vector<ActionCall>& calls, int depth, size_t& bytesInAll)
 {
     constexpr int kDeepest = 8;
     std::vector<ActionCall> expanded;
@@ -174,7 +175,8 @@ std::vector<ActionCall> withConfigFiles(const std::vector<ActionCall>& calls, in
         if (depth == kDeepest) throwUsage("-config: files name each other more than 8 deep");
         for (const std::string& path : call.list("files")) {
             try {
-                const auto inner = withConfigFiles(callsOf(readConfigFile(path)), depth + 1);
+                const auto read = callsOf(readConfigFile(path, bytesInAll));
+                const auto inner = withConfigFiles(read, depth + 1, bytesInAll);
                 expanded.insert(expanded.end(), inner.begin(), inner.end());
             } catch (...) {
                 rethrowNamed("-config " + path, kInput);
@@ -199,7 +201,8 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 
 std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
 {
-    const std::vector<ActionCall> calls = withConfigFiles(callsOf(tokens), 0);
+    size_t bytesInConfigFiles = 0;
+    const auto calls = withConfigFiles(callsOf(tokens), 0, bytesInConfigFiles);
     checkOrder(calls);
     return calls;
 }

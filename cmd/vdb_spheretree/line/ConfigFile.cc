@@ -3,9 +3,11 @@
 
 #include "Actions.h"
 #include "base/Errors.h"
+#include "files/FdBuffer.h"
+#include "files/InputFile.h"
 #include "Plan.h"
 
-#include <fstream>
+#include <algorithm>
 #include <sstream>
 
 namespace command {
@@ -13,6 +15,8 @@ namespace command {
 namespace {
 
 constexpr size_t kLongestFile = 1 << 20; // a device or a pipe may never end
+constexpr size_t kMostInAll = 4 << 20;
+constexpr size_t kLeastPerFile = 1 << 10; // reading a file takes time, even an empty one
 
 /// @return the words of a line. @throw CommandError (usage) if a quote is not closed
 std::vector<std::string> wordsOf(const std::string& line, const std::string& where)
@@ -50,23 +54,32 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
 std::string textOf(const std::string& path)
 {
     checkReadable(path);
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throwInput("cannot read " + systemError(path));
+    const InputFile file(path);
+    FdBuffer buffer(file.fd());
     std::string text(kLongestFile + 1, '\0');
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(size_t(in.gcount()));
+    text.resize(size_t(buffer.sgetn(text.data(), std::streamsize(text.size()))));
     if (text.size() > kLongestFile || text.find('\0') != std::string::npos) {
-        throwInput(path + ": this is no text file, or one of more than "
-            + std::to_string(kLongestFile) + " bytes");
+        throwInput(
+            "this is no text file, or one of more than " + std::to_string(kLongestFile) + " bytes");
     }
     return text;
 }
 
 } // namespace
 
-std::vector<std::string> readConfigFile(const std::string& path)
+std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesInAll)
 {
-    std::istringstream in(textOf(path));
+    std::string text = textOf(path);
+    bytesInAll += std::max(text.size(), kLeastPerFile);
+    if (bytesInAll > kMostInAll) {
+        throwUsage("all files of -config together, each as often as it is named, may hold "
+            + std::to_string(kMostInAll) + " bytes, and with this one they hold more");
+    }
+    const std::string byteOrderMark = "\xEF\xBB\xBF"; // some editors begin UTF-8 with it
+    if (text.compare(0, byteOrderMark.size(), byteOrderMark) == 0) {
+        text.erase(0, byteOrderMark.size());
+    }
+    std::istringstream in(text);
     std::vector<std::string> tokens;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {

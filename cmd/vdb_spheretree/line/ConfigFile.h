@@ -4,18 +4,21 @@
 ///
 /// A line has an action and its options; dashes before its name may be left out. A `#` at the start
 /// of a word begins a comment. Words are split at blanks, except within single or double quotes. The
-/// first line may be `vdb_spheretree VERSION`.
+/// first line may be `vdb_spheretree VERSION`. A byte order mark of UTF-8 before it is skipped.
 
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace command {
 
 /// @return the words of the file, as if they had been typed.
-/// @throw CommandError (input) if it cannot be read, holds a zero or more than 1 MiB, (usage) if a quote
-///        is not closed
-std::vector<std::string> readConfigFile(const std::string& path);
+/// @param bytesInAll  of all files of the command line so far, each as often as it is read; this one
+///                    is added. Files that name each other in a chain could multiply without end
+/// @throw Interrupted, CommandError (input) if it cannot be read, holds a zero or more than 1 MiB,
+///        (usage) if a quote is not closed, or all files hold more than 4 MiB
+std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesInAll);
 
 } // namespace command

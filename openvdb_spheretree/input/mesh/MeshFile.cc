@@ -34,9 +34,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <ios>
 #include <limits>
 #include <new>
 #include <sstream>
+#include <system_error>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -70,17 +72,21 @@ void needRegularFile(const std::string& path)
     if (std::filesystem::file_size(path, error) == 0) fail(path, "the file is empty");
 }
 
+/// @throw IoError without the name of the file, std::ios_base::failure with the system's reason
 std::string contentsOf(const std::string& path)
 {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) fail(path, "cannot be read: " + error.message());
+    if (error) throw IoError("cannot be read: " + error.message());
     std::ifstream file(path, std::ios::binary);
-    if (!file) fail(path, "cannot be opened for reading");
+    if (!file) throw IoError("cannot be opened for reading");
+    file.exceptions(std::ios::badbit); // otherwise the system's reason is lost
     std::string bytes(size, '\0');
     file.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::uintmax_t>(file.gcount()) != size) fail(path, "cannot be read whole");
-    return bytes;
+    const auto count = static_cast<std::uintmax_t>(file.gcount());
+    if (count == size) return bytes;
+    throw IoError("ends after " + std::to_string(count) + " of its " + std::to_string(size)
+        + " bytes: it was cut while it was read");
 }
 
 #ifdef SPHERETREE_WITH_ASSIMP
@@ -333,6 +339,8 @@ TriangleMesh readMeshFile(const std::string& path)
                 : readByAssimp(path));
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory for the mesh");
+    } catch (const std::ios_base::failure& error) {
+        fail(path, "cannot be read: " + error.code().message());
     } catch (const openvdb::Exception& error) {
         fail(path, detail::messageOf(error));
     }

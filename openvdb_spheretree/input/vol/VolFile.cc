@@ -28,10 +28,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <ios>
 #include <limits>
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -285,9 +287,10 @@ openvdb::GridBase::Ptr readVolFile(
     const std::uint64_t fileBytes = fileSizeOf(path);
     std::ifstream file(path, std::ios::binary);
     if (!file) fail(path, "cannot be opened for reading");
-    const VolHeader header = detail::readVolHeader(path, file, fileBytes);
-    const openvdb::math::Transform::Ptr transform = transformOf(path, header);
+    file.exceptions(std::ios::badbit); // a reading that fails is no end of the file
     try {
+        const VolHeader header = detail::readVolHeader(path, file, fileBytes);
+        const openvdb::math::Transform::Ptr transform = transformOf(path, header);
         VolStream stream(path, file, header);
         const detail::Stage stage("Reading volume", interrupter, nullptr);
         openvdb::GridBase::Ptr grid;
@@ -301,6 +304,8 @@ openvdb::GridBase::Ptr readVolFile(
         return grid;
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory for the volume that its header keys X, Y, Z ask for");
+    } catch (const std::ios_base::failure& error) {
+        fail(path, "cannot be read: " + error.code().message());
     }
 }
 

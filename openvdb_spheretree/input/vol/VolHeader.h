@@ -28,6 +28,7 @@ struct VolHeader {
 
 /// @brief Read the header, and leave @a file where the values start.
 /// @throw openvdb::IoError naming the file and the key
+/// @throw std::ios_base::failure if reading fails and @a file throws it
 VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint64_t fileBytes);
 
 } // namespace openvdb_spheretree::detail

@@ -44,7 +44,7 @@ TEST(Camera, OneThatSeesNothingIsRefusedByName)
 {
     EXPECT_NO_THROW(Camera().validate());
     Camera camera;
-    for (const double fov : {0.0, -1.0, 180.0, 1e9, std::nan("")}) {
+    for (const double fov : {0.0, -1.0, 1e-300, 180.0, 1e9, std::nan("")}) {
         camera.fovDegrees = fov;
         EXPECT_TRUE(mentions(whyNot(camera), "fov="));
     }
@@ -56,9 +56,30 @@ TEST(Camera, OneThatSeesNothingIsRefusedByName)
         camera.up = up;
         EXPECT_TRUE(mentions(whyNot(camera), "up="));
     }
+    for (const double far : {std::numeric_limits<double>::infinity(), 1e308, -1e101}) {
+        camera = Camera();
+        camera.eye[1] = far;
+        EXPECT_TRUE(mentions(whyNot(camera), "eye="));
+        camera = Camera();
+        camera.lookAt[0] = far;
+        EXPECT_TRUE(mentions(whyNot(camera), "lookat="));
+        camera = Camera();
+        camera.up[0] = far;
+        EXPECT_TRUE(mentions(whyNot(camera), "up="));
+    }
     camera = Camera();
-    camera.eye[1] = std::numeric_limits<double>::infinity();
-    EXPECT_TRUE(mentions(whyNot(camera), "eye="));
+    camera.eye[0] = camera.up[1] = 1e99;
+    EXPECT_NO_THROW(camera.validate());
+    camera.up[1] = 1e-99;
+    EXPECT_NO_THROW(camera.validate());
+}
+
+TEST(Camera, ThereIsNoViewFromADirectionOrAngleThatIsNone)
+{
+    const auto transform = Transform::createLinearTransform(1);
+    const CoordBBox box(Coord(0), Coord(9));
+    EXPECT_THROW(viewOf(box, *transform, Vec3d(1e-320, 0, 0), 30, 1), openvdb::ValueError);
+    EXPECT_THROW(viewOf(box, *transform, Vec3d(0, 1, 0), 1e-300, 1), openvdb::ValueError);
 }
 
 TEST(Camera, TheViewOfAnObjectJustHoldsTheSphereAroundItsBox)
