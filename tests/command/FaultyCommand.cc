@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FaultyCommand.h"
 
+#include "support/Sanitizers.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SPHERETREE_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SPHERETREE_SANITIZED
-#endif
-#endif
 
 namespace command_test {
 
@@ -69,9 +63,9 @@ std::vector<long> spread(long last, long most)
 
 void FaultyCommandTest::SetUp()
 {
-#ifdef SPHERETREE_SANITIZED
-    GTEST_SKIP() << "sanitizers have their own malloc and system calls";
-#endif
+    if (spheretree_test::kSanitized) {
+        GTEST_SKIP() << "sanitizers have their own malloc and system calls";
+    }
     CommandTest::SetUp();
     writeBlock("a.vol");
     const Result made = run("-read a.vol -spheretree tree=extended dag=1 -write tree.vdb");

@@ -4,6 +4,7 @@
 // the folder.
 
 #include "CommandRunner.h"
+#include "support/Sanitizers.h"
 
 #include <cstdlib>
 
@@ -42,11 +43,10 @@ protected:
     /// The process of a sanitizer has terabytes of addresses.
     static void limitMemory()
     {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        if (spheretree_test::kSanitized) return;
         constexpr rlim_t kBytes = rlim_t(1) << 30;
         const rlimit limit{kBytes, kBytes};
         setrlimit(RLIMIT_DATA, &limit);
-#endif
     }
 };
 

@@ -22,8 +22,8 @@ protected:
     {
         auto cube = openvdb::BoolGrid::create();
         cube->setName("cube");
-        for (const auto& voxel : openvdb::CoordBBox::createCube(corner, 8)) {
-            cube->tree().setValueOn(voxel, true);
+        for (int n = 0; n < 512; ++n) { // a loop over a box would step beyond the last coordinate
+            cube->tree().setValueOn(corner.offsetBy(n / 64, n / 8 % 8, n % 8), true);
         }
         writeGrids(name, {cube});
     }

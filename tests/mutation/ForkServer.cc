@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ForkServer.h"
 
+#include "support/Sanitizers.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -20,15 +22,6 @@
 namespace spheretree_test {
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitsMemory = false; // the sanitizers map terabytes
-#elif defined(__has_feature)
-constexpr bool kLimitsMemory =
-    !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
-#else
-constexpr bool kLimitsMemory = true;
-#endif
 
 /// What a child tells its parent, in shared memory. One process writes at a time.
 struct Share {
@@ -70,7 +63,7 @@ void noteOutOfMemory()
 
 void limitMemory(uint64_t bytes)
 {
-    if (!kLimitsMemory) return;
+    if (kSanitized) return;
     uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     const rlim_t limit = rlim_t(pages * uint64_t(sysconf(_SC_PAGESIZE)) + bytes);

@@ -4,6 +4,7 @@
 /// the others are tried all the same.
 
 #include "ForkServer.h"
+#include "support/Sanitizers.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,7 @@ TEST(ForkServer, CountsWhatIsReadAndWhatIsRefused)
 
 TEST(ForkServer, NamesTheInputOfEveryEnd)
 {
+    if (spheretree_test::kSanitized) GTEST_SKIP() << "sanitizers have handlers of these signals";
     ForkLimits limits;
     limits.seconds = 1;
     const ForkedRun run = tryAll(
@@ -59,9 +61,7 @@ TEST(ForkServer, NamesTheInputOfEveryEnd)
 
 TEST(ForkServer, FindsARequestForTooMuchMemoryEvenIfItIsHandled)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "memory is not limited under sanitizers";
-#endif
+    if (spheretree_test::kSanitized) GTEST_SKIP() << "memory is not limited under sanitizers";
     const auto greedy = [](int64_t n) {
         if (n != 5) return true;
         try {
