@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightTree.h"
 
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -52,6 +54,16 @@ std::unique_ptr<MergeModel> modelFor(
     }
     return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
         regionsOf(leafBalls, voxels, interrupter), fit, flat, interrupter);
+}
+
+/// Regions, pairs of neighbours and merged balls: 1200 to 1800 bytes a leaf ball were measured, of
+/// solids, sheets and noise.
+void requireRoomForMerging(std::size_t leafBalls)
+{
+    constexpr double kBytes = 1000;
+    detail::requireMemory(kBytes * double(leafBalls),
+        "the regions and neighbours of " + std::to_string(leafBalls) + " leaf balls",
+        "use a larger voxel, split the object, or use tree=extended");
 }
 
 /// @param tree  with settings, object and transform, and without nodes
@@ -99,6 +111,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
         }
         return kept;
     });
+    requireRoomForMerging(leafBalls.size());
     const LevelMaker maker{
         samples, effortOf(options.quality, leafBalls.size()), settings.dim == 2, interrupter};
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {

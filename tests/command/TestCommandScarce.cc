@@ -132,6 +132,16 @@ TEST_F(CommandScarce, AMeshWhoseSurfaceDoesNotFitTheMemoryIsRefused)
     EXPECT_EQ(result.exitCode, 0) << result.err;
 }
 
+TEST_F(CommandScarce, LeafBallsThatCannotBeMergedInMemoryAreRefusedWithTheirNumber)
+{
+    const std::string noise = "-generate noise voxels=30000 -spheretree errors=0 topology=0 ";
+    for (const std::string tree : {"quality=fast", "quality=best spheres=4", "cover=balls"}) {
+        expectFailure(runWithin(20, noise + tree), 3,
+            {"-spheretree", "leaf balls need about", "more than the 20 MiB of this machine"}, {});
+    }
+    EXPECT_EQ(runWithin(20, noise + "tree=extended").exitCode, 0);
+}
+
 TEST_F(CommandScarce, NoThreadIsAnErrorOfItsOwn)
 {
     expectOf(kWork);
