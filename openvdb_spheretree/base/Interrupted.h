@@ -8,7 +8,7 @@
 
 namespace openvdb_spheretree {
 
-/// Nothing has been changed or written by the call that throws this.
+/// Nothing has been changed or written by the call that throws this, unless it says otherwise.
 class Interrupted : public std::runtime_error {
 public:
     Interrupted() : std::runtime_error("interrupted") {}

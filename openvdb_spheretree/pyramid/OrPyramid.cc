@@ -3,6 +3,7 @@
 
 #include "LeafCoarsener.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
@@ -10,8 +11,6 @@
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/tools/Prune.h>
-
-#include <tbb/parallel_sort.h>
 
 #include <memory>
 
@@ -112,7 +111,7 @@ Parts collectParts(const MaskTree& level, const LeafCoarsener& coarsener, const 
 void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, MaskTree& result,
     NullInterrupter* interrupter)
 {
-    tbb::parallel_sort(parts.begin(), parts.end(),
+    detail::parallelSort(parts.begin(), parts.end(), interrupter,
         [](const LeafPart& a, const LeafPart& b) { return a.parent < b.parent; });
     std::vector<std::size_t> begins; // of groups with the same parent, and the end of the last
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -140,7 +139,7 @@ void joinLeaves(std::vector<LeafPart>& parts, const LeafCoarsener& coarsener, Ma
 /// first make small tiles of it, 4096 a cube.
 void joinTiles(std::vector<TilePart>& tiles, MaskTree& result, NullInterrupter* interrupter)
 {
-    tbb::parallel_sort(tiles.begin(), tiles.end());
+    detail::parallelSort(tiles.begin(), tiles.end(), interrupter);
     for (auto begin = tiles.begin(); begin != tiles.end();) {
         detail::checkInterrupt(interrupter);
         auto end = begin + 1;

@@ -38,8 +38,8 @@ openvdb::points::PointDataGrid::Ptr toPoints(
 /// (`spheres`, `ijk`, `radiusSq`) is freed as soon as the grid has it, and is empty afterwards.
 /// Levels, settings, edges and cuts stay, but dagToPoints() and cutsToPoints() need the nodes: call
 /// them before.
-/// @throw openvdb::ValueError as above; the tree is then unchanged. After any other exception it is
-///        lost, as its nodes are after success: of both use levels and description alone.
+/// @throw openvdb::ValueError as above; the tree is then unchanged. After any other exception,
+///        Interrupted included, it is lost, as its nodes are after success: of both use levels and description alone.
 openvdb::points::PointDataGrid::Ptr releaseToPoints(
     SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -57,10 +57,10 @@ std::unique_ptr<MergeModel> modelFor(
 }
 
 /// Regions, pairs of neighbours and merged balls: 1200 to 1800 bytes a leaf ball were measured, of
-/// solids, sheets and noise.
+/// solids, sheets and noise. What is refused needs more than there is even with half of that.
 void requireRoomForMerging(std::size_t leafBalls)
 {
-    constexpr double kBytes = 1000;
+    constexpr double kBytes = 600;
     detail::requireMemory(kBytes * double(leafBalls),
         "the regions and neighbours of " + std::to_string(leafBalls) + " leaf balls",
         "use a larger voxel, split the object, or use tree=extended");

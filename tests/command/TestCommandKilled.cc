@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <thread>
+
+#include <sys/wait.h>
 
 namespace {
 
@@ -173,6 +176,24 @@ TEST_F(CommandKilled, WhatHangsIsLeftBehindASecondAfterARequestToStop)
             expectFailure(result, 5, {"vdb_spheretree: interrupted"}, kTargets);
         }
     }
+}
+
+/// The second signal would start the second anew.
+TEST_F(CommandKilled, MoreRequestsDoNotPutTheEndOff)
+{
+    writeOld(kTargets);
+    const auto start = std::chrono::steady_clock::now();
+    Running running =
+        startWith(kWork + kWrite, signalled("fsync", 1, SIGTERM) + ";" + hanging("fsync", 1, 30));
+    const auto patience = std::chrono::seconds(20);
+    siginfo_t ended{};
+    while (ended.si_pid == 0 && std::chrono::steady_clock::now() - start < patience) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        running.send(SIGTERM);
+        waitid(P_PID, id_t(running.process()), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - start, patience);
+    expectFailure(running.wait(), 5, {"vdb_spheretree: interrupted"}, kTargets);
 }
 
 TEST_F(CommandKilled, FilesThatTakeTheirPlacesHaveTheTimeThatTheyNeed)

@@ -123,18 +123,18 @@ TEST_F(CommandScarce, AMeshWhoseSurfaceDoesNotFitTheMemoryIsRefused)
     for (int i = 0; i < 101; ++i) often += faces; // an odd number, so that it is closed
     command_test::writeText(path("often.obj"), often);
     mBefore = files();
-    expectFailure(runWithin(60, "-read once.obj -mesh2ls voxel=0.002"), 3,
+    expectFailure(runWithin(20, "-read once.obj -mesh2ls voxel=0.002"), 3,
         {"-mesh2ls", "voxels at the surface of mesh 'once' need about",
-            "more than the 60 MiB of this machine: use a larger voxel"},
+            "more than the 20 MiB of this machine: use a larger voxel"},
         {});
-    // By the area alone it would need four times as much as there is.
-    const Result result = runWithin(60, "-read often.obj -mesh2ls voxel=0.01");
+    // By the area alone it would need six times as much as there is.
+    const Result result = runWithin(20, "-read often.obj -mesh2ls voxel=0.01");
     EXPECT_EQ(result.exitCode, 0) << result.err;
 }
 
 TEST_F(CommandScarce, LeafBallsThatCannotBeMergedInMemoryAreRefusedWithTheirNumber)
 {
-    const std::string noise = "-generate noise voxels=30000 -spheretree errors=0 topology=0 ";
+    const std::string noise = "-generate noise voxels=50000 -spheretree errors=0 topology=0 ";
     for (const std::string tree : {"quality=fast", "quality=best spheres=4", "cover=balls"}) {
         expectFailure(runWithin(20, noise + tree), 3,
             {"-spheretree", "leaf balls need about", "more than the 20 MiB of this machine"}, {});

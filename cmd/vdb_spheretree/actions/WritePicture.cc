@@ -55,7 +55,7 @@ void requireKeptView(const ActionCall& call, const Camera& view, const Camera& m
     const openvdb::Vec3d before = view.eye - view.lookAt, after = moved.eye - moved.lookAt;
     if ((after - before).length() <= kMaxTurn * before.length()) return;
     throwUsage("lookat=" + call.text("lookat")
-        + " is too far from the object for a camera that nothing but the object places: give eye");
+        + " is too far from the object to look at it from where the object is seen: give eye= too");
 }
 
 /// @param view  has the values of what the user has not chosen

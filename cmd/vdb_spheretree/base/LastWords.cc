@@ -20,6 +20,7 @@ constexpr unsigned kPatience = 1; // seconds
 
 std::array<std::atomic<const char*>, 64> sFiles{};
 std::atomic<int> sUninterrupted{0};
+std::atomic<bool> sAllIsDone{false};
 static_assert(
     std::atomic<const char*>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
     "signal handlers read them");
@@ -30,6 +31,7 @@ static_assert(
     const auto say = [](const char* text) {
         if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return; // nobody is left to tell
     };
+    if (isatty(STDERR_FILENO)) say("\r\033[K"); // there may be a progress bar
     say("vdb_spheretree: ");
     if (code != kInterrupted) say("error: ");
     say(words);
@@ -71,6 +73,7 @@ void endOverdue(int)
         startCountdown();
         return;
     }
+    if (sAllIsDone) _exit(kOk);
     endWith(kInterrupted, "interrupted");
 }
 
@@ -95,6 +98,8 @@ void endOverdueStops()
     sigemptyset(&action.sa_mask);
     sigaction(SIGALRM, &action, nullptr);
 }
+
+void noteAllIsDone() noexcept { sAllIsDone = true; }
 
 void startCountdown() noexcept { alarm(kPatience); }
 

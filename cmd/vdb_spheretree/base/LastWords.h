@@ -17,13 +17,15 @@ namespace command {
 /// any library has started: OpenVDB's logging starts threads before main(). That needs no call.
 void catchLostPages();
 
-/// @brief Have the program end (kInterrupted) a second after it was asked to stop, if it has not done so
-/// by then: it may be in a library that asks nobody, or give back gigabytes.
+/// @brief Have the program end (kInterrupted) a second after it was asked to stop, if it has not
+/// stopped by then: it may be in a library that asks nobody, or give back gigabytes.
 void endOverdueStops();
+/// From here on everything is done, and such an end is a success (kOk).
+void noteAllIsDone() noexcept;
 /// Called when a stop is asked for; may be called by the handler of a signal.
 void startCountdown() noexcept;
-/// As long as one lives the program goes on nevertheless: files are about to take their places, all of
-/// them or none.
+/// As long as one lives the program goes on nevertheless: files are about to take their places, all
+/// of them or none.
 class Uninterrupted {
 public:
     Uninterrupted();

@@ -24,8 +24,8 @@ constexpr auto kDrawEvery = std::chrono::milliseconds(100);
 
 void requestStop(int)
 {
-    sStop.store(true, std::memory_order_relaxed);
-    startCountdown();
+    // By the first signal alone: more of them would put the end off.
+    if (!sStop.exchange(true)) startCountdown();
 }
 
 } // namespace

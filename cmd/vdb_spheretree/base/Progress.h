@@ -14,8 +14,9 @@
 
 namespace command {
 
-/// @brief Install signal handlers. Ctrl-C, SIGTERM and a closed terminal request a clean stop, and end
-/// the program a second later if it has not stopped by then. A closed pipe and a full file become errors that are reported, not signals that kill.
+/// @brief Install signal handlers. Ctrl-C, SIGTERM and a closed terminal request a clean stop, and
+/// end the program a second later if it has not stopped by then. A closed pipe and a full file become
+/// errors that are reported, not signals that kill.
 void catchSignals();
 
 /// @return whether a stop has been requested.

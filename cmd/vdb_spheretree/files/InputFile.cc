@@ -22,7 +22,9 @@ int openToRead(const std::string& path)
         throwIfStopped();
         const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | (isPipe ? O_NONBLOCK : 0));
         if (fd >= 0) {
-            if (isPipe) fcntl(fd, F_SETFL, 0); // only the opening was not to wait
+            if (isPipe) { // only the opening was not to wait
+                fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+            }
             return fd;
         }
         if (errno != EINTR) throwInput("cannot read " + systemError(path));

@@ -72,7 +72,8 @@ std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesIn
     std::string text = textOf(path);
     bytesInAll += std::max(text.size(), kLeastPerFile);
     if (bytesInAll > kMostInAll) {
-        throwUsage("all files of -config together, each as often as it is named, may hold "
+        throwUsage("all files of -config together, each as often as it is named and as "
+            + std::to_string(kLeastPerFile) + " bytes at least, may hold "
             + std::to_string(kMostInAll) + " bytes, and with this one they hold more");
     }
     const std::string byteOrderMark = "\xEF\xBB\xBF"; // some editors begin UTF-8 with it

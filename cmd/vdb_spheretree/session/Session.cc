@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Session.h"
 
+#include "base/LastWords.h"
 #include "base/Terminal.h"
 
 #include <tbb/global_control.h>
@@ -32,6 +33,7 @@ void Session::run(const std::vector<ActionCall>& line)
         mIsLast = &call == &line.back();
         runOne(call);
     }
+    noteAllIsDone();
 }
 
 void Session::runOne(const ActionCall& call)

@@ -275,11 +275,12 @@ void checkMesh(const TriangleMesh& mesh)
     }
 }
 
-/// By the area of its triangles a mesh has a narrow band of so many voxels, unless triangles lie upon
-/// each other: by its box it cannot have more. Measured are 35 bytes for each of the former.
+/// By the area of its triangles a mesh has a narrow band of so many voxels, and fewer where triangles
+/// are nearer to each other than twice its half width; by its box it cannot have more. Measured are 35
+/// bytes a voxel of the band: what is refused needs more than there is even if four triangles share one.
 void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfWidth)
 {
-    constexpr double kBytes = 20, kBytesOfDense = 8;
+    constexpr double kBytes = 8, kBytesOfDense = 8;
     double area = 0; // in faces of voxels
     openvdb::BBoxd box;
     for (const Vec3I& triangle : mesh.triangles) {
@@ -292,7 +293,7 @@ void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfW
     const double band = 2 * halfWidth * area;
     const double bytes = std::min(kBytes * band, kBytesOfDense * sides[0] * sides[1] * sides[2]);
     std::ostringstream what;
-    what << "the " << std::setprecision(2) << band << " voxels at the surface of mesh '"
+    what << "the up to " << std::setprecision(2) << band << " voxels at the surface of mesh '"
          << mesh.name << "'";
     detail::requireMemory(bytes, what.str(), "use a larger voxel");
 }

@@ -74,7 +74,7 @@ double bytesOf(const GridNodes& nodes, const ValueType& type)
 {
     // An entry holds a tile's value or a pointer; there are two bits for each.
     const double entry = std::max<double>(type.bytes, sizeof(void*)) + 2.0 / 8;
-    constexpr double kLeaf = 128; // its masks, its place, and a pointer to its values
+    constexpr double kLeaf = 96; // its masks, and its place
     return entry * (32768.0 * double(nodes.upper) + 4096.0 * double(nodes.lower))
         + kLeaf * double(nodes.leaves.size());
 }

@@ -5,6 +5,8 @@
 #include "ValueBlock.h"
 #include <openvdb_spheretree/base/Memory.h>
 
+#include <openvdb/io/GridDescriptor.h>
+
 namespace openvdb_spheretree::detail {
 
 VdbGuard::VdbGuard(std::streambuf& source, DelayedMetadata treatment)
@@ -68,8 +70,9 @@ void VdbGuard::takeGrid()
     format.type = *type;
     GridNodes nodes = takeNodes(mWindow, format);
     mNodeBytes += bytesOf(nodes, *type);
-    requireMemory(mNodeBytes, "the nodes of the grids up to '" + mGrid.name + "'",
-        "voxels far apart take a node each; take fewer of them, larger ones, or split the file");
+    const std::string name = openvdb::io::GridDescriptor::stripSuffix(mGrid.name);
+    requireMemory(mNodeBytes, "the nodes of the grids up to '" + name + "'",
+        "voxels far apart take nodes of their own; use a larger voxel, or split the file");
     mBuffers = walkBuffers(format, std::move(nodes.leaves), std::move(mGrid.delayed));
 }
 

@@ -112,7 +112,8 @@ TEST(MeshLevelSet, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
     mesh.triangles = {Vec3I(0, 1, 2)};
     const std::string message =
         messageOf<openvdb::ValueError>([&] { meshToLevelSet(mesh, 1.0, 3.0); });
-    EXPECT_TRUE(mentions(message, "the 3e+12 voxels at the surface of mesh 'field' need about"));
+    EXPECT_TRUE(
+        mentions(message, "the up to 3e+12 voxels at the surface of mesh 'field' need about"));
     EXPECT_TRUE(mentions(message, "use a larger voxel"));
 }
 
