@@ -2,10 +2,11 @@
 /// @file TestPointWalk.cc
 /// @brief Leaves of points, written by hand: OpenVDB writes none in which one number contradicts another.
 
+#include "support/GuardedVdb.h"
+#include "support/VdbBytes.h"
 #include "support/VdbSamples.h"
 
 #include <openvdb_spheretree/input/vdb/VdbGrids.h>
-#include <openvdb_spheretree/input/vdb/VdbGuard.h>
 
 #include <openvdb/io/Compression.h>
 #include <openvdb/points/AttributeGroup.h>
@@ -23,6 +24,7 @@
 namespace {
 
 using namespace openvdb_spheretree;
+using namespace spheretree_test;
 namespace points = openvdb::points;
 
 constexpr uint8_t kStrided = 1, kUniform = 2, kPaged = 8; // forms of an attribute
@@ -45,7 +47,7 @@ std::string packed(int32_t bytes, int32_t unpacked)
 
 /// A `.vdb` of a grid with leaves side by side. Each has 600 points with an attribute of numbers, which is
 /// what is changed here, and one for groups, of which there is one.
-struct PointFile {
+struct PointFile : private VdbBytes {
     uint32_t version = 224;
     int leaves = 1;
     uint16_t passes = 2 * 2 + 4;
@@ -98,34 +100,13 @@ struct PointFile {
     }
 
 private:
-    template <typename T>
-    void put(T value)
-    {
-        mBytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-    }
-    void text(const std::string& text)
-    {
-        put(uint32_t(text.size()));
-        mBytes += text;
-    }
     void head()
     {
-        put<int64_t>(openvdb::OPENVDB_MAGIC);
-        put(version);
-        put<uint32_t>(10);
-        put<uint32_t>(0);
-        put<char>(0); // no offsets
-        mBytes += "01234567-89ab-cdef-0123-456789abcdef";
-        put<uint32_t>(0); // metadata
-        put<int32_t>(1);  // grids
-        text("points");
-        text("Tree_ptdataidx32_5_4_3");
-        text(""); // no instance
-        for (int i = 0; i < 3; ++i) put<int64_t>(0);
+        fileHead(version, 10);
+        descriptorOf("points", "Tree_ptdataidx32_5_4_3");
         put<uint32_t>(openvdb::io::COMPRESS_ACTIVE_MASK);
         put<uint32_t>(0); // metadata
-        text("ScaleMap");
-        for (int i = 0; i < 15; ++i) put<double>(1);
+        unitScale();
     }
     void nodes()
     {
@@ -174,29 +155,14 @@ private:
         put(group);
         put<uint32_t>(0); // metadata
     }
-
-    std::string mBytes;
 };
 
-class PointWalk : public testing::Test {
+class PointWalk : public GuardedVdb {
 protected:
-    static void SetUpTestSuite() { openvdb::initialize(); }
-
-    static std::string saidOf(const std::string& bytes)
-    {
-        std::stringbuf source(bytes);
-        try {
-            detail::VdbGuard(source).takeAll();
-        } catch (const openvdb::Exception& error) {
-            return error.what();
-        }
-        return "";
-    }
     static void expectSound(PointFile file) { EXPECT_EQ(saidOf(file.bytes()), ""); }
     static void expectSaid(PointFile file, const std::string& words)
     {
-        const std::string said = saidOf(file.bytes());
-        EXPECT_NE(said.find(words), std::string::npos) << "said: '" << said << "'";
+        GuardedVdb::expectSaid(file.bytes(), words);
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include "support/DataFolder.h"
 #include "support/TemporaryFolder.h"
+#include "support/VdbBytes.h"
 #include "support/VdbSamples.h"
 
 #include <openvdb_spheretree/input/vdb/VdbGrids.h>
@@ -154,25 +155,21 @@ TEST_F(VdbGrids, TakeNothingBehindTheLastGridForTheirOwn)
 }
 
 /// A `.vdb` of one leaf as early versions wrote it: 219 and 220 have no more than their header in common.
-class EarlyFile {
+class EarlyFile : VdbBytes {
 public:
     /// @param zip  versions that can do without say so
     EarlyFile(uint32_t version, uint32_t library, bool zip) : mVersion(version), mZip(zip)
     {
-        header(library);
+        fileHead(version, library, zip);
     }
 
     std::string levelSet(bool frustum = false)
     {
         const bool zip = mZip;
-        text("density");
-        text("Tree_float_5_4_3");
-        text(""); // no instance
-        for (int i = 0; i < 3; ++i) put<int64_t>(0);
+        descriptorOf("density", "Tree_float_5_4_3");
         put<uint32_t>(0); // metadata
         if (frustum) frustumMap();
-        text("ScaleMap");
-        for (int i = 0; i < 15; ++i) put<double>(1);
+        unitScale();
         put<int32_t>(1);  // buffers
         put<float>(2.5f); // background
         put<uint32_t>(0);
@@ -186,28 +183,6 @@ public:
     }
 
 private:
-    template <typename T>
-    void put(T value)
-    {
-        mBytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-    }
-    void text(const std::string& text)
-    {
-        put(uint32_t(text.size()));
-        mBytes += text;
-    }
-    void header(uint32_t library)
-    {
-        put<int64_t>(openvdb::OPENVDB_MAGIC);
-        put(mVersion);
-        put(library);
-        put<uint32_t>(0);
-        put<char>(0); // no offsets
-        if (mVersion >= 220 && mVersion < 222) put<char>(mZip);
-        mBytes += "01234567-89ab-cdef-0123-456789abcdef";
-        put<uint32_t>(0); // metadata
-        put<int32_t>(1);  // grids
-    }
     /// Up to the linear map that is part of it.
     void frustumMap()
     {
@@ -247,7 +222,6 @@ private:
         }
     }
 
-    std::string mBytes;
     uint32_t mVersion;
     bool mZip;
 };
