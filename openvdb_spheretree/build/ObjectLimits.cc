@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/NodeBytes.h>
@@ -22,13 +23,6 @@ namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::Coord;
-
-/// In 64 bits; openvdb::CoordBBox::extents() would wrap around.
-std::array<int64_t, 3> sidesOf(const openvdb::CoordBBox& box)
-{
-    const auto side = [&](int axis) { return int64_t(box.max()[axis]) - box.min()[axis] + 1; };
-    return {side(0), side(1), side(2)};
-}
 
 void requireFlat(const ObjectInfo& object)
 {

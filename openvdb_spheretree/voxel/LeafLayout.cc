@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafLayout.h"
 
+#include "BoxSides.h"
 #include "Masks.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Memory.h>
@@ -44,12 +45,6 @@ Place placeOf(const openvdb::Coord& origin, uint32_t node)
     return {ordered(origin[1], origin[2]), ordered(origin[0]), node};
 }
 
-/// Also of a tile that ends at the last coordinate, where CoordBBox::dim() would wrap around.
-int64_t sideOf(const openvdb::CoordBBox& tile)
-{
-    return int64_t(tile.max()[0]) - tile.min()[0] + 1;
-}
-
 /// Leaves are ordered by key, then by number.
 struct Keyed {
     uint64_t key;
@@ -72,7 +67,7 @@ std::vector<Place> placesOf(const openvdb::MaskTree& level,
         places.end());
     places.reserve(std::size_t(count));
     detail::forEachTile(level, [&](const openvdb::CoordBBox& tile) {
-        const auto side = int(sideOf(tile));
+        const auto side = int(detail::sidesOf(tile)[0]);
         for (int x = 0; x < side; x += kLeafDim) {
             for (int y = 0; y < side; y += kLeafDim) {
                 for (int z = 0; z < side; z += kLeafDim) {
@@ -124,7 +119,7 @@ void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
     int64_t count = int64_t(level.leafCount()); // and the leaves that tiles stand for
     detail::forEachTile(level, [&](const openvdb::CoordBBox& tile) {
-        const int64_t leaves = sideOf(tile) / kLeafDim;
+        const int64_t leaves = detail::sidesOf(tile)[0] / kLeafDim;
         count += leaves * leaves * leaves;
     });
     requireRoom(count);

@@ -16,7 +16,8 @@ namespace command {
 
 /// @return the words of the file, as if they had been typed.
 /// @param bytesInAll  of all files of the command line so far, each as often as it is read, and as
-///                    1 KiB at least; this one is added. Files that name each other in a chain could multiply without end
+///                    1 KiB at least; this one is added. Files that name each other in a chain could
+///                    multiply without end
 /// @throw Interrupted, CommandError (input) if it cannot be read, holds a zero or more than 1 MiB,
 ///        (usage) if a quote is not closed, or all files hold more than 4 MiB
 std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesInAll);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file BoxSides.h
+/// @brief The sides of a box of voxels, wherever it is.
+
+#pragma once
+
+#include <openvdb/Types.h> // CoordBBox
+
+#include <array>
+#include <cstdint>
+
+namespace openvdb_spheretree::detail {
+
+/// In 64 bits: openvdb::CoordBBox::dim() and extents() wrap around at the ends of coordinates.
+inline std::array<int64_t, 3> sidesOf(const openvdb::CoordBBox& box)
+{
+    const auto side = [&](int axis) { return int64_t(box.max()[axis]) - box.min()[axis] + 1; };
+    return {side(0), side(1), side(2)};
+}
+
+} // namespace openvdb_spheretree::detail
