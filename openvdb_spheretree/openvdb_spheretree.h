@@ -18,9 +18,16 @@
 #include "voxel/MaskTree.h"
 #include "voxel/MedialBall.h"
 
+// Triangles, and the voxels that they meet.
+#include "mesh/TriangleMesh.h"
+#include "mesh/TriangleVoxels.h"
+
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
 #include "input/Object.h"
+
+// A mesh to the object of all voxels that its solid meets.
+#include "solid/MeshSolid.h"
 
 // The object to a pyramid of ever coarser ones.
 #include "pyramid/BlockModel.h"
@@ -33,6 +40,7 @@
 #include "medial/DistanceTransform.h"
 #include "medial/MedialAxis.h"
 #include "topology/LevelTopology.h"
+#include "topology/PartSelection.h"
 
 // What a tree can be asked for, what it is, and the call that builds one.
 #include "build/BuildSphereTree.h"
@@ -46,6 +54,7 @@
 #include "tree/Traversal.h"
 
 // A tree's spheres as voxels, its errors, and whether it is right.
+#include "check/MeshCheck.h"
 #include "check/TreeCheck.h"
 #include "measure/LevelErrors.h"
 #include "sphere/ExactSphere.h"

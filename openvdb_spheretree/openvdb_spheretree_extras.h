@@ -6,6 +6,7 @@
 #pragma once
 
 #include "input/mesh/MeshFile.h"
+#include "input/mesh/MeshLevelSet.h"
 #include "input/shapes/GeneratedObject.h"
 #include "input/vdb/VdbGrids.h"
 #include "input/vol/VolFile.h"

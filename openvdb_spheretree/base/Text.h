@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <optional>
@@ -63,6 +64,14 @@ inline std::string messageOf(const std::exception& error)
     constexpr std::size_t kLongest = 400;
     const std::string_view message = withoutType(error.what());
     return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
+}
+
+/// @return a number for messages, with four digits that count.
+inline std::string shortNumber(double number)
+{
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.4g", number);
+    return text;
 }
 
 /// @return the number that the whole text is; nothing if it is none, or out of the type's range.

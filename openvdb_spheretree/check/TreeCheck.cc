@@ -361,6 +361,7 @@ std::string toString(FaultKind kind)
     case FaultKind::Coverage: return "coverage";
     case FaultKind::Chains: return "chains";
     case FaultKind::Inside: return "inside";
+    case FaultKind::Surface: return "surface";
     case FaultKind::Errors: break;
     }
     return "errors";

@@ -28,7 +28,8 @@ enum class FaultKind {
     Coverage,     ///< no level misses a voxel, in exact radii nor in stored ones
     Chains,       ///< chains of spheres hold every voxel of the object, through levels and cuts
     Inside,       ///< inner spheres hold no voxel that the object has not
-    Errors        ///< recorded errors are those of the levels
+    Errors,       ///< recorded errors are those of the levels
+    Surface       ///< stored spheres of a level cover a mesh: MeshCheck.h
 };
 
 /// @return its name in small letters, such as "shape" or "leaf balls".

@@ -5,16 +5,9 @@
 ///
 /// The structuring element is the digital ball { q : |q|^2 <= r^2 } (with dim = 2 the disc in the
 /// plane of x and y). Dilation adds every voxel within r of the set; erosion removes those that are
-/// within r of a voxel that is still off. So closing adds voxels, never removes one of the set, and
-/// never leaves its box: a ball that touches a side of the box from outside holds no voxel of the
-/// set.
-///
-/// Both steps look for the voxels within r of another set. The distance transform of a band of
-/// voxels along it finds them, exactly, so closing has no kernel of its own:
-/// 1. `leafCubesOf`, `grown`: the cubes of 8^3 voxels, aligned like leaves, within reach of the
-///    set;
-/// 2. dilation: off voxels there whose distance to the set is r at most;
-/// 3. erosion: of these, those go whose distance to the rest is r at most.
+/// within r of a voxel that is still off (BallMorphology.h). So closing adds voxels, never removes one
+/// of the set, and never leaves its box: a ball that touches a side of the box from outside holds no
+/// voxel of the set.
 ///
 /// Cost: linear in the voxels of a band around the surface, of 2 r and 16 voxels or less to each
 /// side; tiles are cut up only within it. Parallel. Source: J. Serra, "Image Analysis and

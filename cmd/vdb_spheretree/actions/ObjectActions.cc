@@ -6,7 +6,10 @@
 #include "ObjectChoice.h"
 
 #include <openvdb/points/PointDataGrid.h>
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
+#include <openvdb_spheretree/solid/MeshSolid.h>
 
 #include <algorithm>
 
@@ -22,22 +25,77 @@ constexpr double kHuge = 1e30;
 void checkMesh2ls(const ActionCall& call, Plan&)
 {
     if (call.given("voxel") && call.given("dim")) throwUsage("voxel and dim exclude each other");
+    const bool outside = call.text("fill") == "outside";
+    if (call.given("gap") && !outside) {
+        throwUsage(
+            "gap=" + call.text("gap") + " is the width of holes that fill=outside closes: add it");
+    }
+    if (call.given("cover") && !call.flag("cover") && outside) {
+        throwUsage(
+            "fill=outside makes an object of all voxels that the solid meets: leave cover=0 out");
+    }
+    if (call.given("width") && (call.flag("cover") || outside)) {
+        throwUsage("width is of a level set's narrow band, and cover=1 makes no level set");
+    }
+}
+
+void warnIfOpen(const spheretree::TriangleMesh& mesh, Session& session)
+{
+    const int64_t open = spheretree::openEdges(mesh, &session.progress);
+    if (open == 0) return;
+    session.warn("mesh '" + mesh.name + "' is not closed: " + std::to_string(open)
+        + " edges belong to an odd number of triangles; where it is open by more than a voxel it "
+          "has no "
+          "inside, and the result may be a thin shell or nearly empty: -mesh2ls fill=outside "
+          "closes holes");
+}
+
+/// The object of a level set may lack what is thinner than a voxel.
+void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::FloatGrid& levelSet,
+    double voxel, Session& session)
+{
+    const std::string remedy = "cover=1 makes an object of every voxel that the mesh meets";
+    openvdb::BoolGrid::Ptr object;
+    try {
+        object = spheretree::objectOf(levelSet, {}, &session.progress);
+    } catch (const openvdb::ValueError&) { // it is empty
+        session.warn("mesh '" + mesh.name
+            + "' is so thin, or so open, that it holds no center of a voxel of "
+            + spheretree::detail::shortNumber(voxel) + ": " + remedy);
+        return;
+    }
+    const auto missed = spheretree::missedSurface(mesh, *object, &session.progress);
+    if (missed.voxels == 0) return;
+    session.warn("the object of mesh '" + mesh.name
+        + "' lacks thin parts: " + std::to_string(missed.voxels)
+        + " voxels that the mesh meets are more than one voxel away from it, by up to "
+        + spheretree::detail::shortNumber(missed.distance) + " (world units): " + remedy);
+}
+
+openvdb::GridBase::Ptr gridOf(
+    const spheretree::TriangleMesh& mesh, double voxel, const ActionCall& call, Session& session)
+{
+    if (call.text("fill") == "outside") {
+        const double gap = call.given("gap") ? call.real("gap") : 2 * voxel;
+        return spheretree::meshToObject(mesh, voxel, gap, &session.progress);
+    }
+    warnIfOpen(mesh, session);
+    if (call.flag("cover")) return spheretree::meshToObject(mesh, voxel, 0, &session.progress);
+    const auto levelSet =
+        spheretree::meshToLevelSet(mesh, voxel, call.real("width"), &session.progress);
+    warnOfMissed(mesh, *levelSet, voxel, session);
+    return levelSet;
 }
 
 void runMesh2ls(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectMesh(call.text("geo"));
     const auto mesh = item.mesh;
-    if (const int64_t open = spheretree::openEdges(*mesh)) {
-        session.warn("mesh '" + mesh->name + "' is not closed: " + std::to_string(open)
-            + " edges belong to an odd number of triangles; where it is open it has no inside, and "
-              "the result may be a thin shell or nearly empty");
-    }
     const double voxel = call.given("voxel")
         ? call.real("voxel")
         : spheretree::voxelSizeForDim(*mesh, int(call.integer("dim")));
     StackItem result;
-    result.grid = spheretree::meshToLevelSet(*mesh, voxel, call.real("width"), &session.progress);
+    result.grid = gridOf(*mesh, voxel, call, session);
     result.grid->setName(call.given("name") ? call.text("name") : mesh->name);
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -115,11 +173,23 @@ openvdb::BoolGrid::Ptr objectOf(
 
 ActionSpec mesh2lsAction()
 {
-    ActionSpec action{"mesh2ls", "", "", "turn a closed mesh into a level set"};
+    ActionSpec action{"mesh2ls", "", "",
+        "turn a closed mesh into a level set, or into the voxels that its solid meets"};
     action.options = {
         integer("dim", "256", 1, 1 << 20, "voxels along the longest side of the mesh"),
         real("voxel", "", kTiny, kHuge, "size of a voxel in world units, in place of dim"),
         real("width", "3", 1, 1000, "half the width of the narrow band, in voxels"),
+        flag("cover", false,
+            "make an object of every voxel whose cube meets the solid, in place of a level set, of "
+            "which "
+            "voxels with their center inside count: thin parts stay, and spheres cover the solid "
+            "itself"),
+        choice("fill", {"closed", "outside"},
+            "what is inside: what a closed mesh bounds, or all that cannot be reached from outside "
+            "through "
+            "holes narrower than gap (with cover=1)"),
+        real("gap", "", 0, kHuge,
+            "with fill=outside: the width of holes to close, in world units; by default 2 voxels"),
         text("geo", "", "the mesh, by its age among the meshes (0 is the newest) or its name"),
         keepOption(), nameOption("", "name of the result (by default that of the mesh)")};
     action.check = checkMesh2ls;

@@ -9,10 +9,14 @@
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/build/MemoryPlan.h>
+#include <openvdb_spheretree/check/MeshCheck.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace command {
 
@@ -128,23 +132,60 @@ void runLevel(const ActionCall& call, Session& session)
     session.stack.push(result);
 }
 
+/// The newest mesh of the stack, or null.
+std::shared_ptr<const spheretree::TriangleMesh> meshOf(const Session& session)
+{
+    const auto& items = session.stack.items();
+    const auto newest = std::find_if(
+        items.rbegin(), items.rend(), [](const auto& item) { return bool(item->mesh); });
+    return newest == items.rend() ? nullptr : (*newest)->mesh;
+}
+
+/// The object that a tree is checked against; null if there is but a mesh.
+BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, Session& session)
+{
+    if (item.object && !call.given("vdb")) return item.object;
+    const auto& items = session.stack.items();
+    const bool anyObject = std::any_of(items.begin(), items.end(),
+        [](const auto& other) { return other->grid && spheretree::isObjectGrid(*other->grid); });
+    if (!anyObject && !call.given("vdb") && session.stack.holdsMesh()) return nullptr;
+    return timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
+}
+
+std::vector<spheretree::TreeFault> faultsOf(const StackItem& item, const BoolGrid::ConstPtr& object,
+    const spheretree::TriangleMesh* mesh, Session& session)
+{
+    std::vector<spheretree::TreeFault> faults;
+    if (object) faults = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
+    throwIfStopped();
+    if (!mesh) return faults;
+    for (auto& fault :
+        spheretree::checkMeshCovered(*item.tree, *mesh, object.get(), &session.progress)) {
+        faults.push_back(std::move(fault));
+    }
+    return faults;
+}
+
 void runCheck(const ActionCall& call, Session& session)
 {
     const StackItem& item = session.stack.selectTree("");
     session.noteIfUnverified(item);
-    BoolGrid::ConstPtr object = item.object;
-    if (call.given("vdb") || !object) {
-        object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
-    }
-    const auto faults = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
-    throwIfStopped();
+    const auto object = objectToCheck(item, call, session);
+    const bool covers = !item.tree->settings.isInner(); // and there is something to prove of a mesh
+    const auto mesh = covers ? meshOf(session) : nullptr;
+    const auto faults = faultsOf(item, object, mesh.get(), session);
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
     if (!faults.empty()) {
         throw CommandError(kCheckFailed,
             item.description() + " does not hold what it promises: " + std::to_string(faults.size())
                 + " of the checks failed, the first: " + faults.front().sentence);
     }
-    if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
+    if (session.verbosity == Verbosity::Quiet) return;
+    if (object) session.print("all checks hold\n");
+    if (mesh) {
+        session.print("every triangle of mesh '" + oneLine(mesh->name, 60)
+            + "' lies in the stored spheres of every level\n");
+    }
 }
 
 } // namespace
@@ -181,8 +222,9 @@ ActionSpec levelAction()
 ActionSpec checkAction()
 {
     ActionSpec action{"check", "", "vdb",
-        "verify everything that a sphere-tree promises against its object; exit code 6 if anything "
-        "fails"};
+        "verify everything that a sphere-tree promises against its object, and that its spheres "
+        "cover the "
+        "mesh on the stack, if there is one; exit code 6 if anything fails"};
     action.options = {text("vdb", "",
         "the object, by its age on the stack (0 is the newest) or its name; by default what the "
         "tree "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MeshFile.cc
-/// @brief Reader of mesh files, and mesh to level set.
+/// @brief Reader of mesh files.
 ///
 /// 1. Polygons of the file: OBJ, OFF, PLY, STL by MeshFormats.h, which says why; others by
 ///    assimp. Of assimp only the importers are used: its own post-processing aborts the process on
@@ -13,19 +13,14 @@
 
 #include "MeshFormats.h"
 #include "Polygon.h"
-#include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
 
-#include <openvdb/tools/MeshToVolume.h>
-#include <openvdb/tools/SignedFloodFill.h>
+#include <openvdb/Exceptions.h>
 
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #endif
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +28,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <ios>
 #include <limits>
 #include <new>
-#include <sstream>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
@@ -52,9 +45,6 @@ using openvdb::Vec3d;
 using openvdb::Vec3I;
 using openvdb::Vec3s;
 
-/// Half of what Coord holds, so that a narrow band and OpenVDB's own margins fit around it.
-constexpr double kMaxIndex = 1 << 30;
-constexpr double kMaxHalfWidth = 1000; // wider is a slip: memory grows with its cube
 constexpr std::size_t kMaxMessage = 200;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
@@ -224,94 +214,6 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
     return mesh;
 }
 
-// Level set
-
-/// @return the center of the mesh's box in index space, rounded to a leaf's corner. Around it,
-/// points of 24 bits are as exact as those of the file are.
-openvdb::Coord middleLeaf(const TriangleMesh& mesh, double voxelSize)
-{
-    openvdb::BBoxd box;
-    for (const Vec3s& world : mesh.points) {
-        const Vec3d point = Vec3d(world) / voxelSize;
-        box.expand(point);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(point[axis]) <= kMaxIndex) continue; // false for NaN as well
-            OPENVDB_THROW(openvdb::ValueError,
-                "mesh '" << mesh.name << "' reaches coordinate " << world[axis]
-                         << ", too far for voxel size " << voxelSize
-                         << " (indices must stay within 2^30); use larger voxels");
-        }
-    }
-    return openvdb::Coord::floor(box.getCenter())
-        & ~int32_t(openvdb::FloatTree::LeafNodeType::DIM - 1);
-}
-
-/// Moves the narrow band by @a shift, a multiple of leaves, and fills its inside again.
-void moveBand(openvdb::FloatGrid& grid, const openvdb::Coord& shift)
-{
-    if (shift == openvdb::Coord()) return;
-    std::vector<openvdb::FloatTree::LeafNodeType*> leaves;
-    grid.tree().stealNodes(leaves);
-    grid.tree().clear();
-    for (auto* leaf : leaves) {
-        leaf->setOrigin(leaf->origin() + shift);
-        grid.tree().addLeaf(leaf);
-    }
-    openvdb::tools::signedFloodFill(grid.tree());
-}
-
-void checkMesh(const TriangleMesh& mesh)
-{
-    if (mesh.triangles.empty()) {
-        OPENVDB_THROW(openvdb::ValueError, "mesh '" << mesh.name << "' has no triangles");
-    }
-    for (const Vec3I& triangle : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            if (triangle[i] < mesh.points.size()) continue;
-            OPENVDB_THROW(openvdb::ValueError,
-                "mesh '" << mesh.name << "' has a triangle of point " << triangle[i]
-                         << ", but only " << mesh.points.size() << " points");
-        }
-    }
-}
-
-/// By the area of its triangles a mesh has a narrow band of so many voxels, and fewer where triangles
-/// are nearer to each other than twice its half width; by its box it cannot have more. Measured are 35
-/// bytes a voxel of the band: what is refused needs more than there is even if four triangles share one.
-void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfWidth)
-{
-    constexpr double kBytes = 8, kBytesOfDense = 8;
-    double area = 0; // in faces of voxels
-    openvdb::BBoxd box;
-    for (const Vec3I& triangle : mesh.triangles) {
-        const Vec3d a(mesh.points[triangle[0]]), b(mesh.points[triangle[1]]),
-            c(mesh.points[triangle[2]]);
-        area += (b - a).cross(c - a).length() / 2 / (voxelSize * voxelSize);
-        for (const Vec3d& corner : {a, b, c}) box.expand(corner);
-    }
-    const Vec3d sides = box.extents() / voxelSize + Vec3d(2 * halfWidth);
-    const double band = 2 * halfWidth * area;
-    const double bytes = std::min(kBytes * band, kBytesOfDense * sides[0] * sides[1] * sides[2]);
-    std::ostringstream what;
-    what << "the up to " << std::setprecision(2) << band << " voxels at the surface of mesh '"
-         << mesh.name << "'";
-    detail::requireMemory(bytes, what.str(), "use a larger voxel");
-}
-
-openvdb::math::Transform::Ptr transformOf(double voxelSize)
-{
-    if (std::isfinite(voxelSize) && voxelSize > 0) {
-        try {
-            return openvdb::math::Transform::createLinearTransform(voxelSize);
-        } catch (const openvdb::ArithmeticError&) { // nearly singular, in OpenVDB's eyes
-        }
-    }
-    OPENVDB_THROW(openvdb::ValueError,
-        "voxel size " << voxelSize
-                      << " is out of range; it must be "
-                         "a finite number above 0.0001 or so");
-}
-
 } // namespace
 
 bool readsOtherMeshFormats()
@@ -347,76 +249,6 @@ TriangleMesh readMeshFile(const std::string& path)
     }
     mesh.name = std::filesystem::path(path).stem().string();
     return mesh;
-}
-
-int64_t openEdges(const TriangleMesh& mesh)
-{
-    std::vector<uint64_t> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (const Vec3I& triangle : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            const uint64_t a = triangle[i], b = triangle[(i + 1) % 3];
-            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
-        }
-    }
-    tbb::parallel_sort(edges.begin(), edges.end());
-    int64_t open = 0;
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-        while (end < edges.size() && edges[end] == edges[begin]) ++end;
-        open += int64_t((end - begin) % 2);
-    }
-    return open;
-}
-
-openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSize, double halfWidth,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const openvdb::math::Transform::Ptr transform = transformOf(voxelSize);
-    if (!(halfWidth >= 1 && halfWidth <= kMaxHalfWidth)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "half width " << halfWidth << " is out of range; it must be from 1 to " << kMaxHalfWidth
-                          << " voxels");
-    }
-    checkMesh(mesh);
-    const openvdb::Coord shift = middleLeaf(mesh, voxelSize);
-    requireRoomForBand(mesh, voxelSize, halfWidth);
-    std::vector<Vec3s> points; // in index space, around the origin
-    points.reserve(mesh.points.size());
-    for (const Vec3s& world : mesh.points) {
-        points.emplace_back(Vec3d(world) / voxelSize - shift.asVec3d());
-    }
-    // The types for which the code is in OpenVDB's library.
-    const openvdb::tools::QuadAndTriangleDataAdapter<Vec3s, Vec3I> adapter(points, mesh.triangles);
-    openvdb::util::NullInterrupter silent;
-    openvdb::util::NullInterrupter& boss = interrupter ? *interrupter : silent;
-    const auto band = static_cast<float>(halfWidth);
-    auto grid =
-        openvdb::tools::meshToVolume<openvdb::FloatGrid>(boss, adapter, *transform, band, band);
-    if (openvdb::util::wasInterrupted(&boss)) throw Interrupted();
-    moveBand(*grid, shift);
-    grid->setName(mesh.name);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    return grid;
-}
-
-double voxelSizeForDim(const TriangleMesh& mesh, int dim)
-{
-    if (dim < 1) {
-        OPENVDB_THROW(openvdb::ValueError, "dim " << dim << " is out of range; it must be >= 1");
-    }
-    openvdb::BBoxd box;
-    bool isFinite = !mesh.points.empty();
-    for (const Vec3s& point : mesh.points) {
-        isFinite = isFinite && point.isFinite();
-        box.expand(Vec3d(point));
-    }
-    const double side = isFinite ? box.extents()[box.maxExtent()] : 0;
-    if (!(side > 0)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "mesh '" << mesh.name
-                     << "' is empty, has no extent, or is not finite: no voxel size fits it");
-    }
-    return side / dim;
 }
 
 } // namespace openvdb_spheretree

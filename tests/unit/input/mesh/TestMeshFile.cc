@@ -134,16 +134,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-double areaOf(const TriangleMesh& mesh)
-{
-    double sum = 0;
-    for (const Vec3I& t : mesh.triangles) {
-        const Vec3d a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
-        sum += (b - a).cross(c - a).length() / 2;
-    }
-    return sum;
-}
-
 TEST(MeshFile, ReadsTheSameCubeFromEveryFormat)
 {
     for (const auto& [name, bytes] : cubes()) {

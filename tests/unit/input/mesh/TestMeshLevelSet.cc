@@ -3,7 +3,7 @@
 /// @brief Meshes to level sets: the inside, far meshes, what is refused; voxel sizes and open edges.
 
 #include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 
 #include <openvdb/tools/LevelSetUtil.h>
 

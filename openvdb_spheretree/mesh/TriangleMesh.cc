@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TriangleMesh.h"
+
+#include <openvdb_spheretree/base/ParallelSort.h>
+
+#include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::BBoxd;
+using openvdb::Vec3d;
+using openvdb::Vec3I;
+using openvdb::Vec3s;
+
+/// Half of what Coord holds, so that a narrow band and OpenVDB's own margins fit around it.
+constexpr double kMaxIndex = 1 << 30;
+
+} // namespace
+
+int64_t openEdges(const TriangleMesh& mesh, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<uint64_t> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const Vec3I& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const uint64_t a = triangle[i], b = triangle[(i + 1) % 3];
+            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
+        }
+    }
+    detail::parallelSort(edges.begin(), edges.end(), interrupter);
+    int64_t open = 0;
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        while (end < edges.size() && edges[end] == edges[begin]) ++end;
+        open += int64_t((end - begin) % 2);
+    }
+    return open;
+}
+
+double voxelSizeForDim(const TriangleMesh& mesh, int dim)
+{
+    if (dim < 1) {
+        OPENVDB_THROW(openvdb::ValueError, "dim " << dim << " is out of range; it must be >= 1");
+    }
+    const auto isFinite = [](const Vec3s& point) { return point.isFinite(); };
+    const bool hasBox =
+        !mesh.points.empty() && std::all_of(mesh.points.begin(), mesh.points.end(), isFinite);
+    const Vec3d sides = hasBox ? boxOf(mesh).extents() : Vec3d(0);
+    const double side = std::max({sides[0], sides[1], sides[2]});
+    if (!(side > 0)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "mesh '" << mesh.name
+                     << "' is empty, has no extent, or is not finite: no voxel size fits it");
+    }
+    return side / dim;
+}
+
+openvdb::math::Transform::Ptr transformOfVoxels(double voxelSize)
+{
+    if (std::isfinite(voxelSize) && voxelSize > 0) {
+        try {
+            return openvdb::math::Transform::createLinearTransform(voxelSize);
+        } catch (const openvdb::ArithmeticError&) { // nearly singular, in OpenVDB's eyes
+        }
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "voxel size " << voxelSize
+                      << " is out of range; it must be "
+                         "a finite number above 0.0001 or so");
+}
+
+void requireUsableMesh(const TriangleMesh& mesh, double voxelSize)
+{
+    if (mesh.triangles.empty()) {
+        OPENVDB_THROW(openvdb::ValueError, "mesh '" << mesh.name << "' has no triangles");
+    }
+    for (const Vec3I& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            if (triangle[i] < mesh.points.size()) continue;
+            OPENVDB_THROW(openvdb::ValueError,
+                "mesh '" << mesh.name << "' has a triangle of point " << triangle[i]
+                         << ", but only " << mesh.points.size() << " points");
+        }
+    }
+    for (const Vec3s& point : mesh.points) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(double(point[axis]) / voxelSize) <= kMaxIndex)
+                continue; // false for NaN too
+            OPENVDB_THROW(openvdb::ValueError,
+                "mesh '" << mesh.name << "' reaches coordinate " << point[axis]
+                         << ", too far for voxel size " << voxelSize
+                         << " (indices must stay within 2^30); use larger voxels");
+        }
+    }
+}
+
+double areaOf(const TriangleMesh& mesh)
+{
+    double area = 0;
+    for (const Vec3I& triangle : mesh.triangles) {
+        const Vec3d a(mesh.points[triangle[0]]), b(mesh.points[triangle[1]]),
+            c(mesh.points[triangle[2]]);
+        area += (b - a).cross(c - a).length() / 2;
+    }
+    return area;
+}
+
+BBoxd boxOf(const TriangleMesh& mesh)
+{
+    BBoxd box;
+    for (const Vec3s& point : mesh.points) box.expand(Vec3d(point));
+    return box;
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MeshSolid.h"
+
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/index/NearestVoxel.h>
+#include <openvdb_spheretree/mesh/TriangleVoxels.h>
+#include <openvdb_spheretree/pyramid/BallMorphology.h>
+#include <openvdb_spheretree/pyramid/Closing.h>
+#include <openvdb_spheretree/topology/PartSelection.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/MaskGrids.h>
+#include <openvdb_spheretree/voxel/TopologyCopy.h>
+
+#include <openvdb/tools/Morphology.h>
+#include <openvdb/tools/Prune.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+using openvdb::MaskTree;
+using openvdb::Vec3d;
+using openvdb::util::NullInterrupter;
+
+/// A surface has a leaf of 8^3 voxels for each 64 faces of voxels of its area, at the least, and three trees of
+/// them are held at a time; by its box it cannot have more.
+void requireRoomForSurface(const TriangleMesh& mesh, double voxelSize)
+{
+    constexpr double kBytes = 300;
+    const double leaf = 8 * voxelSize;
+    const Vec3d sides = boxOf(mesh).extents() / leaf + Vec3d(1);
+    const double leaves = std::min(areaOf(mesh) / (leaf * leaf), sides[0] * sides[1] * sides[2]);
+    const Vec3d voxels = boxOf(mesh).extents() / voxelSize + Vec3d(1);
+    std::ostringstream what;
+    what << "the surface of mesh '" << mesh.name << "', in a box of " << std::setprecision(2)
+         << voxels[0] * voxels[1] * voxels[2] << " voxels,";
+    detail::requireMemory(leaves * kBytes, what.str(), "use a larger voxel");
+}
+
+/// @return the radius of the ball that closes holes of this width, in voxels.
+int radiusFor(double gap, double voxelSize)
+{
+    if (gap == 0) return 0;
+    const double radius = std::ceil(gap / voxelSize / 2 + std::sqrt(0.75));
+    if (gap > 0 && radius <= kMaxClosing) return int(radius);
+    OPENVDB_THROW(openvdb::ValueError,
+        "gap=" << gap << " is out of range: it must be 0 to " << 2 * (kMaxClosing - 1)
+               << " voxels of " << voxelSize);
+}
+
+/// All that a ball cannot reach from outside.
+MaskTree::Ptr solidOf(const MaskTree& surface, int radius, NullInterrupter* interrupter)
+{
+    if (radius == 0) return withCavitiesFilled(surface, interrupter);
+    MaskTree::Ptr walls = std::make_shared<MaskTree>(surface);
+    walls->topologyUnion(*detail::voxelsNear(surface, radius, 3, "gap", interrupter));
+    const MaskTree::Ptr solid = withCavitiesFilled(*walls, interrupter);
+    // What is within the radius of a voxel outside is so of the walls, which are between, too.
+    walls->topologyUnion(*detail::voxelsNear(*walls, radius, 3, "gap", interrupter));
+    detail::erodeAround(*solid, *walls, radius, 3, interrupter);
+    openvdb::tools::prune(*solid);
+    return solid;
+}
+
+} // namespace
+
+openvdb::BoolGrid::Ptr meshToObject(
+    const TriangleMesh& mesh, double voxelSize, double gap, NullInterrupter* interrupter)
+{
+    const openvdb::math::Transform::Ptr transform = transformOfVoxels(voxelSize);
+    const int radius = radiusFor(gap, voxelSize);
+    requireUsableMesh(mesh, voxelSize);
+    requireRoomForSurface(mesh, voxelSize);
+    const MaskTree::Ptr surface = trianglesToVoxels(toIndexSpace(mesh, *transform), interrupter);
+    const MaskTree::Ptr solid = solidOf(*surface, radius, interrupter);
+    openvdb::BoolGrid::Ptr object =
+        openvdb::BoolGrid::create(detail::copyTopology<openvdb::BoolTree>(*solid, interrupter));
+    object->setTransform(transform);
+    object->setName(mesh.name);
+    return object;
+}
+
+MissedSurface missedSurface(
+    const TriangleMesh& mesh, const openvdb::BoolGrid& object, NullInterrupter* interrupter)
+{
+    const MaskTree::Ptr surface =
+        trianglesToVoxels(toIndexSpace(mesh, object.transform()), interrupter);
+    const MaskTree::Ptr near = detail::copyTopology<MaskTree>(object.tree(), interrupter);
+    const detail::NearestVoxel nearest(*near);
+    openvdb::tools::dilateActiveValues(
+        *near, 1, openvdb::tools::NN_FACE_EDGE_VERTEX, openvdb::tools::PRESERVE_TILES);
+    const detail::MaskDifference missed = detail::maskDifference(*surface, *near, interrupter);
+
+    std::vector<int64_t> furthestSq(missed.cubes.size(), 0); // in half voxels
+    detail::parallelFor(missed.cubes.size(), interrupter, [&](std::size_t i) {
+        const detail::VoxelCube& cube = missed.cubes[i]; // of 8: surfaces have no tiles
+        cube.mask.visitOn([&](uint32_t offset) {
+            openvdb::Coord at;
+            const openvdb::Coord voxel =
+                cube.origin.offsetBy(offset >> 6, offset >> 3 & 7, offset & 7);
+            furthestSq[i] = std::max(furthestSq[i], nearest.nearest(voxel, at));
+        });
+    });
+    MissedSurface result;
+    result.voxels = missed.voxels;
+    for (const int64_t sq : furthestSq) {
+        result.distance =
+            std::max(result.distance, std::sqrt(double(sq)) / 2 * object.voxelSize()[0]);
+    }
+    return result;
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file MeshSolid.h
+/// @brief The voxels of the solid that a mesh bounds: all whose cubes meet it, thin parts too.
+///
+/// 1. The *surface* is every voxel that a triangle meets (TriangleVoxels.h). No path of voxels that share
+///    faces gets through it: where the segment between two centers crosses a triangle, one of the two voxels
+///    is of the surface.
+/// 2. So what a path from infinity cannot reach is inside: the cavities of the surface, filled.
+///
+/// How triangles face, how often they overlap, and what they bound inside of others makes no difference.
+/// Where a mesh is open by more than a voxel there is no inside; its surface is the solid then.
+///
+/// With a *gap*, the surface is first dilated by a ball of radius r = gap / 2 + sqrt(3) / 2 voxels or somewhat
+/// more, and the solid eroded by the same ball at last. A ball of the gap's diameter cannot pass from outside,
+/// so holes of such a width are closed, and so are narrower crevices and dents. (Points between two sides of a
+/// hole are within gap / 2 of one, and centers of voxels within half a diagonal of points in them.)
+///
+/// Cost: O(triangles + voxels of the surface), and leaf-sized tiles inside; with a gap, the voxels within 4 r
+/// of the surface. Parallel. Tests: TestMeshSolid.cc.
+
+#pragma once
+
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
+
+#include <openvdb/util/NullInterrupter.h>
+
+namespace openvdb_spheretree {
+
+/// @brief The object of all voxels whose closed cubes meet the solid of @a mesh, named after it.
+/// @param voxelSize  world units, > 0; voxel (0, 0, 0) has its center at the world's origin
+/// @param gap        width of holes that are closed, world units; 0 for those below a voxel
+/// @throw openvdb::ValueError if an argument is out of range (a gap of more than 126 voxels), or the mesh
+///        empty, damaged, or too large for the voxel size, or for this machine's memory
+/// @throw Interrupted if the interrupter (may be null) said so
+openvdb::SharedPtr<openvdb::BoolGrid> meshToObject(const TriangleMesh& mesh, double voxelSize,
+    double gap = 0, openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// What an object lacks of a mesh.
+struct MissedSurface {
+    int64_t voxels =
+        0; ///< that triangles meet, more than one voxel away from the object's, diagonally too
+    double distance = 0; ///< of the furthest of these from the object, between centers, world units
+};
+
+/// @return what @a object lacks of @a mesh: thin parts, for instance, that hold no voxel's center.
+/// @param object  not empty
+/// Cost: that of the surface's voxels, and a search for the nearest voxel for those that are missed.
+MissedSurface missedSurface(const TriangleMesh& mesh, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestMeshSolid.cc
+/// @brief The object of all voxels that a mesh's solid meets: thin, nested, overlapping, inverted and open
+/// meshes; what other objects lack of it.
+
+#include "support/Meshes.h"
+#include "support/Messages.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/solid/MeshSolid.h>
+
+#include <openvdb/openvdb.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using openvdb::BoolGrid;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::Vec3d;
+using openvdb::Vec3I;
+using openvdb::Vec3s;
+
+class MeshSolid : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() { openvdb::initialize(); }
+};
+
+int64_t voxelsOf(const BoolGrid& object) { return int64_t(object.activeVoxelCount()); }
+
+/// The voxels whose cubes a box in voxels meets.
+CoordBBox voxelsOf(const Vec3d& low, const Vec3d& high)
+{
+    CoordBBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min()[axis] = int32_t(std::ceil(low[axis] - 0.5));
+        box.max()[axis] = int32_t(std::floor(high[axis] + 0.5));
+    }
+    return box;
+}
+
+bool isBox(const BoolGrid& object, const CoordBBox& box)
+{
+    return object.evalActiveVoxelBoundingBox() == box && voxelsOf(object) == int64_t(box.volume());
+}
+
+TEST_F(MeshSolid, OfABoxIsEveryVoxelThatItMeets)
+{
+    const std::pair<Vec3d, Vec3d> boxes[] = {{Vec3d(0.1, 0.2, 0.3), Vec3d(9.4, 20.6, 30)},
+        {Vec3d(-40.5, -7, -3.2), Vec3d(-20.5, 0.5, 8)}, // faces between voxels are met by both
+        {Vec3d(1, 1, 1), Vec3d(1.3, 60, 70)},           // a plate
+        {Vec3d(1.45, 3, -2), Vec3d(1.55, 60, 3)}};
+    for (const auto& [low, high] : boxes) {
+        for (const bool inverted : {false, true}) {
+            const auto object = meshToObject(boxMesh(low, high, inverted), 1);
+            EXPECT_TRUE(isBox(*object, voxelsOf(low, high))) << low << high;
+            EXPECT_EQ("box", object->getName());
+        }
+        const auto half = meshToObject(boxMesh(low, high), 0.5);
+        EXPECT_TRUE(isBox(*half, voxelsOf(2.0 * low, 2.0 * high))) << low << high;
+    }
+}
+
+TEST_F(MeshSolid, HoldsWhatIsBoundedTwiceAndWhatIsHollow)
+{
+    TriangleMesh mesh = boxMesh(Vec3d(0.2), Vec3d(20.3));
+    addBox(mesh, Vec3d(5.5), Vec3d(10)); // inside, facing either way
+    addBox(mesh, Vec3d(12), Vec3d(15.2), true);
+    addBox(mesh, Vec3d(19.7, 3, 3), Vec3d(40, 5, 5)); // overlapping
+    const auto object = meshToObject(mesh, 1);
+    const CoordBBox large = voxelsOf(Vec3d(0.2), Vec3d(20.3)),
+                    arm = voxelsOf(Vec3d(19.7, 3, 3), Vec3d(40, 5, 5));
+    int64_t count = 0;
+    for (auto voxel = CoordBBox(Coord(-2), Coord(45)).begin(); voxel; ++voxel) {
+        const bool inside = large.isInside(*voxel) || arm.isInside(*voxel);
+        count += inside;
+        ASSERT_EQ(inside, object->tree().isValueOn(*voxel)) << *voxel;
+    }
+    EXPECT_EQ(count, voxelsOf(*object));
+}
+
+TEST_F(MeshSolid, OfTetrahedraHoldsEveryPointOfThem)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> where(-12, 12);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (int n = 0; n < 40; ++n) {
+        TriangleMesh mesh;
+        for (int i = 0; i < 4; ++i) {
+            mesh.points.emplace_back(where(random), where(random), where(random));
+        }
+        mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+        const auto object = meshToObject(mesh, 0.7);
+        for (int k = 0; k < 2000; ++k) {
+            double weight[4], sum = 0;
+            for (double& w : weight) sum += w = -std::log(part(random) + 1e-300);
+            Vec3d point(0);
+            for (int i = 0; i < 4; ++i)
+                point += weight[i] / sum * Vec3d(mesh.points[std::size_t(i)]);
+            const Coord voxel = Coord::round(object->worldToIndex(point));
+            ASSERT_TRUE(object->tree().isValueOn(voxel)) << point;
+        }
+        // And no more: a voxel of the object has a corner of its cube, or its center, near a point inside.
+        const double volume = std::abs((Vec3d(mesh.points[1] - mesh.points[0]))
+                                           .cross(Vec3d(mesh.points[2] - mesh.points[0]))
+                                           .dot(Vec3d(mesh.points[3] - mesh.points[0])))
+            / 6;
+        const double shell =
+            areaOf(mesh) * 0.7 * std::sqrt(3.0) + 50; // cubes that the surface meets
+        EXPECT_LE(double(voxelsOf(*object)) * 0.343, volume + shell);
+        EXPECT_GE(double(voxelsOf(*object)) * 0.343, volume);
+    }
+}
+
+/// A box of walls without thickness, with a square hole in its lid.
+TriangleMesh openBox(double width)
+{
+    TriangleMesh mesh = boxMesh(Vec3d(0), Vec3d(40));
+    mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4); // at z = 40
+    const double low = 20 - width / 2, high = 20 + width / 2;
+    const auto rectangle = [&](double x0, double y0, double x1, double y1) {
+        const auto first = uint32_t(mesh.points.size());
+        for (const auto& [x, y] : {std::pair(x0, y0), {x1, y0}, {x1, y1}, {x0, y1}}) {
+            mesh.points.emplace_back(float(x), float(y), 40.f);
+        }
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+        mesh.triangles.emplace_back(first, first + 2, first + 3);
+    };
+    rectangle(0, 0, 40, low);
+    rectangle(0, high, 40, 40);
+    rectangle(0, low, low, high);
+    rectangle(high, low, 40, high);
+    return mesh;
+}
+
+/// A ball dips into a hole that it does not pass: somewhat is missing of the lid.
+TEST_F(MeshSolid, WithAGapClosesHolesOfThatWidth)
+{
+    const int64_t full = 41 * 41 * 41;
+    const std::pair<double, double> widthsAndPassing[] = {{3, 0}, {6, 1}, {9, 3}};
+    for (const auto& [width, passing] : widthsAndPassing) {
+        const TriangleMesh mesh = openBox(width);
+        EXPECT_GT(full / 4, voxelsOf(*meshToObject(mesh, 1))) << width; // its walls
+        EXPECT_GT(full / 4, voxelsOf(*meshToObject(mesh, 1, passing))) << width;
+        const auto closed = meshToObject(mesh, 1, width);
+        EXPECT_LE(full - 81, voxelsOf(*closed)) << width;
+        EXPECT_TRUE(closed->tree().isValueOn(Coord(20, 20, 38))) << width;
+        EXPECT_EQ(CoordBBox(Coord(0), Coord(40)), closed->evalActiveVoxelBoundingBox());
+    }
+}
+
+/// What a ball cannot reach from outside is the closing of the solid: nothing is added to a convex one.
+TEST_F(MeshSolid, WithAGapHoldsTheSameOfAConvexSolid)
+{
+    const TriangleMesh mesh = boxMesh(Vec3d(0.2), Vec3d(90, 20, 35.3));
+    EXPECT_TRUE(meshToObject(mesh, 1)->tree().hasSameTopology(meshToObject(mesh, 1, 7)->tree()));
+    const auto plain = meshToObject(mesh, 1), closed = meshToObject(mesh, 1, 7);
+    EXPECT_EQ(voxelsOf(*plain), voxelsOf(*closed));
+    EXPECT_EQ(plain->evalActiveVoxelBoundingBox(), closed->evalActiveVoxelBoundingBox());
+}
+
+TEST_F(MeshSolid, TellsWhatAnotherObjectLacks)
+{
+    const TriangleMesh mesh = boxMesh(Vec3d(0.2), Vec3d(20.3));
+    const auto object = meshToObject(mesh, 1);
+    EXPECT_EQ(0, missedSurface(mesh, *object).voxels);
+    EXPECT_EQ(0, missedSurface(mesh, *object).distance);
+    const auto small = BoolGrid::create(false); // 4 voxels less at x = 20
+    small->fill(CoordBBox(Coord(0), Coord(16, 20, 20)), true);
+    const MissedSurface missed = missedSurface(mesh, *small);
+    // Of x = 18 to 20: 17 is beside the object.
+    EXPECT_EQ(2 * (21 * 21 - 19 * 19) + 21 * 21, missed.voxels);
+    EXPECT_EQ(4, missed.distance);
+}
+
+TEST_F(MeshSolid, RefusesWhatIsOutOfRange)
+{
+    const TriangleMesh mesh = boxMesh(Vec3d(0), Vec3d(10));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double size : {0.0, -1.0, nan, 1e-300}) {
+        EXPECT_THROW(meshToObject(mesh, size), openvdb::ValueError) << size;
+    }
+    for (const double gap : {-1.0, nan, 127.0}) {
+        const std::string message =
+            messageOf<openvdb::ValueError>([&] { meshToObject(mesh, 1, gap); });
+        EXPECT_TRUE(mentions(message, "is out of range: it must be 0 to 126 voxels")) << message;
+    }
+    TriangleMesh bad = mesh;
+    bad.points[3][1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(meshToObject(bad, 1), openvdb::ValueError);
+    bad = mesh;
+    bad.points[3] = Vec3s(3e9f, 0, 0);
+    EXPECT_THROW(meshToObject(bad, 1), openvdb::ValueError);
+    EXPECT_THROW(meshToObject(TriangleMesh(), 1), openvdb::ValueError);
+}
+
+TEST_F(MeshSolid, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
+{
+    const TriangleMesh mesh = boxMesh(Vec3d(0), Vec3d(5e5));
+    const std::string message = messageOf<openvdb::ValueError>([&] { meshToObject(mesh, 1); });
+    EXPECT_TRUE(
+        mentions(message, "the surface of mesh 'box', in a box of 1.3e+17 voxels, need about"))
+        << message;
+}
+
+TEST_F(MeshSolid, StopsWhenAskedTo)
+{
+    struct Stop : openvdb::util::NullInterrupter {
+        bool wasInterrupted(int) override { return true; }
+    } stop;
+    EXPECT_THROW(meshToObject(boxMesh(Vec3d(0), Vec3d(9)), 1, 0, &stop), Interrupted);
+}
+
+} // namespace
