@@ -21,6 +21,7 @@
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
 #include "input/Object.h"
+#include "input/ValueBound.h"
 
 // The object to a pyramid of ever coarser ones.
 #include "pyramid/BlockModel.h"
