@@ -25,6 +25,7 @@
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
 #include "input/Object.h"
+#include "input/ValueBound.h"
 
 // A mesh to the object of all voxels that its solid meets.
 #include "solid/MeshSolid.h"

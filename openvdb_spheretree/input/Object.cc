@@ -5,9 +5,12 @@
 /// (4096^3 voxels) and interior tiles of internal nodes that have no leaf.
 /// Values that OpenVDB has left in the file are read leaf by leaf, and not kept (LeafValues.h); of
 /// a grid whose active states are asked for, none are.
+/// Voxels by their cubes, in place of their centers: TrilinearCover.h adds to that mask, or takes away.
 #include "Object.h"
 
 #include "LeafValues.h"
+#include "MeanOrder.h"
+#include "TrilinearCover.h"
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
@@ -19,9 +22,11 @@
 #include <openvdb/tools/PointIndexGrid.h>
 #include <openvdb/tools/Prune.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -31,6 +36,8 @@ namespace openvdb_spheretree {
 
 namespace {
 
+using detail::HalfSpace;
+using detail::toText;
 using openvdb::Index;
 using openvdb::MaskTree;
 using openvdb::points::PointDataGrid;
@@ -42,63 +49,51 @@ using ObjectGridTypes = openvdb::NumericGridTypes::Append<openvdb::BoolGrid, ope
 
 // ---- Criteria: what makes a voxel or a tile part of the object
 
-/// value > bound, or value < bound; floats are compared as doubles, which is exact. NaN is outside.
-template <typename ValueT, typename = void>
-class Beyond {
-public:
-    static Beyond above(double bound) { return {bound, false}; }
-    static Beyond below(double bound) { return {bound, true}; }
-    bool operator()(ValueT value) const
-    {
-        return mBelow ? double(value) < mBound : double(value) > mBound;
-    }
+/// Values that are in both half-spaces.
+struct Range {
+    HalfSpace above, below;
 
-private:
-    Beyond(double bound, bool below) : mBound(bound), mBelow(below) {}
-    double mBound;
-    bool mBelow;
+    template <typename ValueT>
+    bool contains(ValueT value) const
+    {
+        return above.contains(value) && below.contains(value);
+    }
 };
 
-/// The same for integers, whose values a double may not hold: the bound is turned into an integer
-/// instead. value > bound is value > floor(bound), value < bound is value < ceil(bound).
-template <typename ValueT>
-class Beyond<ValueT, std::enable_if_t<std::is_integral<ValueT>::value>> {
-public:
-    static Beyond above(double bound) { return {std::floor(bound), false}; }
-    static Beyond below(double bound) { return {std::ceil(bound), true}; }
-    bool operator()(ValueT value) const
-    {
-        if (mConstant) return mAnswer;
-        return mBelow ? value < mBound : value > mBound;
-    }
+/// Values that are one of some integers.
+struct Labels {
+    const std::vector<int64_t>& labels;
 
-private:
-    Beyond(double bound, bool below) : mBelow(below)
+    template <typename ValueT>
+    bool contains(ValueT value) const
     {
-        // Both limits are powers of two (up to sign), so doubles hold them.
-        const double lowest = double(std::numeric_limits<ValueT>::lowest());
-        const bool tooLow = bound < lowest, tooHigh = bound >= -lowest;
-        mConstant = tooLow || tooHigh;
-        mAnswer = below ? tooHigh : tooLow;
-        if (!mConstant) mBound = ValueT(bound);
+        return std::any_of(labels.begin(), labels.end(), [&](int64_t label) {
+            // Two comparisons: a double may be next to an integer that it is not.
+            if constexpr (std::is_integral_v<ValueT>) return int64_t(value) == label;
+            else return double(value) == double(label) && ValueBound::of(label).rest == 0;
+        });
     }
-    ValueT mBound = 0;
-    bool mBelow, mConstant, mAnswer;
 };
 
 /// Every value counts, active or not.
-template <typename ValueT>
+template <typename Inside>
 struct ValueCriterion {
-    Beyond<ValueT> inside;
+    Inside inside;
 
-    bool tile(ValueT value, bool) const { return inside(value); }
+    template <typename ValueT>
+    bool tile(ValueT value, bool) const
+    {
+        return inside.contains(value);
+    }
     template <typename LeafT>
     void leaf(const LeafT& source, LeafBits& bits) const
     {
         const detail::LeafValues<LeafT> values(source);
         for (Index w = 0; w < LeafBits::WORD_COUNT; ++w) {
             uint64_t word = 0;
-            for (Index n = 0; n < 64; ++n) word |= uint64_t(inside(values[64 * w + n])) << n;
+            for (Index n = 0; n < 64; ++n) {
+                word |= uint64_t(inside.contains(values[64 * w + n])) << n;
+            }
             bits.getWord<uint64_t>(w) = word;
         }
     }
@@ -232,28 +227,154 @@ void checkIso(const openvdb::GridBase& grid, double iso, double background)
                                           : ", or change the grid's class if it is no level set"));
 }
 
-template <typename GridT>
-MaskTree::Ptr valueMask(
-    const GridT& grid, const ObjectSettings& settings, openvdb::util::NullInterrupter* interrupter)
+[[noreturn]] void throwUnbounded(const openvdb::GridBase& grid, const std::string& background,
+    const std::string& solid, const char* remedy)
 {
-    using Test = Beyond<typename GridT::ValueType>;
-    using Criterion = ValueCriterion<typename GridT::ValueType>;
-    if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
-        checkFinite(settings.iso, "iso");
-        checkIso(grid, settings.iso, double(grid.background()));
-        return decide(grid.tree(), Criterion{Test::below(settings.iso)}, interrupter);
-    }
-    checkFinite(settings.threshold, "threshold");
-    const Test inside = Test::above(settings.threshold);
-    if (inside(grid.background())) {
+    OPENVDB_THROW(openvdb::ValueError,
+        detail::describe(grid) << " has the background value " << background << ", " << solid
+                               << ", so its object has no bounds: " << remedy
+                               << ", or give the grid the class 'level set' if it is one");
+}
+
+/// Steps from a voxel to its neighbours, and from node to node, must not wrap around. Trees of such
+/// objects are refused much further from the ends.
+void requireRoomAround(const openvdb::GridBase& grid, const MaskTree& mask)
+{
+    constexpr int kReach = 8192;
+    constexpr int kFirst = std::numeric_limits<int>::min(), kLast = std::numeric_limits<int>::max();
+    openvdb::CoordBBox box;
+    if (!mask.evalActiveVoxelBoundingBox(box)) return;
+    if (openvdb::Coord::lessThan(box.min(), openvdb::Coord(kFirst + kReach))
+        || openvdb::Coord::lessThan(openvdb::Coord(kLast - kReach), box.max())) {
         OPENVDB_THROW(openvdb::ValueError,
-            detail::describe(grid) << " has the background value " << grid.background()
-                                   << ", above threshold=" << settings.threshold
-                                   << ", so its object "
-                                      "has no bounds: choose a threshold above it"
-                                      ", or give the grid the class 'level set' if it is one");
+            detail::describe(grid)
+                << " has an object from voxel " << box.min() << " to " << box.max()
+                << ", too near the end of 32-bit coordinates: move it towards voxel [0, 0, 0], and "
+                   "its transform the other way");
     }
-    return decide(grid.tree(), Criterion{inside}, interrupter);
+}
+
+// ---- Grids of numbers
+
+/// The values that are asked for, and how messages call them: "above threshold=0".
+struct Wanted {
+    std::optional<HalfSpace> above, below; ///< one of them at least, where there are no labels
+    const std::vector<int64_t>& labels;
+    std::string text;
+};
+
+HalfSpace valuesAbove(const ValueBound& bound) { return {bound, false, false}; }
+HalfSpace valuesBelow(const ValueBound& bound) { return {bound, true, false}; }
+
+Wanted wantedOfLevelSet(const openvdb::GridBase& grid, const ObjectSettings& settings)
+{
+    if (settings.above || settings.below || !settings.labels.empty()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " is a level set, of which above, below and labels say nothing: "
+                   "use iso");
+    }
+    checkFinite(settings.iso, "iso");
+    return {{}, valuesBelow(settings.iso), settings.labels, "below iso=" + toText(settings.iso)};
+}
+
+Wanted wantedOfLabels(const openvdb::GridBase& grid, const ObjectSettings& settings)
+{
+    if (settings.above || settings.below || settings.coverage != Coverage::Centers) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "labels of " << detail::describe(grid)
+                         << " are no range, and nothing lies between them: leave out above and "
+                            "below, and let coverage be that of centers");
+    }
+    std::string all;
+    for (const int64_t label : settings.labels) {
+        all += (all.empty() ? "" : ",") + std::to_string(label);
+    }
+    return {{}, {}, settings.labels, "of label=" + all};
+}
+
+Wanted wantedOf(const openvdb::GridBase& grid, const ObjectSettings& settings)
+{
+    if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) return wantedOfLevelSet(grid, settings);
+    if (!settings.labels.empty()) return wantedOfLabels(grid, settings);
+    Wanted wanted{{}, {}, settings.labels, ""};
+    if (settings.above) {
+        checkFinite(settings.above->nearest, "above");
+        wanted.above = valuesAbove(*settings.above);
+        wanted.text = "above " + toText(*settings.above);
+    }
+    if (settings.below) {
+        checkFinite(settings.below->nearest, "below");
+        wanted.below = valuesBelow(*settings.below);
+        wanted.text += (wanted.text.empty() ? "below " : " and below ") + toText(*settings.below);
+    }
+    if (wanted.above || wanted.below) return wanted;
+    checkFinite(settings.threshold, "threshold");
+    wanted.above = valuesAbove(settings.threshold);
+    wanted.text = "above threshold=" + toText(settings.threshold);
+    return wanted;
+}
+
+/// The voxels whose center is in the solid.
+template <typename GridT>
+MaskTree::Ptr centersIn(
+    const GridT& grid, const Wanted& wanted, openvdb::util::NullInterrupter* interrupter)
+{
+    const auto masked = [&](const auto& inside) {
+        if (grid.getGridClass() != openvdb::GRID_LEVEL_SET && inside.contains(grid.background())) {
+            std::ostringstream background;
+            background << grid.background();
+            throwUnbounded(grid, background.str(), wanted.text,
+                wanted.below ? "choose values without it" : "choose a threshold above it");
+        }
+        return decide(
+            grid.tree(), ValueCriterion<std::decay_t<decltype(inside)>>{inside}, interrupter);
+    };
+    if (!wanted.labels.empty()) return masked(Labels{wanted.labels});
+    if (wanted.above && wanted.below) return masked(Range{*wanted.above, *wanted.below});
+    return masked(wanted.above ? *wanted.above : *wanted.below);
+}
+
+/// The voxels whose cube meets a range. The interpolation is continuous, so it takes all values from
+/// its least to its largest in a cube: the cube meets the range if it meets both half-spaces. One of
+/// them has bounds, and what does not meet the other is looked for in the other's complement.
+template <typename GridT>
+MaskTree::Ptr cubesMeeting(
+    const GridT& grid, const Range& range, openvdb::util::NullInterrupter* interrupter)
+{
+    const bool isAboveBounded = !range.above.contains(grid.background());
+    const HalfSpace bounded = isAboveBounded ? range.above : range.below;
+    const HalfSpace rest = (isAboveBounded ? range.below : range.above).complement();
+    const MaskTree::Ptr mask = decide(grid.tree(), ValueCriterion<HalfSpace>{bounded}, interrupter);
+    openvdb::tools::pruneInactive(*mask);
+    detail::addMetCubes(grid.tree(), bounded, *mask, interrupter);
+    const MaskTree::Ptr missing = decide(grid.tree(), ValueCriterion<HalfSpace>{rest}, interrupter);
+    openvdb::tools::pruneInactive(*missing);
+    detail::keepWholeCubes(grid.tree(), rest, *missing, interrupter);
+    mask->topologyDifference(*missing);
+    return mask;
+}
+
+template <typename GridT>
+MaskTree::Ptr valueMask(const GridT& grid, const Wanted& wanted, Coverage coverage,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const MaskTree::Ptr mask = centersIn(grid, wanted, interrupter);
+    if (coverage == Coverage::Centers) return mask;
+    requireRoomAround(grid, *mask);
+    if (coverage == Coverage::Cubes && wanted.above && wanted.below) {
+        return cubesMeeting(grid, Range{*wanted.above, *wanted.below}, interrupter);
+    }
+    openvdb::tools::pruneInactive(*mask);
+    for (const auto& side : {wanted.above, wanted.below}) {
+        if (!side) continue;
+        if (coverage == Coverage::Cubes) {
+            detail::addMetCubes(grid.tree(), *side, *mask, interrupter);
+        } else {
+            detail::keepWholeCubes(grid.tree(), *side, *mask, interrupter);
+        }
+    }
+    return mask;
 }
 
 /// Finds the criterion by the grid's type; `criterion` is its name for messages.
@@ -266,14 +387,13 @@ struct MaskOfGrid {
     template <typename GridT>
     void operator()(const GridT& grid)
     {
-        std::ostringstream text;
+        const Wanted wanted = wantedOf(grid, settings);
         if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
-            text << "no value below iso=" << settings.iso;
-        } else {
-            text << "no value above threshold=" << settings.threshold;
+            checkIso(grid, settings.iso, double(grid.background()));
         }
-        criterion = text.str();
-        mask = valueMask(grid, settings, interrupter);
+        const bool isWhole = settings.coverage == Coverage::Whole;
+        criterion = (isWhole ? "no voxel whose whole cube is " : "no value ") + wanted.text;
+        mask = valueMask(grid, wanted, settings.coverage, interrupter);
     }
     void operator()(const openvdb::MaskGrid& grid)
     {

@@ -10,12 +10,15 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 #include <openvdb_spheretree/solid/MeshSolid.h>
+#include <openvdb_spheretree/topology/PartSelection.h>
+#include <openvdb_spheretree/voxel/TopologyCopy.h>
 
 #include <algorithm>
 
 namespace command {
 
 namespace spheretree = openvdb_spheretree;
+using spheretree::detail::parseNumber;
 
 namespace {
 
@@ -102,6 +105,41 @@ void runMesh2ls(const ActionCall& call, Session& session)
     session.stack.push(result);
 }
 
+/// The number as it was typed: 64-bit integers keep all of their digits.
+spheretree::ValueBound boundOf(const ActionCall& call, const std::string& option)
+{
+    const auto integer = parseNumber<int64_t>(call.text(option));
+    return integer ? spheretree::ValueBound::of(*integer) : call.real(option);
+}
+
+const char* const kRangeOptions[] = {"above", "below", "label"};
+
+/// Ranges and labels are in place of a threshold, and values between labels are none.
+void checkMask(const ActionCall& call, Plan&)
+{
+    for (const char* option : kRangeOptions) {
+        const std::string name = option;
+        if (!call.given(name)) continue;
+        if (call.given("threshold")) throwUsage(name + " and threshold exclude each other");
+        if (call.given("iso")) throwUsage(name + " and iso exclude each other");
+    }
+    const bool isCovered = call.text("cover") != "0";
+    if (call.given("label")) {
+        if (call.given("above") || call.given("below")) {
+            throwUsage("label excludes above and below");
+        }
+        if (isCovered) throwUsage("label excludes cover: nothing lies between labels");
+        for (const std::string& label : call.list("label")) {
+            if (parseNumber<int64_t>(label)) continue;
+            throwUsage("label=" + label + " is not understood: it takes whole numbers");
+        }
+    }
+    if (!call.given("above") || !call.given("below")) return;
+    if (call.real("above") > call.real("below")) {
+        throwUsage("no value is above " + call.text("above") + " and below " + call.text("below"));
+    }
+}
+
 /// An option that says nothing about this kind of grid would be passed over in silence.
 void requireRelevant(const ActionCall& call, const openvdb::GridBase& grid)
 {
@@ -116,9 +154,45 @@ void requireRelevant(const ActionCall& call, const openvdb::GridBase& grid)
         throwInput("threshold is for fog volumes and other scalar grids, and " + which
             + (levelSet ? ": use iso=" : ""));
     }
+    for (const char* option : kRangeOptions) {
+        if (!call.given(option) || scalar) continue;
+        throwInput(std::string(option) + " is for fog volumes and other scalar grids, and " + which
+            + (levelSet ? ": use iso=" : ""));
+    }
+    if (call.text("cover") != "0" && !levelSet && !scalar) {
+        throwInput("cover is for level sets and other scalar grids, and " + which);
+    }
     if (call.given("values") && !grid.isType<openvdb::BoolGrid>()) {
         throwInput("values is for bool grids, and " + which);
     }
+}
+
+spheretree::ObjectSettings objectSettingsOf(const ActionCall& call)
+{
+    spheretree::ObjectSettings settings;
+    settings.iso = call.real("iso");
+    settings.threshold = call.real("threshold");
+    settings.values = call.flag("values");
+    const std::string cover = call.text("cover");
+    if (cover == "1") settings.coverage = spheretree::Coverage::Cubes;
+    if (cover == "whole") settings.coverage = spheretree::Coverage::Whole;
+    if (call.given("above")) settings.above = boundOf(call, "above");
+    if (call.given("below")) settings.below = boundOf(call, "below");
+    for (const std::string& label : call.list("label")) {
+        settings.labels.push_back(*parseNumber<int64_t>(label));
+    }
+    return settings;
+}
+
+/// largest= and fill=: the parts of the object that are kept, and its cavities.
+void selectParts(const ActionCall& call, openvdb::BoolGrid& object, Session& session)
+{
+    if (!call.flag("largest") && !call.flag("fill")) return;
+    using spheretree::detail::copyTopology;
+    auto voxels = copyTopology<openvdb::MaskTree>(object.tree(), &session.progress);
+    if (call.flag("largest")) voxels = spheretree::largestPart(*voxels, &session.progress);
+    if (call.flag("fill")) voxels = spheretree::withCavitiesFilled(*voxels, &session.progress);
+    object.setTree(copyTopology<openvdb::BoolTree>(*voxels, &session.progress));
 }
 
 void runMask(const ActionCall& call, Session& session)
@@ -126,12 +200,11 @@ void runMask(const ActionCall& call, Session& session)
     const Stopwatch watch;
     StackItem& item = selectObjectGrid(session, call.text("vdb"));
     requireRelevant(call, *item.grid);
-    spheretree::ObjectSettings settings;
-    settings.iso = call.real("iso");
-    settings.threshold = call.real("threshold");
-    settings.values = call.flag("values");
+    const spheretree::ObjectSettings settings = objectSettingsOf(call);
     StackItem result;
-    result.grid = objectOf(item, settings, session);
+    const auto object = objectOf(item, settings, session);
+    selectParts(call, *object, session);
+    result.grid = object;
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -206,9 +279,25 @@ ActionSpec maskAction()
         real("iso", "0", -kHuge, kHuge, "level sets: inside is where the value is below this"),
         real("threshold", "0", -kHuge, kHuge,
             "other scalar grids: inside is where the value is above this"),
+        real("above", "", -kHuge, kHuge,
+            "other scalar grids, in place of threshold: inside is where the value is above this"),
+        real("below", "", -kHuge, kHuge,
+            "and below this; both, or one of them (then what lies around must not be inside)"),
+        list("label", "",
+            "other scalar grids: inside is where the value is this whole number, or one of several "
+            "(3,5)"),
+        choice("cover", {"0", "1", "whole"},
+            "which voxels of a level set or other scalar grid: 0: those whose centre is inside; 1: "
+            "all whose cube the inside meets, so that thin parts stay; whole: those whose cube is "
+            "all inside. Between centres values are interpolated"),
         flag("values", false, "bool grids: count values that are true, not active voxels"),
+        flag("largest", false,
+            "keep the largest part alone; parts hang together by faces, edges or corners of "
+            "voxels"),
+        flag("fill", false, "fill cavities: what no path along faces of voxels joins with outside"),
         vdbOption("the grid"), keepOption(),
         nameOption("", "name of the result (by default that of the grid)")};
+    action.check = checkMask;
     action.run = runMask;
     return action;
 }

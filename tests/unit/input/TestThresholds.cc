@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -121,6 +123,85 @@ TEST(Thresholds, AgreesWithAVoxelByVoxelScanOfARandomGrid)
         else expected.erase(ijk);
     }
     EXPECT_EQ(voxelsOf(*objectOf(*grid, threshold(0.2))), expected);
+}
+
+// ---- Ranges and labels
+
+ObjectSettings range(std::optional<ValueBound> above, std::optional<ValueBound> below)
+{
+    ObjectSettings settings;
+    settings.above = above;
+    settings.below = below;
+    return settings;
+}
+
+ObjectSettings labels(const std::vector<int64_t>& values)
+{
+    ObjectSettings settings;
+    settings.labels = values;
+    return settings;
+}
+
+TEST(Ranges, ValuesBetweenTheBoundsCountAndTheBoundsDoNot)
+{
+    const auto grid = named<openvdb::Int32Grid>("scan", 0);
+    for (int x = -9; x < 9; ++x) grid->tree().setValueOn(Coord(x, 0, 0), x);
+    using Voxels = std::set<Coord>;
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, range(2, 5))), (Voxels{{3, 0, 0}, {4, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, range(2.5, 4))), (Voxels{{3, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, range(6, std::nullopt))), (Voxels{{7, 0, 0}, {8, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectOf(*grid, range(std::nullopt, -7))), (Voxels{{-9, 0, 0}, {-8, 0, 0}}));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(3, 4)), "no value above 3 and below 4"));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(5, 2)), "holds no object"));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(-1, 1)), "no bounds"));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(std::nullopt, 1)), "no bounds"));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(kInfinity, 1)), "above="));
+}
+
+TEST(Ranges, IntegersOf64BitsAreComparedWithoutRounding)
+{
+    const int64_t big = (int64_t(1) << 62) + 1, most = std::numeric_limits<int64_t>::max();
+    const auto grid = named<Int64Grid>("labels", 0);
+    for (int n = -2; n <= 2; ++n) grid->tree().setValueOn(Coord(n, 0, 0), big + n);
+    grid->tree().setValueOn(Coord(5, 0, 0), most);
+    grid->tree().setValueOn(Coord(6, 0, 0), most - 1);
+    const auto bound = [](int64_t value) { return ValueBound::of(value); };
+    using Voxels = std::set<Coord>;
+    EXPECT_EQ(
+        voxelsOf(*objectOf(*grid, range(bound(big - 1), bound(big + 1)))), (Voxels{{0, 0, 0}}));
+    EXPECT_EQ(
+        voxelsOf(*objectOf(*grid, range(bound(most - 1), std::nullopt))), (Voxels{{5, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, range(bound(big + 2), bound(most)))), (Voxels{{6, 0, 0}}));
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, labels({big, most - 1}))), (Voxels{{0, 0, 0}, {6, 0, 0}}));
+    EXPECT_TRUE(
+        mentions(whyNot(*grid, range(bound(most), std::nullopt)), "above 9223372036854775807"));
+    EXPECT_TRUE(mentions(whyNot(*grid, labels({7, -8})), "no value of label=7,-8"));
+}
+
+TEST(Ranges, ALabelOfAGridOfDoublesIsThatNumberAndNoneNextToIt)
+{
+    const int64_t big = (int64_t(1) << 53) + 1; // between two doubles
+    const auto grid = named<openvdb::DoubleGrid>("labels", 0);
+    grid->tree().setValueOn(Coord(0, 0, 0), double(big));
+    grid->tree().setValueOn(Coord(1, 0, 0), 3.0);
+    grid->tree().setValueOn(Coord(2, 0, 0), 3.5);
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, labels({3, big}))), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_TRUE(mentions(whyNot(*grid, labels({0})), "no bounds"));
+}
+
+TEST(Ranges, ContradictionsAreErrorsThatSayWhatToDo)
+{
+    const auto fog = named<FloatGrid>("fog", 0.0f), level = named<FloatGrid>("ls", 3.0f);
+    level->setGridClass(openvdb::GRID_LEVEL_SET);
+    EXPECT_TRUE(mentions(whyNot(*level, range(1, 2)), "use iso"));
+    EXPECT_TRUE(mentions(whyNot(*level, labels({1})), "use iso"));
+    ObjectSettings settings = labels({1});
+    settings.above = 2;
+    EXPECT_TRUE(mentions(whyNot(*fog, settings), "leave out above and below"));
+    settings = labels({1});
+    settings.coverage = Coverage::Cubes;
+    EXPECT_TRUE(mentions(whyNot(*fog, settings), "coverage"));
 }
 
 } // namespace
