@@ -5,8 +5,10 @@
 
 #include "ChainCheck.h"
 #include "CheckReport.h"
+#include <openvdb_spheretree/inner/CubeDistance.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <algorithm>
 #include <string>
@@ -94,6 +96,25 @@ void checkWithin(CheckReport& check, const std::vector<ExactSphere>& spheres, in
         " that the object has not, but its spheres lie inside");
 }
 
+/// With strict=1: no sphere reaches into a cube that is not the object's.
+void checkWithinCubes(CheckReport& check, const Spheres& spheres, int32_t begin, int32_t end,
+    const CubeDistance& distance, const std::string& name)
+{
+    Offenders outside;
+    for (int32_t id = begin; id < end; ++id) {
+        const auto center = openvdb::Coord::round(spheres.center[id]);
+        if (!check.mask.isValueOn(center)) continue; // found by its voxels
+        const double halves =
+            2 * double(spheres.radiusWorld[id]) / smallestStretch(*check.tree.transform);
+        constexpr double kRounding = 1 + 1e-12; // of the division: finer than floats
+        if (halves * halves > double(distance.halvesSq(center)) * kRounding) outside.add(id);
+    }
+    if (outside) {
+        check.fail(
+            name, ": the sphere reaches out of the object's voxel cubes (strict=1) for ", outside);
+    }
+}
+
 } // namespace
 
 bool checkChains(CheckReport& check)
@@ -155,9 +176,19 @@ void checkInside(CheckReport& check)
         const std::string name = "level " + std::to_string(level.level);
         checkWithin(check, levelSpheres(check.tree, level), level.begin, name);
     }
-    if (check.tree.cuts.empty()) return;
     const SphereTree nodes = asOneLevel(check.tree);
-    checkWithin(check, levelSpheres(nodes, nodes.levels[0]), 0, "the list of cuts");
+    if (!check.tree.cuts.empty()) {
+        checkWithin(check, levelSpheres(nodes, nodes.levels[0]), 0, "the list of cuts");
+    }
+    if (!check.tree.settings.find<InnerOptions>()->strict) return;
+    const int flatAxis = check.tree.settings.dim == 2 ? check.tree.flatAxis : -1;
+    const CubeDistance distance(check.mask, flatAxis, check.interrupter);
+    for (const SphereTreeLevel& level : check.tree.levels) {
+        checkWithinCubes(check, check.tree.spheres, level.begin, level.end, distance,
+            "level " + std::to_string(level.level));
+    }
+    checkWithinCubes(check, check.tree.cuts.spheres, 0, check.tree.cuts.spheres.size(), distance,
+        "the list of cuts");
 }
 
 } // namespace openvdb_spheretree::detail

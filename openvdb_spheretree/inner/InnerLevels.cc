@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InnerLevels.h"
 
+#include "CubeDistance.h"
 #include "InnerOrder.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Rounding.h>
@@ -93,6 +94,15 @@ private:
     std::vector<int32_t> mIdAt;  ///< of the same: id by place
 };
 
+/// The balls that spheres may be: with strict=1 made smaller, so that they stay within cubes.
+std::vector<MedialBall> candidatesOf(const MedialLevel& medial, const openvdb::MaskTree& voxels,
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    if (!settings.find<InnerOptions>()->strict) return medial.balls;
+    const int flatAxis = settings.dim == 2 ? 2 : -1;
+    return withinCubes(medial.balls, CubeDistance(voxels, flatAxis, interrupter), interrupter);
+}
+
 } // namespace
 
 void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSeconds& seconds,
@@ -107,11 +117,12 @@ void appendInnerTree(SphereTree& tree, const openvdb::MaskTree& voxels, StageSec
     const int64_t most = options.cuts || spheres.empty()
         ? INT64_MAX
         : *std::max_element(spheres.begin(), spheres.end());
+    std::vector<MedialBall> candidates;
     const InnerOrder order = timed("inner balls", interrupter, &seconds.tree, [&] {
-        return innerOrder(medial.layout, medial.balls, tree.settings.dim, most, interrupter);
+        candidates = candidatesOf(medial, voxels, tree.settings, interrupter);
+        return innerOrder(medial.layout, candidates, tree.settings.dim, most, interrupter);
     });
-    const std::vector<MedialBall> balls =
-        ballsInOrder(medial.balls, order, FlatAxis(tree.flatAxis));
+    const std::vector<MedialBall> balls = ballsInOrder(candidates, order, FlatAxis(tree.flatAxis));
     const std::vector<int64_t> counts = options.budget.counts(int64_t(balls.size()));
     tree.levels.resize(counts.size());
     timed("inner levels", interrupter, &seconds.tree, [&] {

@@ -70,15 +70,25 @@ MaskTree::Ptr solidOf(const MaskTree& surface, int radius, NullInterrupter* inte
 
 } // namespace
 
-openvdb::BoolGrid::Ptr meshToObject(
-    const TriangleMesh& mesh, double voxelSize, double gap, NullInterrupter* interrupter)
+openvdb::BoolGrid::Ptr meshToObject(const TriangleMesh& mesh, double voxelSize,
+    const MeshSolidSettings& settings, NullInterrupter* interrupter)
 {
     const openvdb::math::Transform::Ptr transform = transformOfVoxels(voxelSize);
-    const int radius = radiusFor(gap, voxelSize);
+    const int radius = radiusFor(settings.gap, voxelSize);
+    if (settings.coverage == Coverage::Centers) {
+        OPENVDB_THROW(openvdb::ValueError, "voxels by their centers are those of meshToLevelSet()");
+    }
     requireUsableMesh(mesh, voxelSize);
     requireRoomForSurface(mesh, voxelSize);
     const MaskTree::Ptr surface = trianglesToVoxels(toIndexSpace(mesh, *transform), interrupter);
     const MaskTree::Ptr solid = solidOf(*surface, radius, interrupter);
+    if (settings.coverage == Coverage::Whole) solid->topologyDifference(*surface);
+    openvdb::tools::pruneInactive(*solid);
+    if (solid->empty()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "no voxel of " << voxelSize << " lies wholly inside mesh '" << mesh.name
+                           << "': use a smaller voxel");
+    }
     openvdb::BoolGrid::Ptr object =
         openvdb::BoolGrid::create(detail::copyTopology<openvdb::BoolTree>(*solid, interrupter));
     object->setTransform(transform);

@@ -20,21 +20,28 @@
 
 #pragma once
 
+#include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
-#include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
 namespace openvdb_spheretree {
 
-/// @brief The object of all voxels whose closed cubes meet the solid of @a mesh, named after it.
+struct MeshSolidSettings {
+    /// Cubes: every voxel whose closed cube meets the solid. Whole: those whose cubes lie wholly inside, and
+    /// that no triangle meets. (Centers: by meshToLevelSet().)
+    Coverage coverage = Coverage::Cubes;
+    /// Width of holes that are closed, world units: 0 (those below a voxel) to 126 voxels.
+    double gap = 0;
+};
+
+/// @brief The object of a mesh's solid, named after the mesh.
 /// @param voxelSize  world units, > 0; voxel (0, 0, 0) has its center at the world's origin
-/// @param gap        width of holes that are closed, world units; 0 for those below a voxel
-/// @throw openvdb::ValueError if an argument is out of range (a gap of more than 126 voxels), or the mesh
-///        empty, damaged, or too large for the voxel size, or for this machine's memory
+/// @throw openvdb::ValueError if an argument is out of range, or the mesh empty, damaged, or too large for the voxel
+///        size, or for this machine's memory; or if no voxel lies wholly inside, and such are asked for
 /// @throw Interrupted if the interrupter (may be null) said so
 openvdb::SharedPtr<openvdb::BoolGrid> meshToObject(const TriangleMesh& mesh, double voxelSize,
-    double gap = 0, openvdb::util::NullInterrupter* interrupter = nullptr);
+    const MeshSolidSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// What an object lacks of a mesh.
 struct MissedSurface {

@@ -358,6 +358,10 @@ std::vector<Setting> makeTable()
             "them the leaf balls below it (tight)"),
         choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
             "what level 0 is made of: the medial balls that are needed, or all (tight)"),
+        optional(flag<InnerOptions>("strict", 24, &InnerOptions::strict,
+            "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "
+            "that are "
+            "wholly in it")),
         flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
             "also store the spheres of every number of spheres, for -level spheres=N (tight)"),
         sideRow(),

@@ -91,7 +91,11 @@ struct TightOptions : BudgetOptions {
 
 /// Spheres that lie inside the object, and cover as much of it as they can. Their budget has no
 /// bound on the error, and their radii no padding.
-struct InnerOptions : BudgetOptions {};
+struct InnerOptions : BudgetOptions {
+    /// Spheres lie inside the union of the object's voxel cubes, not only away from the centers of other
+    /// voxels.
+    bool strict = false;
+};
 
 /// What the two trees of the paper share, which are built along a pyramid.
 struct PyramidOptions {

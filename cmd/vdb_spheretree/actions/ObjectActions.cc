@@ -33,11 +33,11 @@ void checkMesh2ls(const ActionCall& call, Plan&)
         throwUsage(
             "gap=" + call.text("gap") + " is the width of holes that fill=outside closes: add it");
     }
-    if (call.given("cover") && !call.flag("cover") && outside) {
+    if (call.given("cover") && call.text("cover") == "0" && outside) {
         throwUsage(
             "fill=outside makes an object of all voxels that the solid meets: leave cover=0 out");
     }
-    if (call.given("width") && (call.flag("cover") || outside)) {
+    if (call.given("width") && (call.text("cover") != "0" || outside)) {
         throwUsage("width is of a level set's narrow band, and cover=1 makes no level set");
     }
 }
@@ -78,12 +78,14 @@ void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::FloatGrid
 openvdb::GridBase::Ptr gridOf(
     const spheretree::TriangleMesh& mesh, double voxel, const ActionCall& call, Session& session)
 {
-    if (call.text("fill") == "outside") {
-        const double gap = call.given("gap") ? call.real("gap") : 2 * voxel;
-        return spheretree::meshToObject(mesh, voxel, gap, &session.progress);
+    const bool outside = call.text("fill") == "outside";
+    spheretree::MeshSolidSettings settings;
+    if (call.text("cover") == "whole") settings.coverage = spheretree::Coverage::Whole;
+    if (outside) settings.gap = call.given("gap") ? call.real("gap") : 2 * voxel;
+    if (!outside) warnIfOpen(mesh, session);
+    if (outside || call.text("cover") != "0") {
+        return spheretree::meshToObject(mesh, voxel, settings, &session.progress);
     }
-    warnIfOpen(mesh, session);
-    if (call.flag("cover")) return spheretree::meshToObject(mesh, voxel, 0, &session.progress);
     const auto levelSet =
         spheretree::meshToLevelSet(mesh, voxel, call.real("width"), &session.progress);
     warnOfMissed(mesh, *levelSet, voxel, session);
@@ -252,11 +254,12 @@ ActionSpec mesh2lsAction()
         integer("dim", "256", 1, 1 << 20, "voxels along the longest side of the mesh"),
         real("voxel", "", kTiny, kHuge, "size of a voxel in world units, in place of dim"),
         real("width", "3", 1, 1000, "half the width of the narrow band, in voxels"),
-        flag("cover", false,
-            "make an object of every voxel whose cube meets the solid, in place of a level set, of "
-            "which "
-            "voxels with their center inside count: thin parts stay, and spheres cover the solid "
-            "itself"),
+        choice("cover", {"0", "1", "whole"},
+            "0: a level set, of which voxels with their center inside count; 1: the object of "
+            "every voxel whose "
+            "cube meets the solid: thin parts stay, and spheres cover the solid itself; whole: of "
+            "those that are "
+            "all inside"),
         choice("fill", {"closed", "outside"},
             "what is inside: what a closed mesh bounds, or all that cannot be reached from outside "
             "through "

@@ -28,10 +28,11 @@ using spheretree::SphereTree;
 namespace {
 
 /// The object of a grid, and how long it took to find it.
-BoolGrid::ConstPtr timedObjectOf(const StackItem& item, Session& session)
+BoolGrid::ConstPtr timedObjectOf(
+    const StackItem& item, const spheretree::ObjectSettings& settings, Session& session)
 {
     const Stopwatch watch;
-    BoolGrid::ConstPtr object = objectOf(item, {}, session);
+    BoolGrid::ConstPtr object = objectOf(item, settings, session);
     session.seconds.mask += watch.seconds();
     return object;
 }
@@ -69,7 +70,9 @@ SphereTree treeOf(
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
-    const BoolGrid::ConstPtr object = timedObjectOf(input, session);
+    spheretree::ObjectSettings objectSettings;
+    if (call.flag("strict")) objectSettings.coverage = spheretree::Coverage::Whole;
+    const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
     result.object = object;
@@ -149,7 +152,10 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
     const bool anyObject = std::any_of(items.begin(), items.end(),
         [](const auto& other) { return other->grid && spheretree::isObjectGrid(*other->grid); });
     if (!anyObject && !call.given("vdb") && session.stack.holdsMesh()) return nullptr;
-    return timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
+    const auto* inner = item.tree->settings.find<spheretree::InnerOptions>();
+    spheretree::ObjectSettings settings;
+    if (inner && inner->strict) settings.coverage = spheretree::Coverage::Whole;
+    return timedObjectOf(selectObjectGrid(session, call.text("vdb")), settings, session);
 }
 
 std::vector<spheretree::TreeFault> faultsOf(const StackItem& item, const BoolGrid::ConstPtr& object,

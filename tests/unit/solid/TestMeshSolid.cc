@@ -33,6 +33,13 @@ protected:
     static void SetUpTestSuite() { openvdb::initialize(); }
 };
 
+MeshSolidSettings withGap(double gap)
+{
+    MeshSolidSettings settings;
+    settings.gap = gap;
+    return settings;
+}
+
 int64_t voxelsOf(const BoolGrid& object) { return int64_t(object.activeVoxelCount()); }
 
 /// The voxels whose cubes a box in voxels meets.
@@ -119,6 +126,21 @@ TEST_F(MeshSolid, OfTetrahedraHoldsEveryPointOfThem)
     }
 }
 
+/// Cubes that touch a face of the mesh from within are met by it.
+TEST_F(MeshSolid, HoldsOfWholeVoxelsThoseThatNoTriangleMeets)
+{
+    MeshSolidSettings whole;
+    whole.coverage = Coverage::Whole;
+    const TriangleMesh mesh = boxMesh(Vec3d(-0.2), Vec3d(20.5, 10.6, 7));
+    EXPECT_TRUE(isBox(*meshToObject(mesh, 1, whole), CoordBBox(Coord(1), Coord(19, 10, 6))));
+    const std::string message = messageOf<openvdb::ValueError>(
+        [&] { meshToObject(boxMesh(Vec3d(0), Vec3d(20, 1.2, 20)), 1, whole); });
+    EXPECT_TRUE(mentions(message, "no voxel of 1 lies wholly inside mesh 'box'")) << message;
+    MeshSolidSettings centers;
+    centers.coverage = Coverage::Centers;
+    EXPECT_THROW(meshToObject(mesh, 1, centers), openvdb::ValueError);
+}
+
 /// A box of walls without thickness, with a square hole in its lid.
 TriangleMesh openBox(double width)
 {
@@ -148,8 +170,8 @@ TEST_F(MeshSolid, WithAGapClosesHolesOfThatWidth)
     for (const auto& [width, passing] : widthsAndPassing) {
         const TriangleMesh mesh = openBox(width);
         EXPECT_GT(full / 4, voxelsOf(*meshToObject(mesh, 1))) << width; // its walls
-        EXPECT_GT(full / 4, voxelsOf(*meshToObject(mesh, 1, passing))) << width;
-        const auto closed = meshToObject(mesh, 1, width);
+        EXPECT_GT(full / 4, voxelsOf(*meshToObject(mesh, 1, withGap(passing)))) << width;
+        const auto closed = meshToObject(mesh, 1, withGap(width));
         EXPECT_LE(full - 81, voxelsOf(*closed)) << width;
         EXPECT_TRUE(closed->tree().isValueOn(Coord(20, 20, 38))) << width;
         EXPECT_EQ(CoordBBox(Coord(0), Coord(40)), closed->evalActiveVoxelBoundingBox());
@@ -160,8 +182,9 @@ TEST_F(MeshSolid, WithAGapClosesHolesOfThatWidth)
 TEST_F(MeshSolid, WithAGapHoldsTheSameOfAConvexSolid)
 {
     const TriangleMesh mesh = boxMesh(Vec3d(0.2), Vec3d(90, 20, 35.3));
-    EXPECT_TRUE(meshToObject(mesh, 1)->tree().hasSameTopology(meshToObject(mesh, 1, 7)->tree()));
-    const auto plain = meshToObject(mesh, 1), closed = meshToObject(mesh, 1, 7);
+    EXPECT_TRUE(
+        meshToObject(mesh, 1)->tree().hasSameTopology(meshToObject(mesh, 1, withGap(7))->tree()));
+    const auto plain = meshToObject(mesh, 1), closed = meshToObject(mesh, 1, withGap(7));
     EXPECT_EQ(voxelsOf(*plain), voxelsOf(*closed));
     EXPECT_EQ(plain->evalActiveVoxelBoundingBox(), closed->evalActiveVoxelBoundingBox());
 }
@@ -189,7 +212,7 @@ TEST_F(MeshSolid, RefusesWhatIsOutOfRange)
     }
     for (const double gap : {-1.0, nan, 127.0}) {
         const std::string message =
-            messageOf<openvdb::ValueError>([&] { meshToObject(mesh, 1, gap); });
+            messageOf<openvdb::ValueError>([&] { meshToObject(mesh, 1, withGap(gap)); });
         EXPECT_TRUE(mentions(message, "is out of range: it must be 0 to 126 voxels")) << message;
     }
     TriangleMesh bad = mesh;
@@ -215,7 +238,7 @@ TEST_F(MeshSolid, StopsWhenAskedTo)
     struct Stop : openvdb::util::NullInterrupter {
         bool wasInterrupted(int) override { return true; }
     } stop;
-    EXPECT_THROW(meshToObject(boxMesh(Vec3d(0), Vec3d(9)), 1, 0, &stop), Interrupted);
+    EXPECT_THROW(meshToObject(boxMesh(Vec3d(0), Vec3d(9)), 1, {}, &stop), Interrupted);
 }
 
 } // namespace
