@@ -21,6 +21,7 @@
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
 #include "input/Object.h"
+#include "input/Resample.h"
 #include "input/ValueBound.h"
 
 // The object to a pyramid of ever coarser ones.
@@ -34,6 +35,7 @@
 #include "medial/DistanceTransform.h"
 #include "medial/MedialAxis.h"
 #include "topology/LevelTopology.h"
+#include "topology/ObjectParts.h"
 
 // What a tree can be asked for, what it is, and the call that builds one.
 #include "build/BuildSphereTree.h"

@@ -8,6 +8,7 @@
 #include <openvdb/points/PointDataGrid.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/topology/ObjectParts.h>
 
 #include <algorithm>
 
@@ -132,7 +133,10 @@ void runMask(const ActionCall& call, Session& session)
     requireRelevant(call, *item.grid);
     const spheretree::ObjectSettings settings = objectSettingsOf(call);
     StackItem result;
-    result.grid = objectOf(item, settings, session);
+    auto object = objectOf(item, settings, session);
+    if (call.flag("largest")) object = spheretree::largestPart(*object, &session.progress);
+    if (call.flag("fill")) object = spheretree::filledCavities(*object, &session.progress);
+    result.grid = object;
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -207,6 +211,9 @@ ActionSpec maskAction()
             "all whose cube the inside meets, so that thin parts stay; whole: those whose cube is "
             "all inside. Between centres values are interpolated"),
         flag("values", false, "bool grids: count values that are true, not active voxels"),
+        flag("largest", false,
+            "keep the largest part alone (voxels that share a corner belong together)"),
+        flag("fill", false, "fill cavities: background that is closed in on all sides"),
         vdbOption("the grid"), keepOption(),
         nameOption("", "name of the result (by default that of the grid)")};
     action.check = checkMask;
