@@ -25,6 +25,7 @@
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
 #include "input/Object.h"
+#include "input/Resample.h"
 #include "input/ValueBound.h"
 
 // A mesh to the object of all voxels that its solid meets.
@@ -41,7 +42,7 @@
 #include "medial/DistanceTransform.h"
 #include "medial/MedialAxis.h"
 #include "topology/LevelTopology.h"
-#include "topology/PartSelection.h"
+#include "topology/ObjectParts.h"
 
 // What a tree can be asked for, what it is, and the call that builds one.
 #include "build/BuildSphereTree.h"

@@ -7,7 +7,7 @@
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
 #include <openvdb_spheretree/pyramid/BallMorphology.h>
 #include <openvdb_spheretree/pyramid/Closing.h>
-#include <openvdb_spheretree/topology/PartSelection.h>
+#include <openvdb_spheretree/topology/ObjectParts.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
@@ -57,10 +57,10 @@ int radiusFor(double gap, double voxelSize)
 /// All that a ball cannot reach from outside.
 MaskTree::Ptr solidOf(const MaskTree& surface, int radius, NullInterrupter* interrupter)
 {
-    if (radius == 0) return withCavitiesFilled(surface, interrupter);
+    if (radius == 0) return filledCavities(surface, interrupter);
     MaskTree::Ptr walls = std::make_shared<MaskTree>(surface);
     walls->topologyUnion(*detail::voxelsNear(surface, radius, 3, "gap", interrupter));
-    const MaskTree::Ptr solid = withCavitiesFilled(*walls, interrupter);
+    const MaskTree::Ptr solid = filledCavities(*walls, interrupter);
     // What is within the radius of a voxel outside is so of the walls, which are between, too.
     walls->topologyUnion(*detail::voxelsNear(*walls, radius, 3, "gap", interrupter));
     detail::erodeAround(*solid, *walls, radius, 3, interrupter);

@@ -2,23 +2,17 @@
 /// @file LevelTopology.cc
 /// @brief Components b0, tunnels b1 and cavities b2 of closed cubes, from what can be counted
 /// without looking at empty space:
-/// - b0 is the number of 26-connected components of the object;
+/// - b0 is the number of 26-connected components of the object (PartSets.h);
 /// - b2 is the number of 6-connected components of the background, less the one outside (Alexander
 ///   duality);
 /// - b0 - b1 + b2 is the Euler characteristic, a sum over leaves (EulerNumber.cc).
 ///
-/// 1. `LevelParts`: cut object and background into their parts within each leaf, by flooding mask
-///    words (LeafParts.h).
-/// 2. `PartJoiner`: join parts that touch across the borders of leaves, in two union-finds.
-/// 3. Count the sets.
-///
-/// (Components of the surface between the two would need a node for each of its vertices; here it
-/// is one for most leaves.) Cost: linear in leaves. Exact. Tests: TestLevelTopology.cc.
+/// Cost: linear in leaves. Exact. Tests: TestLevelTopology.cc.
 
 #include "LevelTopology.h"
 
 #include "EulerNumber.h"
-#include "PartJoiner.h"
+#include "PartSets.h"
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/LeafWalk.h>
@@ -31,11 +25,9 @@ namespace openvdb_spheretree {
 namespace {
 
 using detail::LeafWalk;
-using detail::LevelParts;
-using detail::PartJoiner;
 
 /// Where all leaves that eulerOfLeaf() looks at are full, the sum is 0.
-bool isDeepInside(const LevelParts& parts, const LeafWalk& around)
+bool isDeepInside(const detail::LevelParts& parts, const LeafWalk& around)
 {
     for (int i = 0; i < 18; ++i) {
         const uint32_t leaf = around.at(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
@@ -48,13 +40,13 @@ bool isDeepInside(const LevelParts& parts, const LeafWalk& around)
 
 LevelTopology levelTopology(const LeafLayout& level, openvdb::util::NullInterrupter* interrupter)
 {
-    const LevelParts parts(level, interrupter);
-    PartJoiner joiner(parts);
+    const detail::LevelParts parts(level, interrupter);
+    detail::PartSets sets(level, parts);
     std::vector<int64_t> eulers(parts.chunks(), 0);
-    joiner.joinAll(interrupter, [&](std::size_t chunk, const LeafWalk& around) {
+    sets.joinAll(interrupter, [&](std::size_t chunk, const LeafWalk& around) {
         if (!isDeepInside(parts, around)) eulers[chunk] += detail::eulerOfLeaf(level, around);
     });
-    const int64_t components = joiner.object().sets(), cavities = joiner.background().sets() - 1;
+    const int64_t components = sets.object().sets(), cavities = sets.background().sets() - 1;
     const int64_t euler = std::accumulate(eulers.begin(), eulers.end(), int64_t(0));
     return {components, components + cavities - euler, cavities};
 }

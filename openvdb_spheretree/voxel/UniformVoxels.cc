@@ -70,7 +70,8 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
         detail::describe(grid)
             << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
             << (orthogonal ? "" : ", and its axes are sheared")
-            << "; spheres need cubic voxels: resample it to a uniform voxel size");
+            << "; spheres need cubic voxels: resample it to a uniform voxel size (-resample voxel="
+            << voxel.shortest() << ")");
 }
 
 std::string detail::describe(const openvdb::GridBase& grid)

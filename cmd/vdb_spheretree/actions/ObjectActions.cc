@@ -10,8 +10,7 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 #include <openvdb_spheretree/solid/MeshSolid.h>
-#include <openvdb_spheretree/topology/PartSelection.h>
-#include <openvdb_spheretree/voxel/TopologyCopy.h>
+#include <openvdb_spheretree/topology/ObjectParts.h>
 
 #include <algorithm>
 
@@ -186,17 +185,6 @@ spheretree::ObjectSettings objectSettingsOf(const ActionCall& call)
     return settings;
 }
 
-/// largest= and fill=: the parts of the object that are kept, and its cavities.
-void selectParts(const ActionCall& call, openvdb::BoolGrid& object, Session& session)
-{
-    if (!call.flag("largest") && !call.flag("fill")) return;
-    using spheretree::detail::copyTopology;
-    auto voxels = copyTopology<openvdb::MaskTree>(object.tree(), &session.progress);
-    if (call.flag("largest")) voxels = spheretree::largestPart(*voxels, &session.progress);
-    if (call.flag("fill")) voxels = spheretree::withCavitiesFilled(*voxels, &session.progress);
-    object.setTree(copyTopology<openvdb::BoolTree>(*voxels, &session.progress));
-}
-
 void runMask(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
@@ -204,8 +192,9 @@ void runMask(const ActionCall& call, Session& session)
     requireRelevant(call, *item.grid);
     const spheretree::ObjectSettings settings = objectSettingsOf(call);
     StackItem result;
-    const auto object = objectOf(item, settings, session);
-    selectParts(call, *object, session);
+    auto object = objectOf(item, settings, session);
+    if (call.flag("largest")) object = spheretree::largestPart(*object, &session.progress);
+    if (call.flag("fill")) object = spheretree::filledCavities(*object, &session.progress);
     result.grid = object;
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
@@ -295,9 +284,8 @@ ActionSpec maskAction()
             "all inside. Between centres values are interpolated"),
         flag("values", false, "bool grids: count values that are true, not active voxels"),
         flag("largest", false,
-            "keep the largest part alone; parts hang together by faces, edges or corners of "
-            "voxels"),
-        flag("fill", false, "fill cavities: what no path along faces of voxels joins with outside"),
+            "keep the largest part alone (voxels that share a corner belong together)"),
+        flag("fill", false, "fill cavities: background that is closed in on all sides"),
         vdbOption("the grid"), keepOption(),
         nameOption("", "name of the result (by default that of the grid)")};
     action.check = checkMask;

@@ -6,12 +6,15 @@
 #include "line/Actions.h"
 #include "session/Session.h"
 
+#include <openvdb_spheretree/input/Resample.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace command {
 
@@ -109,6 +112,54 @@ StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     return item;
 }
 
+/// Units that files are in, and how many metres they are.
+const std::pair<const char*, double> kUnits[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1},
+    {"in", 0.0254}, {"ft", 0.3048}, {"um", 1e-6}, {"km", 1e3}};
+
+/// @return the factor for what is read; nothing if none is asked for.
+std::optional<double> scaleOf(const ActionCall& call)
+{
+    if (call.given("scale")) return call.real("scale");
+    if (!call.given("units")) return std::nullopt;
+    for (const auto& [name, metres] : kUnits) {
+        if (call.text("units") == name) return metres;
+    }
+    return std::nullopt; // others are refused by the table of options
+}
+
+void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
+{
+    for (auto& point : mesh.points) {
+        const openvdb::Vec3d scaled = openvdb::Vec3d(point) * scale;
+        point = openvdb::Vec3s(scaled);
+        if (!point.isFinite()) {
+            throwInput("mesh '" + oneLine(mesh.name, 60)
+                + "' would have points beyond the largest number: choose a smaller scale");
+        }
+    }
+}
+
+/// Grids, volumes and meshes have one size; a tree holds radii in several ways.
+void scaleItem(const StackItem& item, std::optional<double> scale)
+{
+    if (!scale) return;
+    if (item.tree) {
+        throwInput("sphere-tree '" + oneLine(item.name(), 60)
+            + "' is not scaled: scale= and units= are for meshes, grids and volumes; build the "
+              "tree "
+              "anew of what it was made of");
+    }
+    if (item.mesh) scaleMesh(*item.mesh, *scale);
+    if (item.grid) openvdb_spheretree::scaleGrid(*item.grid, *scale);
+}
+
+/// What files are read with.
+struct Reading {
+    Loading loading;
+    std::optional<double> scale;
+    NameFilter filter;
+};
+
 Loading loadingOf(const ActionCall& call)
 {
     const std::string delayed = call.text("delayed");
@@ -116,9 +167,9 @@ Loading loadingOf(const ActionCall& call)
     return delayed == "1" ? Loading::Delayed : Loading::Whole;
 }
 
-void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+void readVdbFile(const std::string& path, Reading& reading, Session& session)
 {
-    openvdb::GridPtrVec grids = readVdb(path, loading);
+    openvdb::GridPtrVec grids = readVdb(path, reading.loading);
     const CompanionIndex index(grids);
     std::set<GridBase::Ptr> ofTrees;
     for (const GridBase::Ptr& grid : grids) {
@@ -129,58 +180,72 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
     }
     for (const GridBase::Ptr& grid : grids) {
         throwIfStopped();
-        if (ofTrees.count(grid) || !filter.accepts(grid->getName())) continue;
+        if (ofTrees.count(grid) || !reading.filter.accepts(grid->getName())) continue;
         if (!openvdb_spheretree::isSphereTree(*grid)) {
             StackItem item;
             item.grid = grid;
+            scaleItem(item, reading.scale);
             session.stack.push(item);
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
-        session.stack.push(treeItem(*points, index.of(grid->getName()), path, session.progress));
+        StackItem item = treeItem(*points, index.of(grid->getName()), path, session.progress);
+        scaleItem(item, reading.scale);
+        session.stack.push(std::move(item));
     }
 }
 
-void readContent(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
-    if (kind == FileKind::Vdb) return readVdbFile(path, loading, filter, session);
+    if (kind == FileKind::Vdb) return readVdbFile(path, reading, session);
     StackItem item;
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
             openvdb_spheretree::readMeshFile(path));
     } else {
         item.grid = openvdb_spheretree::readVolFile(path, &session.progress);
-        if (!filter.accepts(item.grid->getName())) return;
+        if (!reading.filter.accepts(item.grid->getName())) return;
     }
+    scaleItem(item, reading.scale);
     session.stack.push(item);
 }
 
-void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+void readFile(const std::string& path, Reading& reading, Session& session)
 {
     session.stack.setSource(path);
     const InputStamp stamp(path);
-    readContent(path, loading, filter, session);
+    readContent(path, reading, session);
     stamp.requireUnchanged();
-    if (loading != Loading::Whole) session.inputs.push_back(stamp);
+    if (reading.loading != Loading::Whole) session.inputs.push_back(stamp);
 }
 
 void check(const ActionCall& call, Plan& plan)
 {
     if (!call.given("files")) throwUsage("names no file");
+    if (call.given("scale") && call.given("units"))
+        throwUsage("scale and units exclude each other");
     for (const std::string& path : call.list("files")) plan.addInput(path);
 }
 
 void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
-    const Loading loading = loadingOf(call);
-    NameFilter filter(call.list("grids"));
+    Reading reading{loadingOf(call), scaleOf(call), NameFilter(call.list("grids"))};
     session.stack.beginBatch("");
-    for (const std::string& path : call.list("files")) readFile(path, loading, filter, session);
-    filter.requireAllFound();
+    for (const std::string& path : call.list("files")) readFile(path, reading, session);
+    reading.filter.requireAllFound();
     session.seconds.read += watch.seconds();
     for (const auto& item : session.stack.items()) session.remark(item->description());
+}
+
+OptionSpec unitsOption()
+{
+    std::vector<std::string> names;
+    for (const auto& unit : kUnits) names.push_back(unit.first);
+    OptionSpec units = choice("units", names, "what unit files are in; everything becomes metres");
+    units.fallback.clear(); // they stay as they are
+    return units;
 }
 
 } // namespace
@@ -195,7 +260,10 @@ ActionSpec readAction()
         list("grids", "*", "names of the grids and sphere-trees to take"),
         choice("delayed", {"auto", "1", "0"},
             "leave the values of a .vdb in the file until they are needed, and read them node by "
-            "node: grids may be larger than memory then; auto does so from 64 MiB on")};
+            "node: grids may be larger than memory then; auto does so from 64 MiB on"),
+        real("scale", "", 1e-30, 1e30,
+            "make meshes, grids and volumes larger by this factor, in world space"),
+        unitsOption()};
     action.isSource = true;
     action.check = check;
     action.run = run;

@@ -12,6 +12,10 @@
 #include <openvdb_spheretree/check/MeshCheck.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <memory>
@@ -35,6 +39,28 @@ BoolGrid::ConstPtr timedObjectOf(
     BoolGrid::ConstPtr object = objectOf(item, settings, session);
     session.seconds.mask += watch.seconds();
     return object;
+}
+
+/// What is seldom meant: a solid in too few voxels to have a shape, as of other units than one thinks;
+/// and a flat one that is taken for a solid.
+void warnOfSize(const BoolGrid& object, int dim, Session& session)
+{
+    constexpr int64_t kFewVoxels = 16;
+    const openvdb::CoordBBox box = object.evalActiveVoxelBoundingBox();
+    const auto side = spheretree::detail::sidesOf(box);
+    const int64_t longest = *std::max_element(side.begin(), side.end());
+    const std::string name = "the object '" + oneLine(object.getName(), 60) + "' is ";
+    if (longest < kFewVoxels) {
+        session.warn(name + "only " + std::to_string(longest)
+            + (longest == 1 ? " voxel" : " voxels")
+            + " across its longest side: is its unit another (scale= or units= of -read), or the "
+              "voxel "
+              "too large?");
+    }
+    const int flat = spheretree::flatAxisOf(box);
+    if (flat >= 0 && dim != 2) {
+        session.warn(name + "one voxel thick along " + "xyz"[flat] + ": dim=2 ?");
+    }
 }
 
 /// Says so if there are fewer spheres than were asked for.
@@ -77,6 +103,7 @@ void runSpheretree(const ActionCall& call, Session& session)
     StackItem result;
     result.object = object;
     const auto settings = settingsOf(call);
+    warnOfSize(*object, settings.dim, session);
     result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
     session.remark(std::to_string(result.tree->size()) + " spheres on "
         + std::to_string(result.tree->levels.size()) + " levels");

@@ -6,7 +6,7 @@ namespace command {
 const std::vector<ActionSpec>& actionTable()
 {
     static const std::vector<ActionSpec> table = {readAction(), generateAction(), mesh2lsAction(),
-        maskAction(), spheretreeAction(), statsAction(), checkAction(), levelAction(),
+        resampleAction(), maskAction(), spheretreeAction(), statsAction(), checkAction(), levelAction(),
         spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(), configAction(),
         clearAction(), threadsAction(), quietAction(), verboseAction(), debugAction(), helpAction(),
         versionAction(), examplesAction()};

@@ -12,6 +12,7 @@ namespace command {
 ActionSpec readAction();
 ActionSpec generateAction();
 ActionSpec mesh2lsAction();
+ActionSpec resampleAction();
 ActionSpec maskAction();
 ActionSpec spheretreeAction();
 ActionSpec statsAction();

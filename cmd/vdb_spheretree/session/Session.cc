@@ -94,7 +94,7 @@ void Session::print(const std::string& text, std::ostream& out)
 
 void Session::warn(const std::string& line)
 {
-    say(Verbosity::Normal, "vdb_spheretree: " + coloured(std::cerr, Colour::Yellow, "warning: "),
+    say(Verbosity::Quiet, "vdb_spheretree: " + coloured(std::cerr, Colour::Yellow, "warning: "),
         line);
 }
 

@@ -252,7 +252,12 @@ typename GridT::Ptr readValues(
 openvdb::math::Transform::Ptr transformOf(const std::string& path, const VolHeader& header)
 {
     try {
-        return openvdb::math::Transform::createLinearTransform(header.voxelSize);
+        const auto& size = header.voxelSize;
+        if (size[0] == size[1] && size[1] == size[2]) {
+            return openvdb::math::Transform::createLinearTransform(size[0]);
+        }
+        return std::make_shared<openvdb::math::Transform>(openvdb::math::MapBase::Ptr(
+            new openvdb::math::ScaleMap(openvdb::Vec3d(size[0], size[1], size[2]))));
     } catch (const openvdb::Exception&) { // OpenVDB refuses transforms that are nearly singular
         fail(path, "header key 'Voxel-Size' is too small for an OpenVDB transform");
     }

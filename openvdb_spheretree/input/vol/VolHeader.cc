@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
+#include <vector>
 
 namespace openvdb_spheretree::detail {
 
@@ -78,11 +80,20 @@ int versionOf(const std::string& text)
         + "; versions 2 (raw) and 3 (zlib) can be read");
 }
 
-double voxelSizeOf(const std::string& text)
+/// One number, or three with blanks between.
+std::array<double, 3> voxelSizeOf(const std::string& text)
 {
-    const auto size = parseNumber<double>(text);
-    if (size && std::isfinite(*size) && *size > 0) return *size;
-    throw IoError("header key 'Voxel-Size' is " + inQuotes(text) + ", not a number above 0");
+    std::istringstream words(text);
+    std::vector<double> sizes;
+    for (std::string word; words >> word;) {
+        const auto size = parseNumber<double>(word);
+        if (!size || !std::isfinite(*size) || !(*size > 0)) sizes.resize(4); // refused below
+        else sizes.push_back(*size);
+    }
+    if (sizes.size() == 1) return {sizes[0], sizes[0], sizes[0]};
+    if (sizes.size() == 3) return {sizes[0], sizes[1], sizes[2]};
+    throw IoError("header key 'Voxel-Size' is " + inQuotes(text)
+        + ", not a number above 0, or three of them");
 }
 
 /// Refuses a header whose file cannot hold the values, or holds more.

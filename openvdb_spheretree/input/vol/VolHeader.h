@@ -17,7 +17,7 @@ namespace openvdb_spheretree::detail {
 struct VolHeader {
     std::array<std::uint64_t, 3> dim{}; // X, Y, Z
     int version = 2;
-    double voxelSize = 1;
+    std::array<double, 3> voxelSize{1, 1, 1}; // world units along x, y, z
     std::uint64_t bytesPerValue = 1;
     std::uint64_t dataOffset = 0; // of the first byte after the header
     std::uint64_t dataBytes = 0;  // from there to the end of the file

@@ -1,15 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "PartJoiner.h"
+#include "PartSets.h"
 
 #include <openvdb_spheretree/voxel/LeafPlanes.h>
 
+#include <limits>
 #include <utility>
 
 namespace openvdb_spheretree::detail {
 
+LevelParts::LevelParts(const LeafLayout& layout, openvdb::util::NullInterrupter* interrupter)
+    : mLayout(layout), mCuts(layout.leafCount()), mLabels(chunks())
+{
+    parallelForWithScratch<PartLabels>(
+        chunks(), interrupter, [&](std::size_t chunk, PartLabels& labels) {
+            const uint32_t begin = uint32_t(chunk) * kPartChunk;
+            const uint32_t end = std::min(begin + kPartChunk, layout.leafCount());
+            for (uint32_t leaf = begin; leaf < end; ++leaf) {
+                const auto counts = leafParts(layout.mask(leaf), labels);
+                mCuts[leaf].objectParts = uint16_t(counts.object);
+                mCuts[leaf].backgroundParts = uint16_t(counts.background);
+                if (counts.object <= 1 && counts.background <= 1) continue;
+                mCuts[leaf].labels = uint16_t(mLabels[chunk].size());
+                mLabels[chunk].push_back(labels);
+            }
+        });
+    numberNodes();
+}
+
+void LevelParts::numberNodes()
+{
+    int64_t object = 0, background = 1; // outside
+    for (uint32_t leaf = 0; leaf < mLayout.leafCount(); ++leaf) {
+        LeafCut& cut = mCuts[leaf];
+        cut.object = uint32_t(object);
+        cut.background = uint32_t(background);
+        object += cut.objectParts;
+        background += cut.backgroundParts + hasGapBehind(leaf);
+    }
+    if (std::max(object, background) > std::numeric_limits<uint32_t>::max()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the voxels of a level and the background between them are cut into "
+                << std::max(object, background)
+                << " parts by leaf nodes, more than 2^32: build without topology");
+    }
+    mObjectNodes = uint32_t(object);
+    mBackgroundNodes = uint32_t(background);
+}
+
 /// Where two leaves touch: a plane of voxels of each, and the moves along the plane's two axes that
 /// bring voxels of the other leaf to voxels beside them of this one.
-struct Contact {
+struct PartSets::Contact {
     struct Moves {
         int first, last;
     };
@@ -31,8 +71,21 @@ struct Contact {
     static Contact withFaces(Axis axis) { return {axis, 0, 7, {0, 0}, {0, 0}}; }
 };
 
+/// Object or background of a leaf.
+struct PartSets::Side {
+    uint32_t leaf, firstNode;
+    bool isWhole; ///< one part, whatever the voxel
+};
+
+void PartSets::joinLeaf(uint32_t leaf, const LeafWalk& around)
+{
+    joinObject(leaf, around);
+    if (!mParts.isFull(leaf)) joinBackground(leaf, around);
+    if (mParts.hasGapBehind(leaf)) joinGap(leaf, around);
+}
+
 /// With the 13 leaves before it.
-void PartJoiner::joinObject(uint32_t leaf, const LeafWalk& around)
+void PartSets::joinObject(uint32_t leaf, const LeafWalk& around)
 {
     for (int i = 0; i < 13; ++i) {
         const int dx = i / 9 - 1, dy = i / 3 % 3 - 1, dz = i % 3 - 1;
@@ -45,7 +98,7 @@ void PartJoiner::joinObject(uint32_t leaf, const LeafWalk& around)
     }
 }
 
-void PartJoiner::joinBackground(uint32_t leaf, const LeafWalk& around)
+void PartSets::joinBackground(uint32_t leaf, const LeafWalk& around)
 {
     const Side here = backgroundSide(leaf);
     const LeafMask mask = LeafMask::full() - mLayout.mask(leaf);
@@ -68,7 +121,7 @@ void PartJoiner::joinBackground(uint32_t leaf, const LeafWalk& around)
 
 /// The gap behind a leaf with the empty places beside it: along each column around, from the
 /// gap's first place to its last, those before, between and behind the leaves there.
-void PartJoiner::joinGap(uint32_t leaf, const LeafWalk& around)
+void PartSets::joinGap(uint32_t leaf, const LeafWalk& around)
 {
     const uint32_t gap = mParts.gapBehind(leaf);
     const LeafPlace first = LeafPlace(mLayout.origin(leaf)).offsetBy(0, 0, 1);
@@ -88,25 +141,29 @@ void PartJoiner::joinGap(uint32_t leaf, const LeafWalk& around)
     }
 }
 
-PartJoiner::Side PartJoiner::objectSide(uint32_t leaf) const
+PartSets::Side PartSets::objectSide(uint32_t leaf) const
 {
     return {leaf, mParts[leaf].object, mParts[leaf].objectParts == 1};
 }
-PartJoiner::Side PartJoiner::backgroundSide(uint32_t leaf) const
+
+PartSets::Side PartSets::backgroundSide(uint32_t leaf) const
 {
     return {leaf, mParts[leaf].background, mParts[leaf].backgroundParts == 1};
 }
-bool PartJoiner::areOne(UnionFind& sets, const Side& a, const Side& b)
+
+/// Where two leaves are joined as a whole already, their voxels need no look.
+bool PartSets::areOne(UnionFind& sets, const Side& a, const Side& b)
 {
     return a.isWhole && b.isWhole && sets.find(a.firstNode) == sets.find(b.firstNode);
 }
-uint32_t PartJoiner::nodeOf(const Side& side, Axis axis, int at, uint32_t bit) const
+
+uint32_t PartSets::nodeOf(const Side& side, Axis axis, int at, uint32_t bit) const
 {
     if (side.isWhole) return side.firstNode;
     return side.firstNode + mParts.label(side.leaf, offsetInPlane(axis, at, bit));
 }
 
-void PartJoiner::joinContact(UnionFind& sets, const Side& a, const LeafMask& maskA, const Side& b,
+void PartSets::joinContact(UnionFind& sets, const Side& a, const LeafMask& maskA, const Side& b,
     const LeafMask& maskB, const Contact& contact)
 {
     const Axis axis = contact.axis;
@@ -125,7 +182,7 @@ void PartJoiner::joinContact(UnionFind& sets, const Side& a, const LeafMask& mas
     }
 }
 
-void PartJoiner::joinPlane(const Side& side, const LeafMask& mask, Axis axis, int at, uint32_t node)
+void PartSets::joinPlane(const Side& side, const LeafMask& mask, Axis axis, int at, uint32_t node)
 {
     for (uint64_t left = planeOf(mask, axis, at); left; left &= left - 1) {
         const uint32_t bit = openvdb::util::FindLowestOn(left);
