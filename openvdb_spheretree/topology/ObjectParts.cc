@@ -26,13 +26,20 @@ using detail::UpperNode;
 using openvdb::Coord;
 using openvdb::MaskTree;
 
+/// The object's voxels; nodes without any would be taken for something.
+MaskTree::Ptr prunedMask(const MaskTree& object, openvdb::util::NullInterrupter* interrupter)
+{
+    const MaskTree::Ptr mask = detail::copyTopology<MaskTree>(object, interrupter);
+    openvdb::tools::pruneInactive(*mask);
+    return mask;
+}
+
 /// The object's voxels, and which of them and of its background belong together.
 struct JoinedObject {
     JoinedObject(const MaskTree& object, openvdb::util::NullInterrupter* interrupter)
-        : mask(detail::copyTopology<MaskTree>(object, interrupter)), layout(*mask),
-          parts(layout, interrupter), sets(layout, parts)
+        : mask(prunedMask(object, interrupter)), layout(*mask), parts(layout, interrupter),
+          sets(layout, parts)
     {
-        openvdb::tools::pruneInactive(*mask);
         sets.joinAll(interrupter, [](std::size_t, const detail::LeafWalk&) {});
     }
 

@@ -174,6 +174,7 @@ TEST_F(CommandOutput, EveryCodecReadsBackTheSame)
 
 TEST_F(CommandOutput, TimesGoToStderrAndQuietMeansQuiet)
 {
+    writeVol("a.vol", openvdb::Coord(16, 3, 2), std::string(96, '\1')); // too few are warned of
     const Result normal = run("-read a.vol -spheretree -write t.vdb");
     EXPECT_EQ(normal.out, "");
     EXPECT_EQ(std::count(normal.err.begin(), normal.err.end(), '\n'), 3) << normal.err;

@@ -6,10 +6,10 @@ namespace command {
 const std::vector<ActionSpec>& actionTable()
 {
     static const std::vector<ActionSpec> table = {readAction(), generateAction(), mesh2lsAction(),
-        resampleAction(), maskAction(), spheretreeAction(), statsAction(), checkAction(), levelAction(),
-        spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(), configAction(),
-        clearAction(), threadsAction(), quietAction(), verboseAction(), debugAction(), helpAction(),
-        versionAction(), examplesAction()};
+        resampleAction(), maskAction(), spheretreeAction(), statsAction(), checkAction(),
+        levelAction(), spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(),
+        configAction(), clearAction(), threadsAction(), quietAction(), verboseAction(),
+        debugAction(), helpAction(), versionAction(), examplesAction()};
     return table;
 }
 

@@ -23,8 +23,8 @@ bool isVolFileName(const std::string& path);
 ///
 /// The first voxel has the index (0,0,0). Voxels of value 0 are inactive. The transform is the
 /// identity, scaled by the header's `Voxel-Size` if there is one: a number, or three along x, y, z
-/// (objectOf() wants cubes: see resampled()). `Center-*` is ignored. Values of a `.longvol` beyond 2^63 - 1 are stored as 2^63 - 1. Memory: the result, and sixteen slices of the
-/// volume.
+/// (objectOf() wants cubes: see resampled()). `Center-*` is ignored. Values of a `.longvol` beyond
+/// 2^63 - 1 are stored as 2^63 - 1. Memory: the result, and sixteen slices of the volume.
 /// @throw openvdb::IoError if the file cannot be read, is truncated or damaged, or if its header is
 ///        wrong or asks for more or less than the file holds. The message names the file and key.
 /// @throw Interrupted if the interrupter said so

@@ -163,6 +163,15 @@ TEST(ObjectParts, AHugeCavityIsFilledByTiles)
     EXPECT_EQ(filled->tree().getValueDepth(Coord(500)), 1);
 }
 
+TEST(ObjectParts, ANodeWithoutVoxelsIsNoMoreThanEmptySpace)
+{
+    const auto grid = gridOf(*hollow(CoordBBox(Coord(0), Coord(39)), 3));
+    grid->tree().touchLeaf(Coord(16));
+    grid->tree().touchLeaf(Coord(100));
+    EXPECT_EQ(filledCavities(*grid)->activeVoxelCount(), 40u * 40 * 40);
+    EXPECT_EQ(largestPart(*grid)->activeVoxelCount(), grid->activeVoxelCount());
+}
+
 TEST(ObjectParts, ACavityWithAWindowIsNone)
 {
     const auto mask = hollow(CoordBBox(Coord(-8), Coord(263)), 8);
