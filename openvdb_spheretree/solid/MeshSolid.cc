@@ -64,7 +64,6 @@ MaskTree::Ptr solidOf(const MaskTree& surface, int radius, NullInterrupter* inte
     // What is within the radius of a voxel outside is so of the walls, which are between, too.
     walls->topologyUnion(*detail::voxelsNear(*walls, radius, 3, "gap", interrupter));
     detail::erodeAround(*solid, *walls, radius, 3, interrupter);
-    openvdb::tools::prune(*solid);
     return solid;
 }
 
@@ -83,7 +82,7 @@ openvdb::BoolGrid::Ptr meshToObject(const TriangleMesh& mesh, double voxelSize,
     const MaskTree::Ptr surface = trianglesToVoxels(toIndexSpace(mesh, *transform), interrupter);
     const MaskTree::Ptr solid = solidOf(*surface, radius, interrupter);
     if (settings.coverage == Coverage::Whole) solid->topologyDifference(*surface);
-    openvdb::tools::pruneInactive(*solid);
+    openvdb::tools::prune(*solid);
     if (solid->empty()) {
         OPENVDB_THROW(openvdb::ValueError,
             "no voxel of " << voxelSize << " lies wholly inside mesh '" << mesh.name
