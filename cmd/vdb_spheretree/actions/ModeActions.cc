@@ -25,7 +25,7 @@ ActionSpec modeAction(const std::string& name, Verbosity verbosity, const std::s
 
 ActionSpec quietAction()
 {
-    return modeAction("quiet", Verbosity::Quiet, "print nothing but results and errors");
+    return modeAction("quiet", Verbosity::Quiet, "print nothing but results, warnings and errors");
 }
 
 ActionSpec verboseAction()

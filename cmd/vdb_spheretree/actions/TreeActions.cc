@@ -3,6 +3,7 @@
 /// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
 
 #include "base/Errors.h"
+#include "base/Terminal.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
@@ -36,8 +37,8 @@ BoolGrid::ConstPtr timedObjectOf(const StackItem& item, Session& session)
 void noteIfAll(int64_t asked, int64_t all, Session& session)
 {
     if (asked <= all) return;
-    session.note("spheres=" + std::to_string(asked) + " is more than there are: all "
-        + std::to_string(all) + " are taken");
+    session.note("spheres=" + std::to_string(asked) + " is more than there are: "
+        + (all == 1 ? "the only one is taken" : "all " + std::to_string(all) + " are taken"));
 }
 
 /// The finest level that was asked for has no more spheres than the object has leaves.
@@ -71,8 +72,8 @@ void runSpheretree(const ActionCall& call, Session& session)
     result.object = object;
     const auto settings = settingsOf(call);
     result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
-    session.remark(std::to_string(result.tree->size()) + " spheres on "
-        + std::to_string(result.tree->levels.size()) + " levels");
+    session.remark(counted(result.tree->size(), "sphere") + " on "
+        + counted(int64_t(result.tree->levels.size()), "level"));
     if (const auto* options = settings.find<spheretree::BudgetOptions>()) {
         noteOnBudget(options->budget, *result.tree, session);
     }
@@ -160,7 +161,10 @@ ActionSpec spheretreeAction()
 {
     ActionSpec action{"spheretree", "", "tree", "build the sphere-tree of a grid's object"};
     action.options = spheretreeOptions();
+    action.numberOption = "spheres";
+    action.isForLater = true;
     action.check = [](const ActionCall& call, Plan&) { checkTreeOptions(call); };
+    action.work = longWorkOf;
     action.run = runSpheretree;
     return action;
 }
@@ -187,6 +191,7 @@ ActionSpec checkAction()
         "the object, by its age on the stack (0 is the newest) or its name; by default what the "
         "tree "
         "was built from, or the only grid that suits")};
+    action.givesOut = true;
     action.run = runCheck;
     return action;
 }

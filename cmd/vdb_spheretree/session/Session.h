@@ -58,7 +58,7 @@ struct Session {
     void note(const std::string& line) { say(Verbosity::Normal, "vdb_spheretree: note: ", line); }
     /// Notes that nobody can tell whether a tree is whole, if that is so.
     void noteIfUnverified(const StackItem& item);
-    /// As a note, for what may be a mistake.
+    /// The same for what may be a mistake, and even then.
     void warn(const std::string& line);
 
     const Plan& plan;
