@@ -137,6 +137,7 @@ void Progress::start(const char* name)
     const std::lock_guard<std::mutex> lock(mMutex);
     if (mDepth++ > 0) return; // the outermost name is the one that says what is going on
     mStage = name ? name : "";
+    mStageBegin = Clock::now();
     mShare.startStage(mStage);
     mPercent = -1;
 }
@@ -187,8 +188,8 @@ void Progress::showNow()
 
 ProgressState Progress::state() const
 {
-    const double seconds = secondsSince(mBegin);
-    return {mLabel, mStage, mShare.done(), seconds, mShare.secondsLeft(seconds)};
+    const double left = mShare.secondsLeft(secondsSince(mStageBegin));
+    return {mLabel, mStage, mShare.done(), secondsSince(mBegin), left};
 }
 
 /// The terminal is asked each time: its size may have changed, and a handler of SIGWINCH would wake

@@ -86,7 +86,7 @@ private:
     std::atomic<int64_t> mNextTime{0}; ///< in ticks of the clock
     std::atomic<int> mPercent{-1};     ///< the last that was taken notice of
     std::mutex mMutex;                 ///< guards what follows
-    Clock::time_point mBegin;
+    Clock::time_point mBegin, mStageBegin;
     std::string mLabel, mStage, mAdvice;
     ProgressShare mShare;
     int mDepth = 0;

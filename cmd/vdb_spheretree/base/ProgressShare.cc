@@ -32,10 +32,8 @@ void ProgressShare::startStage(const std::string& name)
     mBegin = mDone;
     mEnd = isLongest ? kAfter : mBegin + kShare * std::max(0.0, limit - mBegin);
     mExpected = isLongest ? std::max(1, mPasses) : 1;
-    if (isLongest) {
-        mLongest.clear();
-        mLongestHasBegun = true;
-    }
+    if (isLongest) mLongest.clear();
+    mInLongest = isLongest;
     mPass = mHighest = 0;
     mInStage = true;
 }
@@ -43,7 +41,7 @@ void ProgressShare::startStage(const std::string& name)
 void ProgressShare::endStage()
 {
     if (mInStage) mDone = std::max(mDone, mEnd);
-    mInStage = false;
+    mInStage = mInLongest = false;
 }
 
 void ProgressShare::report(int percent)
@@ -61,7 +59,9 @@ void ProgressShare::report(int percent)
 
 double ProgressShare::secondsLeft(double seconds) const
 {
-    return mLongestHasBegun && mDone > 0 ? seconds * (1 - mDone) / mDone : -1;
+    const double end = mBegin + kExpected * (mEnd - mBegin);
+    if (!mInLongest || mDone <= mBegin || mDone >= end) return -1;
+    return seconds * (end - mDone) / (mDone - mBegin);
 }
 
 std::string roughSeconds(double seconds)

@@ -9,8 +9,8 @@
 /// 3. The bar is the largest of all that this has given so far.
 ///
 /// So it is a rule and no measurement: it is as even as the longest stage is, and jumps where a stage
-/// ends early. The time that is left is told where that stage is known and has begun, by the pace so
-/// far.
+/// ends early. The time that is left is told while the stage runs that is known to take longest, by its pace
+/// so far.
 
 #pragma once
 
@@ -40,8 +40,9 @@ public:
 
     /// @return from 0 to 1, and never less than before.
     double done() const { return mDone; }
-    /// @return seconds until the end, from the stage on that is known to take longest; else negative.
-    /// @param seconds  since the begin
+    /// @return seconds until the end of the stage that is known to take longest, while it runs and has
+    ///         no more passes than expected; else negative.
+    /// @param seconds  since its begin
     double secondsLeft(double seconds) const;
 
 private:
@@ -49,7 +50,7 @@ private:
     int mPasses, mExpected = 1;
     double mDone = 0, mBegin = 0, mEnd = 0; ///< the last two: the part of the stage that runs
     int mPass = 0, mHighest = 0;
-    bool mInStage = false, mLongestHasBegun = false;
+    bool mInStage = false, mInLongest = false;
 };
 
 /// @return "3 min" or so, for what is not known any better.
