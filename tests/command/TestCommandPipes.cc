@@ -199,6 +199,22 @@ TEST_F(CommandPipes, LevelsAsCsvHaveTheNamesAndNumbersOfTheJson)
     }
 }
 
+TEST_F(CommandPipes, CellsOfErrorsThatWereNotCountedAreEmpty)
+{
+    for (const char* side : {"outer", "inner"}) {
+        const std::string build = std::string("-read a.vol -spheretree errors=0 side=") + side;
+        ASSERT_EQ(run(build + " spheres=4 -write t.vdb").exitCode, 0);
+        ASSERT_EQ(run("-read t.vdb -stats lev.csv").exitCode, 0);
+        for (auto row : table(readText(path("lev.csv")))) {
+            EXPECT_EQ(row["spheres"], "4");
+            EXPECT_NE(row["radius_max"], "");
+            for (const char* name : {"covered", "missing", "hausdorff", "covered_percent"}) {
+                EXPECT_EQ(row[name], "") << name;
+            }
+        }
+    }
+}
+
 TEST_F(CommandPipes, TablesOfStatsGoWhereTheyAreSent)
 {
     const std::string build = "-quiet -read a.vol -spheretree spheres=4 ";

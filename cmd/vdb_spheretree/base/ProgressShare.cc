@@ -54,7 +54,7 @@ void ProgressShare::report(int percent)
     }
     mHighest = std::max(mHighest, percent);
     const double part = partOf(mPass + mHighest / 100.0, mExpected);
-    mDone = std::max(mDone, mBegin + (mEnd - mBegin) * part);
+    mDone = mBegin + (mEnd - mBegin) * part; // a pass never gives less than the one before
 }
 
 double ProgressShare::secondsLeft(double seconds) const

@@ -6,7 +6,6 @@
 ///    take longest share the first kBefore of the bar; that one goes on to kAfter.
 /// 2. Within a stage, a percentage that falls begins another pass. The passes that are expected fill
 ///    kExpected of the stage's part evenly, any others creep towards its end.
-/// 3. The bar is the largest of all that this has given so far.
 ///
 /// So it is a rule and no measurement: it is as even as the longest stage is, and jumps where a stage
 /// ends early. The time that is left is told while the stage runs that is known to take longest, by its pace
