@@ -117,7 +117,9 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
         std::vector<ExactSphere> balls;
         for (const MedialBall& ball : leafBalls) balls.push_back(fineBall(ball));
-        const auto model = modelFor(options, balls, maker);
+        // A detail of this stage: how far it is, the merging says.
+        const auto model = detail::timed(
+            "", interrupter, nullptr, [&] { return modelFor(options, balls, maker); });
         return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
     });
     const auto cutError = [&](int64_t count) {

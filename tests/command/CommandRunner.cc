@@ -19,7 +19,6 @@
 #include <unistd.h>
 
 namespace command_test {
-namespace {
 
 // The one that was built, or another build of it: a mutant, say (scripts/mutate.sh).
 std::string program()
@@ -27,8 +26,6 @@ std::string program()
     const char* other = std::getenv("SPHERETREE_TESTED_PROGRAM");
     return other ? other : VDB_SPHERETREE_COMMAND;
 }
-
-} // namespace
 
 std::string readText(const std::filesystem::path& path)
 {

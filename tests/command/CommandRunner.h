@@ -28,6 +28,9 @@ struct Result {
     std::string out, err;
 };
 
+/// @return the command that is tested.
+std::string program();
+
 std::string readText(const std::filesystem::path& path);
 
 void writeText(const std::filesystem::path& path, const std::string& text);

@@ -390,10 +390,11 @@ TEST_F(CommandInput, StatisticsDoNotReplaceWhatTheyAreOf)
 {
     makeTree();
     const std::string tree = command_test::readText(path("source.vdb"));
-    for (const std::string line : {"-stats source.vdb", "-stats json=source.vol", "-stats x.ply"}) {
+    for (const std::string line : {"-stats source.vdb", "-stats json=source.vol", "-stats x.ply",
+             "-stats csv=source.vdb", "-stats json=x.csv"}) {
         const Result result = run("-read source.vdb " + line);
         EXPECT_EQ(result.exitCode, 2);
-        EXPECT_NE(result.err.find("name a .json file"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find("-stats writes .json or .csv"), std::string::npos) << result.err;
     }
     EXPECT_EQ(command_test::readText(path("source.vdb")), tree);
     EXPECT_FALSE(exists("x.ply"));

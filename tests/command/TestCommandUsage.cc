@@ -35,7 +35,35 @@ TEST_P(CommandUsageLine, IsRejectedBeforeAnythingIsWritten)
 
 const BadLine kBadLines[] = {
     {"UnknownAction", "-read a.vol -spheretre -write t.vdb", "did you mean -spheretree"},
-    {"AmbiguousAction", "-read a.vol -spheres -write t.vdb", "-spheres2mask, -spheres2ls"},
+    {"AmbiguousAction", "-read a.vol -spheres2 -write t.vdb", "-spheres2mask, -spheres2ls"},
+    {"AnOptionAsAnAction", "-read a.vol -spheres 64 -write t.vdb",
+        "options have no dash: -spheretree spheres=64"},
+    {"AnOptionAsAnActionWithoutValue", "-read a.vol -spheres -write t.vdb", "spheres=..."},
+    {"AnOptionAsLongOption", "-read a.vol --spheres=64 -write t.vdb",
+        "options have no dash: -spheretree spheres=64"},
+    {"AnActionAsLongOption", "--read=a.vol -write t.vdb", "goes after it: -read a.vol"},
+    {"ANumberOfSpheres", "-read a.vol -spheretree 64 -write t.vdb", "did you mean spheres=64?"},
+    {"NumbersOfSpheres", "-read a.vol -spheretree 64,8 -write t.vdb", "did you mean spheres=64,8?"},
+    {"NOfSpheres", "-read a.vol -spheretree n=8 -write t.vdb",
+        "unknown option n (did you mean spheres=?)"},
+    {"NOfNothing", "-generate ball n=8 -write t.vdb", "unknown option n;"},
+    {"AnOptionWithoutValue", "-read a.vol -spheretree spheres -write t.vdb",
+        "'spheres' is an option: give it a value"},
+    {"AChoiceThatIsNone", "-read a.vol -spheretree quality=good -write t.vdb",
+        "quality=good is unknown: it takes normal, fast, best"},
+    {"AnActionWithoutDash", "read a.vol -write t.vdb", "actions begin with a dash: -read"},
+    {"AFormatOfOthers", "-read a.vol -spheretree -write t.vdb t.ply",
+        ".ply files are not written; it writes .vdb (grids and sphere-trees), .csv and .json"},
+    {"ANameWithoutExtension", "-read a.vol -spheretree -write t.vdb tree", "without an extension"},
+    {"StatsOfOtherKind", "-read a.vol -spheretree -stats lev.txt -write t.vdb",
+        "lev.txt: -stats writes .json or .csv"},
+    {"StatsNamedFalsely", "-read a.vol -spheretree -stats json=lev.csv -write t.vdb",
+        "json=lev.csv: files of this name are something else"},
+    {"StdoutTwiceAsText", "-read a.vol -spheretree -write stdout.csv stdout.json",
+        "two outputs go to stdout"},
+    {"StdoutForStatsAndTree", "-read a.vol -spheretree -stats stdout.csv -write stdout.vdb",
+        "two outputs go to stdout"},
+    {"StdinTwice", "-read stdin.vol -read stdin.obj -write t.vdb", "can be read only once"},
     {"NoAction", "-read a.vol -- -write t.vdb", "'--' names no action"},
     {"TokenBeforeAction", "a.vol -write t.vdb", "'a.vol' stands before any action"},
     {"RepeatedQuiet", "-quiet -quiet -read a.vol -write t.vdb", "-quiet is given more than once"},
@@ -189,6 +217,7 @@ const BadLine kBadLines[] = {
     {"FovZero", "-read a.vol -write t.vdb t.png fov=0", "fov=0"},
     {"FovFlat", "-read a.vol -write t.vdb t.png fov=180", "fov=180"},
     {"FovNegative", "-read a.vol -write t.vdb t.png fov=-1", "fov=-1"},
+    {"EyeHalfEnclosed", "-read a.vol -write t.vdb t.png eye=(1,2,3", "three numbers"},
     {"EyeOfTwoNumbers", "-read a.vol -write t.vdb t.png eye=1,2", "eye=1,2"},
     {"EyeOfFourNumbers", "-read a.vol -write t.vdb t.png eye=1,2,3,4", "three numbers"},
     {"EyeNoNumber", "-read a.vol -write t.vdb t.png eye=1,2,nan", "eye=1,2,nan"},
@@ -266,6 +295,49 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     EXPECT_NE(missing.err.find("nowhere.txt"), std::string::npos);
 }
 
+TEST_F(CommandUsage, AnErrorInAConfigFileNamesItsLine)
+{
+    writeBlock("a.vol");
+    const std::pair<const char*, const char*> files[] = {
+        {"read a.vol\n\nwrtie t.vdb\n", "-config c.txt, line 3: unknown action -wrtie"},
+        {"read a.vol\nspheretree\\\n  branching=4 \\\n qualty=best\nwrite t.vdb\n",
+            "-config c.txt, line 2: -spheretree: unknown option qualty"},
+        {"read a.vol\nspheretree branching=1\n", "-config c.txt, line 2: -spheretree: branching=1"},
+        {"read a.vol\nspheretree tree=extended quality=fast\n",
+            "-config c.txt, line 2: -spheretree: quality=fast is for tree=tight"},
+        {"spheretree\n", "-config c.txt, line 1: -spheretree has nothing to work on"},
+        {"# one\n\nread a.vol\nmask\nread 'b.vol\n", "-config c.txt, line 5: a quote"},
+        {"read a.vol\nquiet\nquiet\n", "-config c.txt, line 3: -quiet is given more than once"},
+        {"config c2.txt\n", "-config c.txt, line 1: -config c2.txt, line 2: unknown action -oops"}};
+    command_test::writeText(path("c2.txt"), "read a.vol\noops\n");
+    for (const auto& [text, message] : files) {
+        command_test::writeText(path("c.txt"), text);
+        const Result result = run("-config c.txt");
+        EXPECT_EQ(result.exitCode, 2) << text;
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    }
+    command_test::writeText(path("c.txt"), "read a.vol\nread b.vol\n");
+    EXPECT_NE(run("-config c.txt").err.find("-config c.txt, line 2: -read: cannot read b.vol"),
+        std::string::npos);
+}
+
+TEST_F(CommandUsage, ALineOfAConfigFileGoesOnAfterABackslash)
+{
+    writeBlock("a.vol");
+    command_test::writeText(path("c.txt"),
+        "vdb_tool 10.6.1\n"
+        "read \\\n"
+        "  a.vol\n"
+        "spheretree reversible \\\r\n"
+        "  # of an option a line \\\n"
+        "stats json=-\\"); // and at the end of the file there is nothing to go on with
+    const Result result = run("-config c.txt");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("\"tree\": \"reversible\""), std::string::npos) << result.out;
+    command_test::writeText(path("c.txt"), "read a.vol\nvdb_tool 10.6.1\n");
+    EXPECT_EQ(run("-config c.txt").exitCode, 2) << "it is said in the first line only";
+}
+
 TEST_F(CommandUsage, ConfigFilesThatNeverEndAreRefused)
 {
     for (const std::string line : {"read a.vol", "", "read"}) {
@@ -323,6 +395,10 @@ TEST_F(CommandUsage, HelpGoesToStdout)
     const Result one = run("-help level stats");
     EXPECT_NE(one.out.find("json="), std::string::npos);
     EXPECT_EQ(one.out.find("factor="), std::string::npos);
+    EXPECT_EQ(run("-h").out, all.out);
+    EXPECT_EQ(run("help").out, all.out);
+    EXPECT_EQ(run("--help").out, all.out);
+    EXPECT_EQ(run("help level stats").out, one.out);
     const Result brief = run("-help level brief=1");
     EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 1) << brief.out;
 }
@@ -332,6 +408,9 @@ TEST_F(CommandUsage, VersionNamesBothVersions)
     const Result result = run("-version");
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.out.rfind("vdb_spheretree ", 0), 0u);
+    for (const char* other : {"-v", "-V", "--version", "version"}) {
+        EXPECT_EQ(run(other).out, result.out) << other;
+    }
     EXPECT_NE(result.out.find(openvdb::getLibraryVersionString()), std::string::npos);
 }
 

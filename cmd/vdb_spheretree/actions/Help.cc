@@ -117,6 +117,7 @@ void printUsage(std::ostream& out)
 ActionSpec helpAction()
 {
     ActionSpec action = smallAction("help", "explain all actions, or those that are named");
+    action.alias = "h";
     action.once = true;
     action.mainOption = "actions";
     action.options = {list("actions", "", "names of actions, without a dash"),
@@ -129,6 +130,7 @@ ActionSpec helpAction()
 ActionSpec versionAction()
 {
     ActionSpec action = smallAction("version", "print the versions of this command and of OpenVDB");
+    action.alias = "v";
     action.once = true;
     action.run = [](const ActionCall&, Session& session) {
         session.print(std::string("vdb_spheretree ") + SPHERETREE_VERSION + " (OpenVDB "

@@ -218,7 +218,9 @@ StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
     if (!anyGrid && session.stack.holdsMesh()) {
         throwInput("a mesh has no inside yet: put -mesh2ls before this action");
     }
-    return session.stack.select("a grid that an object can be made of", isObjectGrid, ageOrName);
+    return session.stack.select("a grid that bounds an object (a level set or any other grid of "
+                                "single numbers, a bool or mask grid, or points)",
+        isObjectGrid, ageOrName);
 }
 
 openvdb::BoolGrid::Ptr objectOf(

@@ -2,6 +2,7 @@
 /// @file ReadAction.cc
 /// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again.
 
+#include "files/SpooledInput.h"
 #include "files/VdbStream.h"
 #include "line/Actions.h"
 #include "session/Session.h"
@@ -199,12 +200,15 @@ void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
     if (kind == FileKind::Vdb) return readVdbFile(path, reading, session);
+    std::optional<SpooledInput> spooled;
+    if (isStdin(path)) spooled.emplace(path);
+    const std::string file = spooled ? spooled->path() : path;
     StackItem item;
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
-            openvdb_spheretree::readMeshFile(path));
+            openvdb_spheretree::readMeshFile(file, path));
     } else {
-        item.grid = openvdb_spheretree::readVolFile(path, &session.progress);
+        item.grid = openvdb_spheretree::readVolFile(file, &session.progress, path);
         if (!reading.filter.accepts(item.grid->getName())) return;
     }
     scaleItem(item, reading.scale);
@@ -253,10 +257,12 @@ OptionSpec unitsOption()
 ActionSpec readAction()
 {
     ActionSpec action{"read", "i", "files",
-        "read grids and sphere-trees (.vdb, stdin.vdb), volumes (.vol, .longvol) and meshes "
+        "read grids and sphere-trees (.vdb), volumes (.vol, .longvol) and meshes "
         "(.obj, .ply, .stl, .off ...)"};
-    action.options = {
-        list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
+    action.options = {list("files", "",
+                          "files to read, or stdin.vdb, .vol, .obj, .off, .ply, .stl; the "
+                          "extension says what they "
+                          "are"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
         choice("delayed", {"auto", "1", "0"},
             "leave the values of a .vdb in the file until they are needed, and read them node by "

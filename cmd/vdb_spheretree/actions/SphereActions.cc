@@ -47,7 +47,7 @@ openvdb::GridBase::Ptr levelSetOf(
     const SphereTree& tree, const SphereTreeLevel& level, const ActionCall& call, Session& session)
 {
     if (!tree.settings.dist().isEuclidean()) {
-        throwInput("-spheres2ls draws spheres, and the balls of dist="
+        throwInput("this action draws spheres, and the balls of dist="
             + spheretree::toString(tree.settings.dist()) + " are none: use -spheres2mask");
     }
     const auto voxel =

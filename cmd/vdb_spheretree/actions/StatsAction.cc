@@ -9,13 +9,52 @@
 #include "ObjectChoice.h"
 #include "report/StatsReport.h"
 
+#include <openvdb_spheretree/base/Text.h>
+
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace command {
 
 namespace {
+
+constexpr const char* kTakes = "-stats writes .json or .csv, or to stdout with json=- or csv=-";
+
+/// @return "json" or "csv", for a file that is named without saying which.
+std::string formOf(const std::string& path)
+{
+    const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
+    if (extension == ".csv") return "csv";
+    if (extension == ".json" || extension.empty()) return "json";
+    throwUsage(path + ": " + kTakes);
+}
+
+/// @return the files of a call, each with its form.
+std::vector<std::pair<std::string, std::string>> filesOf(const ActionCall& call)
+{
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const std::string& path : call.list("files")) files.emplace_back(path, formOf(path));
+    for (const char* form : {"json", "csv"}) {
+        if (call.given(form)) files.emplace_back(call.text(form), form);
+    }
+    return files;
+}
+
+void checkStats(const ActionCall& call, Plan& plan)
+{
+    for (const auto& [path, form] : filesOf(call)) {
+        const FileKind kind = fileKind(path);
+        const FileKind own = form == "csv" ? FileKind::Csv : FileKind::Json;
+        if (kind != own && kind != FileKind::Unknown) {
+            throwUsage(form + "=" + path + ": files of this name are something else; " + kTakes);
+        }
+        plan.addOutput(path);
+    }
+}
 
 void runStats(const ActionCall& call, Session& session)
 {
@@ -25,21 +64,29 @@ void runStats(const ActionCall& call, Session& session)
     const bool lacksErrors = std::any_of(levels.begin(), levels.end(),
         [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
     if (item.object && lacksErrors) computeErrors(item, session);
-    if (!call.given("json")) return session.print(statsTable(*item.tree, session));
-    const std::string json = statsJson(*item.tree, session), path = call.text("json");
-    if (path == "-") return session.print(json, standardOutput());
-    AtomicFile file(path);
-    file.write([&](std::ostream& out) { out << json; });
-    const Uninterrupted untilItIsThere;
+    const auto outputs = filesOf(call);
+    if (outputs.empty()) return session.print(statsTable(*item.tree, session));
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    for (const auto& [path, form] : outputs) {
+        const std::string text =
+            form == "csv" ? statsCsv(*item.tree) : statsJson(*item.tree, session);
+        if (isStdout(path)) {
+            session.print(text, standardOutput());
+            continue;
+        }
+        files.push_back(std::make_unique<AtomicFile>(path));
+        files.back()->write([&](std::ostream& out) { out << text; });
+    }
+    const Uninterrupted untilAllAreThere;
     throwIfStopped();
-    file.commit();
+    for (const auto& file : files) file->commit();
 }
 
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     const openvdb::Coord size = grid.empty() ? openvdb::Coord(0) : box.dim();
-    out << ", " << withCommas(int64_t(grid.activeVoxelCount())) << " active voxels of "
+    out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
         << grid.voxelSize()[0] << ", box " << size[0] << " x " << size[1] << " x " << size[2]
         << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
 }
@@ -50,11 +97,11 @@ void printItem(std::ostream& out, const StackItem& item)
     if (item.grid) {
         printGrid(out, *item.grid);
     } else if (item.tree) {
-        out << ", " << withCommas(item.tree->size()) << " spheres on " << item.tree->levels.size()
-            << " levels";
+        out << ", " << counted(item.tree->size(), "sphere") << " on "
+            << counted(int64_t(item.tree->levels.size()), "level");
     } else {
-        out << ", " << withCommas(int64_t(item.mesh->points.size())) << " points, "
-            << withCommas(int64_t(item.mesh->triangles.size())) << " triangles";
+        out << ", " << counted(int64_t(item.mesh->points.size()), "point") << ", "
+            << counted(int64_t(item.mesh->triangles.size()), "triangle");
     }
     out << (item.written ? ", written" : "") << "\n";
 }
@@ -78,22 +125,16 @@ void runPrint(const ActionCall&, Session& session)
 
 ActionSpec statsAction()
 {
-    ActionSpec action{"stats", "", "json",
+    ActionSpec action{"stats", "", "files",
         "print a table of a sphere-tree's levels, their exact errors, and timings"};
     action.options = {
-        text("json", "", "write the same as JSON to this file, or to stdout (-), and no table"),
+        list("files", "",
+            "in place of a table, .json files of the same, or .csv files with a line a level"),
+        text("json", "", "the same as JSON to this file, or to stdout (-)"),
+        text("csv", "", "the levels as a CSV to this file, or to stdout (-)"),
         vdbOption("the tree")};
-    action.check = [](const ActionCall& call, Plan& plan) {
-        if (!call.given("json")) return;
-        const std::string path = call.text("json");
-        const FileKind kind = fileKind(path);
-        if (kind != FileKind::Json && kind != FileKind::Unknown) {
-            throwUsage(path
-                + ": -stats writes JSON, and files of this name are something else; "
-                  "name a .json file, or - for stdout");
-        }
-        plan.addOutput(path);
-    };
+    action.givesOut = true;
+    action.check = checkStats;
     action.run = runStats;
     return action;
 }
@@ -102,6 +143,7 @@ ActionSpec printAction()
 {
     ActionSpec action = smallAction("print", "list what is on the stack, newest first");
     action.alias = "p";
+    action.givesOut = true;
     action.run = runPrint;
     return action;
 }

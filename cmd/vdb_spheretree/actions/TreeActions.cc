@@ -3,6 +3,7 @@
 /// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
 
 #include "base/Errors.h"
+#include "base/Terminal.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
@@ -67,8 +68,8 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
 void noteIfAll(int64_t asked, int64_t all, Session& session)
 {
     if (asked <= all) return;
-    session.note("spheres=" + std::to_string(asked) + " is more than there are: all "
-        + std::to_string(all) + " are taken");
+    session.note("spheres=" + std::to_string(asked) + " is more than there are: "
+        + (all == 1 ? "the only one is taken" : "all " + std::to_string(all) + " are taken"));
 }
 
 /// The finest level that was asked for has no more spheres than the object has leaves.
@@ -105,8 +106,8 @@ void runSpheretree(const ActionCall& call, Session& session)
     const auto settings = settingsOf(call);
     warnOfSize(*object, settings.dim, session);
     result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
-    session.remark(std::to_string(result.tree->size()) + " spheres on "
-        + std::to_string(result.tree->levels.size()) + " levels");
+    session.remark(counted(result.tree->size(), "sphere") + " on "
+        + counted(int64_t(result.tree->levels.size()), "level"));
     if (const auto* options = settings.find<spheretree::BudgetOptions>()) {
         noteOnBudget(options->budget, *result.tree, session);
     }
@@ -234,7 +235,10 @@ ActionSpec spheretreeAction()
 {
     ActionSpec action{"spheretree", "", "tree", "build the sphere-tree of a grid's object"};
     action.options = spheretreeOptions();
+    action.numberOption = "spheres";
+    action.isForLater = true;
     action.check = [](const ActionCall& call, Plan&) { checkTreeOptions(call); };
+    action.work = longWorkOf;
     action.run = runSpheretree;
     return action;
 }
@@ -262,6 +266,7 @@ ActionSpec checkAction()
         "the object, by its age on the stack (0 is the newest) or its name; by default what the "
         "tree "
         "was built from, or the only grid that suits")};
+    action.givesOut = true;
     action.run = runCheck;
     return action;
 }

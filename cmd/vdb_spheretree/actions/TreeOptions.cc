@@ -3,6 +3,8 @@
 
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
+#include <algorithm>
+
 namespace command {
 
 namespace spheretree = openvdb_spheretree;
@@ -30,7 +32,7 @@ OptionSpec optionOf(const Setting& setting)
 void refuse(const ActionCall& call, const std::string& option, const std::string& why)
 {
     if (!call.given(option)) return;
-    throwUsage(call.label() + " " + option + "=" + call.text(option) + " " + why);
+    throwUsage(option + "=" + call.text(option) + " " + why);
 }
 
 /// An option of either kind of pyramid tree is accepted for both.
@@ -84,11 +86,30 @@ SphereTreeSettings settingsOf(const ActionCall& call)
     return settings;
 }
 
+LongWork longWorkOf(const ActionCall& call)
+{
+    if (call.text("tree") != "tight" || call.text("side") == "inner") return {};
+    const bool search = call.text("quality") == "best" && call.text("cover") == "voxels";
+    LongWork work{"merging", 1, ""};
+    // Counted over 10^3 to 10^5 voxels: 1900 to 2200 for a level of 64 spheres.
+    constexpr int kPassesOfLevel = 2000, kUsualLevels = 4;
+    const std::string counts = call.text("spheres");
+    const auto levels =
+        counts.empty() ? kUsualLevels : 1 + int(std::count(counts.begin(), counts.end(), ','));
+    if (search) work = {"levels", kPassesOfLevel * std::min(levels, 1000), ""};
+    if (call.text("quality") != "fast") {
+        work.advice = "faster than quality=" + call.text("quality")
+            + ": quality=fast, and an object of fewer voxels (for up to a hundred spheres some 64 "
+              "along its longest side are enough)";
+    }
+    return work;
+}
+
 void checkTreeOptions(const ActionCall& call)
 {
     refuseOptionsOfOtherTrees(call);
     if (call.given("edges") && !call.flag("dag")) {
-        throwUsage("-spheretree edges=" + call.text("edges")
+        throwUsage("edges=" + call.text("edges")
             + " says which edges of the Sphere-DAG to store, and none are: add dag=1");
     }
     settingsOf(call).validate();

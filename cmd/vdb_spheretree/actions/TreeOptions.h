@@ -19,4 +19,7 @@ openvdb_spheretree::SphereTreeSettings settingsOf(const ActionCall& call);
 /// @throw CommandError (usage), openvdb::ValueError
 void checkTreeOptions(const ActionCall& call);
 
+/// @return which stage takes longest, and what would take less time.
+LongWork longWorkOf(const ActionCall& call);
+
 } // namespace command

@@ -57,18 +57,22 @@ void check(const ActionCall& call, Plan& plan)
     if (!call.given("files")) throwUsage("names no file");
     compressionOf(call);
     for (const std::string& path : call.list("files")) {
-        for (const char* later : {".ply", ".usda", ".sph", ".html"}) {
-            if (openvdb_spheretree::detail::lowerExtension(path) != later) continue;
-            throwUsage(path + ": files of this kind are not available in this version");
-        }
         const FileKind kind = fileKind(path);
+        const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
         if (kind == FileKind::Vol || kind == FileKind::Mesh || kind == FileKind::Unknown) {
-            throwUsage(path
-                + ": files of this kind are not written; it writes .vdb (or stdout.vdb), "
-                  ".csv, .json and .png");
+            throwUsage(path + ": "
+                + (extension.empty() ? "a name without an extension says not what "
+                                       "to write"
+                                     : extension + " files are not written")
+                + "; it writes .vdb (grids and sphere-trees), .csv and .json (a sphere-tree) and "
+                  ".png (a picture)"
+                + (kind == FileKind::Mesh
+                        ? "; for a mesh: -spheres2ls -write x.vdb, and vdb_tool's "
+                          "-ls2mesh"
+                        : ""));
         }
         plan.addOutput(path);
-        if (kind == FileKind::Csv) plan.addOutput(dagPath(path));
+        if (kind == FileKind::Csv && !isStdout(path)) plan.addOutput(dagPath(path));
     }
     checkPictureOptions(call);
 }
@@ -127,12 +131,14 @@ void requireDistinctTrees(const std::vector<StackItem*>& items)
     }
 }
 
-void writeToStdout(const openvdb::GridCPtrVec& grids, uint32_t compression)
+/// Writes a `.vdb`, for which OpenVDB's header has to be gone back to.
+void writeGridsToStdout(
+    const std::string& path, const openvdb::GridCPtrVec& grids, uint32_t compression)
 {
     std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
     writeVdb(buffer, grids, compression, /*seekable=*/false);
     buffer.seekg(0);
-    writeToFd(STDOUT_FILENO, *buffer.rdbuf(), "stdout.vdb");
+    writeToFd(STDOUT_FILENO, *buffer.rdbuf(), path);
 }
 
 class Writer {
@@ -143,20 +149,15 @@ public:
 
     void write(const std::string& path)
     {
-        if (path == "stdout.vdb") {
-            mToStdout = true;
+        if (isStdout(path)) {
+            mToStdout = path;
             return;
         }
         switch (fileKind(path)) {
         case FileKind::Csv: return writeTables(path);
         case FileKind::Json:
-            return writeFile(path, [&](std::iostream& out) {
-                openvdb_spheretree::writeJson(onlyTree(mItems, path), out);
-            });
         case FileKind::Png:
-            return writeFile(path, [&](std::iostream& out) {
-                openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), out);
-            });
+            return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         default:
             writeFile(path, [&](std::iostream& out) {
                 writeVdb(out, grids(), mCompression, /*seekable=*/true);
@@ -166,7 +167,7 @@ public:
 
     void commit()
     {
-        if (mToStdout) writeToStdout(grids(), mCompression);
+        if (!mToStdout.empty()) writeToStdout(mToStdout);
         mSession.requireUnchangedInputs();
         const Uninterrupted untilAllAreThere;
         throwIfStopped(); // for the last time: from here on it is all files, or an error
@@ -188,10 +189,42 @@ private:
         mFiles.back()->write(write);
     }
 
+    /// All kinds of files but .vdb.
+    void writeContent(const std::string& path, std::ostream& out)
+    {
+        namespace st = openvdb_spheretree;
+        switch (fileKind(path)) {
+        case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
+        case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
+        default: st::writePng(pictureOf(mCall, path, mItems, mSession), out);
+        }
+    }
+
+    /// A reader of text that wants no more of it (`| head`) is no error.
+    void writeToStdout(const std::string& path)
+    {
+        const FileKind kind = fileKind(path);
+        if (kind == FileKind::Vdb) return writeGridsToStdout(path, grids(), mCompression);
+        if (kind == FileKind::Csv && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
+            mSession.note(path
+                + " holds the spheres; the edges of dag=1 are a table of their own, "
+                  "which only a file has room for beside it");
+        }
+        FdSink sink(STDOUT_FILENO, path);
+        std::ostream out(&sink);
+        out.exceptions(std::ios::badbit | std::ios::failbit);
+        try {
+            writeContent(path, out);
+            sink.pubsync();
+        } catch (const ClosedPipe&) {
+            if (kind == FileKind::Png) throw;
+        }
+    }
+
     void writeTables(const std::string& path)
     {
         const openvdb_spheretree::SphereTree& tree = onlyTree(mItems, path);
-        writeFile(path, [&](std::ostream& out) { openvdb_spheretree::writeCsv(tree, out); });
+        writeFile(path, [&](std::ostream& out) { writeContent(path, out); });
         if (!openvdb_spheretree::hasDag(tree)) return;
         writeFile(
             dagPath(path), [&](std::ostream& out) { openvdb_spheretree::writeDagCsv(tree, out); });
@@ -219,13 +252,32 @@ private:
     const uint32_t mCompression;
     openvdb::GridCPtrVec mGrids;
     std::vector<std::unique_ptr<AtomicFile>> mFiles;
-    bool mToStdout = false;
+    std::string mToStdout; ///< empty if nothing goes there
 };
+
+/// Says what a user may not expect of the files that are written.
+void noteSurprises(const ActionCall& call, const std::vector<StackItem*>& items, Session& session)
+{
+    const auto isTree = [](const StackItem* item) { return bool(item->tree); };
+    const bool anyTree = std::any_of(items.begin(), items.end(), isTree);
+    for (const std::string& path : call.list("files")) {
+        if (session.plan.replacesInput(path)) {
+            session.note(path + ", which was read, is replaced by what is written");
+        }
+        if (fileKind(path) != FileKind::Vdb || !anyTree || call.given("vdb")) continue;
+        for (const StackItem* item : items) {
+            if (item->tree) continue;
+            session.note(
+                path + " gets " + item->description() + " as well; with vdb= only what is named");
+        }
+    }
+}
 
 void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
     const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
+    noteSurprises(call, items, session);
     Writer writer(call, items, session);
     for (const std::string& path : call.list("files")) writer.write(path);
     writer.commit();
@@ -238,13 +290,15 @@ void run(const ActionCall& call, Session& session)
 ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
-        "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as tables (.csv) or JSON "
+        "write grids and sphere-trees (.vdb), one sphere-tree as tables (.csv) or JSON "
         "(.json), or a picture of a level of it or of an object (.png)"};
-    action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
+    action.options = {
+        list("files", "", "files to write, or stdout.vdb, .csv, .json; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
+    action.givesOut = true;
     action.failure = kOutput;
     action.check = check;
     action.run = run;

@@ -105,7 +105,10 @@ Picture pictureOfTree(const ActionCall& call, const SphereTree& tree, Session& s
             + std::to_string(tree.root().level));
     }
     const Camera camera = cameraOf(call, tree.object.bbox, *tree.transform);
-    return spheretree::renderLevel(tree, level, camera, settingsOf(call), &session.progress);
+    PictureSettings settings = settingsOf(call);
+    // Without parents all spheres would be of one colour.
+    if (!call.given("color") && level == tree.root().level) settings.color = PictureColor::Id;
+    return spheretree::renderLevel(tree, level, camera, settings, &session.progress);
 }
 
 Picture pictureOfObject(const ActionCall& call, const StackItem& item, Session& session)
@@ -139,7 +142,9 @@ std::vector<OptionSpec> pictureOptions()
         integer(
             "level", "0", 0, 1000, ".png: the level that is drawn; by default the finest there is"),
         text("color", "parent",
-            ".png: parent (siblings share a colour), level, id, or red,green,blue of 0 to 1")};
+            ".png: parent (siblings share a colour; where there are no parents as id), level, id, "
+            "or "
+            "red,green,blue of 0 to 1")};
 }
 
 void checkPictureOptions(const ActionCall& call)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Terminal.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace command {
@@ -26,6 +28,41 @@ bool isTerminal(const std::ostream& stream)
     if (&stream == &standardOutput()) return isatty(STDOUT_FILENO);
     if (&stream == &std::cerr) return isatty(STDERR_FILENO);
     return false;
+}
+
+size_t terminalColumns()
+{
+    constexpr size_t kUsual = 80; // of those that do not say
+    winsize size = {};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
+    return size.ws_col;
+}
+
+size_t columnsOf(const std::string& text)
+{
+    size_t columns = 0;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) ++columns;
+        else if (byte >= 0xc0) columns += 2; // the first byte of a character
+    }
+    return columns;
+}
+
+std::string cutToColumns(const std::string& text, size_t columns)
+{
+    if (columnsOf(text) <= columns) return text;
+    const std::string dots(std::min<size_t>(columns, 3), '.');
+    std::string start;
+    for (size_t begin = 0; begin < text.size();) {
+        size_t end = begin + 1;
+        while (end < text.size() && (text[end] & 0xc0) == 0x80) ++end;
+        const std::string longer = start + text.substr(begin, end - begin);
+        if (columnsOf(longer) + dots.size() > columns) break;
+        start = longer;
+        begin = end;
+    }
+    return start + dots;
 }
 
 std::string coloured(const std::ostream& stream, Colour colour, const std::string& text)
@@ -53,6 +90,11 @@ std::string withCommas(long long number)
     const int first = number < 0 ? 1 : 0;
     for (int i = int(digits.size()) - 3; i > first; i -= 3) digits.insert(size_t(i), ",");
     return digits;
+}
+
+std::string counted(long long number, const std::string& noun)
+{
+    return withCommas(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
 } // namespace command

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 
@@ -15,6 +16,15 @@ std::ostream& standardOutput();
 /// @brief Have whatever libraries print to std::cout go to stderr: OpenVDB's warnings would get into
 /// the middle of a `.vdb` on stdout.
 void divertLibraries();
+
+/// @return how many columns the terminal that stderr goes to has at this moment.
+size_t terminalColumns();
+
+/// @return the columns that UTF-8 takes on a terminal at most: two for what is not ASCII.
+size_t columnsOf(const std::string& text);
+
+/// @return @a text, or its start and "..." where it takes more columns.
+std::string cutToColumns(const std::string& text, size_t columns);
 
 enum class Colour { Red, Green, Yellow, Bold };
 
@@ -29,5 +39,8 @@ std::string prettySeconds(double seconds);
 
 /// @return a whole number with commas between thousands.
 std::string withCommas(long long number);
+
+/// @return "1 sphere", "2,000 spheres".
+std::string counted(long long number, const std::string& noun);
 
 } // namespace command

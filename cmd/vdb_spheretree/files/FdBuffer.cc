@@ -32,26 +32,51 @@ void waitFor(int fd, short event)
     }
 }
 
+/// Bytes that a pipe which has any room takes without blocking.
+constexpr size_t kAtOnce = PIPE_BUF;
+
+void writeBytes(int fd, const char* bytes, size_t size, const std::string& what)
+{
+    for (size_t done = 0; done < size;) {
+        waitFor(fd, POLLOUT);
+        const ssize_t count = ::write(fd, bytes + done, std::min(size - done, kAtOnce));
+        if (count >= 0) {
+            done += size_t(count);
+        } else if (errno == EPIPE) {
+            throw ClosedPipe(what);
+        } else if (errno != EINTR) {
+            throwOutput("cannot write " + systemError(what));
+        }
+    }
+}
+
 } // namespace
 
 void writeToFd(int fd, std::streambuf& data, const std::string& what)
 {
-    char block[PIPE_BUF]; // a pipe that has any room takes this much without blocking
-    for (;;) {
-        const auto size = size_t(data.sgetn(block, sizeof(block)));
-        if (size == 0) return;
-        for (size_t done = 0; done < size;) {
-            waitFor(fd, POLLOUT);
-            const ssize_t count = ::write(fd, block + done, size - done);
-            if (count >= 0) {
-                done += size_t(count);
-            } else if (errno == EPIPE) {
-                throwOutput(what + ": the reading end of the pipe is closed");
-            } else if (errno != EINTR) {
-                throwOutput("cannot write " + systemError(what));
-            }
-        }
+    char block[kAtOnce];
+    while (const auto size = size_t(data.sgetn(block, sizeof(block)))) {
+        writeBytes(fd, block, size, what);
     }
+}
+
+FdSink::FdSink(int fd, const std::string& what) : mFd(fd), mWhat(what), mBuffer(kBufferSize)
+{
+    setp(mBuffer.data(), mBuffer.data() + mBuffer.size());
+}
+
+FdSink::int_type FdSink::overflow(int_type c)
+{
+    sync();
+    if (!traits_type::eq_int_type(c, traits_type::eof())) sputc(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+}
+
+int FdSink::sync()
+{
+    writeBytes(mFd, pbase(), size_t(pptr() - pbase()), mWhat);
+    setp(mBuffer.data(), mBuffer.data() + mBuffer.size());
+    return 0;
 }
 
 FdBuffer::FdBuffer(int fd) : mFd(fd), mBuffer(kBufferSize) {}

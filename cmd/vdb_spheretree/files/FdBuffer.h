@@ -7,6 +7,8 @@
 
 #pragma once
 
+#include "base/Errors.h"
+
 #include <istream>
 #include <streambuf>
 #include <string>
@@ -14,9 +16,35 @@
 
 namespace command {
 
+/// A pipe whose reader has gone. That is no failure of whoever wants no more of a text (`| head`).
+class ClosedPipe : public CommandError {
+public:
+    explicit ClosedPipe(const std::string& what)
+        : CommandError(kOutput, what + ": the reading end of the pipe is closed")
+    {}
+};
+
 /// @brief Write all that is left in @a data to a file descriptor.
-/// @throw Interrupted, CommandError (output) naming @a what and the reason
+/// @throw Interrupted, ClosedPipe, CommandError (output) naming @a what and the reason
 void writeToFd(int fd, std::streambuf& data, const std::string& what);
+
+/// Writes to a file descriptor, which it does not own, a buffer at a time. What is left in the buffer
+/// is written by pubsync(), and lost without.
+class FdSink : public std::streambuf {
+public:
+    /// @param what  for messages
+    FdSink(int fd, const std::string& what);
+
+protected:
+    /// @throw as writeToFd(), so the stream should not catch: exceptions(std::ios::badbit)
+    int_type overflow(int_type c) override;
+    int sync() override;
+
+private:
+    int mFd;
+    std::string mWhat;
+    std::vector<char> mBuffer;
+};
 
 /// Reads from a file descriptor, which it does not own. It knows its position, but cannot seek.
 class FdBuffer : public std::streambuf {

@@ -5,6 +5,7 @@
 #include "base/Progress.h"
 #include "FdBuffer.h"
 #include "InputFile.h"
+#include "SpooledInput.h"
 #include "VdbTag.h"
 
 #include <openvdb_spheretree/input/DelayedValues.h>
@@ -47,6 +48,8 @@ openvdb::GridPtrVec readWhole(const std::string& path)
 {
     const InputFile file = inputOf(path);
     FdBuffer buffer(file.fd());
+    const bool isStdin = path == "stdin.vdb";
+    if (isStdin && buffer.sgetc() == FdBuffer::traits_type::eof()) throwEmptyInput(path);
     return naming(path, [&] {
         TagReader reader(buffer);
         auto grids = openvdb_spheretree::readVdbGrids(reader);

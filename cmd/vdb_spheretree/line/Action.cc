@@ -133,6 +133,12 @@ OptionSpec nameOption(const std::string& fallback, const std::string& doc)
     return text("name", fallback, doc);
 }
 
+bool OptionSpec::isMeantBy(const std::string& prefix) const
+{
+    const size_t least = name == "name" ? 2 : 1;
+    return prefix.size() >= least && name.compare(0, prefix.size(), prefix) == 0;
+}
+
 ActionSpec smallAction(const std::string& name, const std::string& doc)
 {
     ActionSpec action{name, "", "", doc};
@@ -209,8 +215,10 @@ std::array<double, 3> ActionCall::vector(const std::string& option) const
     return *parseVector(text(option));
 }
 
-std::optional<std::array<double, 3>> parseVector(const std::string& text)
+std::optional<std::array<double, 3>> parseVector(const std::string& typed)
 {
+    const bool enclosed = typed.size() > 1 && typed.front() == '(' && typed.back() == ')';
+    const std::string text = enclosed ? typed.substr(1, typed.size() - 2) : typed;
     std::array<double, 3> numbers;
     size_t begin = 0;
     for (size_t i = 0; i < numbers.size(); ++i) {
@@ -233,6 +241,10 @@ void checkValue(const ActionSpec& action, const OptionSpec& option, const std::s
         value.front() == ',' || value.back() == ',' || value.find(",,") != std::string::npos;
     if (option.kind == OptionKind::List && emptyItem) {
         throwUsage(where + "an item of " + option.name + "=" + value + " is empty");
+    }
+    if (option.kind == OptionKind::Choice && !isAllowed(option, value)) {
+        throwUsage(
+            where + option.name + "=" + value + " is unknown: it takes " + allowedText(option));
     }
     if (!isAllowed(option, value)) {
         throwUsage(where + option.name + "=" + value

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/Errors.h"
+#include "base/ProgressShare.h"
 
 #include <array>
 #include <cstdint>
@@ -43,6 +44,9 @@ struct OptionSpec {
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};
+
+    /// @return whether @a prefix stands for it. A `name` takes two letters: n is a number to many.
+    bool isMeantBy(const std::string& prefix) const;
 };
 
 /// @name Short forms for the tables of options
@@ -69,16 +73,21 @@ struct ActionSpec {
     std::string mainOption; ///< takes tokens without `=`; may be empty
     std::string doc;
     std::vector<OptionSpec> options = {};
+    std::string numberOption = {}; ///< what a number is likely meant for that mainOption refuses
 
     bool once = false;         ///< may stand on the line only once
     bool quiet = false;        ///< gets no timing line
     bool isSource = false;     ///< puts something new on the stack, as -read does
     bool needsInput = true;    ///< a source has to come before; a source itself needs none
+    bool isForLater = false;   ///< lost unless a later action gives out what it made
+    bool givesOut = false;     ///< writes or prints what is on the stack
     ExitCode failure = kInput; ///< exit code for an exception that has none
 
     /// Checks what can be checked before any work; may be empty.
     std::function<void(const ActionCall&, Plan&)> check = {};
     std::function<void(const ActionCall&, Session&)> run = {};
+    /// What is known of how long it takes; may be empty.
+    std::function<LongWork(const ActionCall&)> work = {};
 
     const OptionSpec* option(const std::string& optionName) const;
 };
@@ -94,6 +103,9 @@ public:
     const ActionSpec& spec() const { return *mSpec; }
     /// @return `-name`, for messages.
     std::string label() const { return "-" + mSpec->name; }
+    /// @return the same, and before it the line of the file of -config that it stands in.
+    std::string where() const { return mOrigin + label(); }
+    void setOrigin(const std::string& origin) { mOrigin = origin; }
     /// @return the action as it was typed, on one line.
     std::string typed() const;
 
@@ -114,11 +126,12 @@ public:
 
 private:
     const ActionSpec* mSpec;
+    std::string mOrigin;
     std::map<std::string, std::vector<std::string>> mValues; ///< one value, or those of a list
 };
 
-/// @return the three numbers of a text such as `1,0.5,-2`, or nothing if it is none.
-std::optional<std::array<double, 3>> parseVector(const std::string& text);
+/// @return the three numbers of a text such as `1,0.5,-2` or `(1,0.5,-2)`, or nothing if it is none.
+std::optional<std::array<double, 3>> parseVector(const std::string& typed);
 
 /// @brief Check one value against its option.
 /// @throw CommandError (usage) naming the action, the option, the value and what is allowed

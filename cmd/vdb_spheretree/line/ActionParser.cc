@@ -41,7 +41,22 @@ std::string joined(const std::vector<std::string>& words)
     return all;
 }
 
-const ActionSpec& actionOfToken(const std::string& token)
+/// @return what to type in place of `-spheres 64`, `-spheres=64` and `-read=a.vdb`; empty if @a name
+/// is neither an option nor an action.
+std::string dashHint(const std::string& name, const std::string& value)
+{
+    if (findAction(name)) return "a blank, and no '=', goes after it: -" + name + " " + value;
+    std::vector<std::string> actions;
+    for (const ActionSpec& action : actionTable()) {
+        if (action.option(name)) actions.push_back("-" + action.name);
+    }
+    if (actions.empty()) return "";
+    return name + " is an option of " + joined(actions) + ", and options have no dash: "
+        + actions.front() + " " + name + "=" + (value.empty() ? "..." : value);
+}
+
+/// @param next  the token after it, or empty
+const ActionSpec& actionOfToken(const std::string& token, const std::string& next)
 {
     const size_t start = token.find_first_not_of('-');
     if (start == std::string::npos) {
@@ -49,6 +64,13 @@ const ActionSpec& actionOfToken(const std::string& token)
     }
     const std::string name = token.substr(start);
     if (const ActionSpec* action = findAction(name)) return *action;
+    const size_t equals = name.find('=');
+    const bool nextIsValue = equals == std::string::npos && next.substr(0, 1) != "-";
+    const std::string value = equals != std::string::npos ? name.substr(equals + 1)
+        : nextIsValue                                     ? next
+                                                          : "";
+    const std::string hint = dashHint(name.substr(0, equals), value);
+    if (!hint.empty()) throwUsage("unknown action " + token + ": " + hint);
     std::vector<std::string> names;
     for (const ActionSpec& action : actionTable()) names.push_back("-" + action.name);
     throwUsage("unknown action " + token + didYouMean("-" + name, names) + "; try -help");
@@ -63,7 +85,7 @@ const OptionSpec& optionOfPrefix(const ActionSpec& action, const std::string& pr
     const OptionSpec* match = nullptr;
     for (const OptionSpec& option : action.options) {
         names.push_back(option.name);
-        if (!startsWith(option.name, prefix)) continue;
+        if (!option.isMeantBy(prefix)) continue;
         matches.push_back(option.name);
         match = &option;
     }
@@ -71,8 +93,12 @@ const OptionSpec& optionOfPrefix(const ActionSpec& action, const std::string& pr
         throwUsage(where + "option " + prefix + " is ambiguous: it could be " + joined(matches));
     }
     if (match) return *match;
-    throwUsage(where + "unknown option " + prefix + didYouMean(prefix, names) + "; try -help "
-        + action.name);
+    const bool isCount =
+        prefix == "n" || prefix == "num" || prefix == "number" || prefix == "count";
+    const bool isNumber = isCount && !action.numberOption.empty();
+    throwUsage(where + "unknown option " + prefix
+        + (isNumber ? " (did you mean " + action.numberOption + "=?)" : didYouMean(prefix, names))
+        + "; try -help " + action.name);
 }
 
 void addOption(ActionCall& call, const std::string& token, size_t equals)
@@ -96,6 +122,15 @@ void addMain(ActionCall& call, const std::string& token)
             + (spec.options.empty() ? "no options" : "only options of the form name=value"));
     }
     const OptionSpec& option = *spec.option(spec.mainOption);
+    const bool isNumber = token.find_first_not_of("0123456789,") == std::string::npos;
+    if (isNumber && option.kind == OptionKind::Choice && !spec.numberOption.empty()) {
+        throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
+            + spec.numberOption + "=" + token + "?)");
+    }
+    if (option.kind == OptionKind::Choice && spec.option(token)) {
+        throwUsage(
+            call.label() + ": '" + token + "' is an option: give it a value, " + token + "=...");
+    }
     checkValue(spec, option, token);
     if (option.kind == OptionKind::List) {
         call.appendToList(option.name, token);
@@ -116,13 +151,13 @@ void checkOrder(const std::vector<ActionCall>& calls)
     for (const ActionCall& call : calls) {
         const ActionSpec* const spec = &call.spec();
         if (spec->once && std::find(seen.begin(), seen.end(), spec) != seen.end()) {
-            throwUsage(call.label() + " is given more than once");
+            throwUsage(call.where() + " is given more than once");
         }
         seen.push_back(spec);
         if (spec->isSource) anythingThere = true;
         if (spec->needsInput && !anythingThere) {
             const bool afterHelp = seen.size() > 1 && seen[seen.size() - 2]->name == "help";
-            throwUsage(call.label() + " has nothing to work on: put -read before it"
+            throwUsage(call.where() + " has nothing to work on: put -read before it"
                 + (afterHelp ? "; for its help: -help " + spec->name : ""));
         }
     }
@@ -133,28 +168,63 @@ bool isFileNotOption(const ActionSpec& action, const std::string& token, size_t 
 {
     const std::string prefix = token.substr(0, equals);
     for (const OptionSpec& option : action.options) {
-        if (startsWith(option.name, prefix)) return false;
+        if (option.isMeantBy(prefix)) return false;
     }
     std::error_code ignored;
     return std::filesystem::exists(token, ignored);
 }
 
+/// @return what `help` or `version` stands for; no other action goes without its dash.
+const ActionSpec& actionOfFirstWord(const std::string& word)
+{
+    const ActionSpec* const action = findAction(word);
+    for (const char* alone : {"help", "version", "examples"}) {
+        if (word == alone) return *action;
+    }
+    throwUsage("'" + word + "' stands before any action; "
+        + (action ? "actions begin with a dash: -" + action->name
+                  : "to read a file: -read " + word));
+}
+
 std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
 {
     std::vector<ActionCall> calls;
-    for (const std::string& token : tokens) {
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        const std::string& token = tokens[i];
         if (!token.empty() && token.front() == '-') {
-            calls.emplace_back(actionOfToken(token));
+            calls.emplace_back(actionOfToken(token, i + 1 < tokens.size() ? tokens[i + 1] : ""));
             continue;
         }
         if (calls.empty()) {
-            throwUsage("'" + token + "' stands before any action; to read a file: -read " + token);
+            calls.emplace_back(actionOfFirstWord(token));
+            continue;
         }
         const size_t equals = token.find('=');
         if (equals == std::string::npos || isFileNotOption(calls.back().spec(), token, equals)) {
             addMain(calls.back(), token);
         } else {
             addOption(calls.back(), token, equals);
+        }
+    }
+    return calls;
+}
+
+std::vector<ActionCall> withConfigFiles(
+    const std::vector<ActionCall>& calls, int depth, size_t& bytesInAll);
+
+/// @return the actions of a file of -config, each with the line that it stands in.
+std::vector<ActionCall> callsOfFile(const std::string& path, int depth, size_t& bytesInAll)
+{
+    std::vector<ActionCall> calls;
+    for (const ConfigLine& line : readConfigFile(path, bytesInAll)) {
+        const std::string where = "-config " + path + ", line " + std::to_string(line.number);
+        try {
+            std::vector<ActionCall> own = callsOf(line.words);
+            for (ActionCall& call : own) call.setOrigin(where + ": ");
+            const auto inner = withConfigFiles(own, depth + 1, bytesInAll);
+            calls.insert(calls.end(), inner.begin(), inner.end());
+        } catch (...) {
+            rethrowNamed(where, kInput);
         }
     }
     return calls;
@@ -174,13 +244,8 @@ std::vector<ActionCall> withConfigFiles(
         if (!call.given("files")) throwUsage("-config: names no file");
         if (depth == kDeepest) throwUsage("-config: files name each other more than 8 deep");
         for (const std::string& path : call.list("files")) {
-            try {
-                const auto read = callsOf(readConfigFile(path, bytesInAll));
-                const auto inner = withConfigFiles(read, depth + 1, bytesInAll);
-                expanded.insert(expanded.end(), inner.begin(), inner.end());
-            } catch (...) {
-                rethrowNamed("-config " + path, kInput);
-            }
+            const auto inner = callsOfFile(path, depth, bytesInAll);
+            expanded.insert(expanded.end(), inner.begin(), inner.end());
         }
     }
     return expanded;

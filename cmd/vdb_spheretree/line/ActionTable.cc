@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Actions.h"
 
+#include <openvdb_spheretree/base/Text.h>
+
 namespace command {
 
 const std::vector<ActionSpec>& actionTable()
@@ -15,8 +17,9 @@ const std::vector<ActionSpec>& actionTable()
 
 const ActionSpec* findAction(const std::string& name)
 {
+    const std::string alias = openvdb_spheretree::detail::lowerCase(name); // -V is as usual as -v
     for (const ActionSpec& action : actionTable()) {
-        if (action.name == name || (!name.empty() && action.alias == name)) return &action;
+        if (action.name == name || (!name.empty() && action.alias == alias)) return &action;
     }
     return nullptr;
 }

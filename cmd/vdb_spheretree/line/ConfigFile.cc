@@ -8,6 +8,7 @@
 #include "Plan.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 namespace command {
@@ -18,13 +19,16 @@ constexpr size_t kLongestFile = 1 << 20; // a device or a pipe may never end
 constexpr size_t kMostInAll = 4 << 20;
 constexpr size_t kLeastPerFile = 1 << 10; // reading a file takes time, even an empty one
 
-/// @return the words of a line. @throw CommandError (usage) if a quote is not closed
-std::vector<std::string> wordsOf(const std::string& line, const std::string& where)
+/// Adds the words of a line.
+/// @param where  the line, for messages
+/// @return whether the next line goes on with it. @throw CommandError (usage) if a quote is not closed
+bool addWords(std::string line, const std::string& where, std::vector<std::string>& words)
 {
-    std::vector<std::string> words;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
     bool inWord = false;
     char quote = '\0';
-    for (const char c : line) {
+    for (size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
         if (quote) {
             if (c == quote) {
                 quote = '\0';
@@ -33,6 +37,7 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
             }
             continue;
         }
+        if (c == '\\' && i + 1 == line.size()) return true;
         if (c == ' ' || c == '\t' || c == '\r') {
             inWord = false;
             continue;
@@ -47,12 +52,12 @@ std::vector<std::string> wordsOf(const std::string& line, const std::string& whe
         }
     }
     if (quote) throwUsage(where + ": a quote is not closed");
-    return words;
+    return false;
 }
 
 /// @throw CommandError (input) if the file cannot be read, or is none of people's making
 std::string textOf(const std::string& path)
-{
+try {
     checkReadable(path);
     const InputFile file(path);
     FdBuffer buffer(file.fd());
@@ -63,16 +68,22 @@ std::string textOf(const std::string& path)
             "this is no text file, or one of more than " + std::to_string(kLongestFile) + " bytes");
     }
     return text;
+} catch (...) {
+    rethrowNamed("-config " + path, kInput);
 }
+
+/// Such a line of vdb_tool's or of ours says what wrote the file.
+bool isProgram(const std::string& word) { return word == "vdb_spheretree" || word == "vdb_tool"; }
 
 } // namespace
 
-std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesInAll)
+std::vector<ConfigLine> readConfigFile(const std::string& path, size_t& bytesInAll)
 {
     std::string text = textOf(path);
     bytesInAll += std::max(text.size(), kLeastPerFile);
     if (bytesInAll > kMostInAll) {
-        throwUsage("all files of -config together, each as often as it is named and as "
+        throwUsage("-config " + path
+            + ": all files of -config together, each as often as it is named and as "
             + std::to_string(kLeastPerFile) + " bytes at least, may hold "
             + std::to_string(kMostInAll) + " bytes, and with this one they hold more");
     }
@@ -81,16 +92,20 @@ std::vector<std::string> readConfigFile(const std::string& path, size_t& bytesIn
         text.erase(0, byteOrderMark.size());
     }
     std::istringstream in(text);
-    std::vector<std::string> tokens;
+    std::vector<ConfigLine> lines;
+    ConfigLine whole{1, {}};
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
-        const std::string where = path + ", line " + std::to_string(number);
-        std::vector<std::string> words = wordsOf(line, where);
-        if (words.empty() || (number == 1 && words.front() == "vdb_spheretree")) continue;
-        if (words.front().empty() || words.front().front() != '-') words.front().insert(0, "-");
-        tokens.insert(tokens.end(), words.begin(), words.end());
+        const std::string where = "-config " + path + ", line " + std::to_string(number);
+        if (addWords(line, where, whole.words) && in.peek() != EOF) continue;
+        std::vector<std::string>& words = whole.words;
+        if (!words.empty() && !(whole.number == 1 && isProgram(words.front()))) {
+            if (words.front().empty() || words.front().front() != '-') words.front().insert(0, "-");
+            lines.push_back(whole);
+        }
+        whole = {number + 1, {}};
     }
-    return tokens;
+    return lines;
 }
 
 ActionSpec configAction()

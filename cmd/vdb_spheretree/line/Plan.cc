@@ -9,7 +9,9 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 
 #include <sys/stat.h>
@@ -26,7 +28,63 @@ std::string absolute(const std::string& path)
     return error ? path : resolved.string();
 }
 
+std::string extensionOf(const std::string& path)
+{
+    return openvdb_spheretree::detail::lowerExtension(path);
+}
+
+bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
+{
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Pictures, and arrays of bytes that do not say their size: assimp would take some of them for
+/// meshes, and find none.
+bool isArray(const std::string& path)
+{
+    return isOneOf(extensionOf(path),
+        {".raw", ".bin", ".dat", ".npy", ".npz", ".nii", ".gz", ".nrrd", ".mha", ".mhd", ".dcm",
+            ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".png"});
+}
+
+[[noreturn]] void refuseToRead(const std::string& path)
+{
+    const std::string kinds =
+        "it reads .vdb, .vol, .longvol and meshes (.obj, .ply, .stl, .off ...), "
+        "by their extension";
+    if (isArray(path)) {
+        throwInput("cannot read " + path + ": pictures and plain arrays of values are not read; "
+            + "make a .vdb of it first (pyopenvdb does so with an array), or a .vol, which is a "
+              "few "
+              "lines of text before the bytes; "
+            + kinds);
+    }
+    if (isOneOf(extensionOf(path), {".csv", ".json"})) {
+        throwInput("cannot read " + path + ": tables are not read; a sphere-tree is read from the "
+            + ".vdb that -write makes of it");
+    }
+    throwInput("cannot read " + path + ": files of this kind are not read; " + kinds);
+}
+
 } // namespace
+
+bool isStdin(const std::string& path)
+{
+    return path.rfind("stdin.", 0) == 0
+        && isOneOf(extensionOf(path), {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl"});
+}
+
+bool isStdout(const std::string& path)
+{
+    return path == "-"
+        || (path.rfind("stdout.", 0) == 0
+            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png"}));
+}
+
+bool Plan::replacesInput(const std::string& path) const
+{
+    return mInputs.count(absolute(AtomicFile::targetOf(path))) > 0;
+}
 
 void checkReadable(const std::string& path)
 {
@@ -44,37 +102,38 @@ FileKind fileKind(const std::string& path)
     if (extension == ".png") return FileKind::Png;
     if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
+    if (isArray(path)) return FileKind::Unknown;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
     return FileKind::Unknown;
 }
 
 void Plan::addInput(const std::string& path)
 {
-    if (path == "stdin.vdb") {
-        if (mStdinTaken) throwUsage("stdin.vdb can be read only once");
-        if (isatty(STDIN_FILENO)) throwInput("stdin.vdb: nothing is piped into this command");
+    if (isStdin(path)) {
+        if (mStdinTaken) throwUsage(path + ": standard input can be read only once");
+        if (isatty(STDIN_FILENO)) throwInput(path + ": nothing is piped into this command");
         mStdinTaken = true;
         return;
     }
-    const bool willBeWritten = mOutputs.count(absolute(AtomicFile::targetOf(path))) > 0;
+    const std::string target = absolute(AtomicFile::targetOf(path));
+    const bool willBeWritten = mOutputs.count(target) > 0;
     if (!willBeWritten) checkReadable(path);
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:
-    case FileKind::Mesh: return;
-    default:
-        throwInput("cannot read " + path
-            + ": files of this kind are not read; it reads .vdb, .vol, "
-              ".longvol and meshes (.obj, .ply, .stl, .off ...), by their extension");
+    case FileKind::Mesh: mInputs.insert(target); return;
+    default: refuseToRead(path);
     }
 }
 
 void Plan::addOutput(const std::string& path)
 {
-    if (path == "-" || path == "stdout.vdb") {
+    if (isStdout(path)) {
         if (mStdoutTaken) throwUsage("two outputs go to stdout");
-        if (path != "-" && isTerminal(standardOutput())) {
-            throwOutput("stdout.vdb: stdout is a terminal; pipe it into another command");
+        const FileKind kind = fileKind(path);
+        const bool isText = path == "-" || kind == FileKind::Csv || kind == FileKind::Json;
+        if (!isText && isTerminal(standardOutput())) {
+            throwOutput(path + ": stdout is a terminal; pipe it into another command");
         }
         mStdoutTaken = true;
         return;

@@ -18,19 +18,27 @@ void checkReadable(const std::string& path);
 /// By the extension, in upper or lower case.
 FileKind fileKind(const std::string& path);
 
+/// @return whether @a path is `stdin.EXTENSION`, with that of a kind that is read.
+bool isStdin(const std::string& path);
+/// @return whether @a path is `stdout.EXTENSION`, with that of a kind that is written, or `-`.
+bool isStdout(const std::string& path);
+
 class Plan {
 public:
     /// @throw CommandError (input or usage)
     void addInput(const std::string& path);
-    /// @param path  a file, or `stdout.vdb`, or `-` for text on stdout
+    /// @param path  a file, or one for which isStdout() holds
     /// @throw CommandError (output or usage)
     void addOutput(const std::string& path);
 
     /// @return whether stdout carries data, so that tables and lists have to go to stderr.
     bool stdoutIsTaken() const { return mStdoutTaken; }
 
+    /// @return whether writing @a path replaces a file that the line reads.
+    bool replacesInput(const std::string& path) const;
+
 private:
-    std::set<std::string> mOutputs; ///< absolute paths, as far as they can be resolved
+    std::set<std::string> mInputs, mOutputs; ///< absolute paths, as far as they can be resolved
     bool mStdinTaken = false, mStdoutTaken = false;
 };
 

@@ -32,6 +32,10 @@ int64_t peakBytes();
 /// @return the table, several lines.
 std::string statsTable(const openvdb_spheretree::SphereTree& tree, const Session& session);
 
+/// @return the levels as a CSV, a line each, in columns of the names that the JSON has for them. A cell
+/// is empty where the JSON has null.
+std::string statsCsv(const openvdb_spheretree::SphereTree& tree);
+
 /// @return a JSON object of format `vdb_spheretree.stats.1`.
 std::string statsJson(const openvdb_spheretree::SphereTree& tree, const Session& session);
 

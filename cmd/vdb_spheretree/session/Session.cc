@@ -6,6 +6,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <iostream>
 #include <memory>
@@ -20,17 +21,32 @@ Plan checkLine(const std::vector<ActionCall>& line)
         try {
             call.spec().check(call, plan);
         } catch (...) {
-            rethrowNamed(call.label(), kUsage);
+            rethrowNamed(call.where(), kUsage);
         }
     }
     return plan;
 }
+
+namespace {
+
+/// @param call  one of @a line
+bool isGivenOut(const ActionCall& call, const std::vector<ActionCall>& line)
+{
+    const ActionCall* const end = line.data() + line.size();
+    return std::any_of(&call, end, [](const ActionCall& later) { return later.spec().givesOut; });
+}
+
+} // namespace
 
 void Session::run(const std::vector<ActionCall>& line)
 {
     for (const ActionCall& call : line) {
         throwIfStopped();
         mIsLast = &call == &line.back();
+        if (call.spec().isForLater && !isGivenOut(call, line)) {
+            note("nothing of " + call.label()
+                + " will be kept: no -write, -stats, -check or -print " + "comes after it");
+        }
         runOne(call);
     }
     noteAllIsDone();
@@ -40,18 +56,20 @@ void Session::runOne(const ActionCall& call)
 {
     const Stopwatch watch;
     const bool silent = call.spec().quiet || verbosity == Verbosity::Quiet;
-    const auto finish = [&] {
-        if (!silent) progress.endAction();
+    const auto finish = [&](bool complete) {
+        if (!silent) progress.endAction(complete);
     };
-    if (!silent) progress.beginAction(call.typed());
+    if (!silent) {
+        progress.beginAction(call.typed(), call.spec().work ? call.spec().work(call) : LongWork());
+    }
     try {
         call.spec().run(call, *this);
         requireUnchangedInputs();
     } catch (...) {
-        finish();
-        rethrowNamed(call.label(), call.spec().failure);
+        finish(false);
+        rethrowNamed(call.where(), call.spec().failure);
     }
-    finish();
+    finish(true);
     if (silent) return;
     std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
               << std::endl;

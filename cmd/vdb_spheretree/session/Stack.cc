@@ -100,13 +100,27 @@ std::string Stack::listing() const
     return shown < mItems.size() ? all + ", ..." : all;
 }
 
+void Stack::requireOneOfName(const StackItem& chosen)
+{
+    for (StackItem* item : newestFirst(bool(chosen.mesh))) {
+        if (item == &chosen || item->batch != chosen.batch || item->name() != chosen.name())
+            continue;
+        throwInput("two are named '" + oneLine(chosen.name(), 60)
+            + "': choose by age, with 0 for the newest (-print tells the ages)");
+    }
+}
+
 StackItem& Stack::select(
     const std::string& what, const Suits& suits, const std::string& ageOrName, bool meshes)
 {
     if (!ageOrName.empty()) {
         StackItem* const item = find(ageOrName, meshes);
         if (!item) throwInput("there is no '" + ageOrName + "'; " + listing());
-        if (!suits(*item)) throwInput("needs " + what + ", which is not " + item->description());
+        if (!suits(*item)) {
+            throwInput(
+                item->description() + " will not do: this action needs " + what + "; " + listing());
+        }
+        if (item->name() == ageOrName) requireOneOfName(*item);
         return *item;
     }
     std::vector<StackItem*> found;

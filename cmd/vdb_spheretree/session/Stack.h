@@ -72,6 +72,8 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
+    /// @throw CommandError (input) if the same action has made another item of that name
+    void requireOneOfName(const StackItem& chosen);
     std::string listing() const;
 
     std::vector<std::unique_ptr<StackItem>> mItems;

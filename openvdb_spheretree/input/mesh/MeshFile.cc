@@ -52,14 +52,14 @@ constexpr std::size_t kMaxMessage = 200;
     throw IoError(path + ": " + what);
 }
 
-void needRegularFile(const std::string& path)
+void needRegularFile(const std::string& path, const std::string& name)
 {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) fail(path, "no such file");
-    if (std::filesystem::is_directory(status)) fail(path, "is a directory, not a mesh file");
-    if (!std::filesystem::is_regular_file(status)) fail(path, "is not a regular file");
-    if (std::filesystem::file_size(path, error) == 0) fail(path, "the file is empty");
+    if (!std::filesystem::exists(status)) fail(name, "no such file");
+    if (std::filesystem::is_directory(status)) fail(name, "is a directory, not a mesh file");
+    if (!std::filesystem::is_regular_file(status)) fail(name, "is not a regular file");
+    if (std::filesystem::file_size(path, error) == 0) fail(name, "the file is empty");
 }
 
 /// @throw IoError without the name of the file, std::ios_base::failure with the system's reason
@@ -231,23 +231,24 @@ bool isMeshFileName(const std::string& path)
     return detail::isStrictFormat(extension) || assimpKnows(extension);
 }
 
-TriangleMesh readMeshFile(const std::string& path)
+TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs)
 {
-    needRegularFile(path);
-    const std::string extension = detail::lowerExtension(path);
+    const std::string& name = shownAs.empty() ? path : shownAs;
+    needRegularFile(path, name);
+    const std::string extension = detail::lowerExtension(name);
     TriangleMesh mesh;
     try {
         mesh = toTriangles(detail::isStrictFormat(extension)
                 ? detail::parseMesh(extension, contentsOf(path))
                 : readByAssimp(path));
     } catch (const std::bad_alloc&) {
-        fail(path, "not enough memory for the mesh");
+        fail(name, "not enough memory for the mesh");
     } catch (const std::ios_base::failure& error) {
-        fail(path, "cannot be read: " + error.code().message());
+        fail(name, "cannot be read: " + error.code().message());
     } catch (const openvdb::Exception& error) {
-        fail(path, detail::messageOf(error));
+        fail(name, detail::messageOf(error));
     }
-    mesh.name = std::filesystem::path(path).stem().string();
+    mesh.name = std::filesystem::path(name).stem().string();
     return mesh;
 }
 

@@ -24,9 +24,12 @@ bool isMeshFileName(const std::string& path);
 ///
 /// Transforms of the file's scene are applied. Polygons are cut into triangles; points and lines are
 /// ignored. Equal points are joined, and points of no triangle dropped.
+/// @param shownAs  in place of @a path, what messages and the mesh are named after, and whose
+///                 extension says the format, of those that are read in every build: for files
+///                 without a name of their own
 /// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no triangle; the
 ///        message names the file. (An OBJ does not say how much it holds: one cut between two lines
 ///        is read as the smaller mesh that it is.)
-TriangleMesh readMeshFile(const std::string& path);
+TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs = {});
 
 } // namespace openvdb_spheretree

@@ -286,17 +286,18 @@ bool isVolFileName(const std::string& path)
     return extension == ".vol" || extension == ".longvol";
 }
 
-openvdb::GridBase::Ptr readVolFile(
-    const std::string& path, openvdb::util::NullInterrupter* interrupter)
+openvdb::GridBase::Ptr readVolFile(const std::string& path,
+    openvdb::util::NullInterrupter* interrupter, const std::string& shownAs)
 {
+    const std::string& name = shownAs.empty() ? path : shownAs;
     const std::uint64_t fileBytes = fileSizeOf(path);
     std::ifstream file(path, std::ios::binary);
-    if (!file) fail(path, "cannot be opened for reading");
+    if (!file) fail(name, "cannot be opened for reading");
     file.exceptions(std::ios::badbit); // a reading that fails is no end of the file
     try {
-        const VolHeader header = detail::readVolHeader(path, file, fileBytes);
-        const openvdb::math::Transform::Ptr transform = transformOf(path, header);
-        VolStream stream(path, file, header);
+        const VolHeader header = detail::readVolHeader(name, file, fileBytes);
+        const openvdb::math::Transform::Ptr transform = transformOf(name, header);
+        VolStream stream(name, file, header);
         const detail::Stage stage("Reading volume", interrupter, nullptr);
         openvdb::GridBase::Ptr grid;
         if (header.bytesPerValue == 8) {
@@ -304,13 +305,13 @@ openvdb::GridBase::Ptr readVolFile(
         } else {
             grid = readValues<openvdb::Int32Grid>(stream, header, interrupter);
         }
-        grid->setName(std::filesystem::path(path).stem().string());
+        grid->setName(std::filesystem::path(name).stem().string());
         grid->setTransform(transform);
         return grid;
     } catch (const std::bad_alloc&) {
-        fail(path, "not enough memory for the volume that its header keys X, Y, Z ask for");
+        fail(name, "not enough memory for the volume that its header keys X, Y, Z ask for");
     } catch (const std::ios_base::failure& error) {
-        fail(path, "cannot be read: " + error.code().message());
+        fail(name, "cannot be read: " + error.code().message());
     }
 }
 

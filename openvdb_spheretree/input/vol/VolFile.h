@@ -25,10 +25,12 @@ bool isVolFileName(const std::string& path);
 /// identity, scaled by the header's `Voxel-Size` if there is one: a number, or three along x, y, z
 /// (objectOf() wants cubes: see resampled()). `Center-*` is ignored. Values of a `.longvol` beyond
 /// 2^63 - 1 are stored as 2^63 - 1. Memory: the result, and sixteen slices of the volume.
+/// @param shownAs  in place of @a path, what messages and the grid are named after, and whose
+///                 extension says the format: for files without a name of their own
 /// @throw openvdb::IoError if the file cannot be read, is truncated or damaged, or if its header is
 ///        wrong or asks for more or less than the file holds. The message names the file and key.
 /// @throw Interrupted if the interrupter said so
-openvdb::GridBase::Ptr readVolFile(
-    const std::string& path, openvdb::util::NullInterrupter* interrupter = nullptr);
+openvdb::GridBase::Ptr readVolFile(const std::string& path,
+    openvdb::util::NullInterrupter* interrupter = nullptr, const std::string& shownAs = {});
 
 } // namespace openvdb_spheretree

@@ -2,9 +2,11 @@
 #include "MergeForest.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -19,6 +21,7 @@ using Pair = std::pair<int32_t, int32_t>;
 constexpr double kRebuild = 0.7, kRebuildDependent = 0.85;
 constexpr int32_t kShare = 64; // a round merges one pair for so many balls
 constexpr double kLock = 1;    // balls may share a voxel where they touch, and gaps are rounded
+constexpr double kTimeOfMerging = 0.6;
 constexpr double kTouch = 8 * kFine; // pairs of balls this near to a merge are stale
 
 class Forest {
@@ -38,7 +41,8 @@ public:
     {
         int32_t rebuildAt = mLive;
         while (mLive > 1) {
-            detail::checkInterrupt(mInterrupter, 100 - int(100.0 * mLive / mLeafBalls));
+            detail::checkInterrupt(mInterrupter, percentDone());
+            const detail::Stage round("", mInterrupter, nullptr); // its loops are details
             if (mLive <= rebuildAt || mQueue.empty()) {
                 rebuildQueue();
                 if (mQueue.empty()) break; // each group is one ball
@@ -54,6 +58,12 @@ public:
 private:
     bool alive(int32_t node) const { return !mGone[node]; }
     int32_t perRound() const { return std::max(1, mLive / kShare); }
+
+    /// The fewer balls are left, the longer a merge takes: time was measured to go as this.
+    int percentDone() const
+    {
+        return int(100 * (1 - std::pow(double(mLive) / mLeafBalls, kTimeOfMerging)));
+    }
 
     /// The node is in the cuts of mLive balls and less.
     void addNode(const ExactSphere& ball, int32_t group)

@@ -384,6 +384,25 @@ TEST(MeshFile, KnowsItsFilesByTheirExtensionInAnyCase)
     }
 }
 
+TEST(MeshFile, AFileMayBeShownUnderAnotherName)
+{
+    const TempFile file("nothing", objCube());
+    const TriangleMesh mesh = readMeshFile(file.path, "stdin.obj");
+    EXPECT_EQ("stdin", mesh.name);
+    EXPECT_EQ(8u, mesh.points.size());
+    const TempFile damaged("nothing_else", "f 1 2 3\n");
+    const TempFile empty("empty", "");
+    for (const std::string& path : {damaged.path, empty.path, std::string("/nowhere")}) {
+        try {
+            readMeshFile(path, "stdin.obj");
+            ADD_FAILURE() << path << " was read";
+        } catch (const openvdb::IoError& error) {
+            EXPECT_NE(std::string(error.what()).find("stdin.obj: "), std::string::npos);
+            EXPECT_EQ(std::string(error.what()).find(path), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST(MeshFile, ReadsTheSampleMeshes)
 {
     const char* folder = std::getenv("SPHERETREE_DATA");

@@ -171,6 +171,22 @@ TEST(VolFile, NamesTheGridAfterTheFileAndUsesTheIdentity)
     EXPECT_EQ(*openvdb::math::Transform::createLinearTransform(1), grid->transform());
 }
 
+TEST(VolFile, AFileMayBeShownUnderAnotherName)
+{
+    const TempFile file("nothing", "X: 1\nY: 1\nZ: 1\n.\n" + std::string(8, '\1'));
+    const auto grid = readVolFile(file.path, nullptr, "stdin.longvol");
+    EXPECT_EQ("stdin", grid->getName());
+    EXPECT_TRUE(grid->isType<openvdb::Int64Grid>()) << "the other name says the format";
+    try {
+        readVolFile(
+            file.path, nullptr, "stdin.vol"); // of which it is none: there are 7 values too many
+        ADD_FAILURE() << "it was read";
+    } catch (const openvdb::IoError& error) {
+        EXPECT_NE(std::string(error.what()).find("stdin.vol: "), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find(file.path), std::string::npos) << error.what();
+    }
+}
+
 TEST(VolFile, ScalesByVoxelSizeAndIgnoresCenterAndUnknownKeys)
 {
     const TempFile file("size.vol",

@@ -3,7 +3,12 @@
 
 #include "support/FineBalls.h"
 
+#include <openvdb/util/NullInterrupter.h>
+
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <vector>
 
 namespace {
 
@@ -134,6 +139,38 @@ TEST(MergeForest, HasACutOfEveryNumberOfNodes)
             }
         }
     }
+}
+
+/// Takes notice of the percentages of the outermost stage.
+class Listener : public openvdb::util::NullInterrupter {
+public:
+    void start(const char*) override { ++mDepth; }
+    void end() override { --mDepth; }
+    bool wasInterrupted(int percent) override
+    {
+        if (percent >= 0 && mDepth == 0) mHeard.push_back(percent);
+        return false;
+    }
+    const std::vector<int>& heard() const { return mHeard; }
+
+private:
+    std::atomic<int> mDepth{0}; ///< loops within a stage report from many threads
+    std::vector<int> mHeard;
+};
+
+TEST(MergeForest, TellsHowFarItIsAndNoDetails)
+{
+    Random random(3);
+    ToyModel model(450, true, 0.3, random);
+    Listener listener;
+    mergeToRoots(model, 6, &listener);
+    const std::vector<int>& heard = listener.heard();
+    ASSERT_GT(heard.size(), 50u);
+    EXPECT_EQ(heard.front(), 0);
+    EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+    EXPECT_GT(heard.back(), 90) << "two balls are left of 450";
+    EXPECT_LT(heard.back(), 100);
+    EXPECT_GT(heard[heard.size() / 2], 20);
 }
 
 /// Merges of other groups are near, and what is born stays in its group.

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SpooledInput.h"
+
+#include "base/Errors.h"
+#include "FdBuffer.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace command {
+
+void throwEmptyInput(const std::string& name)
+{
+    throwInput(name + ": the input is empty: the command before this one has written nothing");
+}
+
+SpooledInput::SpooledInput(const std::string& name)
+{
+    const char* const folder = std::getenv("TMPDIR");
+    mFolder = folder && *folder ? folder : "/tmp";
+    std::string path = mFolder + "/vdb_spheretree.XXXXXX";
+    mFd = mkostemp(path.data(), O_CLOEXEC);
+    if (mFd < 0) throwOutput("no temporary file can be made in " + systemError(mFolder));
+    try {
+        if (unlink(path.c_str()) != 0) throwOutput("cannot remove " + systemError(path));
+        fillFrom(STDIN_FILENO, name);
+    } catch (...) {
+        close(mFd);
+        throw;
+    }
+}
+
+SpooledInput::~SpooledInput() { close(mFd); }
+
+void SpooledInput::fillFrom(int fd, const std::string& name) const
+{
+    FdBuffer input(fd);
+    if (input.sgetc() == FdBuffer::traits_type::eof()) throwEmptyInput(name);
+    std::vector<char> block(1 << 20);
+    while (const auto size = size_t(input.sgetn(block.data(), std::streamsize(block.size())))) {
+        for (size_t done = 0; done < size;) {
+            const ssize_t count = write(mFd, block.data() + done, size - done);
+            if (count >= 0) {
+                done += size_t(count);
+            } else if (errno != EINTR) {
+                throwOutput(name + ": the temporary file in " + systemError(mFolder)
+                    + "; set TMPDIR to a folder that has room");
+            }
+        }
+    }
+}
+
+} // namespace command
