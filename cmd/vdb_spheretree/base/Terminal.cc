@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace command {
@@ -26,6 +27,14 @@ bool isTerminal(const std::ostream& stream)
     if (&stream == &standardOutput()) return isatty(STDOUT_FILENO);
     if (&stream == &std::cerr) return isatty(STDERR_FILENO);
     return false;
+}
+
+std::size_t terminalColumns(const std::ostream& stream)
+{
+    if (!isTerminal(stream)) return 0;
+    winsize size = {};
+    const int file = &stream == &std::cerr ? STDERR_FILENO : STDOUT_FILENO;
+    return ioctl(file, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 std::string coloured(const std::ostream& stream, Colour colour, const std::string& text)

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 
@@ -15,6 +16,10 @@ std::ostream& standardOutput();
 /// @brief Have whatever libraries print to std::cout go to stderr: OpenVDB's warnings would get into
 /// the middle of a `.vdb` on stdout.
 void divertLibraries();
+
+/// @return how many columns the terminal has that is standardOutput() or std::cerr; 0 if that is no
+///         terminal, or one that does not say.
+std::size_t terminalColumns(const std::ostream& stream);
 
 enum class Colour { Red, Green, Yellow, Bold };
 
