@@ -5,6 +5,7 @@
 #include "CommandRunner.h"
 
 #include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
 
 #include <sstream>
 

@@ -145,7 +145,7 @@ std::vector<std::string> filesOf(const std::string& version)
 {
     std::vector<std::string> names = {"tight", "tight_balls", "inner", "flat", "extended",
         "miniball", "reversible", "flat_reversible", "norm"};
-    if (version != "0.1") names.insert(names.end(), {"best", "kept"});
+    if (version != "0.1") names.insert(names.end(), {"best", "bounds", "kept"});
     for (std::string& name : names) name = version + "/" + name;
     return names;
 }
