@@ -13,7 +13,8 @@
 ///    cells, with that distance for a bound; so are tiles, without.
 /// 3. visitGroup: which spheres meet a cell, from the node down.
 /// 4. visit: cells are halved along all axes. One that no sphere meets is dropped. So is one with a
-///    bound of at most B. The bound of a cell is the smallest one of that of the cell it is part of,
+///    bound of at most B. The bound of a cell is the smallest of three:
+///      - that of the cell it is part of;
 ///      - the largest distance of a point of the cell to one box K of the solid, that nearest to
 ///        the cell's middle: dist(p, S) <= dist(p, K), whatever K is;
 ///      - the same for points of the cell that are in a sphere (c, r), by Lagrange's multiplier:
