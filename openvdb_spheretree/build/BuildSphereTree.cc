@@ -5,7 +5,6 @@
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/ParallelSort.h>
-#include <openvdb_spheretree/base/Rounding.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/inner/InnerLevels.h>
@@ -14,6 +13,7 @@
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tight/TightTree.h>
+#include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
@@ -121,34 +121,6 @@ void measureBalls(
     }
 }
 
-/// @return a radius in world units, rounded up to a float.
-float storedRadius(double radius)
-{
-    const float stored = detail::toFloatUp(radius);
-    if (std::isfinite(stored)) return stored;
-    OPENVDB_THROW(openvdb::ValueError,
-        "a radius of " << radius
-                       << " world units does not fit a float: use another unit of length, or less "
-                          "padding");
-}
-
-/// Radii as files hold them: in world units, padded, and rounded up to floats, so that a stored
-/// sphere covers what it stands for.
-void storeRadii(SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
-{
-    const double padding = tree.settings.paddingVoxels();
-    const double voxel = largestStretch(*tree.transform);
-    for (Spheres* spheres : {&tree.spheres, &tree.cuts.spheres}) {
-        std::vector<float> stored;
-        detail::resizeLarge(stored, spheres->radius.size());
-        detail::parallelFor(stored.size(), interrupter, [&](std::size_t i) {
-            const double padded = detail::addUp(spheres->radius[i], padding);
-            stored[i] = storedRadius(detail::multiplyUp(padded, voxel));
-        });
-        spheres->radiusWorld = std::move(stored);
-    }
-}
-
 /// Makes stored spheres contain the stored leaf spheres below them.
 ///
 /// Stored leaf spheres were rounded up, and centers in the world are rounded. So a node's stored
@@ -197,7 +169,7 @@ void containStoredLeaves(
         // A float is rounded up by no more than 2^-23 of it, a leaf ball's is not the larger one.
         const double exact = world(radii[id]);
         const double excess = std::min(most.excess, exact * 0x1p-23 + kLeastFloat);
-        const float stored = storedRadius((exact + excess + doubt) * (1 + kRounding));
+        const float stored = detail::toStoredRadius((exact + excess + doubt) * (1 + kRounding));
         tree.spheres.radiusWorld[id] = std::max(tree.spheres.radiusWorld[id], stored);
     });
 }
@@ -245,7 +217,7 @@ void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSec
         tree.dag = intersectionDag(tree, interrupter);
     }
     detail::timed("stored radii", interrupter, &seconds.tree, [&] {
-        storeRadii(tree, interrupter);
+        detail::storeRadii(tree, interrupter);
         if (extended || miniballs) containStoredLeaves(tree, tree.spheres.radius, interrupter);
     });
 }
@@ -261,7 +233,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     if (!seconds) seconds = &ownSeconds;
     if (const auto* options = settings.find<TightOptions>()) {
         tight::appendTightTree(tree, object, interrupter, seconds);
-        storeRadii(tree, interrupter);
+        detail::storeRadii(tree, interrupter);
         if (options->cover == Cover::Balls) {
             containStoredLeaves(tree, radiiAroundCut(tree), interrupter);
         }

@@ -42,7 +42,7 @@ inline std::string voxelsText(int64_t voxels, const openvdb::Coord& first)
 
 /// @return the stored spheres of a level without their padding: what is left must hold voxel
 ///         centers.
-std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+std::vector<ExactSphere> unpaddedSpheres(const SphereTree& tree, const SphereTreeLevel& level);
 
 /// @return whether each sphere is at least as large as its counterpart.
 bool noneSmaller(const std::vector<ExactSphere>& spheres, const std::vector<ExactSphere>& than);

@@ -122,7 +122,7 @@ void checkNoVolume(CheckReport& check, const SphereTreeLevel& level)
 } // namespace
 
 /// Dividing by the voxel size may round what was exact down: hence the factor, finer than floats.
-std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+std::vector<ExactSphere> unpaddedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
 {
     std::vector<ExactSphere> spheres = levelSpheres(tree, level);
     for (int32_t id = level.begin; id < level.end; ++id) {
@@ -205,7 +205,7 @@ void checkCoverage(CheckReport& check)
             return true;
         };
         const std::vector<ExactSphere> exact = levelSpheres(check.tree, level);
-        const std::vector<ExactSphere> stored = storedSpheres(check.tree, level);
+        const std::vector<ExactSphere> stored = unpaddedSpheres(check.tree, level);
         if (!misses(exact, "the exact radii") && noneSmaller(stored, exact)) continue;
         misses(stored, "the stored radii less their padding");
     }

@@ -124,7 +124,7 @@ bool checkChains(CheckReport& check)
     SphereTreeLevel all; // nodes, by id
     all.end = tree.size();
     const std::vector<ExactSphere> exact = levelSpheres(tree, all);
-    std::vector<ExactSphere> stored = storedSpheres(tree, all);
+    std::vector<ExactSphere> stored = unpaddedSpheres(tree, all);
     std::reverse(stored.begin(), stored.end());
     constexpr std::size_t kRoom = ChainForest::kMaxSections - 1;
     bool broken = false;
@@ -166,7 +166,7 @@ void checkCutChains(CheckReport& check)
         check.fail("the cut of ", counts[section], " spheres breaks the chain of spheres of ",
             voxelsText(loss.voxels, loss.first), " of the object, in ", radii);
     };
-    findBroken(check, forest, storedSpheres(nodes, nodes.levels[0]), report);
+    findBroken(check, forest, unpaddedSpheres(nodes, nodes.levels[0]), report);
 }
 
 void checkInside(CheckReport& check)

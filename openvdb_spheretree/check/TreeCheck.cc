@@ -181,6 +181,16 @@ void checkErrors(Check& check)
         compare("voxels missing", was.missing, is.missing);
         compare("% Hamming error", was.hammingPercent, is.hammingPercent);
         compare("voxels of Hausdorff distance", was.hausdorff, is.hausdorff);
+        if (!recorded[i].stored) continue; // as in files of version 0.1
+        if (!copy.levels[i].stored) {
+            check.fail("level ", level, " records an error of its stored spheres, but ",
+                copy.levels[i].storedUnknown);
+            continue;
+        }
+        const StoredError &wasStored = *recorded[i].stored, &isStored = *copy.levels[i].stored;
+        compare(
+            "% Hamming error of stored spheres", wasStored.hammingPercent, isStored.hammingPercent);
+        compare("as the reach of stored spheres", wasStored.reachWorld, isStored.reachWorld);
     }
 }
 

@@ -11,6 +11,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace openvdb_spheretree::detail {
@@ -49,6 +50,36 @@ int nearestBit(uint32_t row, int64_t point2)
     if (!above) return highestBit(below);
     const int lower = highestBit(below), upper = lowestBit(above);
     return point2 - 2 * lower <= 2 * upper - point2 ? lower : upper;
+}
+
+/// Bits of a row that are next to each other: [first, last].
+struct BitRun {
+    int first, last;
+};
+
+/// @return the run of a row, which is not empty, that is nearest to @a point, where bit z is the
+///         interval from z - 1/2 to z + 1/2.
+BitRun nearestRun(uint32_t row, double point)
+{
+    const int split = int(std::max(0.0, std::min(std::floor(point) + 1, 8.0)));
+    const uint32_t below = row & ((1u << split) - 1), above = row & ~((1u << split) - 1);
+    int z = below ? highestBit(below) : lowestBit(above);
+    if (below && above && lowestBit(above) - point < point - z) z = lowestBit(above);
+    BitRun run{z, z};
+    while (run.first > 0 && row >> (run.first - 1) & 1) --run.first;
+    while (run.last < 7 && row >> (run.last + 1) & 1) ++run.last;
+    return run;
+}
+
+/// @return the cubes of a box of voxels.
+NearestVoxel::Block cubesOf(const int32_t lo[3], const int32_t hi[3])
+{
+    NearestVoxel::Block block;
+    for (int a = 0; a < 3; ++a) {
+        block.lo[a] = lo[a] - 0.5;
+        block.hi[a] = hi[a] + 0.5;
+    }
+    return block;
 }
 
 } // namespace
@@ -228,6 +259,80 @@ void NearestVoxel::searchItem(const Item& item, Query& query) const
             if (sq >= query.best) continue;
             query.best = sq;
             query.voxel = item.origin.offsetBy(x, y, z);
+        }
+    }
+}
+
+NearestVoxel::Block NearestVoxel::blockOf(const Coord& voxel)
+{
+    return cubesOf(voxel.asPointer(), voxel.asPointer());
+}
+
+double NearestVoxel::nearestBlock(const double point[3], Block& block) const
+{
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    BlockQuery query{point, block.empty() ? kNone : blockMeasure(block, point), block};
+    searchBlocks(mLevels.size() - 1, 0, query);
+    return mDistance.isEuclidean() ? std::sqrt(query.best) : query.best;
+}
+
+double NearestVoxel::blockMeasure(const Block& block, const double point[3]) const
+{
+    double gap[3];
+    for (int a = 0; a < 3; ++a) {
+        gap[a] = std::max(std::max(block.lo[a] - point[a], point[a] - block.hi[a]), 0.0);
+    }
+    if (!mDistance.isEuclidean()) return mDistance.norm(gap[0], gap[1], gap[2]);
+    return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+}
+
+void NearestVoxel::searchBlocks(std::size_t level, std::size_t node, BlockQuery& query) const
+{
+    const std::vector<Box>& boxes = mLevels[level];
+    if (level == 0) {
+        const Block cubes = cubesOf(boxes[node].lo, boxes[node].hi);
+        const double distance = blockMeasure(cubes, query.point);
+        if (distance >= query.best) return;
+        if (!mItems[node].solid) return searchRows(mItems[node], query);
+        query.best = distance;
+        query.block = cubes;
+        return;
+    }
+    struct Near {
+        double distance;
+        std::size_t child;
+    } order[kFanout];
+    int count = 0;
+    const std::vector<Box>& below = mLevels[level - 1];
+    const std::size_t end = std::min((node + 1) * kFanout, below.size());
+    for (std::size_t child = node * kFanout; child < end; ++child) {
+        const double distance =
+            blockMeasure(cubesOf(below[child].lo, below[child].hi), query.point);
+        if (distance >= query.best) continue;
+        int at = count++;
+        for (; at > 0 && order[at - 1].distance > distance; --at) order[at] = order[at - 1];
+        order[at] = {distance, child};
+    }
+    for (int i = 0; i < count && order[i].distance < query.best; ++i) {
+        searchBlocks(level - 1, order[i].child, query);
+    }
+}
+
+void NearestVoxel::searchRows(const Item& item, BlockQuery& query) const
+{
+    const Coord& origin = item.origin;
+    for (int x = 0; x < 8; ++x) {
+        for (int y = 0; item.voxels[x] && y < 8; ++y) {
+            const uint32_t row = (item.voxels[x] >> (8 * y)) & 0xff;
+            if (!row) continue;
+            const BitRun run = nearestRun(row, query.point[2] - origin[2]);
+            const int32_t lo[3] = {origin[0] + x, origin[1] + y, origin[2] + run.first};
+            const int32_t hi[3] = {lo[0], lo[1], origin[2] + run.last};
+            const Block cubes = cubesOf(lo, hi);
+            const double distance = blockMeasure(cubes, query.point);
+            if (distance >= query.best) continue;
+            query.best = distance;
+            query.block = cubes;
         }
     }
 }

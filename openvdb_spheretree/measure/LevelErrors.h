@@ -9,7 +9,9 @@
 
 namespace openvdb_spheretree {
 
-/// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree. A level whose spheres
+/// @brief Fill in `error` (or `errorUnknown`) of every level of @a tree; and `stored` (or
+/// `storedUnknown`), where the tree has its stored radii, as all that are built or read have.
+/// A level whose spheres
 /// cross more than kMaxUnionRows rows of voxels is not counted (two voxels a million apart have a
 /// root sphere of 10^12): its error stays empty, with the reason. Level 0 is, where its spheres are
 /// the object's medial balls.

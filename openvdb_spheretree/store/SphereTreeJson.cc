@@ -135,6 +135,24 @@ void writeCuts(JsonWriter& json, const SphereTree& tree, std::ostream& out)
     json.endObject();
 }
 
+void writeExactError(JsonWriter& json, const SphereTreeLevel& level)
+{
+    const std::optional<LevelError>& error = level.error;
+    if (!error) {
+        for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
+            json.null(key);
+        }
+        const bool tried = !level.errorUnknown.empty();
+        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
+        return;
+    }
+    json.value("covered", error->covered);
+    json.value("excess", error->excess);
+    json.value("missing", error->missing);
+    json.value("hamming_percent", error->hammingPercent);
+    json.value("hausdorff", error->hausdorff);
+}
+
 } // namespace
 
 void writeObject(JsonWriter& json, const SphereTree& tree)
@@ -162,6 +180,7 @@ void writeSettings(JsonWriter& json, const SphereTree& tree)
         case SettingType::Flag: json.value(name, text == "1"); break;
         case SettingType::Integer: json.value(name, std::stoi(text)); break;
         case SettingType::Real:
+        case SettingType::Length:
             if (text.empty()) json.null(name);
             else json.value(name, detail::realOf(text));
             break;
@@ -188,20 +207,15 @@ void writeTopology(JsonWriter& json, const SphereTreeLevel& level)
 
 void writeError(JsonWriter& json, const SphereTreeLevel& level)
 {
-    const std::optional<LevelError>& error = level.error;
-    if (!error) {
-        for (const char* key : {"covered", "excess", "missing", "hamming_percent", "hausdorff"}) {
-            json.null(key);
-        }
-        const bool tried = !level.errorUnknown.empty();
-        json.value("error_unknown", tried ? level.errorUnknown : "not computed");
-        return;
+    writeExactError(json, level);
+    if (level.stored) {
+        json.value("stored_hamming_percent", level.stored->hammingPercent);
+        json.value("stored_reach", level.stored->reachWorld);
+    } else {
+        json.null("stored_hamming_percent");
+        json.null("stored_reach");
     }
-    json.value("covered", error->covered);
-    json.value("excess", error->excess);
-    json.value("missing", error->missing);
-    json.value("hamming_percent", error->hammingPercent);
-    json.value("hausdorff", error->hausdorff);
+    if (!level.storedUnknown.empty()) json.value("stored_unknown", level.storedUnknown);
 }
 
 void writeJson(const SphereTree& tree, std::ostream& out)

@@ -103,12 +103,21 @@ Transform::Ptr readTransform(const GridBase& grid, int scale)
 
 // ---- Settings, object, levels
 
+const char kBoundsName[] = "bounds"; // a setting that only trees within a bound record
+
+bool hasBound(const SphereTreeSettings& settings)
+{
+    const auto* options = settings.find<BudgetOptions>();
+    return options && options->budget.hasBound();
+}
+
 std::string readSetting(const GridBase& grid, const Setting& setting)
 {
     switch (setting.type) {
     case SettingType::Flag: return getMeta<bool>(grid, setting.key) ? "1" : "0";
     case SettingType::Integer: return std::to_string(getMeta<int32_t>(grid, setting.key));
-    case SettingType::Real: return textOf(getMeta<double>(grid, setting.key));
+    case SettingType::Real:
+    case SettingType::Length: return textOf(getMeta<double>(grid, setting.key));
     default: return getMeta<std::string>(grid, setting.key);
     }
 }
@@ -118,11 +127,13 @@ void writeSettings(GridBase& grid, const SphereTree& tree)
     const SphereTreeSettings settings = recordedSettings(tree);
     for (const Setting& setting : settingsTable()) {
         if (setting.key.empty()) continue;
+        if (setting.name == kBoundsName && !hasBound(settings)) continue;
         const std::string text = setting.get(settings);
         switch (setting.type) {
         case SettingType::Flag: setMeta<bool>(grid, setting.key, text == "1"); break;
         case SettingType::Integer: setMeta<int32_t>(grid, setting.key, std::stoi(text)); break;
         case SettingType::Real:
+        case SettingType::Length:
             if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
             break;
         default: setMeta<std::string>(grid, setting.key, text);
@@ -171,6 +182,10 @@ SphereTreeSettings readSettings(const GridBase& grid)
         setting.set(settings, text);
         requireDefault(setting, settings, text);
     }
+    auto* budgeted = settings.find<BudgetOptions>();
+    if (budgeted && hasBound(settings) && !grid[settingNamed(kBoundsName).key]) {
+        budgeted->budget.bounds = BoundOf::Unpadded; // what bounds of version 0.1 were of
+    }
     settings.name = grid.getName();
     settings.validate();
     return settings;
@@ -194,6 +209,11 @@ void writeLevel(GridBase& grid, const SphereTreeLevel& level)
         setMeta<double>(grid, key("hausdorff"), level.error->hausdorff);
     }
     if (!level.errorUnknown.empty()) setMeta(grid, key("error_unknown"), level.errorUnknown);
+    if (level.stored) {
+        setMeta<double>(grid, key("stored_hamming_percent"), level.stored->hammingPercent);
+        setMeta<double>(grid, key("stored_reach"), level.stored->reachWorld);
+    }
+    if (!level.storedUnknown.empty()) setMeta(grid, key("stored_unknown"), level.storedUnknown);
 }
 
 SphereTreeLevel readLevel(const GridBase& grid, int number)
@@ -227,6 +247,15 @@ SphereTreeLevel readLevel(const GridBase& grid, int number)
     }
     if (grid[key("error_unknown")]) {
         level.errorUnknown = getMeta<std::string>(grid, key("error_unknown"));
+    }
+    if (hasAny({"stored_hamming_percent", "stored_reach"})) {
+        StoredError stored;
+        stored.hammingPercent = getMeta<double>(grid, key("stored_hamming_percent"));
+        stored.reachWorld = getMeta<double>(grid, key("stored_reach"));
+        level.stored = stored;
+    }
+    if (grid[key("stored_unknown")]) {
+        level.storedUnknown = getMeta<std::string>(grid, key("stored_unknown"));
     }
     return level;
 }

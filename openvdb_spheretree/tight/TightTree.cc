@@ -3,7 +3,7 @@
 
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
-#include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/measure/LevelMeter.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
 #include <openvdb_spheretree/tight/level/SearchedLevels.h>
@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/BallPruning.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
+#include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <openvdb/Exceptions.h>
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -67,28 +69,23 @@ void requireRoomForMerging(std::size_t leafBalls)
 }
 
 /// @param tree  with settings, object and transform, and without nodes
-/// @return the exact error of a tree of this level alone.
-LevelError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
-    const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
+/// @return those figures of a tree of this level alone that its settings bound.
+BoundedError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
+    const detail::LevelMeter& meter, openvdb::util::NullInterrupter* interrupter)
 {
     appendLevels(level, tree);
-    computeLevelErrors(tree, object, interrupter);
-    const SphereTreeLevel& only = tree.levels.front();
-    if (only.error) return *only.error;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the error of " << only.size() << " spheres is not known, so no bound on it can be kept: "
-                        << only.errorUnknown << "; ask for spheres= instead");
-}
-
-/// The search minimizes the sampled excess alone, and no distances.
-/// @return whether the finest level is still within the bounds of the budget.
-bool keepsBounds(const TightLevel& finest, const SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter)
-{
+    SphereTreeLevel& only = tree.levels.front();
     const SphereBudget& budget = tree.settings.tight().budget;
-    if (!budget.hasBound()) return true;
-    const TightLevel alone{finest.balls, {}, finest.digital};
-    return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, object, interrupter));
+    if (budget.bounds == BoundOf::Unpadded) {
+        meter.measureExact(tree, only, interrupter);
+        if (!only.error) return {0, 0, only.errorUnknown};
+        return {only.error->hammingPercent, only.error->hausdorff * tree.voxelSize(), ""};
+    }
+    detail::storeRadii(tree, interrupter);
+    meter.measureStored(
+        tree, only, {budget.error.has_value(), budget.distance.has_value()}, interrupter);
+    if (!only.stored) return {0, 0, only.storedUnknown};
+    return {only.stored->hammingPercent, only.stored->reachWorld, ""};
 }
 
 } // namespace
@@ -98,6 +95,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
 {
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
+    const SphereBudget& budget = options.budget;
+    requireReachable(settings, tree.voxelSize());
     const auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
     LevelQueries queries;
     queries.memory = settings.memory;
@@ -122,19 +121,28 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
             "", interrupter, nullptr, [&] { return modelFor(options, balls, maker); });
         return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
     });
+    std::optional<detail::LevelMeter> meter;
+    if (budget.hasBound()) meter.emplace(object, settings.dist());
     const auto cutError = [&](int64_t count) {
-        return errorOf(levelsOf(forest, {count}, leafBalls), tree, object, interrupter);
+        return errorOf(levelsOf(forest, {count}, leafBalls), tree, *meter, interrupter);
     };
-    const auto counts =
-        levelCounts(options.budget, int64_t(leafBalls.size()), tree.voxelSize(), cutError);
+    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
+        return levelCounts(settings, int64_t(leafBalls.size()), tree.voxelSize(), cutError);
+    });
+    // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
+    const auto keepsBounds = [&](const TightLevel& finest) {
+        if (!budget.hasBound()) return true;
+        const TightLevel alone{finest.balls, {}, finest.digital};
+        return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, *meter, interrupter));
+    };
     const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
     // A bound is on the finest level, which then is searched first and by itself.
-    const std::size_t middle = options.budget.hasBound() ? 0 : counts.size() / 2;
+    const std::size_t middle = budget.hasBound() ? 0 : counts.size() / 2;
     const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
         const auto cuts = levelsOf(forest, counts, leafBalls);
         if (!search) return cuts;
         const auto searched = searchedLevels(forest, counts, leafBalls, middle, maker);
-        return keepsBounds(searched.front(), tree, object, interrupter) ? searched : cuts;
+        return keepsBounds(searched.front()) ? searched : cuts;
     });
     appendLevels(levels, tree);
     if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);

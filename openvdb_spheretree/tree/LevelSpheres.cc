@@ -5,6 +5,7 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace openvdb_spheretree {
@@ -20,6 +21,24 @@ std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLe
             tree.spheres.center[id] * double(tree.subdivision); // exact: a power of two
         spheres.push_back({{std::llround(c[0]), std::llround(c[1]), std::llround(c[2])},
             tree.spheres.coverRadiusSq[id]});
+    }
+    return spheres;
+}
+
+double storedRadiusVoxels(const SphereTree& tree, int32_t id)
+{
+    constexpr double kRounding = 1 + 1e-12;
+    return double(tree.spheres.radiusWorld[id]) / tree.voxelSize() * kRounding;
+}
+
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    constexpr double kMostSq = 0x1p62; // of squared radii
+    const double unit = double(tree.subdivision) * tree.settings.dist().unit();
+    std::vector<ExactSphere> spheres = levelSpheres(tree, level);
+    for (int32_t id = level.begin; id < level.end; ++id) {
+        const double reach = unit * storedRadiusVoxels(tree, id);
+        spheres[id - level.begin].radiusSq = int64_t(std::min(reach * reach, kMostSq));
     }
     return spheres;
 }

@@ -21,6 +21,14 @@ SphereMetric metricOf(const SphereTree& tree);
 ///         metricOf() the tree.
 std::vector<ExactSphere> levelSpheres(const SphereTree& tree, const SphereTreeLevel& level);
 
+/// @return the same as files have them: with stored radii, padding and all. The tree must have its
+///         stored radii and its transform.
+std::vector<ExactSphere> storedSpheres(const SphereTree& tree, const SphereTreeLevel& level);
+
+/// @return a stored radius in voxels. Rounded up by more than the division is off, and by less than
+///         a float: a voxel center on a stored sphere counts as held.
+double storedRadiusVoxels(const SphereTree& tree, int32_t id);
+
 /// @return the smallest box that holds every voxel center in spheres of a level of @a tree; in 2-D
 ///         only their plane.
 openvdb::CoordBBox levelBox(const SphereTree& tree, const std::vector<ExactSphere>& spheres);

@@ -34,6 +34,8 @@ constexpr std::array<Named<Center>, 2> kCenters{
     {{Center::Medial, "medial"}, {Center::Miniball, "miniball"}}};
 constexpr std::array<Named<Leaves>, 2> kLeaves{
     {{Leaves::Pruned, "pruned"}, {Leaves::Medial, "medial"}}};
+constexpr std::array<Named<BoundOf>, 2> kBoundsOf{
+    {{BoundOf::Stored, "stored"}, {BoundOf::Unpadded, "unpadded"}}};
 constexpr std::array<Named<ParentRule>, 2> kParentRules{
     {{ParentRule::Centre, "centre"}, {ParentRule::Dag, "dag"}}};
 constexpr std::array<Named<Reconstruction>, 3> kReconstructions{{{Reconstruction::Clip, "clip"},
@@ -289,6 +291,39 @@ Setting spheresRow()
         "distance= is the most that these may take (tight)");
 }
 
+Setting distanceRow()
+{
+    Setting setting = special(
+        "distance", 18,
+        [](const SphereTreeSettings& settings) {
+            const auto* options = settings.find<BudgetOptions>();
+            return options ? distanceBoundToString(options->budget) : std::string();
+        },
+        [](SphereTreeSettings& settings, const std::string& text) {
+            SphereBudget other; // a mistake is one in any kind of tree
+            auto* options = settings.find<BudgetOptions>();
+            setDistanceBound(options ? options->budget : other, text);
+        },
+        "the level of fewest spheres that reach at most so far out of the object's voxels, as they "
+        "are stored: in world units, such as 5, or in voxels, such as 2vox (tight)");
+    setting.type = SettingType::Length;
+    setting.lowest = 0;
+    setting.isOptional = setting.isBound = true;
+    setting.extended = setting.reversible = false;
+    return setting;
+}
+
+/// Which spheres a bound is of. Files of trees without a bound do not record it.
+Setting boundsRow()
+{
+    Setting setting = choice<BudgetOptions>(
+        "bounds", 24, kBoundsOf, [](auto& options) -> auto& { return options.budget.bounds; },
+        "what error= and distance= are bounds of: the spheres as they are stored, with padding; or "
+        "unpadded ones, by the columns hamming % and hausdorff of -stats (tight)");
+    setting.isOptional = setting.isBound = true;
+    return setting;
+}
+
 Setting nameRow()
 {
     return special(
@@ -348,11 +383,9 @@ std::vector<Setting> makeTable()
         spheresRow(), branchingRow(),
         bound<BudgetOptions>(
             "error", 17, [](auto& options) -> auto& { return options.budget.error; },
-            "the level of fewest spheres whose Hamming error is at most this, in % (tight)"),
-        bound<BudgetOptions>(
-            "distance", 18, [](auto& options) -> auto& { return options.budget.distance; },
-            "the level of fewest spheres that reach at most so far out of the object, in world "
-            "units (tight)"),
+            "the level of fewest spheres whose Hamming error, as they are stored, is at most this, "
+            "in % (tight)"),
+        distanceRow(), boundsRow(),
         choice<TightOptions>("cover", 19, kCovers, &TightOptions::cover,
             "what spheres contain for certain: together, down the tree, every voxel; or each of "
             "them the leaf balls below it (tight)"),
@@ -427,7 +460,13 @@ SphereTreeSettings recordedSettings(const SphereTree& tree)
 {
     SphereTreeSettings settings = tree.settings;
     if (auto* options = settings.find<PyramidOptions>()) options->dag = tree.hasDag;
-    if (auto* options = settings.find<BudgetOptions>()) options->cuts = tree.hasCuts;
+    auto* options = settings.find<BudgetOptions>();
+    if (!options) return settings;
+    options->cuts = tree.hasCuts;
+    SphereBudget& budget = options->budget;
+    if (!budget.distance || !budget.distanceInVoxels || !tree.transform) return settings;
+    budget.distance = budget.distanceWorld(tree.voxelSize());
+    budget.distanceInVoxels = false;
     return settings;
 }
 

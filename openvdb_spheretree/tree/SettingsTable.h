@@ -22,7 +22,8 @@ enum class SettingType {
     Counts,  ///< text in metadata; an array in JSON
     Flag,    ///< "1" or "0"
     Integer, ///< within [lowest, highest]
-    Real     ///< the same; "" for a bound that is not set: no metadata, and null in JSON
+    Real,    ///< the same; "" for a bound that is not set: no metadata, and null in JSON
+    Length   ///< the same; a text, such as 2vox, until files have it in world units
 };
 
 struct Setting {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereBudget.h"
 
+#include "SettingsTable.h"
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -14,6 +15,8 @@
 namespace openvdb_spheretree {
 
 namespace {
+
+const char kVoxels[] = "vox";
 
 void requireBound(const char* name, const std::optional<double>& bound, const char* unit)
 {
@@ -67,6 +70,40 @@ void SphereBudget::validate() const
             "spheres=" << countsToString(spheres)
                        << " with a bound on the error: give one count, the most spheres allowed");
     }
+}
+
+std::string distanceBoundToString(const SphereBudget& budget)
+{
+    if (!budget.distance) return "";
+    return detail::textOf(*budget.distance) + (budget.distanceInVoxels ? kVoxels : "");
+}
+
+void setDistanceBound(SphereBudget& budget, const std::string& text)
+{
+    budget.distance.reset();
+    budget.distanceInVoxels = false;
+    if (text.empty()) return;
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    const std::string unit(parsed.ptr, end);
+    if (parsed.ec == std::errc() && (unit.empty() || unit == kVoxels)) {
+        budget.distance = value;
+        budget.distanceInVoxels = !unit.empty();
+        return;
+    }
+    const bool isLength =
+        unit == "m" || unit == "cm" || unit == "mm" || unit == "um" || unit == "in";
+    if (parsed.ec == std::errc() && isLength) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "distance=" << text << ": a grid does not say what its unit of length is, so " << unit
+                        << " is not understood: write the number in the units of the file alone ("
+                        << detail::textOf(value) << " if these are " << unit
+                        << "), or voxels, such as 2vox");
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "distance=" << detail::inQuotes(text)
+                    << " is no number: write world units, such as 5, or voxels, such as 2vox");
 }
 
 std::string countsToString(const std::vector<int64_t>& counts)

@@ -37,6 +37,16 @@ struct LevelError {
     double hausdorff = 0;      ///< largest distance of a covered voxel to the object, in voxels
 };
 
+/// How far the spheres of a level are from the object as files have them: with radii in floats,
+/// padding and all.
+struct StoredError {
+    /// 100 (excess + missing) / object voxels, of voxels whose center lies in a stored sphere.
+    double hammingPercent = 0;
+    /// No point of a stored sphere is farther than this from the object's voxel cubes: an upper
+    /// bound, by at most 0.055 voxel (StoredReach.h). World units.
+    double reachWorld = 0;
+};
+
 struct SphereTreeLevel {
     int level = 0;                         ///< 0 is the finest
     int32_t begin = 0, end = 0;            ///< the level's nodes are [begin, end)
@@ -44,6 +54,8 @@ struct SphereTreeLevel {
     std::optional<LevelTopology> topology; ///< of these voxels; empty if not asked for
     std::optional<LevelError> error;       ///< empty until computed, or when out of reach
     std::string errorUnknown;              ///< why `error` is empty, where it was asked for
+    std::optional<StoredError> stored;     ///< where `error` is, but in files of version 0.1
+    std::string storedUnknown;             ///< why `stored` is empty where `error` is not
 
     int32_t size() const { return end - begin; }
 };

@@ -44,6 +44,11 @@ public:
     MaskMinus(const openvdb::MaskTree& a, const openvdb::MaskTree& b);
 
     std::size_t nodeCount() const { return mNodes.size(); }
+    /// @return the box of a node, all of it.
+    openvdb::CoordBBox box(std::size_t node) const
+    {
+        return openvdb::CoordBBox::createCube(mNodes[node].origin, mNodes[node].size);
+    }
     /// @param result  becomes the cubes of a node, none of them empty. A tile is cut up only where
     ///                the other mask has nodes.
     void cubes(std::size_t node, std::vector<VoxelCube>& result) const;

@@ -5,6 +5,9 @@
 #include "CommandRunner.h"
 
 #include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
+
+#include <sstream>
 
 namespace {
 
@@ -107,6 +110,88 @@ TEST_F(CommandTight, ALevelByItsSpheresIsACutWhereTheTreeHasThem)
         run("-read a.vol -spheretree tree=tight side=inner spheres=5 -level spheres=3");
     EXPECT_EQ(none.exitCode, 3);
     EXPECT_NE(none.err.find("no level has at most 3 spheres"), std::string::npos) << none.err;
+}
+
+TEST_F(CommandTight, ABoundIsOneOfStoredSpheres)
+{
+    writeGrids("ball.vdb", {sphereGrid("ball", 12)});
+    const std::string make = "-read ball.vdb -spheretree quality=fast ";
+    const auto levelOf = [&](const std::string& options) {
+        const Result result = run(make + options + " -stats json=-");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return nlohmann::json::parse(result.out)["levels"][0];
+    };
+    EXPECT_LE(double(levelOf("distance=3vox")["stored_reach"]), 3.0);
+    EXPECT_LE(double(levelOf("error=60")["stored_hamming_percent"]), 60.0);
+    EXPECT_LE(double(levelOf("error=0 bounds=unpadded")["hamming_percent"]), 0.0);
+    const Result loose = run(make + "distance=0.1 -write t.vdb");
+    EXPECT_EQ(loose.exitCode, 3) << loose.err;
+    EXPECT_NE(loose.err.find("distance=0.1 cannot be reached: padding=cubes"), std::string::npos)
+        << loose.err;
+    const Result unit = run(make + "distance=5mm -write t.vdb");
+    EXPECT_EQ(unit.exitCode, 2) << unit.err;
+    EXPECT_NE(unit.err.find("does not say what its unit"), std::string::npos) << unit.err;
+    const Result none = run(make + "bounds=unpadded -write t.vdb");
+    EXPECT_EQ(none.exitCode, 2) << none.err;
+    EXPECT_NE(none.err.find("add error= or distance="), std::string::npos) << none.err;
+}
+
+TEST_F(CommandTight, StatsSayWhatPaddingAdds)
+{
+    const Result padded = run("-read a.vol -spheretree -stats");
+    EXPECT_NE(padded.out.find("stored radii are 0.87 voxel (0.866 world units) larger"),
+        std::string::npos)
+        << padded.out;
+    EXPECT_NE(padded.out.find("stored %"), std::string::npos);
+    const Result bare = run("-read a.vol -spheretree padding=voxels -stats");
+    EXPECT_EQ(bare.out.find("stored radii"), std::string::npos) << bare.out;
+    const auto level = statsOf("padding=voxels")["levels"][0];
+    EXPECT_EQ(level["stored_hamming_percent"], level["hamming_percent"]);
+    EXPECT_GT(double(statsOf("")["levels"][0]["stored_hamming_percent"]), 0.0);
+}
+
+TEST_F(CommandTight, ErrorsOfALevelThatWasTakenOutAreCountedWithTheObjectAtHand)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree quality=fast cuts=1 -write cuts.vdb").exitCode, 0);
+    const std::string level = " cuts.vdb -level spheres=3 -stats";
+    const Result alone = run("-read" + level);
+    EXPECT_NE(
+        alone.out.find("-stats counts them where the object is on the stack"), std::string::npos)
+        << alone.out;
+    const Result both = run("-read a.vol" + level);
+    EXPECT_EQ(both.exitCode, 0) << both.err;
+    EXPECT_EQ(both.out.find("not counted"), std::string::npos) << both.out;
+    writeGrids("ball.vdb", {sphereGrid("ball", 12)});
+    const Result other = run("-read ball.vdb" + level);
+    EXPECT_EQ(other.exitCode, 0) << other.err;
+    EXPECT_NE(other.out.find("errors were not counted"), std::string::npos)
+        << "of another object: " << other.out;
+}
+
+/// `script` runs its command in a terminal of its own.
+TEST_F(CommandTight, TablesFitATerminal)
+{
+    if (!isInstalled("script")) GTEST_SKIP() << "needs script";
+    const auto linesOf = [&](int columns) {
+        const Result result = shell("script -qec \"stty cols " + std::to_string(columns)
+            + "; $VDB_SPHERETREE -quiet -read a.vol -spheretree -stats\" /dev/null");
+        std::vector<std::string> lines;
+        std::istringstream text(result.out);
+        for (std::string line; std::getline(text, line);) {
+            while (!line.empty() && line.back() == '\r') line.pop_back();
+            if (line.find("level  ") == 0) lines.push_back(line);
+        }
+        return lines;
+    };
+    const auto narrow = linesOf(80), wide = linesOf(200);
+    ASSERT_EQ(wide.size(), 1u);
+    EXPECT_GT(wide[0].size(), 80u);
+    ASSERT_EQ(narrow.size(), 2u);
+    for (const std::string& line : narrow) EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_NE(narrow[1].find("hausdorff"), std::string::npos) << narrow[1];
+    EXPECT_GT(linesOf(40).size(), 2u);
+    const Result piped = run("-read a.vol -spheretree -stats");
+    EXPECT_NE(piped.out.find(wide[0]), std::string::npos) << piped.out;
 }
 
 TEST_F(CommandTight, SmallestSpheresCoverTheObjectWithLessExcess)

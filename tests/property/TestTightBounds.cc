@@ -23,17 +23,22 @@ bool isWithin(const SphereTree& tree, const openvdb::BoolGrid& grid, const Spher
     SphereTree measured = tree;
     computeLevelErrors(measured, grid);
     const LevelError& error = measured.levels[0].error.value();
-    return (!budget.error || error.hammingPercent <= *budget.error)
-        && (!budget.distance || error.hausdorff * tree.voxelSize() <= *budget.distance);
+    const StoredError& stored = measured.levels[0].stored.value();
+    const bool padded = budget.bounds == BoundOf::Stored;
+    const double percent = padded ? stored.hammingPercent : error.hammingPercent;
+    const double reach = padded ? stored.reachWorld : error.hausdorff * tree.voxelSize();
+    return (!budget.error || percent <= *budget.error)
+        && (!budget.distance || reach <= *budget.distance);
 }
 
-SphereTreeSettings bounded(
-    Quality quality, std::optional<double> error, std::optional<double> distance)
+SphereTreeSettings bounded(Quality quality, std::optional<double> error,
+    std::optional<double> distance, BoundOf bounds = BoundOf::Unpadded)
 {
     SphereTreeSettings settings = tightSettings(quality);
     settings.budgeted().budget = SphereBudget();
     settings.budgeted().budget.error = error;
     settings.budgeted().budget.distance = distance;
+    settings.budgeted().budget.bounds = bounds;
     return settings;
 }
 
@@ -81,6 +86,34 @@ TEST(TightBounds, HaveTheFewestSpheresWithinABound)
         }
         ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, 60.0, 0.9)));
     }
+}
+
+/// Some of these cannot be reached, and say so.
+TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
+{
+    int turn = 0, reached = 0;
+    for (const RandomObject& object : smallObjects()) {
+        if (object.name == "far apart") continue;
+        const Quality quality = ++turn % 2 ? Quality::Fast : Quality::Normal;
+        for (const double distance : {0.2, 0.7, 0.9, 1.5}) {
+            SphereTreeSettings settings = bounded(quality, {}, distance, BoundOf::Stored);
+            if (turn % 3 == 0) settings.padding = 0;
+            const auto grid = gridOf(object.voxels);
+            grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+            SCOPED_TRACE(object.name + ", distance " + std::to_string(distance));
+            try {
+                ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings));
+                ++reached;
+            } catch (const openvdb::ValueError& error) {
+                ASSERT_NE(std::string(error.what()).find("cannot be reached: padding="),
+                    std::string::npos)
+                    << error.what();
+            }
+        }
+        ASSERT_NO_FATAL_FAILURE(
+            expectFewestOf(object, bounded(quality, 1500.0, {}, BoundOf::Stored)));
+    }
+    EXPECT_GT(reached, turn);
 }
 
 /// A search for less excess may reach further out.

@@ -103,7 +103,10 @@ SphereTree sampleTree()
     tree.spheres.coverRadiusSq[6] = int64_t(1) << 50;
     tree.spheres.radiusWorld[6] = 0;
     tree.levels[0].error = openvdb_spheretree::LevelError{int64_t(1) << 41, 5, 1, 0.1, 1.0 / 3};
+    tree.levels[0].stored = openvdb_spheretree::StoredError{0.7, 1.0 / 7};
     tree.levels[1].errorUnknown = "too many rows";
+    tree.levels[2].error = openvdb_spheretree::LevelError{7, 0, 0, 0, 0};
+    tree.levels[2].storedUnknown = "its stored spheres are too large";
     tree.levels[0].topology = openvdb_spheretree::LevelTopology{3, int64_t(1) << 33, 2};
     tree.dag = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {1, 5}, {2, 5}, {2, 6}, {2, 7}};
     return tree;
@@ -251,6 +254,12 @@ void expectSameLevel(const SphereTreeLevel& a, const SphereTreeLevel& b)
     EXPECT_EQ(a.pyramidVoxels, b.pyramidVoxels);
     EXPECT_TRUE(a.topology == b.topology);
     EXPECT_EQ(a.errorUnknown, b.errorUnknown);
+    EXPECT_EQ(a.storedUnknown, b.storedUnknown);
+    ASSERT_EQ(a.stored.has_value(), b.stored.has_value());
+    if (a.stored) {
+        EXPECT_EQ(a.stored->hammingPercent, b.stored->hammingPercent);
+        EXPECT_EQ(a.stored->reachWorld, b.stored->reachWorld);
+    }
     ASSERT_EQ(a.error.has_value(), b.error.has_value());
     if (!a.error) return;
     EXPECT_EQ(a.error->covered, b.error->covered);

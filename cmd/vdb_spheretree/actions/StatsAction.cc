@@ -2,6 +2,7 @@
 /// @file StatsAction.cc
 /// @brief -stats and -print: what is on the stack, in words and numbers.
 
+#include "base/Errors.h"
 #include "base/LastWords.h"
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
@@ -56,14 +57,54 @@ void checkStats(const ActionCall& call, Plan& plan)
     }
 }
 
+/// @return whether a tree has @a object for its object: the same voxels in the same place.
+bool isObjectOf(const openvdb::BoolGrid& object, const openvdb_spheretree::SphereTree& tree)
+{
+    const auto& info = tree.object;
+    if (int64_t(object.activeVoxelCount()) != info.voxels) return false;
+    if (object.evalActiveVoxelBoundingBox() != info.bbox) return false;
+    const double much = 1e-3 * tree.voxelSize(); // as for -check
+    for (const openvdb::Coord& corner : {info.bbox.min(), info.bbox.max()}) {
+        const auto here = object.transform().indexToWorld(corner);
+        if ((here - tree.transform->indexToWorld(corner)).length() > much) return false;
+    }
+    return true;
+}
+
+/// Finds the object of a tree that was read from a file: the only grid on the stack that an object
+/// can be made of, if it is that. -stats does without one, so nothing here is an error.
+void findObject(StackItem& item, Session& session)
+{
+    StackItem* grid = nullptr;
+    for (const auto& other : session.stack.items()) {
+        if (!other->grid || !openvdb_spheretree::isObjectGrid(*other->grid)) continue;
+        if (grid) return;
+        grid = other.get();
+    }
+    if (!grid) return;
+    try {
+        const auto object = objectOf(*grid, {}, session);
+        if (isObjectOf(*object, *item.tree)) item.object = object;
+    } catch (const CommandError&) { // it holds none
+    }
+}
+
+/// @return whether there may be something to count: errors, or those of stored spheres.
+bool lacksErrors(const openvdb_spheretree::SphereTreeLevel& level)
+{
+    if (!level.error) return level.errorUnknown.empty();
+    return !level.stored && level.storedUnknown.empty();
+}
+
 void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     session.noteIfUnverified(item);
     const auto& levels = item.tree->levels;
-    const bool lacksErrors = std::any_of(levels.begin(), levels.end(),
-        [](const auto& level) { return !level.error && level.errorUnknown.empty(); });
-    if (item.object && lacksErrors) computeErrors(item, session);
+    if (std::any_of(levels.begin(), levels.end(), lacksErrors)) {
+        if (!item.object) findObject(item, session);
+        if (item.object) computeErrors(item, session);
+    }
     const auto outputs = filesOf(call);
     if (outputs.empty()) return session.print(statsTable(*item.tree, session));
     std::vector<std::unique_ptr<AtomicFile>> files;

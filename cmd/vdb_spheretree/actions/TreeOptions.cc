@@ -112,6 +112,10 @@ void checkTreeOptions(const ActionCall& call)
         throwUsage("edges=" + call.text("edges")
             + " says which edges of the Sphere-DAG to store, and none are: add dag=1");
     }
+    if (call.given("bounds") && !call.given("error") && !call.given("distance")) {
+        throwUsage("-spheretree bounds=" + call.text("bounds")
+            + " says what a bound is of, and there is none: add error= or distance=");
+    }
     settingsOf(call).validate();
 }
 

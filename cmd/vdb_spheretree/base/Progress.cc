@@ -198,7 +198,9 @@ void Progress::draw(bool complete)
 {
     ProgressState now = state();
     if (complete) now.done = 1;
-    std::cerr << "\r\033[K" << progressBar(now, terminalColumns()) << std::flush;
+    constexpr size_t kUsual = 80; // of terminals that do not say
+    const size_t columns = terminalColumns(std::cerr);
+    std::cerr << "\r\033[K" << progressBar(now, columns ? columns : kUsual) << std::flush;
     mDrawn = true;
 }
 

@@ -30,12 +30,12 @@ bool isTerminal(const std::ostream& stream)
     return false;
 }
 
-size_t terminalColumns()
+std::size_t terminalColumns(const std::ostream& stream)
 {
-    constexpr size_t kUsual = 80; // of those that do not say
+    if (!isTerminal(stream)) return 0;
     winsize size = {};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
-    return size.ws_col;
+    const int file = &stream == &std::cerr ? STDERR_FILENO : STDOUT_FILENO;
+    return ioctl(file, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 size_t columnsOf(const std::string& text)

@@ -17,8 +17,9 @@ std::ostream& standardOutput();
 /// the middle of a `.vdb` on stdout.
 void divertLibraries();
 
-/// @return how many columns the terminal that stderr goes to has at this moment.
-size_t terminalColumns();
+/// @return how many columns the terminal has that is standardOutput() or std::cerr; 0 if that is no
+///         terminal, or one that does not say.
+std::size_t terminalColumns(const std::ostream& stream);
 
 /// @return the columns that UTF-8 takes on a terminal at most: two for what is not ASCII.
 size_t columnsOf(const std::string& text);

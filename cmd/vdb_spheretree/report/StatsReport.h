@@ -29,7 +29,8 @@ std::vector<std::pair<const char*, double>> stageSeconds(const Session& session)
 /// @return the most memory that the process has held so far, in bytes.
 int64_t peakBytes();
 
-/// @return the table, several lines.
+/// @return the table, several lines; where it goes to a terminal, in several parts if it is wider
+///         than that.
 std::string statsTable(const openvdb_spheretree::SphereTree& tree, const Session& session);
 
 /// @return the levels as a CSV, a line each, in columns of the names that the JSON has for them. A cell

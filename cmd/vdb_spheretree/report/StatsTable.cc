@@ -6,7 +6,9 @@
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <sstream>
 
 #include <sys/resource.h>
@@ -20,10 +22,13 @@ namespace {
 
 using Row = std::vector<std::string>;
 
+constexpr std::size_t kFirstOfErrors = 8; // columns before it are of spheres and topology
+
 Row headerOf(const SphereTree& tree)
 {
     Row row = {"level", "spheres", "voxels", "parts", "tunnels", "cavities", "radius min",
-        "radius max", "covered", "excess", "missing", "hamming %", "hausdorff"};
+        "radius max", "covered", "excess", "missing", "hamming %", "hausdorff", "stored %",
+        "reach"};
     if (tree.settings.isInner()) row.push_back("covered %");
     return row;
 }
@@ -32,6 +37,16 @@ std::string fixed(double number, int digits)
 {
     char text[64];
     std::snprintf(text, sizeof(text), "%.*f", digits, number);
+    return text;
+}
+
+/// Of a length in world units, whose size nobody knows. Rounded up: it is a bound.
+std::string significant(double length)
+{
+    if (length == 0) return "0";
+    const double digit = std::pow(10.0, std::floor(std::log10(length)) - 3); // the fourth
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.4g", std::ceil(length / digit * (1 - 1e-12)) * digit);
     return text;
 }
 
@@ -55,23 +70,65 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
     const auto& error = *level.error;
     row.insert(row.end(),
         {withCommas(error.covered), withCommas(error.excess), withCommas(error.missing),
-            fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2)});
+            fixed(error.hammingPercent, 2), fixed(error.hausdorff, 2),
+            level.stored ? fixed(level.stored->hammingPercent, 2) : "-",
+            level.stored ? significant(level.stored->reachWorld) : "-"});
     if (tree.settings.isInner()) row.push_back(fixed(coveredPercent(tree, level), 2));
     return row;
 }
 
-void printRows(std::ostream& out, const std::vector<Row>& rows)
+using Columns = std::vector<std::size_t>;
+
+/// @return the columns of tables below one another, each with the first one, that are no wider than
+///         @a limit as far as that is possible; all in one if there is no limit (0).
+/// @param second  the column that the second table begins with, where there are more than one
+std::vector<Columns> tablesOf(
+    const std::vector<std::size_t>& width, std::size_t second, std::size_t limit)
 {
-    std::vector<size_t> width(rows.front().size(), 0);
-    for (const Row& row : rows) {
-        for (size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-    }
-    for (const Row& row : rows) {
-        for (size_t i = 0; i < row.size(); ++i) {
-            out << (i ? "  " : "") << std::string(width[i] - row[i].size(), ' ') << row[i];
+    constexpr std::size_t kGap = 2;
+    const std::size_t all = std::accumulate(width.begin(), width.end(), kGap * (width.size() - 1));
+    const bool split = limit > 0 && all > limit;
+    std::vector<Columns> tables(1);
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < width.size(); ++i) {
+        const bool full = tables.back().size() > 1 && used + kGap + width[i] > limit;
+        if (split && i > 0 && (full || i == second)) {
+            tables.push_back({0});
+            used = width[0];
         }
-        out << "\n";
+        used += width[i] + (i > 0 ? kGap : 0);
+        tables.back().push_back(i);
     }
+    return tables;
+}
+
+/// @param second, limit  as for tablesOf()
+void printRows(
+    std::ostream& out, const std::vector<Row>& rows, std::size_t second, std::size_t limit)
+{
+    std::vector<std::size_t> width(rows.front().size(), 0);
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    }
+    for (const Columns& columns : tablesOf(width, second, limit)) {
+        for (const Row& row : rows) {
+            for (const std::size_t i : columns) {
+                out << (i ? "  " : "") << std::string(width[i] - row[i].size(), ' ') << row[i];
+            }
+            out << "\n";
+        }
+    }
+}
+
+/// Most numbers are those of spheres without padding, and files have larger ones.
+void printPadding(std::ostream& out, const SphereTree& tree)
+{
+    const double padding = tree.settings.paddingVoxels();
+    if (padding == 0) return;
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.4g", padding * tree.voxelSize());
+    out << "stored radii are " << fixed(padding, 2) << " voxel (" << text
+        << " world units) larger: stored % and reach (world units) are of these\n";
 }
 
 /// Levels one after the other that have the same reason share a line.
@@ -80,10 +137,26 @@ void printReasons(std::ostream& out, const SphereTree& tree)
     std::string last;
     for (const SphereTreeLevel& level : tree.levels) {
         if (level.error) continue;
-        const std::string reason = level.errorUnknown.empty() ? "errors were not counted (errors=0)"
-                                                              : oneLine(level.errorUnknown);
+        const std::string reason = level.errorUnknown.empty()
+            ? "errors were not counted; -stats counts them where the object is on the stack"
+            : oneLine(level.errorUnknown);
         if (reason == last) continue;
         out << "'-' for errors from level " << level.level << " on: " << reason << "\n";
+        last = reason;
+    }
+}
+
+/// The same of the errors of stored spheres alone.
+void printStoredReasons(std::ostream& out, const SphereTree& tree)
+{
+    std::string last;
+    for (const SphereTreeLevel& level : tree.levels) {
+        if (!level.error || level.stored) continue;
+        const std::string reason = level.storedUnknown.empty()
+            ? "its file does not have them; -stats counts them where the object is on the stack"
+            : oneLine(level.storedUnknown);
+        if (reason == last) continue;
+        out << "'-' for stored % and reach from level " << level.level << " on: " << reason << "\n";
         last = reason;
     }
 }
@@ -104,7 +177,7 @@ std::string range(const openvdb_spheretree::Degrees& degrees)
         + withCommas(degrees.max);
 }
 
-void printDag(std::ostream& out, const SphereTree& tree)
+void printDag(std::ostream& out, const SphereTree& tree, std::size_t limit)
 {
     if (tree.dag.empty()) return;
     out << "Sphere-DAG: " << withCommas(int64_t(tree.dag.size())) << ' '
@@ -116,7 +189,7 @@ void printDag(std::ostream& out, const SphereTree& tree)
             range(level.childrenPerParent), range(level.parentsPerChild),
             withCommas(level.sharedChildren), fixed(level.treeEdgesInDagPercent, 1)});
     }
-    printRows(out, rows);
+    printRows(out, rows, /*second=*/4, limit);
 }
 
 void printSeconds(std::ostream& out, const Session& session)
@@ -143,6 +216,9 @@ std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
     if (tight && tight->leaves == Leaves::Medial) text += ", leaves medial";
     if (pyramid && pyramid->center == Center::Miniball) text += ", center miniball";
     if (settings.dim == 2) text += ", dim 2";
+    if (tight && tight->budget.hasBound() && tight->budget.bounds == BoundOf::Unpadded) {
+        text += ", bounds unpadded";
+    }
     if (!settings.dist().isEuclidean()) text += ", dist " + toString(settings.dist());
     if (!pyramid) return text;
     const std::string model = modelToString(*pyramid);
@@ -193,12 +269,15 @@ std::string statsTable(const SphereTree& tree, const Session& session)
         << size[2] << "\n";
     out << "tree '" << oneLine(tree.settings.name, 60) << "': " << kindOf(tree.settings) << ", "
         << withCommas(tree.size()) << " spheres; radii and distances in voxels of level 0\n";
+    const std::size_t limit = terminalColumns(session.textOut());
     std::vector<Row> rows = {headerOf(tree)};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
-    printRows(out, rows);
+    printRows(out, rows, kFirstOfErrors, limit);
+    printPadding(out, tree);
     printReasons(out, tree);
+    printStoredReasons(out, tree);
     printTopologyReason(out, tree);
-    printDag(out, tree);
+    printDag(out, tree, limit);
     printSeconds(out, session);
     return out.str();
 }

@@ -3,53 +3,172 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @return the fewest balls within the bounds; all leaf balls are the object itself, without any error.
-template <typename Within>
-int64_t fewest(int64_t leafBalls, const Within& within)
+/// "error=10 and distance=2vox".
+std::string boundsText(const SphereBudget& budget)
 {
-    int64_t low = 1, high = leafBalls; // high is within, and nothing below low is known to be
-    while (low < high) {
-        const int64_t middle = low + (high - low) / 2;
-        if (within(middle)) high = middle;
-        else low = middle + 1;
+    std::ostringstream text;
+    if (budget.error) text << "error=" << *budget.error;
+    if (budget.error && budget.distance) text << " and ";
+    if (budget.distance) text << "distance=" << distanceBoundToString(budget);
+    return text.str();
+}
+
+/// The errors of cuts, each counted once.
+class CutErrors {
+public:
+    CutErrors(const SphereTreeSettings& settings, int64_t leafBalls, double voxelSize,
+        const ErrorOfCut& errorOf)
+        : mSettings(settings), mBudget(settings.tight().budget), mLeafBalls(leafBalls),
+          mVoxelSize(voxelSize), mErrorOf(errorOf)
+    {}
+
+    bool isWithin(int64_t count)
+    {
+        // Without padding, all leaf balls are the object itself, without any error.
+        if (mBudget.bounds == BoundOf::Unpadded && count == mLeafBalls) return true;
+        return tight::isWithin(mBudget, mVoxelSize, errorOf(count));
     }
-    constexpr int kMoreTries = 8;
-    for (int64_t count = high - 2; count > 0 && count >= high - kMoreTries; --count) {
-        if (within(count)) high = count;
+
+    /// @return the fewest balls found within the bounds; 0 if there are none.
+    int64_t fewest()
+    {
+        int64_t low = 0, high = 1; // low is not within
+        while (!isWithin(high)) {
+            if (high == mLeafBalls) return 0;
+            low = high;
+            high = std::min(2 * high, mLeafBalls);
+        }
+        while (high - low > 1) {
+            const int64_t middle = low + (high - low) / 2;
+            if (isWithin(middle)) high = middle;
+            else low = middle;
+        }
+        constexpr int kMoreTries = 8;
+        for (int64_t count = high - 2; count > 0 && count >= high - kMoreTries; --count) {
+            if (isWithin(count)) high = count;
+        }
+        return high;
     }
-    return high;
+
+    [[noreturn]] void throwUnreachable();
+    [[noreturn]] void throwTooMany(int64_t count);
+
+private:
+    const BoundedError& errorOf(int64_t count)
+    {
+        const auto known = mKnown.find(count);
+        return known != mKnown.end() ? known->second : mKnown[count] = mErrorOf(count);
+    }
+    /// What @a count spheres have of the figures that are bounded.
+    std::string figures(int64_t count)
+    {
+        const BoundedError& error = errorOf(count);
+        std::ostringstream text;
+        text << count << (count == 1 ? " sphere" : " spheres");
+        if (!error.unknown.empty()) return text.str() + " have an error that is not known";
+        if (mBudget.error) text << " have an error of " << error.hammingPercent << "%";
+        if (mBudget.error && mBudget.distance) text << " and";
+        if (mBudget.distance) text << " reach " << error.reachWorld;
+        return text.str();
+    }
+
+    const SphereTreeSettings& mSettings;
+    const SphereBudget& mBudget;
+    const int64_t mLeafBalls;
+    const double mVoxelSize;
+    const ErrorOfCut& mErrorOf;
+    std::map<int64_t, BoundedError> mKnown; ///< by count
+};
+
+/// Names the least of each figure among the cuts that were tried.
+void CutErrors::throwUnreachable()
+{
+    const BoundedError& finest = errorOf(mLeafBalls);
+    if (!finest.unknown.empty()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the error of " << mLeafBalls
+                            << " spheres is not known, so no bound on it can be kept: "
+                            << finest.unknown << "; ask for spheres= instead");
+    }
+    const auto least = [&](double BoundedError::*figure) {
+        auto best = mKnown.find(mLeafBalls);
+        for (auto it = mKnown.begin(); it != mKnown.end(); ++it) {
+            const bool isKnown = it->second.unknown.empty();
+            if (isKnown && it->second.*figure < best->second.*figure) best = it;
+        }
+        return best;
+    };
+    std::ostringstream what;
+    if (mBudget.error) {
+        const auto best = least(&BoundedError::hammingPercent);
+        what << "; the least error found is " << best->second.hammingPercent << "%, with "
+             << best->first << " of " << mLeafBalls << " spheres";
+    }
+    if (mBudget.distance) {
+        const auto best = least(&BoundedError::reachWorld);
+        what << "; the least reach found is " << best->second.reachWorld << ", with " << best->first
+             << " of " << mLeafBalls << " spheres";
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        boundsText(mBudget) << " cannot be reached: padding=" << paddingToString(mSettings.padding)
+                            << " makes stored radii " << mSettings.paddingVoxels() * mVoxelSize
+                            << " larger" << what.str()
+                            << ": use smaller voxels, less padding (padding=voxels has none), or a "
+                               "larger bound");
+}
+
+void CutErrors::throwTooMany(int64_t count)
+{
+    const int64_t most = mBudget.spheres.front();
+    std::string reached;
+    if (mBudget.bounds == BoundOf::Stored || count < mLeafBalls) reached = "; " + figures(count);
+    OPENVDB_THROW(openvdb::ValueError,
+        boundsText(mBudget) << " cannot be reached with spheres=" << most << ": it takes " << count
+                            << " spheres (before any search); " << figures(most) << reached
+                            << "; allow more of them, or a looser bound");
 }
 
 } // namespace
 
-bool isWithin(const SphereBudget& budget, double voxelSize, const LevelError& error)
+bool isWithin(const SphereBudget& budget, double voxelSize, const BoundedError& error)
 {
-    return (!budget.error || error.hammingPercent <= *budget.error)
-        && (!budget.distance || error.hausdorff * voxelSize <= *budget.distance);
+    return error.unknown.empty() && (!budget.error || error.hammingPercent <= *budget.error)
+        && (!budget.distance || error.reachWorld <= budget.distanceWorld(voxelSize));
 }
 
-std::vector<int64_t> levelCounts(
-    const SphereBudget& budget, int64_t leafBalls, double voxelSize, const ErrorOfCut& errorOf)
+void requireReachable(const SphereTreeSettings& settings, double voxelSize)
 {
+    const SphereBudget& budget = settings.tight().budget;
+    if (!budget.distance || budget.bounds != BoundOf::Stored) return;
+    const double least = (settings.paddingVoxels() - 0.5) * voxelSize;
+    if (budget.distanceWorld(voxelSize) >= least) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "distance=" << distanceBoundToString(budget)
+                    << " cannot be reached: padding=" << paddingToString(settings.padding)
+                    << " makes stored radii " << settings.paddingVoxels() * voxelSize
+                    << " larger, and alone reaches at least " << least
+                    << " out of the object's voxels, of " << voxelSize
+                    << ": use smaller voxels, less padding (padding=voxels has none), or a larger "
+                       "bound");
+}
+
+std::vector<int64_t> levelCounts(const SphereTreeSettings& settings, int64_t leafBalls,
+    double voxelSize, const ErrorOfCut& errorOf)
+{
+    const SphereBudget& budget = settings.tight().budget;
     if (!budget.hasBound()) return budget.counts(leafBalls);
-    const int64_t count =
-        fewest(leafBalls, [&](int64_t n) { return isWithin(budget, voxelSize, errorOf(n)); });
-    if (!budget.spheres.empty() && count > budget.spheres.front()) {
-        std::ostringstream bounds;
-        if (budget.error) bounds << "error=" << *budget.error;
-        if (budget.error && budget.distance) bounds << " and ";
-        if (budget.distance) bounds << "distance=" << *budget.distance;
-        OPENVDB_THROW(openvdb::ValueError,
-            bounds.str() << " cannot be reached with spheres=" << budget.spheres.front()
-                         << ": it takes " << count
-                         << " spheres (before any search); allow more of them, or a looser bound");
-    }
+    CutErrors errors(settings, leafBalls, voxelSize, errorOf);
+    const int64_t count = errors.fewest();
+    if (count == 0) errors.throwUnreachable();
+    if (!budget.spheres.empty() && count > budget.spheres.front()) errors.throwTooMany(count);
     if (budget.branching == 0) return {count};
     std::vector<int64_t> counts{count};
     SphereBudget ladder; // of the branching alone

@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
 
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
@@ -70,6 +71,7 @@ TEST_F(TreeCheck, FindsNothingWrongWithPaddedRadiiWhateverTheVoxelSize)
                 tree.spheres.radiusWorld[id] =
                     floatAbove((tree.spheres.radius[id] + tree.settings.paddingVoxels()) * voxel);
             }
+            computeLevelErrors(tree, *object); // those of stored spheres are others now
             EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << voxel << ' ' << padding;
         }
     }
@@ -233,6 +235,20 @@ TEST_F(TreeCheck, SaysWhenARecordedErrorIsWrong)
     expectFault(
         FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].error->hausdorff = 1; },
         "level 0 records 1 voxels of Hausdorff distance, but it is 0");
+}
+
+TEST_F(TreeCheck, SaysWhenARecordedErrorOfStoredSpheresIsWrong)
+{
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[1].stored->hammingPercent = 77777; },
+        "level 1 records 77777 % Hamming error of stored spheres, but it is 400");
+    expectFault(
+        FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].stored->reachWorld = 1e-3; },
+        "level 0 records 0.001 as the reach of stored spheres, but it is 0.109375");
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree old = plusAndDotTree(*object);
+    for (SphereTreeLevel& level : old.levels) level.stored.reset();
+    EXPECT_TRUE(checkSphereTree(old, *object).empty()) << "files of version 0.1 have none";
 }
 
 TEST_F(TreeCheck, SaysWhenARecordedTopologyIsNotTheObjects)

@@ -161,4 +161,52 @@ TEST(NearestVoxel, DistancesAreExactUpTo2To29VoxelsAnAxisAndAtLeastThatBeyond)
     }
 }
 
+/// Whether the block is of the solid: all voxels that it is made of are there.
+bool isOfSolid(const NearestVoxel::Block& block, const MaskTree& mask)
+{
+    const auto voxel = [](const double* corner, double inward) {
+        return Coord(int(corner[0] + inward), int(corner[1] + inward), int(corner[2] + inward));
+    };
+    CoordBBox box(voxel(block.lo, 0.5), voxel(block.hi, -0.5));
+    for (auto q = box.begin(); q; ++q) {
+        if (!mask.isValueOn(*q)) return false;
+    }
+    return !box.empty();
+}
+
+TEST(NearestVoxel, FindsABlockOfTheSolidThatIsNearestToAnyPoint)
+{
+    Random random(5);
+    for (int turn = 0; turn < 40; ++turn) {
+        Voxels voxels;
+        for (int i = 0; i < (turn % 4 == 0 ? 2 : 90); ++i) {
+            voxels.push_back(
+                Coord(random.between(-9, 9), random.between(-9, 9), random.between(-9, 9)));
+        }
+        const auto mask = maskOf(voxels);
+        if (turn % 3 == 0) mask->addTile(1, Coord(8, 0, 0), true, true);
+        voxels = voxelsOf(*mask);
+        const Distance distance = turn % 5 == 4 ? Distance::chamfer(3, 4, 5) : Distance();
+        const NearestVoxel nearest(*mask, distance);
+        NearestVoxel::Block block; // stays from point to point
+        for (int i = 0; i < 200; ++i) {
+            double point[3], least = std::numeric_limits<double>::infinity();
+            for (double& p : point) p = random.between(-400, 400) / 32.0;
+            for (const Coord& q : voxels) {
+                double gap[3];
+                for (int a = 0; a < 3; ++a) gap[a] = std::max(std::abs(point[a] - q[a]) - 0.5, 0.0);
+                least = std::min(least, distance.length(gap[0], gap[1], gap[2]));
+            }
+            if (i % 7 == 0) block = {};
+            ASSERT_DOUBLE_EQ(nearest.nearestBlock(point, block), least);
+            ASSERT_TRUE(isOfSolid(block, *mask));
+            double gap[3];
+            for (int a = 0; a < 3; ++a) {
+                gap[a] = std::max({block.lo[a] - point[a], point[a] - block.hi[a], 0.0});
+            }
+            ASSERT_DOUBLE_EQ(distance.length(gap[0], gap[1], gap[2]), least);
+        }
+    }
+}
+
 } // namespace

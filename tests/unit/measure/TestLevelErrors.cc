@@ -149,6 +149,52 @@ TEST_F(LevelErrors, MatchBruteForceOnRandomObjectsAndSpheres)
     }
 }
 
+/// Half as large in the world, and a little larger than what is covered exactly.
+TEST_F(LevelErrors, OfStoredSpheresMatchBruteForceWithTheirRadii)
+{
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const BoolGrid::Ptr object = randomObject(random, Coord(0), 9, 40);
+        std::vector<Sphere> spheres = randomSpheres(random, Coord(0), 8, 16);
+        SphereTree tree = treeOf(spheres, *object);
+        tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
+        tree.transform->postRotate(0.3, openvdb::math::Y_AXIS);
+        std::vector<double> radii;
+        for (Sphere& s : spheres) {
+            const double radius = std::sqrt(double(s.coverSq)) / 16 + (seed % 3) * 0.4371;
+            tree.spheres.radiusWorld.push_back(float(radius * 0.5));
+            radii.push_back(double(tree.spheres.radiusWorld.back()) / tree.voxelSize());
+            s.coverSq = int64_t(256 * radii.back() * radii.back() * (1 + 1e-12));
+        }
+        computeLevelErrors(tree, *object);
+        CoordBBox box(Coord(0), Coord(0));
+        box.expand(21);
+        const LevelError expected = bruteForce(spheres, *object, box);
+        ASSERT_TRUE(tree.levels[0].stored.has_value());
+        EXPECT_DOUBLE_EQ(tree.levels[0].stored->hammingPercent, expected.hammingPercent);
+        EXPECT_EQ(tree.levels[0].storedUnknown, "");
+        // A covered voxel's center is a point of a sphere, half a diagonal from its cube's ends.
+        const double reach = tree.levels[0].stored->reachWorld / tree.voxelSize();
+        EXPECT_GE(reach, expected.hausdorff - std::sqrt(0.75));
+        EXPECT_LE(reach, expected.hausdorff + std::sqrt(0.75) + 1);
+    }
+}
+
+TEST_F(LevelErrors, OfStoredSpheresAreUnknownWithAReasonWhereTheseAreTooLarge)
+{
+    BoolGrid::Ptr object = BoolGrid::create();
+    object->tree().setValueOn(Coord(0));
+    SphereTree tree = treeOf({{{0, 0, 0}, 4}}, *object);
+    tree.transform = openvdb::math::Transform::createLinearTransform();
+    tree.spheres.radiusWorld = {1e6f};
+    computeLevelErrors(tree, *object);
+    EXPECT_TRUE(tree.levels[0].error.has_value());
+    EXPECT_FALSE(tree.levels[0].stored.has_value());
+    EXPECT_NE(
+        tree.levels[0].storedUnknown.find("its stored spheres cross more than"), std::string::npos);
+}
+
 TEST_F(LevelErrors, FindTheFarthestOfAFewVoxelsAroundTheObject)
 {
     // In the order of voxels the nearest comes first; the object is in the middle of them.

@@ -188,7 +188,8 @@ int expectMissingMetadataIsNamed(const SphereTree& tree)
     int keys = 0;
     for (auto it = complete->beginMeta(); it != complete->endMeta(); ++it) {
         const std::string key = it->first;
-        const bool optional = key == "spheretree_level_1_error_unknown" || isOptional(key)
+        const bool optional = key == "spheretree_level_1_error_unknown"
+            || key == "spheretree_level_2_stored_unknown" || isOptional(key)
             || (!tight && (key == "spheretree_quality" || key == "spheretree_subdivision"))
             || key.rfind("spheretree_", 0) != 0;
         if (optional || key == "spheretree_format") continue;

@@ -67,6 +67,7 @@ void expectSettings(const json& written, const SphereTree& tree)
         {"center", toString(pyramid.center)}, {"quality", toString(tight.quality)},
         {"spheres", tight.budget.spheres}, {"branching", tight.budget.branching},
         {"error", orNull(tight.budget.error)}, {"distance", orNull(tight.budget.distance)},
+        {"bounds", tight.budget.bounds == BoundOf::Stored ? "stored" : "unpadded"},
         {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)}, {"side", "outer"},
         {"cuts", tree.hasCuts}, {"name", settings.name}};
     EXPECT_EQ(written, expected);
@@ -77,7 +78,12 @@ json levelOf(const SphereTreeLevel& level)
     json result = {{"level", level.level}, {"begin", level.begin}, {"end", level.end},
         {"pyramid_voxels", level.pyramidVoxels}, {"topology", nullptr}, {"covered", nullptr},
         {"excess", nullptr}, {"missing", nullptr}, {"hamming_percent", nullptr},
-        {"hausdorff", nullptr}};
+        {"hausdorff", nullptr}, {"stored_hamming_percent", nullptr}, {"stored_reach", nullptr}};
+    if (level.stored) {
+        result["stored_hamming_percent"] = level.stored->hammingPercent;
+        result["stored_reach"] = level.stored->reachWorld;
+    }
+    if (!level.storedUnknown.empty()) result["stored_unknown"] = level.storedUnknown;
     if (level.topology) {
         result["topology"] = {{"components", level.topology->components},
             {"tunnels", level.topology->tunnels}, {"cavities", level.topology->cavities}};

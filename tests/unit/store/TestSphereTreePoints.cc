@@ -138,6 +138,35 @@ TEST(SphereTreePoints, SettingsOfTightTreesComeBack)
     tree.settings.budgeted().budget.distance = 1e-300;
     tree.settings.tight().quality = Quality::Fast;
     expectSameTree(fromPoints(*toPoints(tree)), tree);
+    tree.settings.budgeted().budget.bounds = BoundOf::Unpadded;
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+}
+
+TEST(SphereTreePoints, WhatABoundIsOfIsRecordedWithItAndWasUnpaddedBefore)
+{
+    const char* const key = "spheretree_bounds";
+    SphereTree tree = oneVoxelTree();
+    setType(tree.settings, TreeType::Tight);
+    EXPECT_FALSE((*toPoints(tree))[key]) << "no bound";
+    tree.settings.budgeted().budget.error = 10;
+    const PointDataGrid::Ptr grid = toPoints(tree);
+    ASSERT_TRUE((*grid)[key]);
+    EXPECT_EQ((*grid)[key]->str(), "stored");
+    EXPECT_EQ(fromPoints(*grid).settings.tight().budget.bounds, BoundOf::Stored);
+    removeChecksum(*grid);
+    grid->removeMeta(key);
+    EXPECT_EQ(fromPoints(*grid).settings.tight().budget.bounds, BoundOf::Unpadded);
+}
+
+TEST(SphereTreePoints, ADistanceInVoxelsIsStoredInWorldUnits)
+{
+    SphereTree tree = oneVoxelTree(); // voxels of 0.5
+    setType(tree.settings, TreeType::Tight);
+    tree.settings.budgeted().budget.distance = 3;
+    tree.settings.budgeted().budget.distanceInVoxels = true;
+    const SphereBudget back = fromPoints(*toPoints(tree)).settings.tight().budget;
+    EXPECT_EQ(back.distance, 1.5);
+    EXPECT_FALSE(back.distanceInVoxels);
 }
 
 TEST(SphereTreePoints, AFileFromBeforeTightTreesIsReadAsItWas)

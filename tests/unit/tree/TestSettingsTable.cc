@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <set>
 
@@ -27,6 +28,7 @@ std::string otherValue(const Setting& setting)
     if (setting.type == SettingType::Flag) return setting.fallback == "1" ? "0" : "1";
     if (setting.type == SettingType::Counts) return "64,8";
     if (setting.type == SettingType::Real) return "0.1";
+    if (setting.type == SettingType::Length) return "0.1vox";
     if (setting.type == SettingType::Integer) return setting.name == "dim" ? "2" : "5";
     if (setting.name == "dist") return "chamfer:3,4,5";
     if (setting.name == "padding") return "0.1";
@@ -53,19 +55,20 @@ bool isFree(const Setting& setting, const SphereTreeSettings& settings)
 TEST(SettingsTable, HasARowForEveryField)
 {
     const auto& [budget, cuts] = BudgetOptions();
-    const auto& [spheres, branching, error, distance] = budget;
+    const auto& [spheres, branching, error, distance, inVoxels, bounds] = budget;
     const auto& [factor, closing, model, dist, center, parent, scale, dag, edges] =
         PyramidOptions();
     const SphereTreeSettings settings;
     const auto& [kind, dim, padding, topology, name, memory] = settings;
     const auto count = [](const auto&... fields) { return sizeof...(fields); };
-    const std::size_t budgets = count(spheres, branching, error, distance, cuts);
+    const std::size_t budgets = count(spheres, branching, error, distance, bounds, cuts);
     const std::size_t pyramids = count(factor, model, dist, center, parent, scale, dag, edges);
     const std::size_t shared = count(dim, padding, topology, name, memory);
     // Beside these: quality, cover and leaves; finalFit and reconstruct; the kind has two rows.
     EXPECT_EQ(settingsTable().size(), budgets + pyramids + shared + 3 + 2 + 2);
     EXPECT_EQ(settingsInJson().size(), settingsTable().size() - 1) << "all but memory";
-    static_cast<void>(closing), static_cast<void>(kind); // rows "model"; "tree" and "side"
+    static_cast<void>(closing), static_cast<void>(kind),
+        static_cast<void>(inVoxels); // rows "model"; "tree" and "side"; "distance"
 }
 
 TEST(SettingsTable, EveryRowReadsBackInEveryKindThatHasIt)
@@ -155,4 +158,7 @@ TEST(SettingsTable, WhatATreeHasIsRecordedAndNotWhatWasAskedFor)
     tree.settings = TightOptions();
     tree.hasCuts = true;
     EXPECT_EQ(settingNamed("cuts").get(recordedSettings(tree)), "1");
+    settingNamed("distance").set(tree.settings, "2vox");
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.25);
+    EXPECT_EQ(settingNamed("distance").get(recordedSettings(tree)), "0.5") << "world units";
 }

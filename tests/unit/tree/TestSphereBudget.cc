@@ -155,3 +155,37 @@ TEST(SphereBudget, WhatIsNoListOfCountsIsAnErrorThatShowsIt)
     EXPECT_TRUE(mentions(whyNoCounts("2147483648"), "spheres=2147483648 is out of range"));
     EXPECT_LT(whyNoCounts(std::string(100000, 'x')).size(), 300u);
 }
+
+TEST(SphereBudget, ADistanceIsInWorldUnitsOrInVoxels)
+{
+    SphereBudget budget;
+    setDistanceBound(budget, "0.5");
+    EXPECT_EQ(budget.distanceWorld(2), 0.5);
+    EXPECT_EQ(distanceBoundToString(budget), "0.5");
+    setDistanceBound(budget, "1.5vox");
+    EXPECT_EQ(budget.distanceWorld(2), 3);
+    EXPECT_EQ(distanceBoundToString(budget), "1.5vox");
+    setDistanceBound(budget, "");
+    EXPECT_FALSE(budget.hasBound());
+    EXPECT_EQ(distanceBoundToString(budget), "");
+}
+
+TEST(SphereBudget, AUnitThatAGridDoesNotHaveIsRefusedWithWhatToWrite)
+{
+    const auto why = [](const std::string& text) {
+        SphereBudget budget;
+        return messageOf<openvdb::ValueError>([&] { setDistanceBound(budget, text); });
+    };
+    for (const char* text : {"5mm", "0.5cm", "5m", "5um", "5in"}) {
+        EXPECT_TRUE(mentions(why(text), std::string("distance=") + text));
+        EXPECT_TRUE(mentions(why(text), "does not say what its unit of length is"));
+        EXPECT_TRUE(mentions(why(text), "2vox"));
+    }
+    EXPECT_TRUE(mentions(why("5mm"), "(5 if these are mm)"));
+    for (const char* text : {"vox", "5 vox", "5voxels", "x", "mm", "5%"}) {
+        EXPECT_TRUE(mentions(why(text), "is no number"));
+    }
+    SphereBudget budget;
+    setDistanceBound(budget, "-1vox");
+    EXPECT_TRUE(mentions(whyInvalid(budget), "distance=-1"));
+}

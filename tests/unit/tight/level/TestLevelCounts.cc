@@ -17,16 +17,29 @@ using Counts = std::vector<int64_t>;
 ErrorOfCut errorsOf(const std::vector<double>& percent)
 {
     return [percent](int64_t count) {
-        LevelError error;
-        error.hammingPercent = percent.at(std::size_t(count - 1));
-        error.hausdorff = error.hammingPercent / 10;
-        return error;
+        const double error = percent.at(std::size_t(count - 1));
+        return BoundedError{error, error / 10, ""};
     };
+}
+
+/// Unpadded bounds: all leaves are known to have no error.
+SphereTreeSettings settingsOf(const SphereBudget& budget, BoundOf bounds = BoundOf::Unpadded)
+{
+    TightOptions options;
+    options.budget = budget;
+    options.budget.bounds = bounds;
+    return options;
+}
+
+Counts countsOf(
+    const SphereBudget& budget, int64_t leaves, double voxelSize, const ErrorOfCut& errorOf)
+{
+    return levelCounts(settingsOf(budget), leaves, voxelSize, errorOf);
 }
 
 Counts neverAsked(const SphereBudget& budget, int64_t leaves)
 {
-    return levelCounts(budget, leaves, 1, [](int64_t) -> LevelError {
+    return countsOf(budget, leaves, 1, [](int64_t) -> BoundedError {
         ADD_FAILURE() << "asked for an error";
         return {};
     });
@@ -54,29 +67,93 @@ TEST(LevelCounts, AreTheFewestWithinABoundWhereErrorsFall)
     for (int64_t n = 1; n <= 50; ++n) {
         SphereBudget budget;
         budget.error = 102 - 2 * double(n);
-        EXPECT_EQ(levelCounts(budget, 51, 1, errorsOf(percent)), Counts{n});
+        EXPECT_EQ(countsOf(budget, 51, 1, errorsOf(percent)), Counts{n});
         budget.error.reset();
-        budget.distance = (102 - 2 * double(n)) / 20 + 1e-9;
-        EXPECT_EQ(levelCounts(budget, 51, 0.5, errorsOf(percent)), Counts{n});
+        budget.distance = (102 - 2 * double(n)) / 10 + 1e-9;
+        EXPECT_EQ(countsOf(budget, 51, 0.5, errorsOf(percent)), Counts{n});
         budget.error = 0;
-        EXPECT_EQ(levelCounts(budget, 51, 0.5, errorsOf(percent)), Counts{51}) << "both hold";
+        EXPECT_EQ(countsOf(budget, 51, 0.5, errorsOf(percent)), Counts{51}) << "both hold";
     }
 }
 
 TEST(LevelCounts, KeepBoundsThatAreJustReached)
 {
     SphereBudget budget;
-    LevelError error;
-    error.hammingPercent = 2.5;
-    error.hausdorff = 3;
+    BoundedError error{2.5, 1.5, ""};
     EXPECT_TRUE(isWithin(budget, 0.5, error));
     budget.distance = 1.5;
     EXPECT_TRUE(isWithin(budget, 0.5, error));
-    EXPECT_FALSE(isWithin(budget, 0.51, error));
+    budget.distance = 1.49;
+    EXPECT_FALSE(isWithin(budget, 0.5, error));
+    budget.distance = 3;
+    budget.distanceInVoxels = true;
+    EXPECT_TRUE(isWithin(budget, 0.5, error));
+    EXPECT_FALSE(isWithin(budget, 0.49, error));
     budget.error = 2.5;
     EXPECT_TRUE(isWithin(budget, 0.5, error));
     budget.error = 2.4;
     EXPECT_FALSE(isWithin(budget, 0.5, error));
+    budget.error = 1000;
+    error.unknown = "too many rows";
+    EXPECT_FALSE(isWithin(budget, 0.5, error)) << "nobody knows";
+}
+
+/// Of stored spheres, those of all leaves need not have the smallest error.
+TEST(LevelCounts, FindFewSpheresWhereAllLeavesAreNotWithin)
+{
+    SphereBudget budget;
+    budget.error = 5;
+    const std::vector<double> percent{4, 30, 20, 10, 6, 6, 6, 6};
+    EXPECT_EQ(levelCounts(settingsOf(budget, BoundOf::Stored), 8, 1, errorsOf(percent)), Counts{1});
+    budget.error = 6;
+    const std::vector<double> other{40, 30, 20, 6, 10, 10, 10, 10};
+    EXPECT_EQ(levelCounts(settingsOf(budget, BoundOf::Stored), 8, 1, errorsOf(other)), Counts{4});
+}
+
+TEST(LevelCounts, SayWhatWasFoundWhereNoneIsWithin)
+{
+    SphereBudget budget;
+    budget.error = 5;
+    budget.distance = 0.5;
+    const std::vector<double> percent{40, 30, 20, 6, 10, 10, 10, 12};
+    const std::string message = messageOf<openvdb::ValueError>(
+        [&] { levelCounts(settingsOf(budget, BoundOf::Stored), 8, 2, errorsOf(percent)); });
+    EXPECT_TRUE(mentions(message,
+        "error=5 and distance=0.5 cannot be reached: padding=cubes makes "
+        "stored radii 1.73205 larger"));
+    EXPECT_TRUE(mentions(message, "the least error found is 6%, with 4 of 8 spheres"));
+    EXPECT_TRUE(mentions(message, "the least reach found is 0.6, with 4 of 8 spheres"));
+    EXPECT_TRUE(mentions(message, "padding=voxels"));
+}
+
+TEST(LevelCounts, SayWhyNoErrorIsKnown)
+{
+    SphereBudget budget;
+    budget.error = 5;
+    const auto unknown = [](int64_t) { return BoundedError{0, 0, "too many rows"}; };
+    const std::string message = messageOf<openvdb::ValueError>(
+        [&] { levelCounts(settingsOf(budget, BoundOf::Stored), 8, 2, unknown); });
+    EXPECT_TRUE(mentions(message, "the error of 8 spheres is not known"));
+    EXPECT_TRUE(mentions(message, "too many rows; ask for spheres= instead"));
+}
+
+TEST(LevelCounts, ADistanceThatPaddingAloneExceedsIsRefused)
+{
+    SphereBudget budget;
+    const auto refusal = [&] {
+        return messageOf<openvdb::ValueError>(
+            [&] { requireReachable(settingsOf(budget, BoundOf::Stored), 2); });
+    };
+    EXPECT_NO_THROW(requireReachable(settingsOf(budget, BoundOf::Stored), 2));
+    budget.distance = 0.7;
+    EXPECT_TRUE(mentions(refusal(), "distance=0.7 cannot be reached: padding=cubes"));
+    EXPECT_TRUE(mentions(refusal(), "alone reaches at least 0.732051"));
+    budget.distance = 0.74;
+    EXPECT_NO_THROW(requireReachable(settingsOf(budget, BoundOf::Stored), 2));
+    budget.distance = 0.36;
+    budget.distanceInVoxels = true;
+    EXPECT_TRUE(mentions(refusal(), "distance=0.36vox"));
+    EXPECT_NO_THROW(requireReachable(settingsOf(budget, BoundOf::Unpadded), 2));
 }
 
 /// Whatever the errors do, the count is within, and the next eight below it are not.
@@ -89,7 +166,7 @@ TEST(LevelCounts, KeepTheBoundWhereErrorsRiseAndFall)
         for (int i = 1; i < leaves; ++i) percent.push_back(random.between(1, 90));
         SphereBudget budget;
         budget.error = random.between(0, 50);
-        const int64_t n = levelCounts(budget, leaves, 1, errorsOf(percent)).at(0);
+        const int64_t n = countsOf(budget, leaves, 1, errorsOf(percent)).at(0);
         const auto within = [&](int64_t count) {
             return count == leaves || percent[std::size_t(count - 1)] <= *budget.error;
         };
@@ -107,9 +184,9 @@ TEST(LevelCounts, HaveTheLadderBelowABound)
     budget.branching = 3;
     std::vector<double> percent(40, 100);
     percent.back() = percent[38] = 50;
-    EXPECT_EQ(levelCounts(budget, 41, 1, errorsOf(percent)), (Counts{39, 27, 9, 3, 1}));
+    EXPECT_EQ(countsOf(budget, 41, 1, errorsOf(percent)), (Counts{39, 27, 9, 3, 1}));
     percent[8] = 50;
-    EXPECT_EQ(levelCounts(budget, 9, 1, errorsOf(percent)), (Counts{9, 3, 1}));
+    EXPECT_EQ(countsOf(budget, 9, 1, errorsOf(percent)), (Counts{9, 3, 1}));
 }
 
 TEST(LevelCounts, SayWhenABoundTakesMoreSpheresThanAllowed)
@@ -119,10 +196,12 @@ TEST(LevelCounts, SayWhenABoundTakesMoreSpheresThanAllowed)
     budget.spheres = {5};
     const std::vector<double> percent{100, 90, 80, 70, 60, 50, 40};
     const std::string message =
-        messageOf<openvdb::ValueError>([&] { levelCounts(budget, 8, 1, errorsOf(percent)); });
+        messageOf<openvdb::ValueError>([&] { countsOf(budget, 8, 1, errorsOf(percent)); });
     EXPECT_TRUE(mentions(message, "error=50 cannot be reached with spheres=5: it takes 6 spheres"));
+    EXPECT_TRUE(
+        mentions(message, "5 spheres have an error of 60%; 6 spheres have an error of 50%"));
     budget.spheres = {6};
-    EXPECT_EQ(levelCounts(budget, 8, 1, errorsOf(percent)), Counts{6});
+    EXPECT_EQ(countsOf(budget, 8, 1, errorsOf(percent)), Counts{6});
 }
 
 } // namespace
