@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ReadAction.cc
-/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again.
+/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again, and spheres
+/// of other tools a tree of one level.
 
 #include "files/VdbStream.h"
 #include "line/Actions.h"
 #include "session/Session.h"
 
+#include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace command {
@@ -91,6 +96,23 @@ private:
     std::map<std::string, std::vector<PointDataGrid::Ptr>> mByName;
 };
 
+/// What -read does with files, and with grids of points.
+struct ReadOptions {
+    Loading loading = Loading::Auto;
+    bool pointsAreSpheres = false;
+    std::optional<int> level; ///< of files of spheres
+};
+
+StackItem sphereItem(openvdb_spheretree::WorldSpheres spheres, Session& session)
+{
+    if (!spheres.assumption.empty()) session.note(spheres.assumption);
+    StackItem item;
+    item.tree =
+        std::make_shared<openvdb_spheretree::SphereTree>(openvdb_spheretree::givenTree(spheres));
+    item.given = std::make_shared<openvdb_spheretree::WorldSpheres>(std::move(spheres));
+    return item;
+}
+
 StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     const std::string& path, Progress& progress)
 {
@@ -106,6 +128,10 @@ StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     } catch (...) {
         rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
     }
+    if (item.tree->settings.isGiven()) {
+        item.given = std::make_shared<openvdb_spheretree::WorldSpheres>(
+            openvdb_spheretree::worldSpheres(*item.tree));
+    }
     return item;
 }
 
@@ -116,9 +142,28 @@ Loading loadingOf(const ActionCall& call)
     return delayed == "1" ? Loading::Delayed : Loading::Whole;
 }
 
-void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+/// A grid of a file that is no sphere-tree.
+void pushGrid(const GridBase::Ptr& grid, const std::string& path, const ReadOptions& options,
+    Session& session)
 {
-    openvdb::GridPtrVec grids = readVdb(path, loading);
+    StackItem item;
+    if (!options.pointsAreSpheres || !grid->isType<PointDataGrid>()) {
+        item.grid = grid;
+        session.stack.push(item);
+        return;
+    }
+    try {
+        item = sphereItem(openvdb_spheretree::spheresOfPoints(*grid), session);
+    } catch (...) {
+        rethrowNamed(path, kInput);
+    }
+    session.stack.push(item);
+}
+
+void readVdbFile(
+    const std::string& path, const ReadOptions& options, NameFilter& filter, Session& session)
+{
+    openvdb::GridPtrVec grids = readVdb(path, options.loading);
     const CompanionIndex index(grids);
     std::set<GridBase::Ptr> ofTrees;
     for (const GridBase::Ptr& grid : grids) {
@@ -131,9 +176,7 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
         throwIfStopped();
         if (ofTrees.count(grid) || !filter.accepts(grid->getName())) continue;
         if (!openvdb_spheretree::isSphereTree(*grid)) {
-            StackItem item;
-            item.grid = grid;
-            session.stack.push(item);
+            pushGrid(grid, path, options, session);
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
@@ -141,14 +184,28 @@ void readVdbFile(const std::string& path, Loading loading, NameFilter& filter, S
     }
 }
 
-void readContent(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+StackItem readSpheres(const std::string& path, const ReadOptions& options, Session& session)
+{
+    const auto spheres = openvdb_spheretree::readSphereFile(path, options.level);
+    try {
+        return sphereItem(spheres, session);
+    } catch (...) {
+        rethrowNamed(path, kInput);
+    }
+}
+
+void readContent(
+    const std::string& path, const ReadOptions& options, NameFilter& filter, Session& session)
 {
     const FileKind kind = fileKind(path);
-    if (kind == FileKind::Vdb) return readVdbFile(path, loading, filter, session);
+    if (kind == FileKind::Vdb) return readVdbFile(path, options, filter, session);
     StackItem item;
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
             openvdb_spheretree::readMeshFile(path));
+    } else if (kind == FileKind::Csv || kind == FileKind::Json) {
+        item = readSpheres(path, options, session);
+        if (!filter.accepts(item.tree->settings.name)) return;
     } else {
         item.grid = openvdb_spheretree::readVolFile(path, &session.progress);
         if (!filter.accepts(item.grid->getName())) return;
@@ -156,28 +213,44 @@ void readContent(const std::string& path, Loading loading, NameFilter& filter, S
     session.stack.push(item);
 }
 
-void readFile(const std::string& path, Loading loading, NameFilter& filter, Session& session)
+void readFile(
+    const std::string& path, const ReadOptions& options, NameFilter& filter, Session& session)
 {
     session.stack.setSource(path);
     const InputStamp stamp(path);
-    readContent(path, loading, filter, session);
+    readContent(path, options, filter, session);
     stamp.requireUnchanged();
-    if (loading != Loading::Whole) session.inputs.push_back(stamp);
+    if (options.loading != Loading::Whole) session.inputs.push_back(stamp);
 }
 
 void check(const ActionCall& call, Plan& plan)
 {
     if (!call.given("files")) throwUsage("names no file");
     for (const std::string& path : call.list("files")) plan.addInput(path);
+    const auto isOf = [&](std::initializer_list<FileKind> kinds) {
+        const std::vector<std::string> files = call.list("files");
+        return std::any_of(files.begin(), files.end(), [&](const std::string& path) {
+            return std::count(kinds.begin(), kinds.end(), fileKind(path)) > 0;
+        });
+    };
+    if (call.given("level") && !isOf({FileKind::Csv, FileKind::Json})) {
+        throwUsage("level is for spheres of a .csv or .json, and none is read; use -level");
+    }
+    if (call.given("spheres") && !isOf({FileKind::Vdb})) {
+        throwUsage("spheres=1 is for points of a .vdb, and none is read");
+    }
 }
 
 void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
-    const Loading loading = loadingOf(call);
+    ReadOptions options;
+    options.loading = loadingOf(call);
+    options.pointsAreSpheres = call.flag("spheres");
+    if (call.given("level")) options.level = int(call.integer("level"));
     NameFilter filter(call.list("grids"));
     session.stack.beginBatch("");
-    for (const std::string& path : call.list("files")) readFile(path, loading, filter, session);
+    for (const std::string& path : call.list("files")) readFile(path, options, filter, session);
     filter.requireAllFound();
     session.seconds.read += watch.seconds();
     for (const auto& item : session.stack.items()) session.remark(item->description());
@@ -188,11 +261,15 @@ void run(const ActionCall& call, Session& session)
 ActionSpec readAction()
 {
     ActionSpec action{"read", "i", "files",
-        "read grids and sphere-trees (.vdb, stdin.vdb), volumes (.vol, .longvol) and meshes "
-        "(.obj, .ply, .stl, .off ...)"};
+        "read grids and sphere-trees (.vdb, stdin.vdb), volumes (.vol, .longvol), meshes (.obj, "
+        ".ply, .stl, .off ...) and spheres of other tools (.csv, .json)"};
     action.options = {
         list("files", "", "files to read, or stdin.vdb; the extension says what they are"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
+        flag("spheres", false,
+            "take points of a .vdb with P and pscale (or radius) as spheres, not as an object"),
+        integer("level", "", 0, 1000,
+            ".csv and .json whose spheres have levels: which one is taken; by default the finest"),
         choice("delayed", {"auto", "1", "0"},
             "leave the values of a .vdb in the file until they are needed, and read them node by "
             "node: grids may be larger than memory then; auto does so from 64 MiB on")};

@@ -5,6 +5,7 @@
 #include "base/LastWords.h"
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
+#include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "report/StatsReport.h"
@@ -21,6 +22,7 @@ void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     session.noteIfUnverified(item);
+    placeInObject(item, session);
     const auto& levels = item.tree->levels;
     const bool lacksErrors = std::any_of(levels.begin(), levels.end(),
         [](const auto& level) { return !level.error && level.errorUnknown.empty(); });

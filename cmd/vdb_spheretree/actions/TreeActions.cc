@@ -3,6 +3,7 @@
 /// @brief -spheretree, -level and -check: build a tree, keep one level of it, verify it.
 
 #include "base/Errors.h"
+#include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
@@ -120,6 +121,7 @@ void runLevel(const ActionCall& call, Session& session)
     StackItem& input = session.stack.selectTree(call.text("vdb"));
     StackItem result;
     result.object = input.object;
+    result.given = input.given; // all of them: they have one level
     result.unverified = input.unverified;
     result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
     if (call.given("name")) result.tree->settings.name = call.text("name");
@@ -130,8 +132,9 @@ void runLevel(const ActionCall& call, Session& session)
 
 void runCheck(const ActionCall& call, Session& session)
 {
-    const StackItem& item = session.stack.selectTree("");
+    StackItem& item = session.stack.selectTree("");
     session.noteIfUnverified(item);
+    placeInObject(item, session, call.text("vdb"));
     BoolGrid::ConstPtr object = item.object;
     if (call.given("vdb") || !object) {
         object = timedObjectOf(selectObjectGrid(session, call.text("vdb")), session);
@@ -139,12 +142,18 @@ void runCheck(const ActionCall& call, Session& session)
     const auto faults = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
     throwIfStopped();
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
+    const bool isGiven = item.tree->settings.isGiven();
+    if (!faults.empty() && isGiven) {
+        throw CommandError(kCheckFailed, item.description() + ": " + faults.front().sentence);
+    }
     if (!faults.empty()) {
         throw CommandError(kCheckFailed,
             item.description() + " does not hold what it promises: " + std::to_string(faults.size())
                 + " of the checks failed, the first: " + faults.front().sentence);
     }
-    if (session.verbosity != Verbosity::Quiet) session.print("all checks hold\n");
+    if (session.verbosity != Verbosity::Quiet) {
+        session.print(isGiven ? "the spheres cover the object\n" : "all checks hold\n");
+    }
 }
 
 } // namespace

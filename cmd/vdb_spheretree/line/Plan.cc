@@ -42,6 +42,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".vdb") return FileKind::Vdb;
     if (extension == ".csv") return FileKind::Csv;
     if (extension == ".png") return FileKind::Png;
+    if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
@@ -61,11 +62,14 @@ void Plan::addInput(const std::string& path)
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:
+    case FileKind::Csv:
+    case FileKind::Json:
     case FileKind::Mesh: return;
     default:
         throwInput("cannot read " + path
             + ": files of this kind are not read; it reads .vdb, .vol, "
-              ".longvol and meshes (.obj, .ply, .stl, .off ...), by their extension");
+              ".longvol, meshes (.obj, .ply, .stl, .off ...) and spheres (.csv, .json), by their "
+              "extension");
     }
 }
 

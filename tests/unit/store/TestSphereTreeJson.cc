@@ -68,7 +68,8 @@ void expectSettings(const json& written, const SphereTree& tree)
         {"spheres", tight.budget.spheres}, {"branching", tight.budget.branching},
         {"error", orNull(tight.budget.error)}, {"distance", orNull(tight.budget.distance)},
         {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)}, {"side", "outer"},
-        {"cuts", tree.hasCuts}, {"name", settings.name}};
+        {"cuts", tree.hasCuts}, {"name", settings.name},
+        {"origin", pyramid.origin ? json(originToString(pyramid.origin)) : json()}};
     EXPECT_EQ(written, expected);
 }
 
