@@ -65,7 +65,10 @@ void check(const ActionCall& call, Plan& plan)
         if (kind == FileKind::Vol || kind == FileKind::Mesh || kind == FileKind::Unknown) {
             throwUsage(path
                 + ": files of this kind are not written; it writes .vdb (or stdout.vdb), "
-                  ".csv, .json and .png");
+                  ".csv, .json, .png and .jpg");
+        }
+        if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
+            throwUsage(path + ": this build has no libjpeg, so it writes pictures as .png only");
         }
         plan.addOutput(path);
         if (kind == FileKind::Csv) plan.addOutput(dagPath(path));
@@ -157,6 +160,10 @@ public:
             return writeFile(path, [&](std::iostream& out) {
                 openvdb_spheretree::writePng(pictureOf(mCall, path, mItems, mSession), out);
             });
+        case FileKind::Jpeg:
+            return writeFile(path, [&](std::iostream& out) {
+                openvdb_spheretree::writeJpeg(pictureOf(mCall, path, mItems, mSession), out);
+            });
         default:
             writeFile(path, [&](std::iostream& out) {
                 writeVdb(out, grids(), mCompression, /*seekable=*/true);
@@ -239,7 +246,7 @@ ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb, stdout.vdb), one sphere-tree as tables (.csv) or JSON "
-        "(.json), or a picture of a level of it or of an object (.png)"};
+        "(.json), or a picture of a level of it or of an object (.png, .jpg)"};
     action.options = {list("files", "", "files to write, or stdout.vdb; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
