@@ -64,6 +64,11 @@
 #include "tree/LevelSpheres.h"
 #include "tree/SphereLevelSet.h"
 
+// Spheres that other tools have made.
+#include "input/spheres/SphereFile.h"
+#include "input/spheres/WorldSpheres.h"
+#include "tree/GivenTree.h"
+
 // To files and back.
 #include "store/SphereTreeCsv.h"
 #include "store/SphereTreeJson.h"

@@ -8,8 +8,9 @@ project_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build_packages=(
     g++ cmake ninja-build ccache git
     libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
-    zlib1g-dev libdeflate-dev libpng-dev libhwy-dev libassimp-dev)
-test_packages=(libgtest-dev libbenchmark-dev nlohmann-json3-dev python3-matplotlib)
+    zlib1g-dev libdeflate-dev libpng-dev libhwy-dev libassimp-dev libjpeg-dev
+    nlohmann-json3-dev)
+test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib)
 clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report
 
 say() { printf '%s\n' "== $*" >&2; }

@@ -44,12 +44,11 @@ SphereTree withoutNodes(const openvdb::BoolGrid& object, const SphereTreeSetting
     tree.object = {object.getName(), int64_t(object.activeVoxelCount()),
         int64_t(object.tree().leafCount()), int64_t(object.tree().activeTileCount()),
         object.evalActiveVoxelBoundingBox()};
-    detail::requireValidObject(tree.object, settings);
+    tree.origin = detail::requireValidObject(tree.object, settings);
     detail::requireRoomForNodes(object);
     tree.flatAxis = settings.dim == 2 ? flatAxisOf(tree.object.bbox) : 2;
     if (const auto* options = settings.find<PyramidOptions>()) tree.hasDag = options->dag;
     if (const auto* options = settings.find<BudgetOptions>()) tree.hasCuts = options->cuts;
-    tree.origin = pyramidOrigin(tree.object.bbox);
     tree.transform = object.transform().copy();
     return tree;
 }
@@ -228,6 +227,10 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     StageSeconds* seconds, openvdb::util::NullInterrupter* interrupter)
 {
     settings.validate();
+    if (settings.isGiven()) {
+        OPENVDB_THROW(
+            openvdb::ValueError, "tree=given is for spheres that were read: nothing builds them");
+    }
     SphereTree tree = withoutNodes(object, settings);
     StageSeconds ownSeconds;
     if (!seconds) seconds = &ownSeconds;

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace openvdb_spheretree::detail {
@@ -60,12 +61,16 @@ void requireRoomForFineSquares(const ObjectInfo& object)
 
 /// @return the side of the single voxel that the pyramid ends in; with the first tree that ends at
 ///         one, other trees are no wider.
-int64_t widthOfTop(const openvdb::CoordBBox& box, const SphereTreeSettings& settings)
+int64_t widthOfTop(
+    const openvdb::CoordBBox& box, const Coord& origin, const SphereTreeSettings& settings)
 {
     const auto* pyramid = settings.find<PyramidOptions>();
     const int64_t factor = pyramid ? pyramid->factor : 2;
     const auto side = sidesOf(box);
-    const int64_t longest = *std::max_element(side.begin(), side.end()) + kLeafDim - 1;
+    int64_t longest = *std::max_element(side.begin(), side.end()) + kLeafDim - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        longest = std::max(longest, int64_t(box.max()[axis]) - origin[axis] + 1);
+    }
     int64_t width = 1;
     while (width < longest) width *= factor;       // below 2^29 * 2^15
     return std::min(width, LevelFrame::kMaxScale); // wider ones are refused
@@ -82,16 +87,16 @@ int radiusInWidths(const SphereTreeSettings& settings)
 }
 
 /// Every sphere must lie where voxels have 32-bit coordinates, or its voxels could not be counted.
-void requireRoomAround(const ObjectInfo& object, const SphereTreeSettings& settings)
+void requireRoomAround(
+    const ObjectInfo& object, const Coord& origin, const SphereTreeSettings& settings)
 {
     // More than the steps from voxel to voxel, leaf to leaf and node to node, the two radii of a
     // closing, and the growth of radii that are not fitted anew at every level of a small object.
     constexpr int64_t kSteps = int64_t(1) << 16;
     constexpr int64_t kFirst = std::numeric_limits<int32_t>::min();
     constexpr int64_t kLast = std::numeric_limits<int32_t>::max();
-    const int64_t width = widthOfTop(object.bbox, settings);
+    const int64_t width = widthOfTop(object.bbox, origin, settings);
     const int64_t reach = radiusInWidths(settings) * width + kSteps;
-    const Coord origin = pyramidOrigin(object.bbox);
     for (int axis = 0; axis < 3; ++axis) {
         const bool isLow = origin[axis] - reach < kFirst;
         if (!isLow && origin[axis] + width + reach <= kLast) continue;
@@ -108,16 +113,23 @@ void requireRoomAround(const ObjectInfo& object, const SphereTreeSettings& setti
 
 } // namespace
 
-void requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings)
+Coord requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings)
 {
     if (object.voxels == 0) {
         OPENVDB_THROW(openvdb::ValueError, "the object '" << object.name << "' has no voxels");
     }
-    pyramidOrigin(object.bbox); // refuses boxes that are too wide
+    Coord origin = pyramidOrigin(object.bbox); // refuses boxes that are too wide
     if (settings.dim == 2) requireFlat(object);
     requireRoomForSquares(object, settings.dist());
     if (settings.find<TightOptions>()) requireRoomForFineSquares(object);
-    requireRoomAround(object, settings);
+    const auto* pyramid = settings.find<PyramidOptions>();
+    if (pyramid && pyramid->origin) {
+        const bool isFlat = settings.dim == 2;
+        origin = pyramidOrigin(object.bbox, *pyramid->origin,
+            isFlat ? std::optional(flatAxisOf(object.bbox)) : std::nullopt);
+    }
+    requireRoomAround(object, origin, settings);
+    return origin;
 }
 
 void requireRoomForNodes(const openvdb::BoolGrid& object)

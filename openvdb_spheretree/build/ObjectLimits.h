@@ -14,8 +14,9 @@ namespace openvdb_spheretree::detail {
 /// @throw openvdb::ValueError naming the object, what is wrong with it and what to do: it has no
 ///        voxels, is wider than kMaxExtent, is not flat though dim = 2, is too wide for its
 ///        distance or for a tight tree, or lies so near the end of 32-bit coordinates that spheres may reach beyond
+/// @return where the voxels of its pyramid are counted from
 /// Cost: O(1).
-void requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings);
+openvdb::Coord requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings);
 
 /// @brief Refuse an object whose voxels lie so far apart that copies of its nodes would not fit in
 /// this machine's memory.

@@ -58,6 +58,9 @@ void checkDigitalBalls(CheckReport& check);
 /// No level misses a voxel of the object, in exact radii nor in stored ones.
 void checkCoverage(CheckReport& check);
 
+/// Spheres that were read cover the object.
+void checkGivenCoverage(CheckReport& check);
+
 /// Every voxel of the object has a chain of nodes, one a level, each the child of the one above,
 /// that all hold it, in exact radii and in stored ones. So no level misses a voxel. Parents must be
 /// in order.

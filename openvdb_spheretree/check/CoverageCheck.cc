@@ -211,4 +211,17 @@ void checkCoverage(CheckReport& check)
     }
 }
 
+/// There are no other radii than those of the file. Its own tolerance is that of GivenTree.h.
+void checkGivenCoverage(CheckReport& check)
+{
+    check.kind = FaultKind::Coverage;
+    const SphereTreeLevel& level = check.tree.root();
+    const MaskTree::Ptr covered = rasterSpheres(levelSpheres(check.tree, level),
+        metricOf(check.tree), check.box, &check.mask, check.interrupter);
+    const MaskDifference missed = maskDifference(check.mask, *covered, check.interrupter);
+    if (missed.voxels == 0) return;
+    check.fail("the spheres do not cover the object: ", voxelsOf(missed), " of its ",
+        countVoxels(check.mask), " lie in none of them");
+}
+
 } // namespace openvdb_spheretree::detail

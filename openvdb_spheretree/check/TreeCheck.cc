@@ -14,7 +14,8 @@
 /// 4. checkDigitalBalls, checkCoverage: spheres against the object (CoverageCheck.cc), and
 ///    checkChains, checkCutChains, checkInside: those of tight trees (TightCheck.cc)
 ///
-/// A tree of a single level has no links to check; only what concerns the level is.
+/// A tree of a single level has no links to check; only what concerns the level is. Spheres that
+/// were read (GivenTree.h) are held against the object by steps 1 and 2, and must cover it.
 
 #include "TreeCheck.h"
 
@@ -43,6 +44,7 @@ using Check = detail::CheckReport;
 bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }
 bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
+bool isGiven(const SphereTree& tree) { return tree.settings.isGiven(); }
 
 const char kInCuts[] = "in the cuts, ";
 
@@ -68,7 +70,8 @@ void checkNodes(Check& check)
     const bool norm = !tree.settings.dist().isEuclidean();
     Offenders balls, roots;
     for (int32_t id = 0; id < tree.size(); ++id) {
-        if (isTight(tree) && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
+        const bool mayBeFree = isTight(tree) || isGiven(tree);
+        if (mayBeFree && tree.radiusSq[id] == -1) continue; // a sphere that is no digital ball
         if (tree.radiusSq[id] < 1) balls.add(id);
         else if (norm && detail::square(detail::floorSqrt(tree.radiusSq[id])) != tree.radiusSq[id])
             roots.add(id);
@@ -393,6 +396,11 @@ std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::Bo
     checkRecords(check);
     checkTopology(check);
     checkRadii(check, tree.spheres, "");
+    if (isGiven(tree)) { // which have no links, and promise nothing but what is asked of them
+        detail::checkGivenCoverage(check);
+        checkErrors(check);
+        return check.faults;
+    }
     checkRadii(check, tree.cuts.spheres, kInCuts);
     const bool parentsRight = checkLinks(check);
     detail::checkDigitalBalls(check);

@@ -50,6 +50,8 @@ struct TreeFault {
 /// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
 /// these two.
 ///
+/// Of given spheres (GivenTree.h): shape, place, counts, records, radii, coverage and errors.
+///
 /// Topology: of level 0, and of levels whose digital balls rebuild all their voxels. In extended
 /// trees, which drop balls, those above level 0 need not.
 /// Records: levels of extended and reversible trees have a topology where the settings say so.

@@ -9,7 +9,7 @@
 /// Exact. Let r = kLeafBallReach, with |S q - c| <= r along each axis.
 /// - 16 bits: both sides are shifted so that the least limit is 0. Limits differ by no more than
 ///   the terms of x do: 49/2 S if the center is between the voxels along x, else 7 r - 49/2 S. Both
-///   are below 2^15 - 1, so saturating the left side changes no comparison.
+///   are below 2^15 - 1 for S up to 1024, so saturating the left side changes no comparison.
 /// - 32 bits: the corner voxel is near, so coordinates of c are at most r, and 3 r^2 < 2^26.
 
 #include "LeafBall.h"

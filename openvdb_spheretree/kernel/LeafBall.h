@@ -18,7 +18,7 @@ constexpr int64_t kLeafBallReach = 4680;
 /// @brief ORs the voxels q of the ball |2^shift q - center|^2 <= radiusSq into the words of a leaf.
 /// @param center    from the leaf's corner; |2^shift q - center| <= kLeafBallReach on each axis
 /// @param radiusSq  at most kLeafBallReach^2
-/// @param shift     2^shift units are a voxel; 1 to 4
+/// @param shift     2^shift units are a voxel; 1 to 10
 void orBallIntoLeaf(const int64_t center[3], int64_t radiusSq, int shift, uint64_t words[8]);
 
 /// @brief The same for processors whose vector instructions are not known.

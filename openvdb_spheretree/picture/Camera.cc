@@ -8,6 +8,7 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -45,6 +46,41 @@ Vec3d frontRightAbove(const Vec3d& up)
     return (0.55 * right + 0.42 * above + right.cross(above)).unit();
 }
 
+std::array<Vec3d, 8> cornersOf(
+    const openvdb::CoordBBox& box, const openvdb::math::Transform& transform)
+{
+    std::array<Vec3d, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+        Vec3d corner;
+        for (int axis = 0; axis < 3; ++axis) {
+            corner[axis] = i >> axis & 1 ? box.max()[axis] + 0.5 : box.min()[axis] - 0.5;
+        }
+        corners[i] = transform.indexToWorld(corner);
+    }
+    return corners;
+}
+
+/// Sets the height of an orthographic camera. @return how far the eye must be away
+double fit(
+    Camera& camera, const Vec3d& towardsEye, const std::array<Vec3d, 8>& corners, double aspect)
+{
+    const Vec3d right = camera.up.cross(towardsEye).unit(), up = towardsEye.cross(right);
+    const double half = std::tan(camera.fovDegrees * openvdb::math::pi<double>() / 360);
+    const double tall = half * kFilled, wide = tall * aspect;
+    double distance = 0, height = 0, around = 0;
+    for (const Vec3d& corner : corners) {
+        const Vec3d from = corner - camera.lookAt;
+        const double x = std::abs(from.dot(right)), y = std::abs(from.dot(up));
+        around = std::max(around, from.length());
+        height = std::max({height, 2 * y / kFilled, 2 * x / (aspect * kFilled)});
+        if (camera.isOrthographic()) continue;
+        distance = std::max(distance, std::max(x / wide, y / tall) + from.dot(towardsEye));
+    }
+    if (!camera.isOrthographic()) return distance;
+    camera.height = std::max(height, Camera::kMinUp);
+    return 4 * around;
+}
+
 } // namespace
 
 void Camera::validateRanges() const
@@ -56,10 +92,15 @@ void Camera::validateRanges() const
             "up=" << listed(up) << " is no direction: its length must be " << kMinUp << " to "
                   << kMaxUp);
     }
-    if (!(fovDegrees >= kMinFov && fovDegrees <= kMaxFov)) {
+    if (!isOrthographic() && !(fovDegrees >= kMinFov && fovDegrees <= kMaxFov)) {
         OPENVDB_THROW(openvdb::ValueError,
             "fov=" << fovDegrees << " is out of range: it takes degrees, " << kMinFov << " to "
-                   << kMaxFov);
+                   << kMaxFov << ", or 0 for an orthographic camera");
+    }
+    if (!(height >= kMinUp && height <= kMaxUp)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the height " << height << " of the view is out of range: it takes " << kMinUp << " to "
+                          << kMaxUp);
     }
 }
 
@@ -89,22 +130,20 @@ Camera viewOf(const openvdb::CoordBBox& box, const openvdb::math::Transform& tra
     const Vec3d lo = transform.indexToWorld(box.min().asVec3d() - Vec3d(0.5));
     const Vec3d hi = transform.indexToWorld(box.max().asVec3d() + Vec3d(0.5));
     camera.lookAt = (lo + hi) / 2;
-    const double half = std::tan(fovDegrees * openvdb::math::pi<double>() / 360);
-    const double narrower = std::atan(half * std::min(aspect, 1.0));
-    const double distance = (hi - lo).length() / 2 / std::sin(narrower);
+    Vec3d towardsEye = frontRightAbove(up);
     const int flat = flatAxisOf(box);
-    if (flat < 0) {
-        camera.eye = camera.lookAt + distance * frontRightAbove(up);
-        return camera;
+    if (flat >= 0) {
+        const auto worldAxis = [&](int axis) {
+            Vec3d index(0, 0, 0);
+            index[axis] = 1;
+            return transform.baseMap()->applyJacobian(index).unit();
+        };
+        towardsEye = worldAxis(flat);
+        const bool isAcross = towardsEye.cross(up.unit()).length() > 1e-3;
+        if (!isAcross) camera.up = worldAxis(flat == 2 ? 1 : 2);
     }
-    const auto worldAxis = [&](int axis) {
-        Vec3d index(0, 0, 0);
-        index[axis] = 1;
-        return transform.baseMap()->applyJacobian(index).unit();
-    };
-    camera.eye = camera.lookAt + distance * worldAxis(flat);
-    const bool isAcross = worldAxis(flat).cross(up.unit()).length() > 1e-3;
-    if (!isAcross) camera.up = worldAxis(flat == 2 ? 1 : 2);
+    const double distance = fit(camera, towardsEye, cornersOf(box, transform), aspect);
+    camera.eye = camera.lookAt + distance * towardsEye;
     return camera;
 }
 

@@ -115,11 +115,14 @@ std::vector<Vec3f> levelColors(const SphereTree& tree, const SphereTreeLevel& le
         one = paletteColor((kPlain + 5 * level.level) % kHues);
     }
     std::vector<Vec3f> colors(level.size(), one);
-    if (settings.color == PictureColor::Id) {
+    const bool hasParents = tree.hasLevel(level.level + 1);
+    const bool lacksParents =
+        settings.color == PictureColor::Parent && !hasParents && level.size() > 1;
+    if (settings.color == PictureColor::Id || lacksParents) {
         const std::vector<int> own = coloring(tree, level, interrupter);
         std::transform(own.begin(), own.end(), colors.begin(), paletteColor);
     }
-    if (settings.color == PictureColor::Parent && tree.hasLevel(level.level + 1)) {
+    if (settings.color == PictureColor::Parent && hasParents) {
         const SphereTreeLevel& above = tree.level(level.level + 1);
         const std::vector<int> ofParents = coloring(tree, above, interrupter);
         for (int32_t id = level.begin; id < level.end; ++id) {

@@ -30,8 +30,11 @@ void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
 
 CameraRays::CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
     const openvdb::Coord& middle, int width, int height)
-    : pixel(2 * std::tan(camera.fovDegrees * kPi / 360) / height), halfWidth(pixel * width / 2),
-      halfHeight(pixel * height / 2)
+    : parallel(camera.isOrthographic()),
+      pixel((parallel ? camera.height / transform.voxelSize()[0]
+                      : 2 * std::tan(camera.fovDegrees * kPi / 360))
+          / height),
+      halfWidth(pixel * width / 2), halfHeight(pixel * height / 2)
 {
     const Vec3d ahead = (camera.lookAt - camera.eye).unit();
     const Vec3d sideways = ahead.cross(camera.up).unit();
@@ -40,6 +43,9 @@ CameraRays::CameraRays(const Camera& camera, const openvdb::math::Transform& tra
     forward = map->applyInverseJacobian(ahead).unit();
     right = map->applyInverseJacobian(sideways).unit();
     up = map->applyInverseJacobian(sideways.cross(ahead)).unit();
+    // Spheres may reach behind the eye: it goes back until none does that is of any use to see.
+    constexpr double kFarBack = 64;
+    if (parallel) eye -= kFarBack * (eye.length() + halfWidth + halfHeight) * forward;
 }
 
 Light::Light(const CameraRays& camera)

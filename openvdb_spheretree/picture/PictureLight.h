@@ -12,8 +12,10 @@ namespace openvdb_spheretree::detail {
 /// The rays of a picture's pixels.
 struct CameraRays {
     openvdb::Vec3d eye;
-    openvdb::Vec3d forward, right, up;   ///< unit vectors
-    double pixel, halfWidth, halfHeight; ///< lengths in the plane at distance 1
+    openvdb::Vec3d forward, right, up; ///< unit vectors
+    bool parallel;                     ///< the camera is orthographic
+    /// Lengths in the plane at distance 1; of parallel rays, in voxels.
+    double pixel, halfWidth, halfHeight;
 
     /// @param middle         the origin of the scene, in index space
     /// @param width, height  of the picture, in pixels
@@ -23,9 +25,9 @@ struct CameraRays {
     /// @return the ray through a point of the picture, in pixels from its upper left corner.
     Ray through(double x, double y) const
     {
-        const openvdb::Vec3d direction =
-            forward + (x * pixel - halfWidth) * right + (halfHeight - y * pixel) * up;
-        return Ray(eye, direction.unit());
+        const openvdb::Vec3d aside =
+            (x * pixel - halfWidth) * right + (halfHeight - y * pixel) * up;
+        return parallel ? Ray(eye + aside, forward) : Ray(eye, (forward + aside).unit());
     }
 };
 

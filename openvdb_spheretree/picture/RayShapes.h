@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayShapes.h
-/// @brief What a ray can hit: Euclidean balls, balls of norms, and the voxels of a leaf node or tile.
+/// @brief What a ray can hit: Euclidean balls, discs, balls of norms, and the voxels of a leaf node or
+/// tile.
 ///
 /// A shape has three functions:
 /// - bound(): a ball and a box that it lies in;
@@ -50,6 +51,40 @@ struct BallShape {
         return halfSq < 0 ? kNoEntry : nearest - std::sqrt(halfSq);
     }
     openvdb::Vec3d normal(const Ray& ray, double t) const { return (ray.at(t) - center).unit(); }
+};
+
+/// A disc across an axis, seen from both sides. Its edge is rounded to the eye, though it is flat, so
+/// that discs of one colour are told apart.
+struct DiscShape {
+    openvdb::Vec3d center;
+    double radius;
+    int axis;
+
+    Bound bound() const
+    {
+        Bound bound = Bound::ofBall(center, radius);
+        openvdb::Vec3d reach(radius);
+        reach[axis] = 0;
+        bound.box = Box(center - reach, center + reach);
+        return bound;
+    }
+    double entry(const Ray& ray) const
+    {
+        const double t = (center[axis] - ray.origin[axis]) * ray.inverse[axis];
+        if (!(t > 0)) return kNoEntry;
+        return (ray.at(t) - center).lengthSqr() > radius * radius ? kNoEntry : t;
+    }
+    openvdb::Vec3d normal(const Ray& ray, double t) const
+    {
+        constexpr double kFlat = 0.88, kSteepest = 0.8; // of the radius; of a unit vector
+        openvdb::Vec3d across(0.0);
+        across[axis] = ray.direction[axis] > 0 ? -1 : 1;
+        const openvdb::Vec3d from = ray.at(t) - center;
+        const double place = std::min(1.0, from.length() / radius);
+        if (place <= kFlat) return across;
+        const double tilt = kSteepest * (place - kFlat) / (1 - kFlat);
+        return std::sqrt(1 - tilt * tilt) * across + tilt * from.unit();
+    }
 };
 
 /// The faces of the unit ball of a norm, { x : |normal . x| <= 1 for all of them }. The norm is the

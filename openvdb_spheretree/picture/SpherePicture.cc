@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -326,6 +327,27 @@ auto ballsOf(const SphereTree& tree, const SphereTreeLevel& level, const MakeBal
     return balls;
 }
 
+/// @return the discs of a flat tree. They lie in one plane but for a quarter of a voxel, the smaller
+///         the nearer to the eye.
+std::vector<detail::DiscShape> discsOf(
+    const SphereTree& tree, const SphereTreeLevel& level, const Vec3d& forward)
+{
+    const int axis = tree.flatAxis;
+    auto discs = ballsOf(tree, level, [axis](const Vec3d& c, double r) {
+        return detail::DiscShape{c, r, axis};
+    });
+    std::vector<int32_t> order(discs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+        [&](int32_t a, int32_t b) { return discs[a].radius > discs[b].radius; });
+    constexpr double kDepth = 0.25;
+    const double step = (forward[axis] > 0 ? -kDepth : kDepth) / double(discs.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        discs[order[rank]].center[axis] += step * double(rank);
+    }
+    return discs;
+}
+
 /// @return the leaf nodes and tiles of an object that have voxels.
 std::vector<detail::VoxelShape> voxelShapesOf(const openvdb::BoolTree& tree, const Vec3d& middle)
 {
@@ -369,6 +391,10 @@ Picture renderLevel(const SphereTree& tree, int level, const Camera& camera,
     requireRoom(std::size_t(drawn.size()), settings);
     const auto colors = detail::levelColors(tree, drawn, settings, interrupter);
     const View view(camera, settings, *tree.transform, tree.object.bbox);
+    if (tree.settings.dist().isEuclidean() && tree.settings.dim == 2) {
+        return Painter(discsOf(tree, drawn, view.rays.forward), colors, view, interrupter)
+            .paint(interrupter);
+    }
     if (tree.settings.dist().isEuclidean()) {
         const auto ball = [](const Vec3d& c, double r) { return detail::BallShape{c, r}; };
         return Painter(ballsOf(tree, drawn, ball), colors, view, interrupter).paint(interrupter);

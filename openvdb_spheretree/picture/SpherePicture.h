@@ -3,7 +3,8 @@
 /// @brief A ray-cast picture of a level of a sphere-tree, or of an object, for slides and papers.
 ///
 /// 1. *Shapes* are the level's spheres as stored; in the norms l1, l-infinity and chamfer they are
-///    polyhedra. Of an object they are its leaf nodes and tiles. Coordinates are those of index
+///    polyhedra. In trees with dim = 2 they are circles: flat discs in the object's plane, the
+///    smaller ones in front, with a rim that shows where one ends. Of an object they are its leaf nodes and tiles. Coordinates are those of index
 ///    space about the middle of the object, where doubles are finest.
 /// 2. *Colours*: a sphere has one, by PictureColor.
 /// 3. *Rays*: every pixel is the mean of a square of samples, of more where shapes meet. A sample
@@ -30,8 +31,8 @@
 namespace openvdb_spheretree {
 
 enum class PictureColor {
-    Parent, ///< siblings share one, which differs from those of siblings beside them; without
-            ///< parents all spheres have the same
+    Parent, ///< siblings share one, which differs from those of siblings beside them; as Id where
+            ///< there are no parents
     Level,  ///< all spheres of a level have the same
     Id,     ///< every sphere has its own
     Fixed   ///< `PictureSettings::fixed`

@@ -232,6 +232,26 @@ Coord pyramidOrigin(const CoordBBox& bbox)
     return bbox.min() & ~7;
 }
 
+Coord pyramidOrigin(const CoordBBox& bbox, const Coord& wanted, std::optional<int> flatAxis)
+{
+    Coord origin = pyramidOrigin(bbox);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis == flatAxis) continue;
+        const int64_t reach = int64_t(bbox.max()[axis]) - wanted[axis] + 1;
+        if (wanted[axis] <= bbox.min()[axis] && reach <= kMaxExtent) {
+            origin[axis] = wanted[axis];
+            continue;
+        }
+        OPENVDB_THROW(openvdb::ValueError,
+            "origin=" << wanted[0] << ',' << wanted[1] << ',' << wanted[2]
+                      << " does not suit the object, which reaches from voxel " << bbox.min()
+                      << " to " << bbox.max()
+                      << ": along each axis it must be no higher than the first of these, and no "
+                         "more than 2^28 voxels from the last");
+    }
+    return origin;
+}
+
 OrPyramid buildOrPyramid(const openvdb::BoolGrid& object, int factor, int dim,
     const PyramidModel& model, NullInterrupter* interrupter)
 {

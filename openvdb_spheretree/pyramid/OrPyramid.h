@@ -24,6 +24,7 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
+#include <optional>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -44,6 +45,13 @@ openvdb::MaskTree::Ptr nextLevel(const openvdb::MaskTree& level, const PyramidSt
 /// @return a box's minimum rounded down to a multiple of 8 per axis.
 /// @throw openvdb::ValueError if a side of the box exceeds kMaxExtent
 openvdb::Coord pyramidOrigin(const openvdb::CoordBBox& bbox);
+
+/// @return @a wanted, for a pyramid of an object with this box. Along @a flatAxis, if there is one,
+///         levels do not coarsen, and the origin is that of the box.
+/// @throw openvdb::ValueError if it is above the box's minimum along an axis: voxels on both sides of
+///        the origin would never be one; or if the box reaches farther than kMaxExtent from it
+openvdb::Coord pyramidOrigin(
+    const openvdb::CoordBBox& bbox, const openvdb::Coord& wanted, std::optional<int> flatAxis);
 
 struct OrPyramid {
     openvdb::Coord origin;

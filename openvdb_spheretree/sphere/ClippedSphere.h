@@ -68,8 +68,8 @@ struct ClippedSphere {
     int8_t shift;         ///< 2^shift units of center and radiusSq are a voxel
 
     /// Spheres of this size and less are plain: their radius is at most 2^29 units. holds() is
-    /// called for voxels of cubes that meet the sphere's box, at most 4096 voxels or 2^16 units
-    /// wide. They are less than 2^29 + 2^16 units from the center along an axis: three squares are
+    /// called for voxels of cubes that meet the sphere's box, at most 4096 voxels or 2^22 units
+    /// wide. They are less than 2^29 + 2^22 units from the center along an axis: three squares are
     /// below 2^60.
     static constexpr int64_t kMaxPlainRadiusSq = int64_t(1) << 58;
     /// Lengths that do not fit 63 bits are INT64_MAX (Distance::lengthSq): no sphere holds them.

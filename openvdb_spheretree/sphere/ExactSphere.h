@@ -20,7 +20,7 @@ struct SphereMetric {
     /// Units in a voxel: SphereTree::subdivision. A power of two, 2 to kMaxSubdivision.
     int subdivision = 2;
 
-    static constexpr int kMaxSubdivision = 16;
+    static constexpr int kMaxSubdivision = 1024;
 
     SphereMetric() = default;
     SphereMetric(const Distance& metric, int parts = 2) : distance(metric), subdivision(parts) {}

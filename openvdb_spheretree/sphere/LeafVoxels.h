@@ -10,7 +10,7 @@
 
 namespace openvdb_spheretree::detail {
 
-/// @param shift     2^shift units of the sphere are a voxel: 1 to 4
+/// @param shift     2^shift units of the sphere are a voxel: 1 to 10
 /// @param origin    of the leaf
 /// @param distance  that the sphere is a ball of
 /// @return the voxels of the leaf that lie in @a sphere, wherever it is and however large.

@@ -159,7 +159,7 @@ std::vector<PointWriter::Place> PointWriter::places(const std::vector<Vec3d>& po
     if (wrong != positions.size()) {
         OPENVDB_THROW(openvdb::ValueError,
             "point " << wrong << " at " << positions[wrong]
-                     << " cannot be stored exactly: positions must be multiples of 1/16 voxel");
+                     << " cannot be stored exactly: positions must be multiples of 1/1024 voxel");
     }
     parallelSort(places.begin(), places.end(), mInterrupter, [](const Place& a, const Place& b) {
         const Coord leafA = leafOrigin(a.voxel), leafB = leafOrigin(b.voxel);

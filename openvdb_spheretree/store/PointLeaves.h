@@ -3,7 +3,7 @@
 /// @brief Points into the leaves of a PointDataGrid, and out of them, without rounding a position.
 ///
 /// OpenVDB's createPointDataGrid() takes world positions: index -> world -> index rounds. Here
-/// positions are in index space, multiples of 1/16 of the source's voxel. A voxel of the point grid
+/// positions are in index space, multiples of 1/1024 of the source's voxel or coarser. A voxel of the point grid
 /// is `scale` of these wide, a power of two. So position / scale = voxel + offset, and a float
 /// holds the offset.
 ///
@@ -24,7 +24,7 @@
 
 namespace openvdb_spheretree::detail {
 
-/// Offsets are multiples of 1 / (16 scale), at most 1/2 in size: 16 bits, where a float has 24.
+/// Offsets are multiples of 1 / (1024 scale), at most 1/2 in size: 22 bits, where a float has 24.
 constexpr int kMaxPointScale = 4096;
 
 using PointLeaf = openvdb::points::PointDataTree::LeafNodeType;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SphereTreeCsv.h"
 
+#include <openvdb_spheretree/tree/LevelFrame.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <array>
@@ -42,9 +44,22 @@ openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level)
     return inIndexSpace ? openvdb::Coord::round(tree.spheres.center[id]) : tree.ijk[id];
 }
 
+ShownGrid shownGrid(const SphereTree& tree, int32_t id, int level)
+{
+    const auto* pyramid = tree.settings.find<PyramidOptions>();
+    if (!pyramid || level == 0 || tree.radiusSq[id] == -1) return {};
+    ShownGrid grid{1, tree.origin};
+    // No level that is built is wider; a file may name any number.
+    for (int k = 0; k < level && grid.scale <= LevelFrame::kMaxScale; ++k) {
+        grid.scale *= pyramid->factor;
+    }
+    return grid;
+}
+
 void writeCsv(const SphereTree& tree, std::ostream& out)
 {
-    std::string text = "level,id,parent,x,y,z,radius,i,j,k,radius_sq\n";
+    std::string text = "level,id,parent,x,y,z,radius,i,j,k,radius_sq,scale,origin_i,origin_j,"
+                       "origin_k\n";
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
             append(text, level->level, ',');
@@ -56,7 +71,12 @@ void writeCsv(const SphereTree& tree, std::ostream& out)
             append(text, double(tree.spheres.radiusWorld[id]), ',');
             const openvdb::Coord ijk = shownVoxel(tree, id, level->level);
             for (int axis = 0; axis < 3; ++axis) append(text, ijk[axis], ',');
-            append(text, tree.radiusSq[id], '\n');
+            append(text, tree.radiusSq[id], ',');
+            const ShownGrid grid = shownGrid(tree, id, level->level);
+            append(text, grid.scale, ',');
+            append(text, grid.origin[0], ',');
+            append(text, grid.origin[1], ',');
+            append(text, grid.origin[2], '\n');
             write(text, out);
         }
     }

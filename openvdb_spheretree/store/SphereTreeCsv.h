@@ -10,10 +10,11 @@
 
 namespace openvdb_spheretree {
 
-/// @brief Write one header line `level,id,parent,x,y,z,radius,i,j,k,radius_sq`, then a row a node,
-/// by level from the top, then by id. Center and radius (radiusWorld) are in world space, and read
-/// back to the same double. i,j,k is shownVoxel(); radius_sq that of the digital ball, -1 where
-/// there is none.
+/// @brief Write one header line
+/// `level,id,parent,x,y,z,radius,i,j,k,radius_sq,scale,origin_i,origin_j,origin_k`, then a row a
+/// node, by level from the top, then by id. Center and radius (radiusWorld) are in world space, and
+/// read back to the same double. i,j,k is shownVoxel(); radius_sq that of the digital ball, -1 where
+/// there is none; what follows is shownGrid().
 /// @throw openvdb::IoError if the stream fails
 void writeCsv(const SphereTree& tree, std::ostream& out);
 
@@ -29,5 +30,14 @@ inline bool hasDag(const SphereTree& tree) { return tree.hasDag || !tree.dag.emp
 ///         above in the level's own grid. Where there is no digital ball, the voxel nearest to the
 ///         sphere's center, in index space.
 openvdb::Coord shownVoxel(const SphereTree& tree, int32_t id, int level);
+
+/// The grid that shownVoxel() is a voxel of: its voxel v has the center
+/// scale v + (scale - 1) / 2 + origin in the index space of the source grid. Along the flat axis of a
+/// tree with dim = 2 there is no scale: v + origin.
+struct ShownGrid {
+    int64_t scale = 1; ///< voxels of level 0 along one of its voxels
+    openvdb::Coord origin;
+};
+ShownGrid shownGrid(const SphereTree& tree, int32_t id, int level);
 
 } // namespace openvdb_spheretree

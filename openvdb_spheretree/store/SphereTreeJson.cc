@@ -187,7 +187,9 @@ void writeSettings(JsonWriter& json, const SphereTree& tree)
         case SettingType::Counts:
             writeArray(json, name, text.empty() ? std::vector<int64_t>() : countsFromString(text));
             break;
-        default: json.value(name, text);
+        default:
+            if (text.empty() && setting->isOptional) json.null(name);
+            else json.value(name, text);
         }
     }
 }

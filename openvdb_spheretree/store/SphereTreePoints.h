@@ -30,7 +30,7 @@ constexpr int kPointsFormat = 1;
 /// threads.
 /// @param interrupter  may be null, here and below; any call may throw Interrupted
 /// @throw openvdb::ValueError if the tree is inconsistent, or a center is no multiple of the
-///        unit of its tree (1/2 or 1/16 voxel), which alone are exact
+///        unit of its tree (1/2, 1/16 or 1/1024 voxel), which alone are exact
 openvdb::points::PointDataGrid::Ptr toPoints(
     const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 

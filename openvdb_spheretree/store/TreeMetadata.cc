@@ -136,7 +136,8 @@ void writeSettings(GridBase& grid, const SphereTree& tree)
         case SettingType::Length:
             if (!text.empty()) setMeta<double>(grid, setting.key, realOf(text));
             break;
-        default: setMeta<std::string>(grid, setting.key, text);
+        default:
+            if (!text.empty() || !setting.isOptional) setMeta<std::string>(grid, setting.key, text);
         }
     }
     if (settings.dim == 2) setMeta<int32_t>(grid, kFlatAxisKey, tree.flatAxis);

@@ -26,6 +26,7 @@ using detail::nameOf;
 // The default first, as -help has them.
 constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Tight, "tight"},
     {TreeType::Extended, "extended"}, {TreeType::Reversible, "reversible"}}};
+constexpr char kGiven[] = "given"; // in files only: nobody can ask for it
 constexpr std::array<Named<bool>, 2> kSides{{{false, "outer"}, {true, "inner"}}}; // is it inner?
 constexpr std::array<Named<Quality>, 3> kQualities{
     {{Quality::Normal, "normal"}, {Quality::Fast, "fast"}, {Quality::Best, "best"}}};
@@ -47,7 +48,10 @@ constexpr std::array<Named<DagEdges>, 2> kDagEdges{
 
 } // namespace
 
-const char* toString(TreeType value) { return nameOf(kTreeTypes, value); }
+const char* toString(TreeType value)
+{
+    return value == TreeType::Given ? kGiven : nameOf(kTreeTypes, value);
+}
 const char* toString(ParentRule value) { return nameOf(kParentRules, value); }
 const char* toString(Reconstruction value) { return nameOf(kReconstructions, value); }
 const char* toString(RadiusScale value) { return nameOf(kRadiusScales, value); }
@@ -106,6 +110,7 @@ Setting row(const char* name, int jsonPlace, SettingType type, Access access, Wr
     setting.inner = has(InnerOptions());
     setting.extended = has(ExtendedOptions());
     setting.reversible = has(ReversibleOptions());
+    setting.given = has(GivenOptions());
     return setting;
 }
 
@@ -186,9 +191,11 @@ Setting treeRow()
     Setting setting = special(
         "tree", 0, [](const SphereTreeSettings& settings) { return toString(settings.type()); },
         [](SphereTreeSettings& settings, const std::string& text) {
-            const TreeType type = fromName(kTreeTypes, "tree", text);
+            const bool given = text == kGiven;
+            const TreeType type = given ? TreeType::Given : fromName(kTreeTypes, "tree", text);
             if (type == settings.type()) return;
-            if (type == TreeType::Extended) settings.kind = ExtendedOptions();
+            if (given) settings.kind = GivenOptions();
+            else if (type == TreeType::Extended) settings.kind = ExtendedOptions();
             else if (type == TreeType::Reversible) settings.kind = ReversibleOptions();
             else settings.kind = TightOptions();
         },
@@ -213,7 +220,7 @@ Setting sideRow()
         "outer: spheres cover the object; inner: they lie inside it and cover what they can "
         "(tight)");
     addChoices(setting, kSides);
-    setting.extended = setting.reversible = false;
+    setting.extended = setting.reversible = setting.given = false;
     return setting;
 }
 
@@ -227,8 +234,8 @@ Setting distRow()
                 options->dist = dist;
             } else if (!dist.isEuclidean()) {
                 OPENVDB_THROW(openvdb::ValueError,
-                    "tree=tight is for dist=l2, not for dist=" << toString(
-                        dist) << ": use tree=extended or tree=reversible");
+                    "tree=" << toString(settings.type()) << " is for dist=l2, not for dist="
+                            << toString(dist) << ": use tree=extended or tree=reversible");
             }
         },
         "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of a "
@@ -250,7 +257,21 @@ Setting modelRow()
         "what becomes of 2x2x2 voxels (or factor per axis): or, one voxel if any is on; or "
         "closing:R, the same after a closing by a ball of radius R, 1 to 64 voxels (extended, "
         "reversible)");
-    setting.tight = setting.inner = false;
+    setting.tight = setting.inner = setting.given = false;
+    return setting;
+}
+
+/// Empty where the object's box decides, and then no file has it: those of 0.1 have not.
+Setting originRow()
+{
+    Setting setting = row<PyramidOptions>(
+        "origin", 25, SettingType::Text, [](auto& options) -> auto& { return options.origin; },
+        originToString, originFromString,
+        "where the pyramid's voxels are counted from: a voxel with coordinates that are multiples "
+        "of 8, such as 0,0,0, and not above the object's first; by default that, rounded down "
+        "(extended, reversible)");
+    setting.key = "spheretree_pyramid_origin"; // "spheretree_origin" says where it is in the end
+    setting.isOptional = true;
     return setting;
 }
 
@@ -269,7 +290,7 @@ Setting paddingRow()
     return special(
         "padding", 9,
         [](const SphereTreeSettings& settings) {
-            return paddingToString(settings.isInner() ? 0 : settings.padding);
+            return paddingToString(settings.isInner() || settings.isGiven() ? 0 : settings.padding);
         },
         [](SphereTreeSettings& settings, const std::string& text) {
             const double padding = paddingFromString(text);
@@ -360,7 +381,7 @@ std::vector<Setting> makeTable()
         optional(distRow()), paddingRow(),
         integer<PyramidOptions>("factor", 1, 2, kMaxFactor, &PyramidOptions::factor,
             "voxels per axis merged from level to level, 2 to 32768 (extended, reversible)"),
-        optional(modelRow()),
+        optional(modelRow()), originRow(),
         choice<PyramidOptions>("center", 13, kCenters, &PyramidOptions::center,
             "where spheres are centred: where the medial ball is; or where the smallest sphere "
             "around the leaf balls below is (extended, reversible)"),
@@ -391,7 +412,7 @@ std::vector<Setting> makeTable()
             "them the leaf balls below it (tight)"),
         choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
             "what level 0 is made of: the medial balls that are needed, or all (tight)"),
-        optional(flag<InnerOptions>("strict", 24, &InnerOptions::strict,
+        optional(flag<InnerOptions>("strict", 26, &InnerOptions::strict,
             "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "
             "that are "
             "wholly in it")),
@@ -409,7 +430,7 @@ bool Setting::isFor(const SphereTreeSettings& settings) const
 {
     return (tight && settings.find<TightOptions>()) || (inner && settings.isInner())
         || (extended && settings.find<ExtendedOptions>())
-        || (reversible && settings.find<ReversibleOptions>());
+        || (reversible && settings.find<ReversibleOptions>()) || (given && settings.isGiven());
 }
 
 const std::vector<Setting>& settingsTable()

@@ -43,7 +43,7 @@ struct Setting {
     std::string fallback; ///< the default as it would be typed
     /// @name Which kinds of trees have it
     /// @{
-    bool tight = true, inner = true, extended = true, reversible = true;
+    bool tight = true, inner = true, extended = true, reversible = true, given = true;
     /// @}
     std::vector<std::string> choices = {}; ///< the default first
     bool isBound = false;    ///< on the error or on the distance: inner trees have none

@@ -88,7 +88,7 @@ struct SphereTree {
     /// is no digital ball.
     std::vector<int32_t> radiusSq;
     /// @}
-    /// Units of centers and coverRadiusSq in a voxel: 2 or 16.
+    /// Units of centers and coverRadiusSq in a voxel: 2 or 16, or 1024 of given spheres.
     int subdivision = 2;
     std::vector<SphereTreeLevel> levels; ///< level 0 first
     std::vector<DagEdge> dag;            ///< sorted, unique; empty unless asked for

@@ -8,10 +8,12 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <system_error>
 
 namespace openvdb_spheretree {
@@ -48,6 +50,11 @@ void requireValid(const PyramidOptions& options, bool fitted)
         OPENVDB_THROW(openvdb::ValueError,
             "closing and customModel are both set: choose one of these pyramid models");
     }
+    if (options.origin && ((*options.origin & 7) != openvdb::Coord(0))) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "origin=" << originToString(options.origin)
+                      << " is out of range: its coordinates must be multiples of 8");
+    }
     if (options.center != Center::Miniball) return;
     if (!options.dist.isEuclidean()) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -78,6 +85,7 @@ PyramidModel unknownModel() { return UnknownModel(); }
 
 TreeType SphereTreeSettings::type() const
 {
+    if (isGiven()) return TreeType::Given;
     if (find<ExtendedOptions>()) return TreeType::Extended;
     return find<ReversibleOptions>() ? TreeType::Reversible : TreeType::Tight;
 }
@@ -97,7 +105,7 @@ const Distance& SphereTreeSettings::dist() const
 
 double SphereTreeSettings::paddingVoxels() const
 {
-    if (isInner()) return 0;
+    if (isInner() || isGiven()) return 0;
     if (padding != kPadCubes) return padding;
     return dist().length(0.5, 0.5, dim == 3 ? 0.5 : 0) / dist().unit();
 }
@@ -188,6 +196,34 @@ int64_t memoryFromString(const std::string& text)
         "memory=" << inQuotes(text) << " is " << what
                   << ": choose a number of bytes such as 4GiB, 500MB or 4e9, or a share of the "
                      "machine's memory, above 0% and up to 100%, such as 75%");
+}
+
+std::optional<openvdb::Coord> originFromString(const std::string& text)
+{
+    if (text.empty()) return {};
+    openvdb::Coord origin;
+    std::string_view rest = text;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t end = axis < 2 ? rest.find(',') : rest.size();
+        const auto number =
+            end == rest.npos ? std::nullopt : detail::parseNumber<int32_t>(rest.substr(0, end));
+        if (!number || *number % 8 != 0) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "origin=" << inQuotes(text)
+                          << " is unknown: it takes a voxel's three coordinates, multiples of 8, "
+                             "such as 0,0,0");
+        }
+        origin[axis] = *number;
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return origin;
+}
+
+std::string originToString(const std::optional<openvdb::Coord>& origin)
+{
+    if (!origin) return {};
+    return std::to_string((*origin)[0]) + ',' + std::to_string((*origin)[1]) + ','
+        + std::to_string((*origin)[2]);
 }
 
 int closingFromString(const std::string& text)

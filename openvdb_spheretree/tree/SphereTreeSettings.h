@@ -19,7 +19,10 @@
 #include <openvdb_spheretree/voxel/Dimension.h>
 #include <openvdb_spheretree/voxel/Distance.h>
 
+#include <openvdb/math/Coord.h>
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -27,8 +30,8 @@
 
 namespace openvdb_spheretree {
 
-/// The names of trees: inner trees go by `Tight`.
-enum class TreeType { Reversible, Extended, Tight };
+/// The names of trees: inner trees go by `Tight`. `Given` are spheres that were not built here.
+enum class TreeType { Reversible, Extended, Tight, Given };
 
 enum class ParentRule {
     Centre, ///< the label of the parent voxel of the ball's center (the paper's rule)
@@ -107,6 +110,9 @@ struct PyramidOptions {
     /// turned so that it is flat along z. Files record that there was one, not which: a tree read
     /// back has one that isUnknown().
     PyramidModel customModel;
+    /// Index of voxel (0,0,0) of the pyramid's levels: multiples of 8, and along no axis above the
+    /// object's first voxel. Empty: that voxel's coordinates, rounded down to such multiples.
+    std::optional<openvdb::Coord> origin;
     Distance dist; ///< what the balls are balls of
     Center center = Center::Medial;
     ParentRule parent = ParentRule::Centre;
@@ -128,8 +134,13 @@ struct ExtendedOptions : PyramidOptions {
 /// Every level rebuilds its own pyramid level (Broutta et al. 2009, 3.2).
 struct ReversibleOptions : PyramidOptions {};
 
+/// Spheres that were read, and promise nothing (GivenTree.h): one level, as large as they are. No
+/// object has such a tree built.
+struct GivenOptions {};
+
 struct SphereTreeSettings {
-    using Kind = std::variant<TightOptions, InnerOptions, ExtendedOptions, ReversibleOptions>;
+    using Kind =
+        std::variant<TightOptions, InnerOptions, ExtendedOptions, ReversibleOptions, GivenOptions>;
 
     Kind kind; ///< which kind of tree, and what only such trees can be asked for
     /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
@@ -161,6 +172,7 @@ struct SphereTreeSettings {
 
     TreeType type() const;
     bool isInner() const { return std::holds_alternative<InnerOptions>(kind); }
+    bool isGiven() const { return std::holds_alternative<GivenOptions>(kind); }
 
     /// @return the options, if the kind is or shares these; else null.
     template <typename Options>
@@ -198,7 +210,7 @@ struct SphereTreeSettings {
 
     /// @return that of the pyramid's options; Euclidean for other trees.
     const Distance& dist() const;
-    /// @return the padding in voxels of level 0: none for inner trees.
+    /// @return the padding in voxels of level 0: none for inner trees and given spheres.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
     void validate() const;
@@ -242,6 +254,9 @@ double paddingFromString(const std::string&);
 int64_t memoryFromString(const std::string&);
 /// @return the radius of "closing:R", 0 for "or".
 int closingFromString(const std::string&);
+/// @return the coordinates of "0,-8,16"; nothing of an empty text.
+std::optional<openvdb::Coord> originFromString(const std::string&);
+std::string originToString(const std::optional<openvdb::Coord>&);
 /// @}
 
 } // namespace openvdb_spheretree

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeShape.h"
 
+#include "GivenTree.h"
+
 #include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
 
@@ -75,8 +77,9 @@ bool allAre(const openvdb::Vec3d& center, const Is& is)
 
 std::vector<Damage> unitDamage(int subdivision)
 {
-    if (subdivision == 2 || subdivision == 16) return {};
-    return {single("centres are in units of 1/", subdivision, " of a voxel, not 1/2 or 1/16")};
+    if (subdivision == 2 || subdivision == 16 || subdivision == kGivenSubdivision) return {};
+    return {
+        single("centres are in units of 1/", subdivision, " of a voxel, not 1/2, 1/16 or 1/1024")};
 }
 
 std::vector<Damage> shapeDamage(const SphereTree& tree)

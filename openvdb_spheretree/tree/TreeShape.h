@@ -56,7 +56,7 @@ struct Damage {
 /// Those after shapeDamage() may be called only where it finds nothing.
 /// @{
 
-/// Centers are in units of 1/2 or 1/16 voxel.
+/// Centers are in units of 1/2, 1/16 or 1/1024 voxel.
 std::vector<Damage> unitDamage(int subdivision);
 /// There are nodes, all arrays have an entry for each, and units are right. There is a transform,
 /// and it is linear. Levels are 0, 1, ... without a gap, or any single one; and ranges of ids, the

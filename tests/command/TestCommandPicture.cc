@@ -83,6 +83,25 @@ TEST_F(CommandPicture, ShowsTheBallsOfEveryDistance)
     EXPECT_EQ(pictures.size(), 4u);
 }
 
+TEST_F(CommandPicture, FlatObjectsAreSeenByAnOrthographicCamera)
+{
+    writeVol("f.vol", openvdb::Coord(9, 7, 1), std::string(63, '\1'));
+    const std::string tree = "-read f.vol -spheretree dim=2 spheres=3 q=fast -write p.png ";
+    const std::string usual = draw(tree);
+    EXPECT_EQ(draw(tree + "fov=0"), usual);
+    EXPECT_NE(draw(tree + "fov=30"), usual);
+    EXPECT_EQ(draw("-read f.vol -write p.png fov=0"), draw("-read f.vol -write p.png"));
+}
+
+TEST_F(CommandPicture, AJpegIsWrittenByItsName)
+{
+    const std::string line = "-read t.vdb -write p.JPG p.jpeg width=80 height=60 vdb=tree";
+    const Result result = run(line);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(readText(path("p.JPG")).substr(0, 3), "\xFF\xD8\xFF");
+    EXPECT_EQ(readText(path("p.JPG")), readText(path("p.jpeg")));
+}
+
 TEST_F(CommandPicture, IsTheSameForAnyNumberOfThreads)
 {
     const std::string one = draw("-threads 1 -read t.vdb -write p.png vdb=tree");

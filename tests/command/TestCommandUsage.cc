@@ -214,7 +214,6 @@ const BadLine kBadLines[] = {
     {"SizeOfNoPicture", "-read a.vol -spheretree -write t.vdb width=9", "option width is for"},
     {"PictureTooWide", "-read a.vol -write t.vdb t.png width=16385", "width=16385"},
     {"PictureWithoutRows", "-read a.vol -write t.vdb t.png height=0", "height=0"},
-    {"FovZero", "-read a.vol -write t.vdb t.png fov=0", "fov=0"},
     {"FovFlat", "-read a.vol -write t.vdb t.png fov=180", "fov=180"},
     {"FovNegative", "-read a.vol -write t.vdb t.png fov=-1", "fov=-1"},
     {"EyeHalfEnclosed", "-read a.vol -write t.vdb t.png eye=(1,2,3", "three numbers"},

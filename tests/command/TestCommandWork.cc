@@ -122,7 +122,8 @@ TEST_F(CommandWork, AStoredTreeIsTheTreeThatWasBuilt)
     ASSERT_EQ(run("-read t.vdb grids=b -write v.vdb").exitCode, 0);
     EXPECT_EQ(readText(path("t.vdb")), readText(path("v.vdb"))) << "a tree brings its edges";
     EXPECT_EQ(
-        readText(path("t.csv")).rfind("level,id,parent,x,y,z,radius,i,j,k,radius_sq\n", 0), 0u);
+        readText(path("t.csv")).rfind("level,id,parent,x,y,z,radius,i,j,k,radius_sq,scale,", 0),
+        0u);
 }
 
 TEST_F(CommandWork, CheckPassesWhatIsRightAndFailsWhatIsWrong)
@@ -376,7 +377,7 @@ TEST_F(CommandWork, ATightTreeKeepsItsCutsFromFileToFile)
         openvdb_spheretree::fromPoints(*points, nullptr, cuts.get()), tree);
     EXPECT_NE(readText(path("u.json")).find("\"cuts\": {"), std::string::npos);
     EXPECT_EQ(run("-read t.vdb -write u.csv").exitCode, 0);
-    EXPECT_NE(readText(path("u.csv")).find(",-1,11,-1000,-1\n"), std::string::npos);
+    EXPECT_NE(readText(path("u.csv")).find(",-1,11,-1000,-1,1,0,0,0\n"), std::string::npos);
 }
 
 TEST_F(CommandWork, AFlatTreeAsAMaskIsTheObject)

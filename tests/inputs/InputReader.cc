@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/input/DelayedValues.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <base/Errors.h>
@@ -16,8 +17,10 @@
 
 namespace spheretree_test {
 
+using openvdb_spheretree::isSphereFileName;
 using openvdb_spheretree::isVolFileName;
 using openvdb_spheretree::readMeshFile;
+using openvdb_spheretree::readSphereFile;
 using openvdb_spheretree::readVolFile;
 
 namespace {
@@ -29,6 +32,14 @@ void checkMessage(const std::string& message, const std::string& path)
     if (message.find(path) == std::string::npos) {
         throw std::logic_error("a message that does not name the file: " + message);
     }
+}
+
+/// Points of any kind may be taken for spheres; that they are none is no fault of the file.
+void readAsSpheres(const openvdb::GridBase& grid)
+{
+    try {
+        openvdb_spheretree::spheresOfPoints(grid);
+    } catch (const openvdb::ValueError&) {}
 }
 
 } // namespace
@@ -47,6 +58,7 @@ void InputReader::readVdb(bool delayed) const
         } catch (...) {
             command::rethrowNamed(mFile.path(), command::kInput);
         }
+        readAsSpheres(*item->grid);
     }
 }
 
@@ -59,6 +71,7 @@ bool InputReader::read(const std::string& bytes, bool delayed)
         if (mExtension == ".vdb") readVdb(delayed);
         else if (isConfig) command::parseLine({"-config", path});
         else if (isVolFileName(path)) readVolFile(path);
+        else if (isSphereFileName(path)) readSphereFile(path);
         else readMeshFile(path);
         return true;
     } catch (const command::CommandError& error) {

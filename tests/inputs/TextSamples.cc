@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TextSamples.cc
-/// @brief Samples of volumes, meshes and config files, byte by byte.
+/// @brief Samples of volumes, meshes, spheres and config files, byte by byte.
 
 #include "SampleFiles.h"
 
@@ -151,6 +151,29 @@ std::string stlBinary()
     return bytes;
 }
 
+// Spheres
+
+std::string spheresCsv()
+{
+    return "# spheres of another tool\nlevel;name;x;y;z;diameter\n0;\"a\";1.5;-2;+3e-1;0.25\n"
+           "0;b;.5;2e3;0;7\n1;c;0;0;0;1000\n";
+}
+
+std::string spheresJson()
+{
+    return R"({"unit": "m", "edges": [[0, 1], [1, 0]], "spheres": [
+ {"x": 1.5, "y": -2, "z": 0.3, "radius": 0.125, "level": 0, "tags": ["a", {"b": null}]},
+ {"center": [0.5, 2e3, -1], "diameter": 7, "level": 0}, {"center": [0, 0, 0], "r": 1000, "level": 1}]}
+)";
+}
+
+std::string spheresRows()
+{
+    return R"({"columns": ["id", "x", "y", "z", "radius"], "nodes": [[0, 1.5, -2, 0.3, 4], [1, 0, 9, 9, 2]],
+ "dag": [[0, 1]], "cuts": null}
+)";
+}
+
 // Lines
 
 std::string config()
@@ -176,6 +199,9 @@ const std::vector<SampleMaker>& textSamples()
         {"ply_big", ".ply", plyBig},
         {"stl_text", ".stl", stlText, false},
         {"stl_binary", ".stl", stlBinary},
+        {"spheres_csv", ".csv", spheresCsv, false},
+        {"spheres_json", ".json", spheresJson, false},
+        {"spheres_rows", ".json", spheresRows, false},
         {"config", ".cfg", config, false},
     };
     return samples;

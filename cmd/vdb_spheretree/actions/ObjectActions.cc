@@ -223,6 +223,19 @@ StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
         isObjectGrid, ageOrName);
 }
 
+StackItem* onlyObjectGrid(Session& session)
+{
+    StackItem* found = nullptr;
+    const auto& items = session.stack.items();
+    for (auto item = items.rbegin(); item != items.rend(); ++item) {
+        if (!isObjectGrid(**item)) continue;
+        if (found && (*item)->batch != found->batch) break;
+        if (found) return nullptr;
+        found = item->get();
+    }
+    return found;
+}
+
 openvdb::BoolGrid::Ptr objectOf(
     const StackItem& item, const spheretree::ObjectSettings& settings, Session& session)
 {

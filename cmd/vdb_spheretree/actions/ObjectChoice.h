@@ -16,6 +16,10 @@ namespace command {
 ///        message says what to do.
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName);
 
+/// @return the same where nobody chose: null if there is none, or more than one of the newest action
+///         that made any.
+StackItem* onlyObjectGrid(Session& session);
+
 /// @return the object of a grid of the stack. The grid's values may still be in its file.
 /// @throw CommandError (input) if the library's objectOf() fails; the message names the grid
 openvdb::BoolGrid::Ptr objectOf(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ReadAction.cc
-/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again.
+/// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again, and spheres
+/// of other tools a tree of one level.
 
 #include "files/SpooledInput.h"
 #include "files/VdbStream.h"
@@ -8,10 +9,13 @@
 #include "session/Session.h"
 
 #include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -110,6 +114,10 @@ StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     } catch (...) {
         rethrowNamed(path + ": sphere-tree '" + oneLine(points.getName(), 60) + "'", kInput);
     }
+    if (item.tree->settings.isGiven()) {
+        item.given = std::make_shared<openvdb_spheretree::WorldSpheres>(
+            openvdb_spheretree::worldSpheres(*item.tree));
+    }
     return item;
 }
 
@@ -140,6 +148,12 @@ void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
     }
 }
 
+void scaleSpheres(openvdb_spheretree::WorldSpheres& spheres, double scale)
+{
+    for (auto& center : spheres.center) center *= scale;
+    for (double& radius : spheres.radius) radius *= scale;
+}
+
 /// Grids, volumes and meshes have one size; a tree holds radii in several ways.
 void scaleItem(const StackItem& item, std::optional<double> scale)
 {
@@ -154,11 +168,25 @@ void scaleItem(const StackItem& item, std::optional<double> scale)
     if (item.grid) openvdb_spheretree::scaleGrid(*item.grid, *scale);
 }
 
+StackItem sphereItem(openvdb_spheretree::WorldSpheres spheres, std::optional<double> scale,
+    Session& session)
+{
+    if (scale) scaleSpheres(spheres, *scale);
+    if (!spheres.assumption.empty()) session.note(spheres.assumption);
+    StackItem item;
+    item.tree =
+        std::make_shared<openvdb_spheretree::SphereTree>(openvdb_spheretree::givenTree(spheres));
+    item.given = std::make_shared<openvdb_spheretree::WorldSpheres>(std::move(spheres));
+    return item;
+}
+
 /// What files are read with.
 struct Reading {
     Loading loading;
     std::optional<double> scale;
     NameFilter filter;
+    bool pointsAreSpheres = false;
+    std::optional<int> level = {}; ///< of files of spheres
 };
 
 Loading loadingOf(const ActionCall& call)
@@ -166,6 +194,24 @@ Loading loadingOf(const ActionCall& call)
     const std::string delayed = call.text("delayed");
     if (delayed == "auto") return Loading::Auto;
     return delayed == "1" ? Loading::Delayed : Loading::Whole;
+}
+
+/// A grid of a file that is no sphere-tree.
+void pushGrid(const GridBase::Ptr& grid, const std::string& path, const Reading& reading,
+    Session& session)
+{
+    StackItem item;
+    if (reading.pointsAreSpheres && grid->isType<PointDataGrid>()) {
+        try {
+            item = sphereItem(openvdb_spheretree::spheresOfPoints(*grid), reading.scale, session);
+        } catch (...) {
+            rethrowNamed(path, kInput);
+        }
+    } else {
+        item.grid = grid;
+        scaleItem(item, reading.scale);
+    }
+    session.stack.push(item);
 }
 
 void readVdbFile(const std::string& path, Reading& reading, Session& session)
@@ -183,10 +229,7 @@ void readVdbFile(const std::string& path, Reading& reading, Session& session)
         throwIfStopped();
         if (ofTrees.count(grid) || !reading.filter.accepts(grid->getName())) continue;
         if (!openvdb_spheretree::isSphereTree(*grid)) {
-            StackItem item;
-            item.grid = grid;
-            scaleItem(item, reading.scale);
-            session.stack.push(item);
+            pushGrid(grid, path, reading, session);
             continue;
         }
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
@@ -196,14 +239,29 @@ void readVdbFile(const std::string& path, Reading& reading, Session& session)
     }
 }
 
+StackItem readSpheres(const std::string& path, const Reading& reading, Session& session)
+{
+    const auto spheres = openvdb_spheretree::readSphereFile(path, reading.level);
+    try {
+        return sphereItem(spheres, reading.scale, session);
+    } catch (...) {
+        rethrowNamed(path, kInput);
+    }
+}
+
 void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
     if (kind == FileKind::Vdb) return readVdbFile(path, reading, session);
+    StackItem item;
+    if (kind == FileKind::Csv || kind == FileKind::Json) {
+        item = readSpheres(path, reading, session);
+        if (reading.filter.accepts(item.tree->settings.name)) session.stack.push(item);
+        return;
+    }
     std::optional<SpooledInput> spooled;
     if (isStdin(path)) spooled.emplace(path);
     const std::string file = spooled ? spooled->path() : path;
-    StackItem item;
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
             openvdb_spheretree::readMeshFile(file, path));
@@ -230,12 +288,26 @@ void check(const ActionCall& call, Plan& plan)
     if (call.given("scale") && call.given("units"))
         throwUsage("scale and units exclude each other");
     for (const std::string& path : call.list("files")) plan.addInput(path);
+    const auto isOf = [&](std::initializer_list<FileKind> kinds) {
+        const std::vector<std::string> files = call.list("files");
+        return std::any_of(files.begin(), files.end(), [&](const std::string& path) {
+            return std::count(kinds.begin(), kinds.end(), fileKind(path)) > 0;
+        });
+    };
+    if (call.given("level") && !isOf({FileKind::Csv, FileKind::Json})) {
+        throwUsage("level is for spheres of a .csv or .json, and none is read; use -level");
+    }
+    if (call.given("spheres") && !isOf({FileKind::Vdb})) {
+        throwUsage("spheres=1 is for points of a .vdb, and none is read");
+    }
 }
 
 void run(const ActionCall& call, Session& session)
 {
     const Stopwatch watch;
     Reading reading{loadingOf(call), scaleOf(call), NameFilter(call.list("grids"))};
+    reading.pointsAreSpheres = call.flag("spheres");
+    if (call.given("level")) reading.level = int(call.integer("level"));
     session.stack.beginBatch("");
     for (const std::string& path : call.list("files")) readFile(path, reading, session);
     reading.filter.requireAllFound();
@@ -257,13 +329,17 @@ OptionSpec unitsOption()
 ActionSpec readAction()
 {
     ActionSpec action{"read", "i", "files",
-        "read grids and sphere-trees (.vdb), volumes (.vol, .longvol) and meshes "
-        "(.obj, .ply, .stl, .off ...)"};
+        "read grids and sphere-trees (.vdb), volumes (.vol, .longvol), meshes (.obj, .ply, .stl, "
+        ".off ...) and spheres of other tools (.csv, .json)"};
     action.options = {list("files", "",
                           "files to read, or stdin.vdb, .vol, .obj, .off, .ply, .stl; the "
                           "extension says what they "
                           "are"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
+        flag("spheres", false,
+            "take points of a .vdb with P and pscale (or radius) as spheres, not as an object"),
+        integer("level", "", 0, 1000,
+            ".csv and .json whose spheres have levels: which one is taken; by default the finest"),
         choice("delayed", {"auto", "1", "0"},
             "leave the values of a .vdb in the file until they are needed, and read them node by "
             "node: grids may be larger than memory then; auto does so from 64 MiB on"),

@@ -5,6 +5,7 @@
 /// The mask is exact: the voxel centres that lie in the level's spheres without padding, so level 0
 /// gives the object back. The level set is that of the spheres as stored, in world space.
 
+#include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "session/Session.h"
 
@@ -62,6 +63,7 @@ template <typename MakeGrid>
 void replaceTree(const ActionCall& call, Session& session, const MakeGrid& makeGrid)
 {
     StackItem& input = session.stack.selectTree(call.text("vdb"));
+    placeInObject(input, session);
     StackItem result;
     result.grid = makeGrid(*input.tree, levelOf(call, *input.tree));
     result.grid->setName(call.given("name") ? call.text("name") : input.name());

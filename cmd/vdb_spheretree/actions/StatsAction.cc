@@ -6,6 +6,7 @@
 #include "base/LastWords.h"
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
+#include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "report/StatsReport.h"
@@ -100,6 +101,7 @@ void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     session.noteIfUnverified(item);
+    placeInObject(item, session);
     const auto& levels = item.tree->levels;
     if (std::any_of(levels.begin(), levels.end(), lacksErrors)) {
         if (!item.object) findObject(item, session);

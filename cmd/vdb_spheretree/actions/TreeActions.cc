@@ -4,6 +4,7 @@
 
 #include "base/Errors.h"
 #include "base/Terminal.h"
+#include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
@@ -155,6 +156,7 @@ void runLevel(const ActionCall& call, Session& session)
     StackItem& input = session.stack.selectTree(call.text("vdb"));
     StackItem result;
     result.object = input.object;
+    result.given = input.given; // all of them: they have one level
     result.unverified = input.unverified;
     result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
     if (call.given("name")) result.tree->settings.name = call.text("name");
@@ -202,20 +204,25 @@ std::vector<spheretree::TreeFault> faultsOf(const StackItem& item, const BoolGri
 
 void runCheck(const ActionCall& call, Session& session)
 {
-    const StackItem& item = session.stack.selectTree("");
+    StackItem& item = session.stack.selectTree("");
     session.noteIfUnverified(item);
+    placeInObject(item, session, call.text("vdb"));
     const auto object = objectToCheck(item, call, session);
     const bool covers = !item.tree->settings.isInner(); // and there is something to prove of a mesh
     const auto mesh = covers ? meshOf(session) : nullptr;
     const auto faults = faultsOf(item, object, mesh.get(), session);
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
+    const bool isGiven = item.tree->settings.isGiven();
+    if (!faults.empty() && isGiven) {
+        throw CommandError(kCheckFailed, item.description() + ": " + faults.front().sentence);
+    }
     if (!faults.empty()) {
         throw CommandError(kCheckFailed,
             item.description() + " does not hold what it promises: " + std::to_string(faults.size())
                 + " of the checks failed, the first: " + faults.front().sentence);
     }
     if (session.verbosity == Verbosity::Quiet) return;
-    if (object) session.print("all checks hold\n");
+    if (object) session.print(isGiven ? "the spheres cover the object\n" : "all checks hold\n");
     if (mesh) {
         session.print("every triangle of mesh '" + oneLine(mesh->name, 60)
             + "' lies in the stored spheres of every level\n");

@@ -65,11 +65,14 @@ void check(const ActionCall& call, Plan& plan)
                                        "to write"
                                      : extension + " files are not written")
                 + "; it writes .vdb (grids and sphere-trees), .csv and .json (a sphere-tree) and "
-                  ".png (a picture)"
+                  ".png and .jpg (a picture)"
                 + (kind == FileKind::Mesh
                         ? "; for a mesh: -spheres2ls -write x.vdb, and vdb_tool's "
                           "-ls2mesh"
                         : ""));
+        }
+        if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
+            throwUsage(path + ": this build has no libjpeg, so it writes pictures as .png only");
         }
         plan.addOutput(path);
         if (kind == FileKind::Csv && !isStdout(path)) plan.addOutput(dagPath(path));
@@ -157,6 +160,7 @@ public:
         case FileKind::Csv: return writeTables(path);
         case FileKind::Json:
         case FileKind::Png:
+        case FileKind::Jpeg:
             return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         default:
             writeFile(path, [&](std::iostream& out) {
@@ -291,7 +295,7 @@ ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb), one sphere-tree as tables (.csv) or JSON "
-        "(.json), or a picture of a level of it or of an object (.png)"};
+        "(.json), or a picture of a level of it or of an object (.png, .jpg)"};
     action.options = {
         list("files", "", "files to write, or stdout.vdb, .csv, .json; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WritePicture.h"
 
+#include "GivenSpheres.h"
 #include "ObjectChoice.h"
 
 #include <openvdb_spheretree/picture/Camera.h>
 #include <openvdb_spheretree/picture/SpherePicture.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <algorithm>
 
@@ -82,8 +84,9 @@ Camera cameraOf(const ActionCall& call, const openvdb::CoordBBox& object,
     const openvdb::math::Transform& transform)
 {
     const double aspect = double(call.integer("width")) / double(call.integer("height"));
-    return cameraOf(call,
-        spheretree::viewOf(object, transform, vectorOf(call, "up"), call.real("fov"), aspect));
+    const bool isFlat = spheretree::flatAxisOf(object) >= 0;
+    const double fov = isFlat && !call.given("fov") ? 0 : call.real("fov");
+    return cameraOf(call, spheretree::viewOf(object, transform, vectorOf(call, "up"), fov, aspect));
 }
 
 StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& path)
@@ -130,20 +133,22 @@ Picture pictureOfObject(const ActionCall& call, const StackItem& item, Session& 
 std::vector<OptionSpec> pictureOptions()
 {
     constexpr int kMaxSide = PictureSettings::kMaxSide;
-    return {vector("eye", "",
-                ".png: where the camera stands, x,y,z in world units (by default it sees all of "
-                "the object, the same for every level)"),
-        vector("lookat", "", ".png: the point in the middle (by default the object's)"),
-        vector("up", "0,1,0", ".png: the direction that is upright"),
-        real("fov", "30", Camera::kMinFov, Camera::kMaxFov,
-            ".png: vertical angle of view in degrees"),
-        integer("width", "1280", 1, kMaxSide, ".png: pixels, at most 16384"),
-        integer("height", "960", 1, kMaxSide, ".png: pixels, at most 16384"),
-        integer(
-            "level", "0", 0, 1000, ".png: the level that is drawn; by default the finest there is"),
+    return {
+        vector("eye", "",
+            "pictures: where the camera stands, x,y,z in world units (by default it sees all of "
+            "the object, the same for every level)"),
+        vector("lookat", "", "pictures: the point in the middle (by default the object's)"),
+        vector("up", "0,1,0", "pictures: the direction that is upright"),
+        real("fov", "30", 0, Camera::kMaxFov,
+            "pictures: vertical angle of view in degrees; 0 for an orthographic camera, which is "
+            "the "
+            "default for objects one voxel thick"),
+        integer("width", "1280", 1, kMaxSide, "pictures: pixels, at most 16384"),
+        integer("height", "960", 1, kMaxSide, "pictures: pixels, at most 16384"),
+        integer("level", "0", 0, 1000,
+            "pictures: the level that is drawn; by default the finest there is"),
         text("color", "parent",
-            ".png: parent (siblings share a colour; where there are no parents as id), level, id, "
-            "or "
+            "pictures: parent (siblings share a colour; without parents as id), level, id, or "
             "red,green,blue of 0 to 1")};
 }
 
@@ -151,10 +156,10 @@ void checkPictureOptions(const ActionCall& call)
 {
     const std::vector<std::string> files = call.list("files");
     const bool picture = std::any_of(files.begin(), files.end(),
-        [](const std::string& path) { return fileKind(path) == FileKind::Png; });
+        [](const std::string& path) { return isPicture(fileKind(path)); });
     for (const OptionSpec& option : pictureOptions()) {
         if (picture || !call.given(option.name)) continue;
-        throwUsage("option " + option.name + " is for pictures, and no .png is written");
+        throwUsage("option " + option.name + " is for pictures, and none is written (.png, .jpg)");
     }
     settingsOf(call);
     if (!picture) return;
@@ -170,7 +175,8 @@ void checkPictureOptions(const ActionCall& call)
 Picture pictureOf(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session)
 {
-    const StackItem& item = itemToDraw(items, path);
+    StackItem& item = itemToDraw(items, path);
+    placeInObject(item, session); // so that it shares its view with the object's picture
     return item.tree ? pictureOfTree(call, *item.tree, session)
                      : pictureOfObject(call, item, session);
 }

@@ -100,6 +100,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".vdb") return FileKind::Vdb;
     if (extension == ".csv") return FileKind::Csv;
     if (extension == ".png") return FileKind::Png;
+    if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
     if (isArray(path)) return FileKind::Unknown;
@@ -121,6 +122,8 @@ void Plan::addInput(const std::string& path)
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:
+    case FileKind::Csv:
+    case FileKind::Json:
     case FileKind::Mesh: mInputs.insert(target); return;
     default: refuseToRead(path);
     }

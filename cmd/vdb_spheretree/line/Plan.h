@@ -10,13 +10,14 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Unknown };
+enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Jpeg, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);
 
 /// By the extension, in upper or lower case.
 FileKind fileKind(const std::string& path);
+inline bool isPicture(FileKind kind) { return kind == FileKind::Png || kind == FileKind::Jpeg; }
 
 /// @return whether @a path is `stdin.EXTENSION`, with that of a kind that is read.
 bool isStdin(const std::string& path);

@@ -137,9 +137,11 @@ void printReasons(std::ostream& out, const SphereTree& tree)
     std::string last;
     for (const SphereTreeLevel& level : tree.levels) {
         if (level.error) continue;
-        const std::string reason = level.errorUnknown.empty()
-            ? "errors were not counted; -stats counts them where the object is on the stack"
-            : oneLine(level.errorUnknown);
+        const char* const uncounted = tree.settings.isGiven()
+            ? "no object is on the stack that the spheres could be held against"
+            : "errors were not counted; -stats counts them where the object is on the stack";
+        const std::string reason =
+            level.errorUnknown.empty() ? uncounted : oneLine(level.errorUnknown);
         if (reason == last) continue;
         out << "'-' for errors from level " << level.level << " on: " << reason << "\n";
         last = reason;
@@ -163,6 +165,7 @@ void printStoredReasons(std::ostream& out, const SphereTree& tree)
 
 void printTopologyReason(std::ostream& out, const SphereTree& tree)
 {
+    if (tree.settings.isGiven()) return; // spheres of others never have
     const auto counted = [](const SphereTreeLevel& level) { return level.topology.has_value(); };
     if (std::all_of(tree.levels.begin(), tree.levels.end(), counted)) return;
     out << "'-' for parts, tunnels and cavities: "
@@ -208,7 +211,7 @@ std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
     using namespace openvdb_spheretree;
     const auto* tight = settings.find<TightOptions>();
     const auto* pyramid = settings.find<PyramidOptions>();
-    std::string text = toString(settings.type());
+    std::string text = settings.isGiven() ? "as they were read" : toString(settings.type());
     if (pyramid) text += ", factor " + std::to_string(pyramid->factor);
     if (settings.isInner()) text += ", side inner";
     if (tight) text += std::string(", quality ") + toString(tight->quality);
@@ -223,6 +226,7 @@ std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
     if (!pyramid) return text;
     const std::string model = modelToString(*pyramid);
     if (model != "or") text += ", model " + model;
+    if (pyramid->origin) text += ", origin " + originToString(pyramid->origin);
     if (pyramid->scale == RadiusScale::Paper) text += ", scale paper";
     return text;
 }
@@ -263,12 +267,16 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     std::ostringstream out;
     const auto& object = tree.object;
     const openvdb::Coord size = object.bbox.dim();
-    out << "object '" << oneLine(object.name, 60) << "': " << withCommas(object.voxels)
-        << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
-        << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
-        << size[2] << "\n";
-    out << "tree '" << oneLine(tree.settings.name, 60) << "': " << kindOf(tree.settings) << ", "
-        << withCommas(tree.size()) << " spheres; radii and distances in voxels of level 0\n";
+    const bool alone = tree.settings.isGiven() && object.voxels == 0;
+    if (alone) out << "no object; voxels of " << tree.voxelSize() << " are of the spheres' box\n";
+    else
+        out << "object '" << oneLine(object.name, 60) << "': " << withCommas(object.voxels)
+            << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
+            << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
+            << size[2] << "\n";
+    out << (tree.settings.isGiven() ? "spheres '" : "tree '") << oneLine(tree.settings.name, 60)
+        << "': " << kindOf(tree.settings) << ", " << withCommas(tree.size())
+        << " spheres; radii and distances in voxels of level 0\n";
     const std::size_t limit = terminalColumns(session.textOut());
     std::vector<Row> rows = {headerOf(tree)};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));

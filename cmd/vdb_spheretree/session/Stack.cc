@@ -29,7 +29,7 @@ std::string StackItem::description() const
 {
     std::string kind = "mesh", details;
     if (tree) {
-        kind = "sphere-tree";
+        kind = tree->settings.isGiven() ? "spheres" : "sphere-tree";
     } else if (grid) {
         kind = "grid";
         const bool isPoints = grid->isType<openvdb::points::PointDataGrid>();

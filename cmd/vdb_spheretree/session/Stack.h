@@ -9,6 +9,7 @@
 #pragma once
 
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/input/spheres/WorldSpheres.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
@@ -24,6 +25,10 @@ struct StackItem {
     openvdb::SharedPtr<openvdb::GridBase> grid = {};
     std::shared_ptr<openvdb_spheretree::SphereTree> tree = {};
     std::shared_ptr<openvdb_spheretree::TriangleMesh> mesh = {};
+
+    /// What `tree` was made from, if these are spheres that were read: they are put into the frame of
+    /// an object once there is one (GivenSpheres.h).
+    std::shared_ptr<const openvdb_spheretree::WorldSpheres> given = {};
 
     /// That a tree was built from; null if not known.
     openvdb::SharedPtr<const openvdb::BoolGrid> object = {};

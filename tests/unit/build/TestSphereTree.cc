@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/medial/DistanceTransform.h>
 #include <openvdb_spheretree/medial/MedialAxis.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
@@ -190,6 +191,53 @@ TEST(SphereTree, RecordsSettingsObjectAndTransform)
     EXPECT_EQ(*tree.transform, grid->transform());
     EXPECT_EQ(tree.voxelSize(), 0.25);
     EXPECT_FALSE(tree.levels[0].error.has_value());
+}
+
+TEST(SphereTree, CountsThePyramidFromTheOriginAskedFor)
+{
+    const Voxels object = translated(shapes::box(Coord(17, 9, 12)), Coord(13, 30, 6));
+    const auto grid = gridOf(object);
+    for (const int factor : {2, 3}) {
+        for (const Coord& origin : {Coord(0), Coord(8, -16, 0)}) {
+            for (const bool extended : {false, true}) {
+                ExtendedOptions options;
+                options.factor = factor;
+                options.origin = origin;
+                options.reconstruct = Reconstruction::None;
+                ReversibleOptions reversible;
+                static_cast<PyramidOptions&>(reversible) = options;
+                const SphereTree tree =
+                    extended ? buildSphereTree(*grid, options) : buildSphereTree(*grid, reversible);
+                EXPECT_EQ(tree.origin, origin);
+                EXPECT_EQ(tree.root().size(), 1);
+                std::set<Coord> voxels(object.begin(), object.end());
+                for (const SphereTreeLevel& level : tree.levels) {
+                    EXPECT_EQ(level.pyramidVoxels, int64_t(voxels.size())) << level.level;
+                    std::set<Coord> next;
+                    for (const Coord& v : voxels) {
+                        const Coord from = level.level == 0 ? v - origin : v; // never negative
+                        next.insert(Coord(from[0] / factor, from[1] / factor, from[2] / factor));
+                    }
+                    voxels = next;
+                }
+                EXPECT_TRUE(checkSphereTree(tree, *grid).empty());
+            }
+        }
+    }
+}
+
+TEST(SphereTree, RefusesAnOriginThatNoPyramidEndsWith)
+{
+    const auto grid = gridOf(block()); // from (3, -20, 6) on
+    ReversibleOptions options;
+    options.origin = Coord(0);
+    EXPECT_TRUE(mentions(messageOfBuild(*grid, options), "origin=0,0,0"));
+    options.origin = Coord(0, -28, 0);
+    EXPECT_TRUE(mentions(messageOfBuild(*grid, options), "multiples of 8"));
+    options.origin = Coord(0, -(1 << 28) - 64, 0);
+    EXPECT_TRUE(mentions(messageOfBuild(*grid, options), "2^28"));
+    options.origin = Coord(-8, -24, 0);
+    EXPECT_EQ(buildSphereTree(*grid, options).origin, Coord(-8, -24, 0));
 }
 
 TEST(SphereTree, KeepsATransformOfItsOwn)

@@ -120,7 +120,7 @@ TEST_F(TreeCheck, SaysWhenLevelsAreNoRangesOfNodes)
 {
     expectFault(
         FaultKind::Shape, [](SphereTree& tree) { tree.subdivision = 3; },
-        "centres are in units of 1/3 of a voxel, not 1/2 or 1/16");
+        "centres are in units of 1/3 of a voxel, not 1/2, 1/16 or 1/1024");
     expectFault(
         FaultKind::Shape, [](SphereTree& tree) { tree.levels[1].begin = 2; },
         "level 1 is nodes 2 to 3 (exclusive), where nodes from 1 on are expected");

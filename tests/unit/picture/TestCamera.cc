@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,12 +32,26 @@ std::string whyNot(const Camera& camera)
     return messageOf<openvdb::ValueError>([&] { camera.validate(); });
 }
 
-/// The sine of the angle between the axis of view and the outermost point of a ball.
-double sineOfReach(const Camera& camera, const Vec3d& center, double radius)
-{
-    EXPECT_NEAR((camera.lookAt - center).length(), 0, 1e-9);
-    return radius / (camera.eye - center).length();
-}
+/// How much of a picture's width and height the corners of a box take, seen by this camera.
+struct Filled {
+    double wide = 0, tall = 0;
+    Filled(const Camera& camera, const CoordBBox& box, const Transform& transform, double aspect)
+    {
+        const Vec3d ahead = (camera.lookAt - camera.eye).unit();
+        const Vec3d right = ahead.cross(camera.up).unit(), up = right.cross(ahead);
+        for (int i = 0; i < 8; ++i) {
+            const Vec3d index(i & 1 ? box.max()[0] + 0.5 : box.min()[0] - 0.5,
+                i & 2 ? box.max()[1] + 0.5 : box.min()[1] - 0.5,
+                i & 4 ? box.max()[2] + 0.5 : box.min()[2] - 0.5);
+            const Vec3d from = transform.indexToWorld(index) - camera.eye;
+            const double half = camera.isOrthographic()
+                ? camera.height / 2
+                : from.dot(ahead) * std::tan(camera.fovDegrees * kPi / 360);
+            tall = std::max(tall, std::abs(from.dot(up)) / half);
+            wide = std::max(wide, std::abs(from.dot(right)) / (half * aspect));
+        }
+    }
+};
 
 } // namespace
 
@@ -44,7 +59,7 @@ TEST(Camera, OneThatSeesNothingIsRefusedByName)
 {
     EXPECT_NO_THROW(Camera().validate());
     Camera camera;
-    for (const double fov : {0.0, -1.0, 1e-300, 180.0, 1e9, std::nan("")}) {
+    for (const double fov : {-1.0, 1e-300, 180.0, 1e9, std::nan("")}) {
         camera.fovDegrees = fov;
         EXPECT_TRUE(mentions(whyNot(camera), "fov="));
     }
@@ -82,22 +97,35 @@ TEST(Camera, ThereIsNoViewFromADirectionOrAngleThatIsNone)
     EXPECT_THROW(viewOf(box, *transform, Vec3d(0, 1, 0), 1e-300, 1), openvdb::ValueError);
 }
 
-TEST(Camera, TheViewOfAnObjectJustHoldsTheSphereAroundItsBox)
+TEST(Camera, TheBoxOfAnObjectFillsItsView)
 {
     auto transform = Transform::createLinearTransform(0.25);
     transform->postRotate(0.7, openvdb::math::Y_AXIS);
     transform->postTranslate(Vec3d(1000, -3, 5));
     const CoordBBox box(Coord(-10, 0, 4), Coord(29, 11, 9));
     const Vec3d center = transform->indexToWorld(Vec3d(9.5, 5.5, 6.5));
-    const double radius = 0.25 * Vec3d(40, 12, 6).length() / 2;
-    for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(0, 0, 2), Vec3d(-1, 0, 0), Vec3d(1, 1, 1)}) {
-        const Camera wide = viewOf(box, *transform, up, 40, 2);
-        EXPECT_NO_THROW(wide.validate());
-        EXPECT_NEAR(sineOfReach(wide, center, radius), std::sin(20 * kPi / 180), 1e-9);
-        EXPECT_GT((wide.eye - wide.lookAt).dot(up), 0) << "from above";
-        const Camera narrow = viewOf(box, *transform, up, 40, 0.5);
-        EXPECT_NEAR(std::tan(std::asin(sineOfReach(narrow, center, radius))),
-            std::tan(20 * kPi / 180) / 2, 1e-9);
+    for (const double fov : {0.0, 0.01, 40.0, 120.0}) {
+        for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(0, 0, 2), Vec3d(-1, 0, 0), Vec3d(1, 1, 1)}) {
+            for (const double aspect : {2.0, 1.0, 0.1}) {
+                const Camera camera = viewOf(box, *transform, up, fov, aspect);
+                EXPECT_NO_THROW(camera.validate());
+                EXPECT_EQ(camera.lookAt, center);
+                EXPECT_GT((camera.eye - camera.lookAt).dot(up), 0) << "from above";
+                const Filled filled(camera, box, *transform, aspect);
+                EXPECT_NEAR(std::max(filled.wide, filled.tall), kFilled, 1e-6) << fov << aspect;
+            }
+        }
+    }
+}
+
+TEST(Camera, AnOrthographicOneHasAHeight)
+{
+    Camera camera;
+    camera.fovDegrees = 0;
+    EXPECT_NO_THROW(camera.validate());
+    for (const double height : {0.0, -1.0, std::nan(""), 1e101}) {
+        camera.height = height;
+        EXPECT_TRUE(mentions(whyNot(camera), "height"));
     }
 }
 

@@ -122,6 +122,86 @@ std::set<std::vector<int>> colorsOf(const SphereTree& tree, int level, PictureCo
 
 } // namespace
 
+TEST(SpherePicture, AnOrthographicOutlineIsACircleAtAnyDistance)
+{
+    PictureSettings settings;
+    settings.width = 640;
+    settings.height = 480;
+    settings.color = PictureColor::Fixed;
+    settings.fixed = Vec3d(0.0);
+    Camera camera;
+    camera.fovDegrees = 0;
+    camera.height = 6;
+    const double pixel = camera.height / settings.height, expected = kPi * 2.25 / (pixel * pixel);
+    for (const int dim : {3, 2}) {
+        SphereTree tree = treeOf({{Vec3d(2, 1, 0), 1.5}}, 0.5); // at (1, 0.5, 0) in the world
+        tree.settings.dim = dim;
+        for (const double distance : {0.1, 5.0, 1e6}) {
+            camera.lookAt = Vec3d(1, 0.5, 0);
+            camera.eye = Vec3d(1, 0.5, distance); // the first is in the ball
+            const Picture straight = renderLevel(tree, 0, camera, settings);
+            EXPECT_NEAR(darkPixels(straight), expected, 0.005 * expected) << dim << distance;
+        }
+        // Half as far to the side as it is away: a ball stays a circle, a disc is foreshortened.
+        camera.eye = camera.lookAt + Vec3d(2, 0, 4);
+        const double seen = dim == 3 ? expected : expected * 2 / std::sqrt(5);
+        EXPECT_NEAR(darkPixels(renderLevel(tree, 0, camera, settings)), seen, 0.005 * seen) << dim;
+    }
+}
+
+TEST(SpherePicture, OfDiscsTheSmallerOneIsInFrontFromBothSides)
+{
+    SphereTree tree = treeOf({{Vec3d(0.5, 0, 0), 1}, {Vec3d(0, 0, 0), 3}});
+    tree.settings.dim = 2;
+    PictureSettings settings = small(PictureColor::Id);
+    settings.width = settings.height = 1;
+    for (const double side : {-1.0, 1.0}) {
+        Camera camera;
+        camera.fovDegrees = 0;
+        camera.height = 0.01;
+        const auto seenAt = [&](double x) {
+            camera.lookAt = Vec3d(x, 0, 0);
+            camera.eye = Vec3d(x, 0, 9 * side);
+            return renderLevel(tree, 0, camera, settings).rgb;
+        };
+        EXPECT_NE(seenAt(0.5), seenAt(-2)) << side;
+        SphereTree alone = tree;
+        alone.spheres.radiusWorld[1] = 0.5f;
+        alone.spheres.center[1] = Vec3d(100, 0, 0);
+        tree.spheres.radiusWorld.swap(alone.spheres.radiusWorld);
+        tree.spheres.center.swap(alone.spheres.center);
+        const auto small = seenAt(0.5);
+        tree.spheres.radiusWorld.swap(alone.spheres.radiusWorld);
+        tree.spheres.center.swap(alone.spheres.center);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(seenAt(0.5)[c], small[c], 3) << side;
+    }
+}
+
+TEST(SpherePicture, AJpegHoldsThePictureNearly)
+{
+    const Picture picture =
+        renderLevel(treeOf({{Vec3d(0, 0, 0), 3}}), 0, viewOfTree(treeOf({{Vec3d(0), 3}})), small());
+    std::ostringstream out;
+    if (!writesJpeg()) {
+        EXPECT_TRUE(mentions(
+            messageOf<openvdb::IoError>([&] { writeJpeg(picture, out); }), "SPHERETREE_WITH_JPEG"));
+        return;
+    }
+    writeJpeg(picture, out);
+    const std::string file = out.str();
+    EXPECT_EQ(file.substr(0, 3), "\xFF\xD8\xFF");
+    EXPECT_EQ(file.substr(file.size() - 2), "\xFF\xD9");
+    std::ostringstream again, rough;
+    writeJpeg(picture, again);
+    EXPECT_EQ(again.str(), file);
+    writeJpeg(picture, rough, 10);
+    EXPECT_LT(rough.str().size(), file.size());
+    EXPECT_THROW(writeJpeg(picture, out, 0), openvdb::ValueError);
+    EXPECT_THROW(writeJpeg(Picture(), out), openvdb::ValueError);
+    out.setstate(std::ios::badbit);
+    EXPECT_THROW(writeJpeg(picture, out), openvdb::IoError);
+}
+
 TEST(SpherePicture, TheOutlineOfABallIsTheEllipseOfItsCone)
 {
     const SphereTree tree = treeOf({{Vec3d(2, 0, 0), 3}}, 0.5); // at (1, 0, 0) in the world
@@ -291,7 +371,8 @@ TEST(SpherePicture, SiblingsShareAColorAndNeighboursDiffer)
     for (int i = 0; i < 8; ++i) addNode(tree, Vec3d(5 * i, 0, 0), Coord(i, 0, 0), 2, i / 2);
     for (int32_t id = 4; id < 12; ++id) tree.spheres.radiusWorld[id] = 1;
     EXPECT_EQ(colorsOf(tree, 0, PictureColor::Parent).size(), 4u);
-    EXPECT_EQ(colorsOf(tree, 1, PictureColor::Parent).size(), 1u) << "no parents: one colour";
+    EXPECT_EQ(colorsOf(tree, 1, PictureColor::Parent), colorsOf(tree, 1, PictureColor::Id))
+        << "no parents: as Id";
     EXPECT_EQ(colorsOf(tree, 0, PictureColor::Level).size(), 1u);
     EXPECT_GE(colorsOf(tree, 0, PictureColor::Id).size(), 4u);
     EXPECT_NE(colorsOf(tree, 0, PictureColor::Level), colorsOf(tree, 0, PictureColor::Fixed));

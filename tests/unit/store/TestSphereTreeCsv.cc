@@ -71,6 +71,9 @@ TEST(SphereTreeCsv, WritesAHeaderAndARowANodeFromTheTopDown)
 {
     SphereTree tree;
     tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
+    openvdb_spheretree::ReversibleOptions options;
+    options.factor = 3;
+    tree.settings = options;
     tree.origin = {-8, 0, 0};
     addLevel(tree, 1, 1);
     addLevel(tree, 2, 2);
@@ -79,10 +82,10 @@ TEST(SphereTreeCsv, WritesAHeaderAndARowANodeFromTheTopDown)
     addNode(tree, {-3, 1000, 1}, {5, 1000, 1}, -1, 0);
     tree.spheres.radiusWorld = {2.5f, 0.0f, 1024.0f};
     EXPECT_EQ(csvOf(tree),
-        "level,id,parent,x,y,z,radius,i,j,k,radius_sq\n"
-        "1,0,-1,-1.75,2.25,0.25,2.5,2,2,0,3\n"
-        "0,1,0,-2,2,0,0,-4,4,0,1\n"
-        "0,2,0,-1.5,500,0.5,1024,-3,1000,1,-1\n");
+        "level,id,parent,x,y,z,radius,i,j,k,radius_sq,scale,origin_i,origin_j,origin_k\n"
+        "1,0,-1,-1.75,2.25,0.25,2.5,2,2,0,3,3,-8,0,0\n"
+        "0,1,0,-2,2,0,0,-4,4,0,1,1,0,0,0\n"
+        "0,2,0,-1.5,500,0.5,1024,-3,1000,1,-1,1,0,0,0\n");
 }
 
 TEST(SphereTreeCsv, NumbersReadBackToTheSameDouble)
@@ -92,7 +95,7 @@ TEST(SphereTreeCsv, NumbersReadBackToTheSameDouble)
         ASSERT_EQ(lines.size(), std::size_t(tree.size()) + 1);
         for (int32_t id = 0; id < tree.size(); ++id) {
             const std::vector<std::string> row = split(lines[id + 1], ',');
-            ASSERT_EQ(row.size(), 11u);
+            ASSERT_EQ(row.size(), 15u);
             const openvdb::Vec3d center = tree.centerWorld(id);
             EXPECT_EQ(row[1], std::to_string(id));
             EXPECT_EQ(row[2], std::to_string(tree.spheres.parent[id]));

@@ -69,7 +69,8 @@ void expectSettings(const json& written, const SphereTree& tree)
         {"error", orNull(tight.budget.error)}, {"distance", orNull(tight.budget.distance)},
         {"bounds", tight.budget.bounds == BoundOf::Stored ? "stored" : "unpadded"},
         {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)}, {"side", "outer"},
-        {"cuts", tree.hasCuts}, {"name", settings.name}};
+        {"cuts", tree.hasCuts}, {"name", settings.name},
+        {"origin", pyramid.origin ? json(originToString(pyramid.origin)) : json()}};
     EXPECT_EQ(written, expected);
 }
 

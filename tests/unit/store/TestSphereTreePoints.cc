@@ -4,6 +4,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 
 #include "support/CoreStages.h"
 #include "support/Messages.h"
@@ -228,6 +229,31 @@ TEST(SphereTreePoints, CentresFarOutAndBetweenVoxelsAreExact)
     for (openvdb::Vec3d& center : tree.spheres.center)
         center += openvdb::Vec3d(1e9, 0.0625, -0.4375);
     EXPECT_EQ(fromPoints(*toPoints(tree)).spheres.center, tree.spheres.center);
+}
+
+TEST(SphereTreePoints, SpheresThatWereReadComeBack)
+{
+    openvdb_spheretree::WorldSpheres spheres;
+    spheres.name = "given";
+    uint32_t random = 1;
+    const auto next = [&] { return double(random = random * 1664525 + 1013904223) / 4294967296.0; };
+    for (int i = 0; i < 500; ++i) { // far apart: points of a grid with wide voxels
+        const double far = i % 2 ? 1e5 : 1;
+        spheres.center.emplace_back(far * next(), -far * next(), next() / 3);
+        spheres.radius.push_back(0.001 + next());
+    }
+    const SphereTree tree = openvdb_spheretree::givenTree(spheres);
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+}
+
+TEST(SphereTreePoints, TheOriginAskedForComesBackAndIsLeftOutByDefault)
+{
+    SphereTree tree = oneVoxelTree();
+    EXPECT_FALSE((*toPoints(tree))["spheretree_pyramid_origin"]);
+    tree.settings.pyramid().origin = openvdb::Coord(-8, 0, 1024);
+    const SphereTree back = fromPoints(*toPoints(tree));
+    EXPECT_EQ(back.settings.pyramid().origin, openvdb::Coord(-8, 0, 1024));
+    expectSameTree(back, tree);
 }
 
 TEST(SphereTreePoints, ACentreThatAFloatCannotHoldIsAnErrorAndNotRounded)

@@ -84,6 +84,18 @@ void expectMembers(const json& actual, const json& expected, const std::string& 
     }
 }
 
+/// Rows begin with the columns of the stored ones; there may be new columns behind them.
+void expectColumns(const std::string& actual, const std::string& expected)
+{
+    std::istringstream rows(actual), stored(expected);
+    std::string row, known;
+    while (std::getline(stored, known)) {
+        ASSERT_TRUE(std::getline(rows, row)) << known;
+        ASSERT_EQ(row.substr(0, known.size() + 1), known + ',');
+    }
+    EXPECT_FALSE(std::getline(rows, row)) << row;
+}
+
 /// Leaf nodes, attributes and metadata; but for what io::File itself adds.
 void expectSameGrid(const PointDataGrid::Ptr& actual, const PointDataGrid::Ptr& stored)
 {
@@ -117,7 +129,7 @@ TEST_P(StoredFiles, AreReadToEveryNodeLevelAndSetting)
     const SphereTree tree = StoredTree(name).tree();
     std::ostringstream csv, text;
     writeCsv(tree, csv);
-    EXPECT_EQ(csv.str(), textOf(name + ".csv"));
+    expectColumns(csv.str(), textOf(name + ".csv"));
     writeJson(tree, text);
     expectMembers(json::parse(text.str()), json::parse(textOf(name + ".json")), "");
 }
@@ -172,7 +184,7 @@ TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
         EXPECT_EQ(int64_t(mask->activeVoxelCount()), stored.object.voxels);
         std::ostringstream csv;
         writeCsv(buildSphereTree(*mask, stored.settings), csv);
-        EXPECT_EQ(csv.str(), textOf(std::string(name) + ".csv"));
+        expectColumns(csv.str(), textOf(std::string(name) + ".csv"));
     }
 }
 
@@ -185,7 +197,7 @@ TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
     const SphereTreeSettings settings = ReversibleOptions();
     std::ostringstream csv;
     writeCsv(buildSphereTree(*object, settings), csv);
-    EXPECT_EQ(csv.str(), textOf("0.1/levelset.csv"));
+    expectColumns(csv.str(), textOf("0.1/levelset.csv"));
 }
 
 } // namespace

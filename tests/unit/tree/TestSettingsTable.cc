@@ -18,7 +18,7 @@ namespace {
 
 std::vector<SphereTreeSettings> allKinds()
 {
-    return {TightOptions(), InnerOptions(), ExtendedOptions(), ReversibleOptions()};
+    return {TightOptions(), InnerOptions(), ExtendedOptions(), ReversibleOptions(), GivenOptions()};
 }
 
 /// A value that no setting has by default.
@@ -33,6 +33,7 @@ std::string otherValue(const Setting& setting)
     if (setting.name == "dist") return "chamfer:3,4,5";
     if (setting.name == "padding") return "0.1";
     if (setting.name == "model") return "closing:3";
+    if (setting.name == "origin") return "0,-8,16";
     return setting.name == "memory" ? "4GiB" : "another";
 }
 
@@ -45,7 +46,8 @@ bool choosesKind(const Setting& setting)
 bool isFree(const Setting& setting, const SphereTreeSettings& settings)
 {
     if (setting.name == "dist" && !settings.find<PyramidOptions>()) return false;
-    return setting.isFor(settings) && !(setting.name == "padding" && settings.isInner());
+    const bool padded = !settings.isInner() && !settings.isGiven();
+    return setting.isFor(settings) && (padded || setting.name != "padding");
 }
 
 } // namespace
@@ -56,16 +58,17 @@ TEST(SettingsTable, HasARowForEveryField)
 {
     const auto& [budget, cuts] = BudgetOptions();
     const auto& [spheres, branching, error, distance, inVoxels, bounds] = budget;
-    const auto& [factor, closing, model, dist, center, parent, scale, dag, edges] =
+    const auto& [factor, closing, model, origin, dist, center, parent, scale, dag, edges] =
         PyramidOptions();
     const SphereTreeSettings settings;
     const auto& [kind, dim, padding, topology, name, memory] = settings;
     const auto count = [](const auto&... fields) { return sizeof...(fields); };
     const std::size_t budgets = count(spheres, branching, error, distance, bounds, cuts);
-    const std::size_t pyramids = count(factor, model, dist, center, parent, scale, dag, edges);
+    const std::size_t pyramids =
+        count(factor, model, origin, dist, center, parent, scale, dag, edges);
     const std::size_t shared = count(dim, padding, topology, name, memory);
-    // Beside these: quality, cover and leaves; finalFit and reconstruct; the kind has two rows.
-    EXPECT_EQ(settingsTable().size(), budgets + pyramids + shared + 3 + 2 + 2);
+    // Beside these: quality, cover and leaves; strict; finalFit and reconstruct; the kind has two rows.
+    EXPECT_EQ(settingsTable().size(), budgets + pyramids + shared + 3 + 1 + 2 + 2);
     EXPECT_EQ(settingsInJson().size(), settingsTable().size() - 1) << "all but memory";
     static_cast<void>(closing), static_cast<void>(kind),
         static_cast<void>(inVoxels); // rows "model"; "tree" and "side"; "distance"
