@@ -455,7 +455,7 @@ std::vector<SphereTreeSettings> manyTypes()
         options.cuts = quality != Quality::Best;
         types.push_back(options);
         options.budget = {};
-        options.budget.error = 30;
+        options.budget.error = 300;
         options.cuts = false;
         types.push_back(options);
     }
