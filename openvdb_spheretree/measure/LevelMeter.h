@@ -7,6 +7,7 @@
 
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -36,6 +37,10 @@ public:
         openvdb::util::NullInterrupter* interrupter) const;
 
 private:
+    /// @return a bound for points in the cubes of these voxels, in voxels.
+    double reachOfVoxels(
+        const MaskMinus& outside, openvdb::util::NullInterrupter* interrupter) const;
+
     openvdb::MaskTree mMask;
     NearestVoxel mNearest;
     int64_t mVoxels;
