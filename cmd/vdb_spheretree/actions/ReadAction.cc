@@ -168,8 +168,8 @@ void scaleItem(const StackItem& item, std::optional<double> scale)
     if (item.grid) openvdb_spheretree::scaleGrid(*item.grid, *scale);
 }
 
-StackItem sphereItem(openvdb_spheretree::WorldSpheres spheres, std::optional<double> scale,
-    Session& session)
+StackItem sphereItem(
+    openvdb_spheretree::WorldSpheres spheres, std::optional<double> scale, Session& session)
 {
     if (scale) scaleSpheres(spheres, *scale);
     if (!spheres.assumption.empty()) session.note(spheres.assumption);
@@ -197,8 +197,8 @@ Loading loadingOf(const ActionCall& call)
 }
 
 /// A grid of a file that is no sphere-tree.
-void pushGrid(const GridBase::Ptr& grid, const std::string& path, const Reading& reading,
-    Session& session)
+void pushGrid(
+    const GridBase::Ptr& grid, const std::string& path, const Reading& reading, Session& session)
 {
     StackItem item;
     if (reading.pointsAreSpheres && grid->isType<PointDataGrid>()) {
