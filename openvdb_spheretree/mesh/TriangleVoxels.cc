@@ -267,7 +267,8 @@ MaskTree::Ptr trianglesToVoxels(const IndexMesh& mesh, openvdb::util::NullInterr
     constexpr std::size_t kChunk = 64;
     const std::vector<Piece> pieces = piecesOfLarge(mesh, interrupter);
     const std::size_t chunks = (mesh.triangles.size() + kChunk - 1) / kChunk;
-    std::vector<FoundVoxels> found(std::size_t(tbb::this_task_arena::max_concurrency()));
+    const auto threads = std::size_t(tbb::this_task_arena::max_concurrency());
+    std::vector<FoundVoxels> found(threads);
     const auto addChunk = [&](std::size_t chunk, FoundVoxels& voxels) {
         const std::size_t end = std::min((chunk + 1) * kChunk, mesh.triangles.size());
         for (std::size_t triangle = chunk * kChunk; triangle < end; ++triangle) {
