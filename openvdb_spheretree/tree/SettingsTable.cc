@@ -330,7 +330,7 @@ Setting distanceRow()
     setting.type = SettingType::Length;
     setting.lowest = 0;
     setting.isOptional = setting.isBound = true;
-    setting.extended = setting.reversible = false;
+    setting.extended = setting.reversible = setting.given = false;
     return setting;
 }
 

@@ -2,6 +2,7 @@
 /// @file ObjectActions.cc
 /// @brief -mesh2ls and -mask: from geometry and grids to the object that a tree is built over.
 
+#include "base/Terminal.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 
@@ -45,11 +46,11 @@ void warnIfOpen(const spheretree::TriangleMesh& mesh, Session& session)
 {
     const int64_t open = spheretree::openEdges(mesh, &session.progress);
     if (open == 0) return;
-    session.warn("mesh '" + mesh.name + "' is not closed: " + std::to_string(open)
-        + " edges belong to an odd number of triangles; where it is open by more than a voxel it "
-          "has no "
-          "inside, and the result may be a thin shell or nearly empty: -mesh2ls fill=outside "
-          "closes holes");
+    session.warn("mesh '" + mesh.name + "' is not closed: " + counted(open, "edge")
+        + (open == 1 ? " belongs" : " belong")
+        + " to an odd number of triangles; where it is open by more than a voxel it has no inside, "
+          "and "
+          "the result may be a thin shell or nearly empty: -mesh2ls fill=outside closes holes");
 }
 
 /// The object of a level set may lack what is thinner than a voxel.
@@ -68,9 +69,8 @@ void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::FloatGrid
     }
     const auto missed = spheretree::missedSurface(mesh, *object, &session.progress);
     if (missed.voxels == 0) return;
-    session.warn("the object of mesh '" + mesh.name
-        + "' lacks thin parts: " + std::to_string(missed.voxels)
-        + " voxels that the mesh meets are more than one voxel away from it, by up to "
+    session.warn("the object of mesh '" + mesh.name + "' lacks thin parts: the mesh meets "
+        + counted(missed.voxels, "voxel") + " more than one voxel away from it, by up to "
         + spheretree::detail::shortNumber(missed.distance) + " (world units): " + remedy);
 }
 

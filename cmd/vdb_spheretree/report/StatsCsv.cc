@@ -50,10 +50,12 @@ std::string lineOf(const SphereTree& tree, const SphereTreeLevel& level)
     }
     line.add(radii.smallest).add(radii.largest);
     const bool inner = tree.settings.isInner();
-    if (!level.error) return line.addEmpty(inner ? 6 : 5).take();
+    if (!level.error) return line.addEmpty(inner ? 8 : 7).take();
     const auto& error = *level.error;
     line.add(error.covered).add(error.excess).add(error.missing);
     line.add(error.hammingPercent).add(error.hausdorff);
+    if (level.stored) line.add(level.stored->hammingPercent).add(level.stored->reachWorld);
+    else line.addEmpty(2);
     if (inner) line.add(coveredPercent(tree, level));
     return line.take();
 }
@@ -63,7 +65,8 @@ std::string lineOf(const SphereTree& tree, const SphereTreeLevel& level)
 std::string statsCsv(const SphereTree& tree)
 {
     std::string text = "level,spheres,pyramid_voxels,components,tunnels,cavities,radius_min,"
-                       "radius_max,covered,excess,missing,hamming_percent,hausdorff";
+                       "radius_max,covered,excess,missing,hamming_percent,hausdorff,"
+                       "stored_hamming_percent,stored_reach";
     text += tree.settings.isInner() ? ",covered_percent\n" : "\n";
     for (const SphereTreeLevel& level : tree.levels) text += lineOf(tree, level);
     return text;

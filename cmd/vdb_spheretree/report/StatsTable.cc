@@ -270,13 +270,13 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     const bool alone = tree.settings.isGiven() && object.voxels == 0;
     if (alone) out << "no object; voxels of " << tree.voxelSize() << " are of the spheres' box\n";
     else
-        out << "object '" << oneLine(object.name, 60) << "': " << withCommas(object.voxels)
-            << " voxels of " << tree.voxelSize() << ", " << withCommas(object.leaves) << " leaves, "
-            << withCommas(object.tiles) << " tiles, box " << size[0] << " x " << size[1] << " x "
-            << size[2] << "\n";
+        out << "object '" << oneLine(object.name, 60) << "': " << counted(object.voxels, "voxel")
+            << " of " << tree.voxelSize() << ", " << withCommas(object.leaves)
+            << (object.leaves == 1 ? " leaf, " : " leaves, ") << counted(object.tiles, "tile")
+            << ", box " << size[0] << " x " << size[1] << " x " << size[2] << "\n";
     out << (tree.settings.isGiven() ? "spheres '" : "tree '") << oneLine(tree.settings.name, 60)
-        << "': " << kindOf(tree.settings) << ", " << withCommas(tree.size())
-        << " spheres; radii and distances in voxels of level 0\n";
+        << "': " << kindOf(tree.settings) << ", " << counted(tree.size(), "sphere")
+        << "; radii and distances in voxels of level 0\n";
     const std::size_t limit = terminalColumns(session.textOut());
     std::vector<Row> rows = {headerOf(tree)};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));

@@ -244,7 +244,7 @@ TEST_F(TreeCheck, SaysWhenARecordedErrorOfStoredSpheresIsWrong)
         "level 1 records 77777 % Hamming error of stored spheres, but it is 400");
     expectFault(
         FaultKind::Errors, [](SphereTree& tree) { tree.levels[0].stored->reachWorld = 1e-3; },
-        "level 0 records 0.001 as the reach of stored spheres, but it is 0.109375");
+        "level 0 records 0.001 as the reach of stored spheres, but it is 0.250001");
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree old = plusAndDotTree(*object);
     for (SphereTreeLevel& level : old.levels) level.stored.reset();

@@ -70,7 +70,8 @@ void expectSettings(const json& written, const SphereTree& tree)
         {"bounds", tight.budget.bounds == BoundOf::Stored ? "stored" : "unpadded"},
         {"cover", toString(tight.cover)}, {"leaves", toString(tight.leaves)}, {"side", "outer"},
         {"cuts", tree.hasCuts}, {"name", settings.name},
-        {"origin", pyramid.origin ? json(originToString(pyramid.origin)) : json()}};
+        {"origin", pyramid.origin ? json(originToString(pyramid.origin)) : json()},
+        {"strict", optionsOr<InnerOptions>(settings).strict}};
     EXPECT_EQ(written, expected);
 }
 

@@ -91,7 +91,7 @@ void expectColumns(const std::string& actual, const std::string& expected)
     std::string row, known;
     while (std::getline(stored, known)) {
         ASSERT_TRUE(std::getline(rows, row)) << known;
-        ASSERT_EQ(row.substr(0, known.size() + 1), known + ',');
+        ASSERT_EQ((row + ',').substr(0, known.size() + 1), known + ',');
     }
     EXPECT_FALSE(std::getline(rows, row)) << row;
 }
