@@ -70,8 +70,8 @@ TEST_F(CommandProgress, OnATerminalThereIsOneBarThatNeverFalls)
 
 TEST_F(CommandProgress, AQuickActionInALogShowsNothing)
 {
-    writeBlock("a.vol");
-    const command_test::Result result = run("-read a.vol -spheretree -write t.vdb");
+    const command_test::Result result =
+        run("-generate ball voxels=1e4 -spheretree reversible -write t.vdb");
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 3) << result.err;
     EXPECT_EQ(result.err.find('%'), std::string::npos);
 }

@@ -200,6 +200,7 @@ private:
         switch (fileKind(path)) {
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
+        case FileKind::Jpeg: return st::writeJpeg(pictureOf(mCall, path, mItems, mSession), out);
         default: st::writePng(pictureOf(mCall, path, mItems, mSession), out);
         }
     }

@@ -51,8 +51,10 @@ std::string dashHint(const std::string& name, const std::string& value)
         if (action.option(name)) actions.push_back("-" + action.name);
     }
     if (actions.empty()) return "";
-    return name + " is an option of " + joined(actions) + ", and options have no dash: "
-        + actions.front() + " " + name + "=" + (value.empty() ? "..." : value);
+    const auto build = std::find(actions.begin(), actions.end(), "-spheretree");
+    const std::string& likely = build == actions.end() ? actions.front() : *build;
+    return name + " is an option of " + joined(actions) + ", and options have no dash: " + likely
+        + " " + name + "=" + (value.empty() ? "..." : value);
 }
 
 /// @param next  the token after it, or empty
