@@ -130,10 +130,30 @@ TEST_F(CommandTight, ABoundIsOneOfStoredSpheres)
         << loose.err;
     const Result unit = run(make + "distance=5mm -write t.vdb");
     EXPECT_EQ(unit.exitCode, 2) << unit.err;
-    EXPECT_NE(unit.err.find("does not say what its unit"), std::string::npos) << unit.err;
+    EXPECT_NE(unit.err.find("units=mm, or write the number alone"), std::string::npos) << unit.err;
     const Result none = run(make + "bounds=unpadded -write t.vdb");
     EXPECT_EQ(none.exitCode, 2) << none.err;
     EXPECT_NE(none.err.find("add error= or distance="), std::string::npos) << none.err;
+}
+
+TEST_F(CommandTight, ADistanceHasAUnitWhereTheObjectHasOne)
+{
+    writeGrids("ball.vdb", {sphereGrid("ball", 12)});
+    const auto settingOf = [&](const std::string& read, const std::string& distance) {
+        const Result result = run("-quiet -read ball.vdb" + read
+            + " -spheretree distance=" + distance + " -stats json=-");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return nlohmann::json::parse(result.out)["settings"]["distance"];
+    };
+    EXPECT_EQ(settingOf(" units=mm", "3mm"), settingOf(" units=mm", "0.003"));
+    EXPECT_EQ(settingOf(" units=m", "300cm"), settingOf(" units=m", "3"));
+    EXPECT_EQ(settingOf(" units=m", "3e2cm"), settingOf("", "3"));
+    for (const char* line : {"-generate ball voxels=1e4 -spheretree distance=5mm -write t.vdb",
+             "-read ball.vdb units=mm -read ball.vdb -spheretree distance=5mm -write t.vdb",
+             "-read ball.vdb scale=0.001 -spheretree distance=5mm -write t.vdb"}) {
+        EXPECT_EQ(run(line).exitCode, 2) << line;
+    }
+    EXPECT_EQ(run("-read ball.vdb units=mm -spheretree distance=5mi -write t.vdb").exitCode, 2);
 }
 
 TEST_F(CommandTight, StatsSayWhatPaddingAdds)

@@ -38,7 +38,11 @@ Settings settingsOf(const ActionCall& call)
     return settings;
 }
 
-void check(const ActionCall& call, Plan&) { settingsOf(call).validate(); }
+void check(const ActionCall& call, Plan& plan)
+{
+    settingsOf(call).validate();
+    plan.addWorldUnit(/*metres=*/false);
+}
 
 void run(const ActionCall& call, Session& session)
 {

@@ -6,6 +6,7 @@
 #include "files/SpooledInput.h"
 #include "files/VdbStream.h"
 #include "line/Actions.h"
+#include "line/Length.h"
 #include "session/Session.h"
 
 #include <openvdb_spheretree/input/Resample.h>
@@ -121,19 +122,11 @@ StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     return item;
 }
 
-/// Units that files are in, and how many metres they are.
-const std::pair<const char*, double> kUnits[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1},
-    {"in", 0.0254}, {"ft", 0.3048}, {"um", 1e-6}, {"km", 1e3}};
-
 /// @return the factor for what is read; nothing if none is asked for.
 std::optional<double> scaleOf(const ActionCall& call)
 {
     if (call.given("scale")) return call.real("scale");
-    if (!call.given("units")) return std::nullopt;
-    for (const auto& [name, metres] : kUnits) {
-        if (call.text("units") == name) return metres;
-    }
-    return std::nullopt; // others are refused by the table of options
+    return call.given("units") ? metresOfUnit(call.text("units")) : std::nullopt;
 }
 
 void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
@@ -288,6 +281,7 @@ void check(const ActionCall& call, Plan& plan)
     if (call.given("scale") && call.given("units"))
         throwUsage("scale and units exclude each other");
     for (const std::string& path : call.list("files")) plan.addInput(path);
+    plan.addWorldUnit(call.given("units"));
     const auto isOf = [&](std::initializer_list<FileKind> kinds) {
         const std::vector<std::string> files = call.list("files");
         return std::any_of(files.begin(), files.end(), [&](const std::string& path) {
@@ -318,7 +312,7 @@ void run(const ActionCall& call, Session& session)
 OptionSpec unitsOption()
 {
     std::vector<std::string> names;
-    for (const auto& unit : kUnits) names.push_back(unit.first);
+    for (const auto& unit : unitsOfLength()) names.push_back(unit.first);
     OptionSpec units = choice("units", names, "what unit files are in; everything becomes metres");
     units.fallback.clear(); // they stay as they are
     return units;

@@ -244,7 +244,7 @@ ActionSpec spheretreeAction()
     action.options = spheretreeOptions();
     action.numberOption = "spheres";
     action.isForLater = true;
-    action.check = [](const ActionCall& call, Plan&) { checkTreeOptions(call); };
+    action.check = checkTreeOptions;
     action.work = longWorkOf;
     action.run = runSpheretree;
     return action;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TreeOptions.h"
 
+#include "line/Length.h"
+#include "line/Plan.h"
+
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include <algorithm>
@@ -23,6 +26,7 @@ OptionSpec optionOf(const Setting& setting)
     case SettingType::Flag: option.kind = OptionKind::Flag; break;
     case SettingType::Integer: option.kind = OptionKind::Integer; break;
     case SettingType::Real: option.kind = OptionKind::Real; break;
+    case SettingType::Length: option.doc += "; or 5mm, if -read has units="; break;
     default: break;
     }
     return option;
@@ -56,6 +60,18 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
         "out");
 }
 
+/// A file seldom says what its unit of length is.
+void requireKnownUnit(const ActionCall& call, const Plan& plan)
+{
+    const auto distance = parseLength(call.text("distance"));
+    if (!distance || plan.worldIsInMetres()) return;
+    throwUsage("distance=" + call.text("distance")
+        + ": a file does not say what its unit of length is; say it where it is read, such as "
+          "-read "
+          "part.stl units="
+        + distance->unit + ", or write the number alone, in the units of the file");
+}
+
 } // namespace
 
 std::vector<OptionSpec> spheretreeOptions()
@@ -79,9 +95,13 @@ SphereTreeSettings settingsOf(const ActionCall& call)
         spheretree::detail::settingsOfKind(call.text("tree"), call.text("side"));
     for (const Setting& setting : spheretree::detail::settingsTable()) {
         if (setting.name == "tree" || setting.name == "side" || !call.given(setting.name)) continue;
-        const bool isFlag = setting.type == SettingType::Flag;
-        setting.set(
-            settings, isFlag ? (call.flag(setting.name) ? "1" : "0") : call.text(setting.name));
+        std::string value = call.text(setting.name);
+        if (setting.type == SettingType::Flag) value = call.flag(setting.name) ? "1" : "0";
+        if (setting.type == SettingType::Length) {
+            const auto length = parseLength(value);
+            if (length) value = spheretree::detail::textOf(length->metres);
+        }
+        setting.set(settings, value);
     }
     return settings;
 }
@@ -105,9 +125,10 @@ LongWork longWorkOf(const ActionCall& call)
     return work;
 }
 
-void checkTreeOptions(const ActionCall& call)
+void checkTreeOptions(const ActionCall& call, Plan& plan)
 {
     refuseOptionsOfOtherTrees(call);
+    requireKnownUnit(call, plan);
     if (call.given("edges") && !call.flag("dag")) {
         throwUsage("edges=" + call.text("edges")
             + " says which edges of the Sphere-DAG to store, and none are: add dag=1");

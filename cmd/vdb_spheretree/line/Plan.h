@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -32,6 +33,11 @@ public:
     /// @throw CommandError (output or usage)
     void addOutput(const std::string& path);
 
+    /// @param metres  whether what comes from a source is in metres: said by units= of -read
+    void addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }
+    /// @return whether all that was read so far is in metres.
+    bool worldIsInMetres() const { return mAllMetres.value_or(false); }
+
     /// @return whether stdout carries data, so that tables and lists have to go to stderr.
     bool stdoutIsTaken() const { return mStdoutTaken; }
 
@@ -41,6 +47,7 @@ public:
 private:
     std::set<std::string> mInputs, mOutputs; ///< absolute paths, as far as they can be resolved
     bool mStdinTaken = false, mStdoutTaken = false;
+    std::optional<bool> mAllMetres; ///< nothing before the first source
 };
 
 } // namespace command
