@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tight/TightTree.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>
@@ -221,12 +222,35 @@ void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSec
     });
 }
 
+/// @param given  the leaf balls of leaves=given, else null
+SphereTree tightTree(SphereTree tree, const openvdb::BoolGrid& object, const SphereTree* given,
+    StageSeconds& seconds, openvdb::util::NullInterrupter* interrupter)
+{
+    tight::appendTightTree(tree, object, given, interrupter, &seconds);
+    detail::storeRadii(tree, interrupter);
+    if (tree.settings.tight().cover == Cover::Balls) {
+        containStoredLeaves(tree, radiiAroundCut(tree), interrupter);
+    }
+    return tree;
+}
+
+bool hasGivenLeaves(const SphereTreeSettings& settings)
+{
+    const auto* options = settings.find<TightOptions>();
+    return options && options->leaves == Leaves::Given;
+}
+
 } // namespace
 
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     StageSeconds* seconds, openvdb::util::NullInterrupter* interrupter)
 {
     settings.validate();
+    if (hasGivenLeaves(settings)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "leaves=given is for spheres that come from elsewhere: give them to "
+            "buildSphereTreeOver()");
+    }
     if (settings.isGiven()) {
         OPENVDB_THROW(
             openvdb::ValueError, "tree=given is for spheres that were read: nothing builds them");
@@ -234,18 +258,28 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     SphereTree tree = withoutNodes(object, settings);
     StageSeconds ownSeconds;
     if (!seconds) seconds = &ownSeconds;
-    if (const auto* options = settings.find<TightOptions>()) {
-        tight::appendTightTree(tree, object, interrupter, seconds);
-        detail::storeRadii(tree, interrupter);
-        if (options->cover == Cover::Balls) {
-            containStoredLeaves(tree, radiiAroundCut(tree), interrupter);
-        }
-        return tree;
+    if (settings.find<TightOptions>()) {
+        return tightTree(std::move(tree), object, /*given=*/nullptr, *seconds, interrupter);
     }
     auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
     if (settings.isInner()) detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
     else appendPyramidTree(tree, std::move(voxels), *seconds, interrupter);
     return tree;
+}
+
+SphereTree buildSphereTreeOver(const WorldSpheres& leaves, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    settings.validate();
+    if (!hasGivenLeaves(settings)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "spheres that come from elsewhere are the leaves of a tight tree: set leaves=given");
+    }
+    StageSeconds ownSeconds;
+    const SphereTree given = givenTree(leaves, object);
+    return tightTree(withoutNodes(object, settings), object, &given,
+        seconds ? *seconds : ownSeconds, interrupter);
 }
 
 } // namespace openvdb_spheretree

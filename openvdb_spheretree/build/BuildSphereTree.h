@@ -5,6 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/base/StageSeconds.h>
+#include <openvdb_spheretree/input/spheres/WorldSpheres.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
@@ -27,5 +28,15 @@ namespace openvdb_spheretree {
 ///       of threads. Thread-safe for concurrent calls, also on the same object.
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
     StageSeconds* seconds = nullptr, openvdb::util::NullInterrupter* interrupter = nullptr);
+
+/// @brief The same for a tight tree whose level 0 is spheres that come from elsewhere (leaves=given). Those
+/// that hold no voxel of the object are left out. Centers are rounded to 1/16 of a voxel, and radii grow
+/// by as much as that moves them.
+/// @param leaves  they must cover every voxel of @a object
+/// @throw openvdb::ValueError as above; if they leave voxels bare, it says how many; or if the settings
+///        are for no tight tree of leaves=given
+SphereTree buildSphereTreeOver(const WorldSpheres& leaves, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds = nullptr,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

@@ -11,7 +11,7 @@
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
-#include <openvdb_spheretree/tight/region/BallPruning.h>
+#include <openvdb_spheretree/tight/region/LeafBalls.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
@@ -90,45 +90,45 @@ BoundedError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
 
 } // namespace
 
-void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
+void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const SphereTree* given,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
     const SphereBudget& budget = options.budget;
     requireReachable(settings, tree.voxelSize());
-    const auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
-    LevelQueries queries;
-    queries.memory = settings.memory;
-    const MedialLevel level(*voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
-    const SampledObject samples(level.layout);
-    const auto leafBalls = detail::timed("leaves", interrupter, &seconds->tree, [&] {
-        if (options.leaves != Leaves::Pruned) return level.balls;
-        std::vector<MedialBall> kept;
-        for (const int32_t i : prunedBalls(level.balls, samples.level(0), interrupter)) {
-            kept.push_back(level.balls[i]);
-        }
-        return kept;
+    const FlatAxis flat(tree.flatAxis);
+    const auto voxels = voxelsOf(object, flat);
+    std::optional<MedialLevel> medial;
+    if (!given) {
+        LevelQueries queries;
+        queries.memory = settings.memory;
+        medial.emplace(*voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
+    }
+    const auto layout = medial ? nullptr : std::make_unique<const LeafLayout>(*voxels);
+    const SampledObject samples(medial ? medial->layout : *layout);
+    const LeafBalls leaves = detail::timed("leaves", interrupter, &seconds->tree, [&] {
+        const SampleLevel& sampled = samples.level(0);
+        return medial ? medialLeaves(*medial, sampled, options.leaves, interrupter)
+                      : givenLeaves(*given, flat, *voxels, sampled, interrupter);
     });
-    requireRoomForMerging(leafBalls.size());
+    const std::size_t leafCount = leaves.balls.size();
+    requireRoomForMerging(leafCount);
     const LevelMaker maker{
-        samples, effortOf(options.quality, leafBalls.size()), settings.dim == 2, interrupter};
+        samples, effortOf(options.quality, leafCount), settings.dim == 2, interrupter};
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
-        std::vector<ExactSphere> balls;
-        for (const MedialBall& ball : leafBalls) balls.push_back(fineBall(ball));
         // A detail of this stage: how far it is, the merging says.
         const auto model = detail::timed(
-            "", interrupter, nullptr, [&] { return modelFor(options, balls, maker); });
+            "", interrupter, nullptr, [&] { return modelFor(options, leaves.balls, maker); });
         return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
     });
     std::optional<detail::LevelMeter> meter;
     if (budget.hasBound()) meter.emplace(object, settings.dist());
     const auto cutError = [&](int64_t count) {
-        return errorOf(levelsOf(forest, {count}, leafBalls), tree, *meter, interrupter);
+        return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
     };
-    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
-        return levelCounts(settings, int64_t(leafBalls.size()), tree.voxelSize(), cutError);
-    });
+    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree,
+        [&] { return levelCounts(settings, int64_t(leafCount), tree.voxelSize(), cutError); });
     // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
     const auto keepsBounds = [&](const TightLevel& finest) {
         if (!budget.hasBound()) return true;
@@ -139,9 +139,9 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
     // A bound is on the finest level, which then is searched first and by itself.
     const std::size_t middle = budget.hasBound() ? 0 : counts.size() / 2;
     const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
-        const auto cuts = levelsOf(forest, counts, leafBalls);
+        const auto cuts = levelsOf(forest, counts, leaves.digital);
         if (!search) return cuts;
-        const auto searched = searchedLevels(forest, counts, leafBalls, middle, maker);
+        const auto searched = searchedLevels(forest, counts, leaves, middle, maker);
         return keepsBounds(searched.front()) ? searched : cuts;
     });
     appendLevels(levels, tree);

@@ -5,8 +5,8 @@
 /// In the trees of the paper, a sphere contains whole leaf balls, and its center is given. A tight tree
 /// promises less, and so needs smaller spheres. Every object voxel has a chain of nodes, one a level,
 /// each the child of the one above, that all hold the voxel (docs/tight-trees.md).
-/// 1. The leaf balls are the object's medial balls, without those whose voxels all lie in others
-///    (BallPruning.h).
+/// 1. The leaf balls are the object's medial balls, without those whose voxels all lie in others, or
+///    spheres that were given (LeafBalls.h).
 /// 2. Pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h). The merges are
 ///    a binary forest, and the balls of each of its cuts cover the object.
 /// 3. Levels are cuts of the forest, by count or by the error allowed; quality=best searches for
@@ -27,9 +27,10 @@ namespace openvdb_spheretree::tight {
 /// @brief Appends all nodes and levels, and the cuts if the settings say so, to a tree that has its
 /// settings, object and transform. Stored radii are left to the caller.
 /// @param object   that the tree is of
+/// @param given    the leaf balls of leaves=given, in the frame of @a object (GivenTree.h); else null
 /// @param seconds  must not be null
 /// @throw openvdb::ValueError if a bound on the error cannot be reached within the count allowed
-void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object,
+void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const SphereTree* given,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
 } // namespace openvdb_spheretree::tight

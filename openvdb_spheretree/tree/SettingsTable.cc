@@ -33,8 +33,8 @@ constexpr std::array<Named<Quality>, 3> kQualities{
 constexpr std::array<Named<Cover>, 2> kCovers{{{Cover::Voxels, "voxels"}, {Cover::Balls, "balls"}}};
 constexpr std::array<Named<Center>, 2> kCenters{
     {{Center::Medial, "medial"}, {Center::Miniball, "miniball"}}};
-constexpr std::array<Named<Leaves>, 2> kLeaves{
-    {{Leaves::Pruned, "pruned"}, {Leaves::Medial, "medial"}}};
+constexpr std::array<Named<Leaves>, 3> kLeaves{
+    {{Leaves::Pruned, "pruned"}, {Leaves::Medial, "medial"}, {Leaves::Given, "given"}}};
 constexpr std::array<Named<BoundOf>, 2> kBoundsOf{
     {{BoundOf::Stored, "stored"}, {BoundOf::Unpadded, "unpadded"}}};
 constexpr std::array<Named<ParentRule>, 2> kParentRules{
@@ -411,7 +411,8 @@ std::vector<Setting> makeTable()
             "what spheres contain for certain: together, down the tree, every voxel; or each of "
             "them the leaf balls below it (tight)"),
         choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
-            "what level 0 is made of: the medial balls that are needed, or all (tight)"),
+            "what level 0 is made of: the medial balls that are needed, or all; or given spheres, such "
+            "as those that -read found in a .csv (tight)"),
         optional(flag<InnerOptions>("strict", 26, &InnerOptions::strict,
             "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "
             "that are "

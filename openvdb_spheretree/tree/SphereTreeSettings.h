@@ -76,7 +76,8 @@ enum class Center {
 /// What level 0 of a tight tree is made of.
 enum class Leaves {
     Pruned, ///< the medial balls that are left when those go whose voxels all lie in others
-    Medial  ///< all medial balls
+    Medial, ///< all medial balls
+    Given   ///< spheres that come from elsewhere: buildSphereTreeOver()
 };
 
 /// What tight and inner trees share.

@@ -135,6 +135,39 @@ TEST_F(CommandSpheres, PointsAreSpheresWhereThatIsAskedFor)
     EXPECT_NE(none.err.find("'pscale'"), std::string::npos) << none.err;
 }
 
+TEST_F(CommandSpheres, AreTheLeavesOfATightTree)
+{
+    std::string table = "x,y,z,radius\n";
+    for (int x = 0; x < 8; x += 2) {
+        for (int y = 0; y < 6; y += 2) {
+            table += std::to_string(x + 0.53) + "," + std::to_string(y + 0.47) + ",1.5,3.1\n";
+        }
+    }
+    table += "40,40,40,2\n"; // holds no voxel
+    writeText(path("cover.csv"), table);
+    for (const char* options : {"", " quality=fast", " quality=best", " cover=balls", " cuts=1"}) {
+        const std::string build =
+            "-read a.vol cover.csv -spheretree leaves=given spheres=12,4,1 keep=1"
+            + std::string(options);
+        const Result result = run(build + " -check -write t.vdb vdb=0");
+        EXPECT_EQ(result.exitCode, 0) << options << result.err;
+        const nlohmann::json tree = statsOf("-read t.vdb");
+        EXPECT_EQ(tree["settings"]["leaves"], "given") << options;
+        EXPECT_EQ(tree["levels"].at(0)["spheres"], 12) << options;
+        EXPECT_EQ(tree["levels"].back()["spheres"], 1) << options;
+        EXPECT_EQ(run("-quiet -read a.vol t.vdb -check").exitCode, 0) << options;
+    }
+    const Result bare = run("-read a.vol some.csv -spheretree leaves=given -write u.vdb");
+    EXPECT_EQ(bare.exitCode, 3);
+    EXPECT_NE(bare.err.find("voxels of the object, such as"), std::string::npos) << bare.err;
+    const Result none = run("-read a.vol -spheretree leaves=given -write u.vdb");
+    EXPECT_EQ(none.exitCode, 3);
+    EXPECT_NE(none.err.find("put -read spheres.csv before"), std::string::npos) << none.err;
+    EXPECT_EQ(
+        run("-read a.vol some.csv -spheretree extended leaves=given -write u.vdb").exitCode, 2);
+    EXPECT_FALSE(exists("u.vdb"));
+}
+
 TEST_F(CommandSpheres, WhatIsWrongIsAnErrorOfTheInputOrOfTheLine)
 {
     writeText(path("bad.csv"), "x,y,z,r\n1,2,3,-4\n");

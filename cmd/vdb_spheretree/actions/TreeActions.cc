@@ -81,15 +81,31 @@ void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& s
     noteIfAll(*most, tree.levels.front().size(), session);
 }
 
-SphereTree treeOf(
-    const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
+/// The newest spheres that were read.
+StackItem& selectGivenSpheres(Session& session)
+{
+    const auto& items = session.stack.items();
+    const auto newest = std::find_if(
+        items.rbegin(), items.rend(), [](const auto& item) { return bool(item->given); });
+    if (newest == items.rend()) {
+        throwInput("leaves=given takes spheres that -read found, and there are none: put -read "
+                   "spheres.csv before");
+    }
+    return **newest;
+}
+
+/// @param leaves  of leaves=given, else null
+SphereTree treeOf(const BoolGrid& object, const spheretree::WorldSpheres* leaves,
+    const spheretree::SphereTreeSettings& settings, Session& session)
 {
     if (session.verbosity >= Verbosity::Verbose) { // it costs something
         session.remark(toString(spheretree::memoryPlan(object, settings, &session.progress)));
     }
     try {
-        return spheretree::buildSphereTree(
-            object, settings, &session.seconds.build, &session.progress);
+        spheretree::StageSeconds* const seconds = &session.seconds.build;
+        return leaves
+            ? spheretree::buildSphereTreeOver(*leaves, object, settings, seconds, &session.progress)
+            : spheretree::buildSphereTree(object, settings, seconds, &session.progress);
     } catch (const openvdb::IoError&) { // of its temporary file
         rethrowNamed("", kOutput);
     }
@@ -97,6 +113,8 @@ SphereTree treeOf(
 
 void runSpheretree(const ActionCall& call, Session& session)
 {
+    StackItem* const leaves =
+        call.text("leaves") == "given" ? &selectGivenSpheres(session) : nullptr;
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
     spheretree::ObjectSettings objectSettings;
     if (call.flag("strict")) objectSettings.coverage = spheretree::Coverage::Whole;
@@ -106,7 +124,9 @@ void runSpheretree(const ActionCall& call, Session& session)
     result.object = object;
     const auto settings = settingsOf(call);
     warnOfSize(*object, settings.dim, session);
-    result.tree = std::make_shared<SphereTree>(treeOf(*object, settings, session));
+    result.tree = std::make_shared<SphereTree>(
+        treeOf(*object, leaves ? leaves->given.get() : nullptr, settings, session));
+    if (leaves && !call.flag("keep")) session.stack.drop(leaves);
     session.remark(counted(result.tree->size(), "sphere") + " on "
         + counted(int64_t(result.tree->levels.size()), "level"));
     if (const auto* options = settings.find<spheretree::BudgetOptions>()) {

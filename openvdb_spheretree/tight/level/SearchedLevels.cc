@@ -9,15 +9,15 @@
 namespace openvdb_spheretree::tight {
 
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
+    const std::vector<int64_t>& counts, const LeafBalls& leaves, std::size_t middle,
     const LevelMaker& maker)
 {
-    const std::vector<ExactSphere> leafBalls = ballsOfCut(forest, int64_t(medial.size()));
+    const std::vector<ExactSphere>& leafBalls = leaves.balls;
     const SampleLevel& voxels = maker.object.level(0);
     std::vector<TightLevel> levels(counts.size());
-    const bool beginsWithLeaves = counts.front() == int64_t(medial.size());
+    const bool beginsWithLeaves = counts.front() == int64_t(leafBalls.size());
     const std::size_t first = beginsWithLeaves ? 0 : middle;
-    if (beginsWithLeaves) levels[first] = {leafBalls, {}, medial};
+    if (beginsWithLeaves) levels[first] = {leafBalls, {}, leaves.digital};
     else levels[first].balls = freeLevel(forest, counts[first], leafBalls, maker);
 
     if (first + 1 < levels.size()) {

@@ -13,8 +13,8 @@
 
 #include "LevelMaker.h"
 #include "TightLevels.h"
-#include <openvdb_spheretree/voxel/MedialBall.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
+#include <openvdb_spheretree/tight/region/LeafBalls.h>
 
 #include <vector>
 
@@ -22,10 +22,10 @@ namespace openvdb_spheretree::tight {
 
 /// @param forest  of the leaf balls, for the start of the middle level
 /// @param counts  of balls, finest first, falling
-/// @param medial  the leaf balls of the forest
+/// @param leaves  of the forest
 /// @param middle  index of the level to begin with
 std::vector<TightLevel> searchedLevels(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& medial, std::size_t middle,
+    const std::vector<int64_t>& counts, const LeafBalls& leaves, std::size_t middle,
     const LevelMaker& maker);
 
 } // namespace openvdb_spheretree::tight

@@ -136,13 +136,13 @@ int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>&
 }
 
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leafBalls)
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& digital)
 {
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) {
         const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
         levels[k].balls = ballsOfCut(forest, counts[k]);
-        if (nodes.size() == leafBalls.size()) levels[k].digital = leafBalls;
+        if (nodes.size() == digital.size()) levels[k].digital = digital;
         if (k + 1 < counts.size()) {
             levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);
         }

@@ -34,11 +34,11 @@ void dropChildless(TightLevel& level, TightLevel& finer);
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
 
 /// @param counts     finest first, falling, none above the number of leaf balls
-/// @param leafBalls  the first nodes of the forest, as medial balls
+/// @param digital    the first nodes of the forest as digital balls; empty if they are none
 /// @return a level for each count. A node's parent is its ancestor in the coarser cut. A node without
 /// one, which no voxel needs there, gets the ball out of which it reaches least.
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
-    const std::vector<int64_t>& counts, const std::vector<MedialBall>& leafBalls);
+    const std::vector<int64_t>& counts, const std::vector<MedialBall>& digital);
 
 /// @brief Appends the levels to @a tree, which has none, without stored radii.
 /// @param levels  finest first; flat objects are flat along z

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/tight/region/LeafBalls.h>
+
+#include "support/FineBalls.h"
+
+#include <openvdb_spheretree/tree/GivenTree.h>
+#include <openvdb_spheretree/voxel/FlatAxis.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <cmath>
+#include <string>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+using openvdb::Vec3d;
+
+double between(Random& random, double low, double high)
+{
+    constexpr int kSteps = 1000003;
+    return low + (high - low) * random.between(0, kSteps) / kSteps;
+}
+
+/// Spheres around an object's voxels, and some that hold none.
+WorldSpheres someSpheres(const Voxels& voxels, Random& random)
+{
+    WorldSpheres spheres;
+    const int count = random.between(1, 12);
+    for (int i = 0; i < count; ++i) {
+        const Coord& v = voxels[random.between(0, int(voxels.size()) - 1)];
+        Vec3d center = v.asVec3d();
+        for (int axis = 0; axis < 3; ++axis) center[axis] += between(random, -1.5, 1.5);
+        spheres.center.push_back(center);
+        spheres.radius.push_back(between(random, 0.05, i % 3 ? 6 : 0.6));
+    }
+    return spheres;
+}
+
+bool holdsVoxel(const Vec3d& center, double radius, const Coord& v)
+{
+    return (v.asVec3d() - center).length() <= radius;
+}
+
+LeafBalls leavesOf(const WorldSpheres& spheres, const Voxels& voxels)
+{
+    const auto object = gridOf(voxels);
+    const SphereTree given = givenTree(spheres, *object);
+    return givenLeaves(
+        given, FlatAxis(2), *maskOf(voxels), sampled(voxels).level(0), /*interrupter=*/nullptr);
+}
+
+std::string refusalOf(const WorldSpheres& spheres, const Voxels& voxels)
+{
+    try {
+        leavesOf(spheres, voxels);
+    } catch (const openvdb::ValueError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(LeafBalls, OfGivenSpheresContainThemAndAreNoLarger)
+{
+    Random random(1);
+    int covered = 0, refused = 0, leftOut = 0;
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+        const Voxels voxels = randomObject(seed).voxels;
+        WorldSpheres spheres = someSpheres(voxels, random);
+        Voxels bare;
+        for (const Coord& v : voxels) {
+            bool held = false;
+            for (std::size_t i = 0; i < spheres.size(); ++i) {
+                held = held || holdsVoxel(spheres.center[i], spheres.radius[i], v);
+            }
+            if (!held) bare.push_back(v);
+        }
+        if (!bare.empty()) {
+            const std::string why = refusalOf(spheres, voxels);
+            // A ball moves and grows by 0.055 voxel at most: what is held in that rim does not count.
+            int surely = 0;
+            for (const Coord& v : bare) {
+                bool rim = false;
+                for (std::size_t i = 0; i < spheres.size(); ++i) {
+                    rim = rim || holdsVoxel(spheres.center[i], spheres.radius[i] + 0.112, v);
+                }
+                surely += !rim;
+            }
+            if (surely == int(bare.size())) {
+                const std::string number = ": " + std::to_string(surely) + " voxel";
+                ASSERT_NE(why.find(number), std::string::npos) << why;
+                ++refused;
+            }
+            // With one more around all of it, they cover.
+            const openvdb::CoordBBox box = boxOf(voxels);
+            spheres.center.push_back(box.getCenter());
+            spheres.radius.push_back(0.51 * box.extents().asVec3d().length() + 1);
+        }
+        const LeafBalls leaves = leavesOf(spheres, voxels);
+        ASSERT_TRUE(leaves.digital.empty());
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            bool any = false;
+            for (const Coord& v : voxels) {
+                any = any || holdsVoxel(spheres.center[i], spheres.radius[i], v);
+            }
+            const bool here = next < leaves.balls.size()
+                && (Vec3d(double(leaves.balls[next].center[0]),
+                        double(leaves.balls[next].center[1]), double(leaves.balls[next].center[2]))
+                           / double(kFine)
+                       - spheres.center[i])
+                        .length()
+                    < 0.056;
+            leftOut += !here;
+            ASSERT_TRUE(here || !any) << "sphere " << i << " of seed " << seed;
+            if (!here) continue;
+            const ExactSphere& ball = leaves.balls[next++];
+            double moved = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double d =
+                    double(ball.center[axis]) / double(kFine) - spheres.center[i][axis];
+                moved += d * d;
+            }
+            const double radius = ball.radius() / double(kFine);
+            ASSERT_GE(radius, spheres.radius[i] + std::sqrt(moved) - 0.001) << "1/1024, twice";
+            ASSERT_LE(radius, spheres.radius[i] + std::sqrt(moved) + 0.06);
+        }
+        ASSERT_EQ(next, leaves.balls.size());
+        ++covered;
+    }
+    EXPECT_EQ(covered, 60);
+    EXPECT_GE(refused, 5);
+    EXPECT_GT(leftOut, 10);
+}
+
+TEST(LeafBalls, ASphereLargerThanThereIsRoomForIsRefused)
+{
+    WorldSpheres spheres;
+    spheres.center = {Vec3d(0.5), Vec3d(0.25)};
+    spheres.radius = {3, 32768};
+    const std::string why = refusalOf(spheres, {Coord(0)});
+    EXPECT_NE(why.find("sphere 1 has a radius of 32768 voxels"), std::string::npos) << why;
+    spheres.radius[1] = 32767;
+    EXPECT_EQ(refusalOf(spheres, {Coord(0)}), "");
+}
+
+} // namespace
