@@ -95,6 +95,23 @@ TEST_F(CommandMesh, CheckTakesATreeOfAFileAndItsMeshAlone)
         "every triangle of mesh 'flange' lies in the stored spheres of every level\n", result.out);
 }
 
+TEST_F(CommandMesh, AMeshOfOtherUnitsThanItsTreeIsWarnedOf)
+{
+    write("flange.obj", flange());
+    ASSERT_EQ(
+        run("-read flange.obj units=mm -mesh2ls dim=40 cover=1 -spheretree spheres=4 -write t.vdb")
+            .exitCode,
+        0);
+    const Result other = run("-read flange.obj t.vdb -check");
+    EXPECT_EQ(other.exitCode, 6);
+    EXPECT_NE(other.err.find("mesh 'flange' is 970 times as large"), std::string::npos)
+        << other.err;
+    const Result larger = run("-quiet -read flange.obj units=um -read t.vdb -check");
+    EXPECT_NE(larger.err.find("times as small"), std::string::npos) << larger.err;
+    const Result same = run("-read flange.obj units=mm -read t.vdb -check");
+    EXPECT_FALSE(has(same.err, "same unit")) << same.err;
+}
+
 TEST_F(CommandMesh, FillsAnOpenMeshFromOutside)
 {
     auto mesh = boxMesh(Vec3d(0.2), Vec3d(40));

@@ -20,6 +20,7 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -56,8 +57,7 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
         session.warn(name + "only " + std::to_string(longest)
             + (longest == 1 ? " voxel" : " voxels")
             + " across its longest side: is its unit another (scale= or units= of -read), or the "
-              "voxel "
-              "too large?");
+              "voxel too large?");
     }
     const int flat = spheretree::flatAxisOf(box);
     if (flat >= 0 && dim != 2) {
@@ -194,6 +194,23 @@ std::shared_ptr<const spheretree::TriangleMesh> meshOf(const Session& session)
     return newest == items.rend() ? nullptr : (*newest)->mesh;
 }
 
+/// A mesh in millimetres and a tree in metres have nothing to say of each other.
+void warnOfUnits(const SphereTree& tree, const spheretree::TriangleMesh& mesh, Session& session)
+{
+    constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
+    const openvdb::CoordBBox& box = tree.object.bbox;
+    const double object = tree.voxelSize() * box.extents().asVec3d().length();
+    const double ratio = spheretree::boxOf(mesh).extents().length() / object;
+    if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;
+    const bool larger = ratio > 1;
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.3g", larger ? ratio : 1 / ratio);
+    session.warn("mesh '" + oneLine(mesh.name, 60) + "' is " + factor + " times as "
+        + (larger ? "large" : "small")
+        + " as the object of the tree: are they in the same unit (scale= or "
+          "units= of -read)?");
+}
+
 /// The object that a tree is checked against; null if there is but a mesh.
 BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, Session& session)
 {
@@ -230,6 +247,7 @@ void runCheck(const ActionCall& call, Session& session)
     const auto object = objectToCheck(item, call, session);
     const bool covers = !item.tree->settings.isInner(); // and there is something to prove of a mesh
     const auto mesh = covers ? meshOf(session) : nullptr;
+    if (mesh) warnOfUnits(*item.tree, *mesh, session);
     const auto faults = faultsOf(item, object, mesh.get(), session);
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
     const bool isGiven = item.tree->settings.isGiven();
