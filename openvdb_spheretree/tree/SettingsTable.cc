@@ -239,7 +239,7 @@ Setting distRow()
             }
         },
         "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of a "
-        "step across a face, an edge and a corner, such as chamfer:3,4,5 (tight: l2)");
+        "step across a face, an edge and a corner, such as chamfer:3,4,5; with dim=2 also chamfer:3,4 (tight: l2)");
 }
 
 Setting modelRow()

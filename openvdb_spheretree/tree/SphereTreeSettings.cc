@@ -113,6 +113,12 @@ double SphereTreeSettings::paddingVoxels() const
 void SphereTreeSettings::validate() const
 {
     requireDim(dim);
+    if (dist().isFlat() && dim != 2) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "dist=" << toString(dist())
+                    << " is for a plane (dim=2): in space it lacks the cost of a step across a "
+                       "corner, as of chamfer:3,4,5");
+    }
     const auto* extended = find<ExtendedOptions>();
     if (const auto* pyramid = find<PyramidOptions>()) {
         requireValid(*pyramid, /*fitted=*/!extended || extended->finalFit);

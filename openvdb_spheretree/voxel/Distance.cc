@@ -6,7 +6,9 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
 #include <charconv>
+#include <initializer_list>
 
 namespace openvdb_spheretree {
 
@@ -28,10 +30,23 @@ int64_t largestCost(int64_t limit, int64_t face, int64_t edge, int64_t corner)
     return best;
 }
 
+std::string flatText(int face, int edge)
+{
+    return "chamfer:" + std::to_string(face) + ',' + std::to_string(edge);
+}
+
 std::string chamferText(int face, int edge, int corner)
 {
-    return "chamfer:" + std::to_string(face) + ',' + std::to_string(edge) + ','
-        + std::to_string(corner);
+    return flatText(face, edge) + ',' + std::to_string(corner);
+}
+
+void requireWeights(std::initializer_list<int> weights, const std::string& text)
+{
+    for (const int weight : weights) {
+        if (weight >= 1 && weight <= Distance::kMaxWeight) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "dist=" << text << ": weights are 1 to " << Distance::kMaxWeight << ", not " << weight);
+    }
 }
 
 [[noreturn]] void throwUnknown(const std::string& text)
@@ -39,7 +54,8 @@ std::string chamferText(int face, int edge, int corner)
     OPENVDB_THROW(openvdb::ValueError,
         "dist=" << detail::inQuotes(text)
                 << " is unknown: choose l2, l1, linf, or chamfer:a,b,c with the costs of a step "
-                   "across a face, an edge and a corner, such as chamfer:3,4,5");
+                   "across a face, an edge and a corner, such as chamfer:3,4,5 (with dim=2 "
+                   "chamfer:a,b)");
 }
 
 } // namespace
@@ -47,11 +63,7 @@ std::string chamferText(int face, int edge, int corner)
 Distance Distance::chamfer(int face, int edge, int corner)
 {
     const std::string text = chamferText(face, edge, corner);
-    for (const int weight : {face, edge, corner}) {
-        if (weight >= 1 && weight <= kMaxWeight) continue;
-        OPENVDB_THROW(openvdb::ValueError,
-            "dist=" << text << ": weights are 1 to " << kMaxWeight << ", not " << weight);
-    }
+    requireWeights({face, edge, corner}, text);
     if (face < edge - face || edge - face < corner - edge || corner < edge || edge < face) {
         OPENVDB_THROW(openvdb::ValueError,
             "dist=" << text
@@ -59,6 +71,23 @@ Distance Distance::chamfer(int face, int edge, int corner)
                        "b <= 2 a and a + c <= 2 b, as for chamfer:3,4,5");
     }
     return {face, edge, corner};
+}
+
+Distance Distance::flatChamfer(int face, int edge)
+{
+    // The largest corner that makes a norm of any weights that are one in the plane. l1 and l-infinity
+    // are themselves.
+    const std::string text = flatText(face, edge);
+    requireWeights({face, edge}, text);
+    if (edge < face || edge > 2 * face) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "dist=" << text
+                    << " is not a norm: with the weights a,b it must hold that a <= b <= 2 a, as "
+                       "for chamfer:3,4");
+    }
+    Distance flat(face, edge, 2 * edge - face);
+    flat.mFlat = flat != l1() && flat != linf();
+    return flat;
 }
 
 int64_t Distance::farReach(int64_t leftSq) { return detail::floorSqrt(leftSq); }
@@ -80,7 +109,8 @@ int64_t Distance::normReach(int64_t x, int64_t y, int64_t limitSq) const
 int64_t Distance::closedSq(int64_t radiusSq) const
 {
     if (isEuclidean()) return radiusSq - 1;
-    const int64_t radius = largestCost(detail::floorSqrt(radiusSq) - 1, mFace, mEdge, mCorner);
+    const int corner = mFlat ? mFace : mCorner; // costs no more than a step across a face
+    const int64_t radius = largestCost(detail::floorSqrt(radiusSq) - 1, mFace, mEdge, corner);
     return radius * radius;
 }
 
@@ -89,7 +119,8 @@ std::string toString(const Distance& distance)
     if (distance.isEuclidean()) return "l2";
     if (distance == Distance::l1()) return "l1";
     if (distance == Distance::linf()) return "linf";
-    return chamferText(distance.face(), distance.edge(), distance.corner());
+    return distance.isFlat() ? flatText(distance.face(), distance.edge())
+                             : chamferText(distance.face(), distance.edge(), distance.corner());
 }
 
 Distance distanceFromString(const std::string& text)
@@ -100,15 +131,18 @@ Distance distanceFromString(const std::string& text)
     const std::string prefix = "chamfer:";
     if (text.compare(0, prefix.size(), prefix) != 0) throwUnknown(text);
     int weights[3];
+    const auto count = 1 + std::count(text.begin(), text.end(), ',');
+    if (count != 2 && count != 3) throwUnknown(text);
     const char* at = text.data() + prefix.size();
     const char* const end = text.data() + text.size();
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < count; ++i) {
         if (i > 0 && (at == end || *at++ != ',')) throwUnknown(text);
         const auto parsed = std::from_chars(at, end, weights[i]);
         if (parsed.ec != std::errc()) throwUnknown(text);
         at = parsed.ptr;
     }
     if (at != end) throwUnknown(text);
+    if (count == 2) return Distance::flatChamfer(weights[0], weights[1]);
     return Distance::chamfer(weights[0], weights[1], weights[2]);
 }
 

@@ -36,12 +36,17 @@ public:
     static Distance linf() { return {1, 1, 1}; }
     /// @throw openvdb::ValueError unless the weights are 1 to kMaxWeight and make a norm
     static Distance chamfer(int face, int edge, int corner);
+    /// In a plane there are no corners: for objects with dim = 2 alone.
+    /// @throw as above
+    static Distance flatChamfer(int face, int edge);
 
     bool isEuclidean() const { return mFace == 0; }
     /// Costs of a step across a face, an edge, a corner; 0 for the Euclidean distance.
     int face() const { return mFace; }
     int edge() const { return mEdge; }
     int corner() const { return mCorner; }
+    /// @return whether it has no cost of its own for a step across a corner, and so is for a plane.
+    bool isFlat() const { return mFlat; }
     /// @return the width of a voxel in this distance.
     int unit() const { return isEuclidean() ? 1 : mFace; }
 
@@ -94,7 +99,7 @@ public:
 
     bool operator==(const Distance& o) const
     {
-        return mFace == o.mFace && mEdge == o.mEdge && mCorner == o.mCorner;
+        return mFace == o.mFace && mEdge == o.mEdge && mCorner == o.mCorner && mFlat == o.mFlat;
     }
     bool operator!=(const Distance& o) const { return !(*this == o); }
 
@@ -105,9 +110,10 @@ private:
     Distance(int face, int edge, int corner) : mFace(face), mEdge(edge), mCorner(corner) {}
 
     int mFace = 0, mEdge = 0, mCorner = 0;
+    bool mFlat = false;
 };
 
-/// @return "l2", "l1", "linf" or "chamfer:a,b,c".
+/// @return "l2", "l1", "linf", "chamfer:a,b,c", or "chamfer:a,b" in a plane.
 std::string toString(const Distance&);
 /// @throw openvdb::ValueError naming the value and what there is.
 Distance distanceFromString(const std::string&);

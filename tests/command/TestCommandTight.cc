@@ -4,9 +4,12 @@
 
 #include "CommandRunner.h"
 
+#include <openvdb_spheretree/input/spheres/SphereFile.h>
+
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace {
@@ -73,6 +76,28 @@ TEST_F(CommandTight, TheTableOfInnerSpheresShowsTheCoveredShare)
     const Result outer = run("-read a.vol -spheretree -stats");
     EXPECT_EQ(outer.out.find("covered %"), std::string::npos);
     EXPECT_FALSE(statsOf("")["levels"][0].contains("covered_percent"));
+}
+
+TEST_F(CommandTight, StrictInnerSpheresLieInTheSolid)
+{
+    writeGrids("ball.vdb", {sphereGrid("ball", 12)});
+    const std::string build = "-read ball.vdb -spheretree side=inner spheres=6 strict=1 keep=1";
+    const Result strict = run(build + " -check -write t.csv");
+    EXPECT_EQ(strict.exitCode, 0) << strict.err;
+    const auto spheres = openvdb_spheretree::readSphereFile(path("t.csv"));
+    ASSERT_GT(spheres.size(), 0u);
+    double farthest = 0;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const double apart = (spheres.center[i] - openvdb::Vec3d(0.5, 1, -2)).length();
+        farthest = std::max(farthest, apart + spheres.radius[i]);
+    }
+    EXPECT_LE(farthest, 12) << "the radius of the ball";
+    EXPECT_GT(farthest, 11);
+    const Result outer = run("-read ball.vdb -spheretree strict=1 -write u.vdb");
+    EXPECT_EQ(outer.exitCode, 2);
+    EXPECT_NE(outer.err.find("strict=1 is for side=inner"), std::string::npos) << outer.err;
+    const Result other = run("-read ball.vdb -spheretree extended strict=1 -write u.vdb");
+    EXPECT_NE(other.err.find("is for tree=tight"), std::string::npos) << other.err;
 }
 
 TEST_F(CommandTight, LevelsHaveTheSpheresAskedFor)

@@ -4,8 +4,10 @@
 #include "CommandRunner.h"
 #include "support/SampleTrees.h"
 
-#include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+
+#include <openvdb/tools/LevelSetUtil.h>
 
 #include <regex>
 
@@ -385,6 +387,35 @@ TEST_F(CommandWork, AFlatTreeAsAMaskIsTheObject)
     writeVol("flat.vol", {20, 20, 1}, std::string(400, '\1'));
     ASSERT_EQ(run("-read flat.vol -spheretree dim=2 -spheres2mask -write m.vdb").exitCode, 0);
     EXPECT_EQ(readGrids("m.vdb").at(0)->activeVoxelCount(), 400u);
+}
+
+TEST_F(CommandWork, AChamferDistanceOfThePlaneHasTwoCosts)
+{
+    std::string disc;
+    for (int y = -12; y <= 12; ++y) {
+        for (int x = -12; x <= 12; ++x) disc += char(x * x + y * y <= 140);
+    }
+    writeVol("flat.vol", {25, 25, 1}, disc);
+    for (const char* tree : {"reversible", "extended"}) {
+        const std::string line =
+            std::string("-read flat.vol -spheretree ") + tree + " dim=2 keep=1 dist=chamfer:3,4";
+        const Result flat = run(line + " -check -write t.csv u.vdb vdb=0");
+        EXPECT_EQ(flat.exitCode, 0) << flat.err;
+        EXPECT_EQ(run("-read flat.vol u.vdb -check").exitCode, 0);
+        EXPECT_EQ(run(line + ",5 -check -write s.csv").exitCode, 0);
+        const auto plane = openvdb_spheretree::readSphereFile(path("t.csv"));
+        const auto space = openvdb_spheretree::readSphereFile(path("s.csv"));
+        EXPECT_EQ(plane.center, space.center) << "in the plane, the corner is not used";
+        double smaller = 0;
+        for (std::size_t i = 0; i < plane.size(); ++i) {
+            EXPECT_LE(plane.radius[i], space.radius[i]);
+            smaller = std::max(smaller, space.radius[i] - plane.radius[i]);
+        }
+        EXPECT_NEAR(smaller, 1.0 / 3, 1e-6) << "5 is the cost of no path in it";
+    }
+    const Result solid = run("-read a.vol -spheretree reversible dist=chamfer:3,4 -write t.vdb");
+    EXPECT_EQ(solid.exitCode, 2);
+    EXPECT_NE(solid.err.find("is for a plane (dim=2)"), std::string::npos) << solid.err;
 }
 
 TEST_F(CommandWork, TheEdgesOfMeetingSpheresAreStoredAndChecked)

@@ -45,13 +45,16 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
     const std::string tree = call.text("tree");
     const bool tight = tree == "tight", inner = tight && call.text("side") == "inner";
     for (const Setting& setting : spheretree::detail::settingsTable()) {
-        if (tight && !setting.tight) {
+        const bool isForTight = setting.tight || setting.inner;
+        if (tight && !isForTight) {
             refuse(
                 call, setting.name, "is for tree=extended and tree=reversible, not for tree=tight");
         } else if (!tight && !setting.isForPyramids()) {
             refuse(call, setting.name, "is for tree=tight, not for tree=" + tree);
         } else if (inner && (!setting.inner || setting.isBound)) {
             refuse(call, setting.name, "is for spheres that cover the object, not for side=inner");
+        } else if (tight && !inner && !setting.tight) {
+            refuse(call, setting.name, "is for side=inner, not for spheres that cover the object");
         }
     }
     if (!inner) return;

@@ -107,19 +107,37 @@ TEST(Distance, LengthsBeyondSixtyThreeBitsAreInfinite)
 
 TEST(Distance, NamesReadBack)
 {
-    for (const char* name : {"l2", "l1", "linf", "chamfer:3,4,5", "chamfer:16,21,26"}) {
+    for (const char* name :
+        {"l2", "l1", "linf", "chamfer:3,4,5", "chamfer:16,21,26", "chamfer:3,4", "chamfer:5,7"}) {
         EXPECT_EQ(toString(distanceFromString(name)), name);
     }
     EXPECT_EQ(toString(distanceFromString("chamfer:1,2,3")), "l1");
     EXPECT_TRUE(distanceFromString("l2").isEuclidean());
 }
 
+TEST(Distance, OfAPlaneIsThatOfSpaceWithoutCorners)
+{
+    const Distance flat = distanceFromString("chamfer:3,4"), space = Distance::chamfer(3, 4, 5);
+    EXPECT_TRUE(flat.isFlat());
+    EXPECT_NE(flat, space);
+    for (int x = -9; x <= 9; ++x) {
+        for (int y = -9; y <= 9; ++y) EXPECT_EQ(flat.norm(x, y, 0), space.norm(x, y, 0));
+    }
+    // The smallest closed radius: costs are 3 i + 4 j. A corner would make 5 of one step.
+    EXPECT_EQ(flat.closedSq(6 * 6), 4 * 4);
+    EXPECT_EQ(space.closedSq(6 * 6), 5 * 5);
+    EXPECT_EQ(flat.closedSq(12 * 12), 11 * 11);
+    EXPECT_EQ(distanceFromString("chamfer:1,2"), Distance::l1());
+    EXPECT_EQ(distanceFromString("chamfer:1,1"), Distance::linf());
+}
+
 TEST(Distance, UnknownNamesAndWeightsThatAreNoNormAreRefusedByName)
 {
-    for (const char* name : {"", "l3", "L2", "chamfer", "chamfer:", "chamfer:3", "chamfer:3,4",
-             "chamfer:3,4,", "chamfer:3,4,5,6", "chamfer:3;4;5", "chamfer:a,b,c", "chamfer:3,4,5x",
-             "chamfer:-3,4,5", "chamfer:0,0,0", "chamfer:3,7,8", "chamfer:3,4,6", "chamfer:3,5,4",
-             "chamfer:4,3,5", "chamfer:300,400,500", "chamfer:99999999999,1,1"}) {
+    for (const char* name : {"", "l3", "L2", "chamfer", "chamfer:", "chamfer:3", "chamfer:3,7",
+             "chamfer:4,3", "chamfer:3,", "chamfer:200,300", "chamfer:3,4,", "chamfer:3,4,5,6",
+             "chamfer:3;4;5", "chamfer:a,b,c", "chamfer:3,4,5x", "chamfer:-3,4,5", "chamfer:0,0,0",
+             "chamfer:3,7,8", "chamfer:3,4,6", "chamfer:3,5,4", "chamfer:4,3,5",
+             "chamfer:300,400,500", "chamfer:99999999999,1,1"}) {
         try {
             distanceFromString(name);
             ADD_FAILURE() << name << " was taken";
