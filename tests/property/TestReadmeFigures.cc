@@ -5,10 +5,13 @@
 #include "support/Meshes.h"
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/build/MemoryPlan.h>
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/input/shapes/GeneratedObject.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/solid/MeshSolid.h>
 
+#include <openvdb/Exceptions.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetPlatonic.h>
 #include <openvdb/tools/VolumeToSpheres.h>
@@ -67,6 +70,31 @@ TEST(ReadmeFigures, InnerSpheresCoverMoreOfADodecahedronThanThoseOfOpenVDB)
             /*overlapping=*/true, /*minRadius=*/0.5f, std::numeric_limits<float>::max(),
             /*isovalue=*/0.0f, /*instanceCount=*/100000);
         EXPECT_NEAR(openvdbs[k], coveredPercent(*object, spheres), 1) << k; // its points are random
+    }
+}
+
+TEST(ReadmeFigures, TheLeastMemoryOfSolidBalls)
+{
+    openvdb::initialize();
+    struct Row {
+        int64_t voxels;
+        int64_t allowed; // MiB
+        const char* needed;
+    };
+    for (const Row& row : {Row{1000000, 3, "need at least 3.4 MiB"},
+             {30000000, 64, "need at least 65 MiB"}, {300000000, 394, "need at least 395 MiB"}}) {
+        GeneratedObjectSettings ball;
+        ball.shape = Shape::Ball;
+        ball.voxels = row.voxels;
+        SphereTreeSettings settings = ExtendedOptions();
+        settings.memory = row.allowed << 20;
+        try {
+            memoryPlan(*generateObject(ball), settings);
+            ADD_FAILURE() << row.needed;
+        } catch (const openvdb::ValueError& error) {
+            EXPECT_NE(std::string(error.what()).find(row.needed), std::string::npos)
+                << error.what();
+        }
     }
 }
 
