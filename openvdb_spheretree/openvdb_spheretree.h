@@ -21,6 +21,7 @@
 // Triangles, and the voxels that they meet.
 #include "mesh/TriangleMesh.h"
 #include "mesh/TriangleVoxels.h"
+#include "mesh/WindingNumber.h"
 
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"

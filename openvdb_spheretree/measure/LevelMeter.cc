@@ -18,6 +18,7 @@
 #include "MedialCover.h"
 #include "StoredReach.h"
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
@@ -80,10 +81,12 @@ std::vector<ExactSphere> touchingSpheres(const SphereTree& tree, const SphereTre
 /// reach about as far out (the search took up to 16 times as long as the whole tree). All voxels within
 /// the closed radius of a leaf ball are the object's, so their cubes hold every point that is half a
 /// diagonal less from its center.
+/// @param level  its error must have been counted: a ball out of the object would have an excess
 /// @return the bound in world units, half a diagonal too large at most; nothing for other levels
 std::optional<double> reachOfLeafBalls(const SphereTree& tree, const SphereTreeLevel& level)
 {
     if (level.level != 0 || !tree.settings.find<PyramidOptions>()) return std::nullopt;
+    if (!level.error || level.error->excess != 0) return std::nullopt;
     if (!tree.settings.dist().isEuclidean()) return std::nullopt;
     const double halfDiagonal = std::sqrt(tree.settings.dim / 4.0);
     double most = 0; // voxels
@@ -198,12 +201,14 @@ void LevelMeter::measureStored(const SphereTree& tree, SphereTreeLevel& level,
         const std::vector<ExactSphere> wider = touchingSpheres(tree, level);
         const auto touched = sphereUnion(wider, levelBox(tree, wider), metric, interrupter);
         const MaskMinus outside(*touched, mMask);
+        // Centers of given spheres were rounded.
+        const double moved = tree.settings.isGiven() ? kGivenMove : 0;
         const double reach = tree.settings.find<PyramidOptions>()
             ? reachOfVoxels(outside, interrupter)
             : storedReach(
                 reachSpheres(tree, level), outside, mMask, mNearest, flatAxis, interrupter);
         constexpr double kRounding = 1 + 1e-12; // as in storedReach(): a bound stays one
-        stored.reachWorld = reach * tree.voxelSize() * kRounding;
+        stored.reachWorld = (reach + moved) * tree.voxelSize() * kRounding;
     }
     level.stored = stored;
 }

@@ -486,8 +486,12 @@ double storedReach(const std::vector<ReachSphere>& spheres, const MaskMinus& tou
         nodes.size(), interrupter, [&](std::size_t i, ReachSearch::Scratch& scratch) {
             search.visitNode(touched, nodes[i].node, nodes[i].spheres, scratch);
         });
-    constexpr double kRounding = 1 + 1e-12; // more than all that doubles may be off
-    return search.best() * kRounding;
+    if (search.best() == 0) return 0;
+    // More than all that doubles may be off: by a share of the reach, and of the radii it is a difference of.
+    constexpr double kRounding = 1 + 1e-12, kOfRadius = 1e-14;
+    double largest = 0;
+    for (const ReachSphere& sphere : spheres) largest = std::max(largest, sphere.radius);
+    return search.best() * kRounding + largest * kOfRadius;
 }
 
 } // namespace openvdb_spheretree::detail

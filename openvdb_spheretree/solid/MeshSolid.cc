@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
+#include <openvdb_spheretree/mesh/WindingNumber.h>
 #include <openvdb_spheretree/pyramid/BallMorphology.h>
 #include <openvdb_spheretree/pyramid/Closing.h>
 #include <openvdb_spheretree/topology/ObjectParts.h>
@@ -47,11 +48,26 @@ void requireRoomForSurface(const TriangleMesh& mesh, double voxelSize)
 int radiusFor(double gap, double voxelSize)
 {
     if (gap == 0) return 0;
-    const double radius = std::ceil(gap / voxelSize / 2 + std::sqrt(0.75));
+    const double radius = std::ceil(gap / voxelSize / 2 + std::sqrt(0.75) + 0.5);
     if (gap > 0 && radius <= kMaxClosing) return int(radius);
     OPENVDB_THROW(openvdb::ValueError,
-        "gap=" << gap << " is out of range: it must be 0 to " << 2 * (kMaxClosing - 1)
+        "gap=" << gap << " is out of range: it must be 0 to " << 2 * kMaxClosing - 3
                << " voxels of " << voxelSize);
+}
+
+/// The surface, and of what it keeps from outside that which the mesh winds around: not a room whose neck is
+/// narrower than a voxel, nor a hollow.
+MaskTree::Ptr woundAround(
+    const MaskTree& surface, const IndexMesh& mesh, NullInterrupter* interrupter)
+{
+    const auto isInside = [&](const std::vector<openvdb::Coord>& voxels) {
+        std::vector<bool> inside;
+        for (const int number : windingNumbers(mesh, voxels, interrupter)) {
+            inside.push_back(number != 0);
+        }
+        return inside;
+    };
+    return filledCavities(surface, isInside, interrupter);
 }
 
 /// All that a ball cannot reach from outside.
@@ -79,9 +95,13 @@ openvdb::BoolGrid::Ptr meshToObject(const TriangleMesh& mesh, double voxelSize,
     }
     requireUsableMesh(mesh, voxelSize);
     requireRoomForSurface(mesh, voxelSize);
-    const MaskTree::Ptr surface = trianglesToVoxels(toIndexSpace(mesh, *transform), interrupter);
-    const MaskTree::Ptr solid = solidOf(*surface, radius, interrupter);
-    if (settings.coverage == Coverage::Whole) solid->topologyDifference(*surface);
+    const IndexMesh triangles = toIndexSpace(mesh, *transform);
+    const MaskTree::Ptr surface = trianglesToVoxels(triangles, interrupter);
+    const bool isWhole = settings.coverage == Coverage::Whole;
+    const MaskTree::Ptr solid = isWhole && radius == 0
+        ? woundAround(*surface, triangles, interrupter)
+        : solidOf(*surface, radius, interrupter);
+    if (isWhole) solid->topologyDifference(*surface);
     openvdb::tools::prune(*solid);
     if (solid->empty()) {
         OPENVDB_THROW(openvdb::ValueError,

@@ -7,13 +7,18 @@
 ///    is of the surface.
 /// 2. So what a path from infinity cannot reach is inside: the cavities of the surface, filled.
 ///
-/// How triangles face, how often they overlap, and what they bound inside of others makes no difference.
+/// How triangles face, how often they overlap, and what they bound inside of others makes no difference to it.
 /// Where a mesh is open by more than a voxel there is no inside; its surface is the solid then.
 ///
-/// With a *gap*, the surface is first dilated by a ball of radius r = gap / 2 + sqrt(3) / 2 voxels or somewhat
-/// more, and the solid eroded by the same ball at last. A ball of the gap's diameter cannot pass from outside,
-/// so holes of such a width are closed, and so are narrower crevices and dents. (Points between two sides of a
-/// hole are within gap / 2 of one, and centers of voxels within half a diagonal of points in them.)
+/// With a *gap*, the surface is first dilated by a ball of radius r = gap / 2 + 1 / 2 + sqrt(3) / 2 voxels or
+/// somewhat more, and the solid eroded by the same ball at last. Holes of such a width are closed, and so are
+/// narrower crevices and dents: a path of voxels through a hole has a step across it, at a point within gap / 2
+/// of the mesh. One of the two centers is within 1 / 2 of that point, and the center of a surface voxel within
+/// sqrt(3) / 2 of the mesh there.
+///
+/// Voxels that are *wholly* inside have to be so of the mesh itself. A room whose neck is narrower than a voxel
+/// is kept from outside by the surface, but the mesh does not wind around it; it is no part of the solid then
+/// (WindingNumber.h), and neither is a hollow whose surface faces it.
 ///
 /// Cost: O(triangles + voxels of the surface), and leaf-sized tiles inside; with a gap, the voxels within 4 r
 /// of the surface. Parallel. Tests: TestMeshSolid.cc.
@@ -28,10 +33,10 @@
 namespace openvdb_spheretree {
 
 struct MeshSolidSettings {
-    /// Cubes: every voxel whose closed cube meets the solid. Whole: those whose cubes lie wholly inside, and
-    /// that no triangle meets. (Centers: by meshToLevelSet().)
+    /// Cubes: every voxel whose closed cube meets the solid. Whole: those that the mesh winds around, and whose
+    /// cubes no triangle meets. (Centers: by meshToLevelSet().)
     Coverage coverage = Coverage::Cubes;
-    /// Width of holes that are closed, world units: 0 (those below a voxel) to 126 voxels.
+    /// Width of holes that are closed, world units: 0 (those below a voxel) to 125 voxels.
     double gap = 0;
 };
 

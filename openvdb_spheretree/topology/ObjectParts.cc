@@ -10,6 +10,7 @@
 #include <openvdb/tools/Prune.h>
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -106,6 +107,61 @@ uint32_t largestOf(JoinedObject& joined, openvdb::util::NullInterrupter* interru
     return best;
 }
 
+/// The parts of the background that are not outside.
+class Cavities {
+public:
+    Cavities(JoinedObject& joined, openvdb::util::NullInterrupter* interrupter)
+        : mSets(joined.sets.background()), mOutside(mSets.find(LevelParts::kOutside)),
+          mPlace(joined.parts.backgroundNodes(), kNone)
+    {
+        for (uint32_t leaf = 0; leaf < joined.layout.leafCount(); ++leaf) {
+            if (leaf % 4096 == 0) detail::checkInterrupt(interrupter);
+            const LeafCut& cut = joined.parts[leaf];
+            for (uint32_t part = 0; part < cut.backgroundParts; ++part) {
+                if (isNew(cut.background + part)) add(voxelOf(joined, leaf, part));
+            }
+            if (joined.parts.hasGapBehind(leaf) && isNew(joined.parts.gapBehind(leaf))) {
+                add(joined.layout.origin(leaf).offsetBy(0, 0, kLeafDim));
+            }
+        }
+    }
+
+    void choose(const CavityChoice& choice) { mChosen = choice(mVoxels); }
+    /// @return whether a part of the background is in a cavity that is filled. Threads may ask together.
+    bool isFilled(uint32_t node)
+    {
+        const uint32_t root = mSets.find(node);
+        return root != mOutside && mChosen[mPlace[root]];
+    }
+
+private:
+    static constexpr uint32_t kNone = UINT32_MAX;
+
+    bool isNew(uint32_t node)
+    {
+        const uint32_t root = mSets.find(node);
+        if (root == mOutside || mPlace[root] != kNone) return false;
+        mPlace[root] = uint32_t(mVoxels.size());
+        return true;
+    }
+    void add(const Coord& voxel) { mVoxels.push_back(voxel); }
+
+    static Coord voxelOf(const JoinedObject& joined, uint32_t leaf, uint32_t part)
+    {
+        std::optional<uint32_t> first;
+        (LeafMask::full() - joined.layout.mask(leaf)).visitOn([&](uint32_t voxel) {
+            if (!first && joined.parts.label(leaf, voxel) == part) first = voxel;
+        });
+        return joined.layout.voxel(leaf, *first);
+    }
+
+    UnionFind& mSets;
+    uint32_t mOutside;
+    std::vector<uint32_t> mPlace; ///< of roots, in mVoxels
+    std::vector<Coord> mVoxels;   ///< one of each cavity
+    std::vector<bool> mChosen;
+};
+
 /// Makes tiles of the places without leaf nodes between a leaf and the next behind it, all of which
 /// are in one cavity. A node of the object without anything in it is one of the cavity, and becomes a
 /// tile when the first of its columns comes by.
@@ -168,9 +224,17 @@ MaskTree::Ptr largestPart(const MaskTree& object, openvdb::util::NullInterrupter
 
 MaskTree::Ptr filledCavities(const MaskTree& object, openvdb::util::NullInterrupter* interrupter)
 {
+    return filledCavities(
+        object, [](const auto& voxels) { return std::vector<bool>(voxels.size(), true); },
+        interrupter);
+}
+
+MaskTree::Ptr filledCavities(
+    const MaskTree& object, const CavityChoice& choose, openvdb::util::NullInterrupter* interrupter)
+{
     JoinedObject joined(object, interrupter);
-    UnionFind& sets = joined.sets.background();
-    const uint32_t outside = sets.find(LevelParts::kOutside);
+    Cavities cavities(joined, interrupter);
+    cavities.choose(choose);
     const MaskTree before(*joined.mask);
     std::vector<detail::LeafNode*> leaves;
     joined.mask->getNodes(leaves);
@@ -179,7 +243,7 @@ MaskTree::Ptr filledCavities(const MaskTree& object, openvdb::util::NullInterrup
         LeafMask filled = joined.layout.mask(leaf);
         (LeafMask::full() - filled).visitOn([&](uint32_t voxel) {
             const uint32_t node = joined.parts[leaf].background + joined.parts.label(leaf, voxel);
-            if (sets.find(node) != outside) filled.setOn(voxel);
+            if (cavities.isFilled(node)) filled.setOn(voxel);
         });
         openvdb::util::NodeMask<3> mask;
         filled.copyTo(mask);
@@ -188,7 +252,7 @@ MaskTree::Ptr filledCavities(const MaskTree& object, openvdb::util::NullInterrup
     for (uint32_t leaf = 0; leaf < joined.layout.leafCount(); ++leaf) {
         if (leaf % 4096 == 0) detail::checkInterrupt(interrupter);
         if (!joined.parts.hasGapBehind(leaf)) continue;
-        if (sets.find(joined.parts.gapBehind(leaf)) == outside) continue;
+        if (!cavities.isFilled(joined.parts.gapBehind(leaf))) continue;
         fillGap(
             before, joined.layout.origin(leaf), joined.layout.origin(leaf + 1)[2], *joined.mask);
     }
@@ -200,14 +264,14 @@ openvdb::BoolGrid::Ptr largestPart(
     const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
     return chosenOf(object, interrupter,
-        [](const MaskTree& voxels, auto* boss) { return largestPart(voxels, boss); });
+        [](const MaskTree& voxels, auto* asked) { return largestPart(voxels, asked); });
 }
 
 openvdb::BoolGrid::Ptr filledCavities(
     const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
 {
     return chosenOf(object, interrupter,
-        [](const MaskTree& voxels, auto* boss) { return filledCavities(voxels, boss); });
+        [](const MaskTree& voxels, auto* asked) { return filledCavities(voxels, asked); });
 }
 
 } // namespace openvdb_spheretree

@@ -12,6 +12,9 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
+#include <functional>
+#include <vector>
+
 namespace openvdb_spheretree {
 
 /// @return the part of the most voxels, with the object's name and transform. Of several, that with the
@@ -36,5 +39,14 @@ openvdb::SharedPtr<openvdb::MaskTree> largestPart(
 openvdb::SharedPtr<openvdb::MaskTree> filledCavities(
     const openvdb::MaskTree& object, openvdb::util::NullInterrupter* interrupter = nullptr);
 /// @}
+
+/// @param voxels  one of each cavity, in the order of leaf nodes
+/// @return whether each of them is to be filled
+using CavityChoice = std::function<std::vector<bool>(const std::vector<openvdb::Coord>& voxels)>;
+
+/// @brief The object and those of its cavities that are chosen.
+/// @throw, cost: as above
+openvdb::SharedPtr<openvdb::MaskTree> filledCavities(const openvdb::MaskTree& object,
+    const CavityChoice& choose, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

@@ -5,6 +5,7 @@
 #include "VoxelRegion.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <openvdb/Exceptions.h>
@@ -82,8 +83,9 @@ LeafBalls givenLeaves(const SphereTree& given, const FlatAxis& flat,
                 "leaves=given: sphere " << id << " has a radius of " << given.spheres.radius[id]
                                         << " voxels, and the most is " << kMaxRadius);
         }
-        balls.push_back(
-            ballAroundGiven(flat.toZ(given.spheres.center[id]), given.spheres.radius[id]));
+        // Around the sphere as it was before its center was rounded to the tree's units.
+        balls.push_back(ballAroundGiven(
+            flat.toZ(given.spheres.center[id]), given.spheres.radius[id] + kGivenMove));
     }
     requireCovering(balls, flat, voxels, interrupter);
     std::vector<char> holdsAny(balls.size());

@@ -69,16 +69,20 @@ TEST_F(MeshCheck, FindsTheLevelThatASphereIsMissingOf)
         << faults.front().sentence;
 }
 
-/// A voxel that the mesh meets and the object has not, in each place: spheres hold only some of these.
+/// Radii are smaller than they ought to be: spheres hold only some of the surface.
 TEST_F(MeshCheck, AgreesWithPointsOfTheSurface)
 {
     const TriangleMesh mesh = bracket();
     const auto object = meshToObject(mesh, 1);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> part(0, 1);
+    int quiet = 0;
     for (int n = 0; n < 12; ++n) {
         SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
-        for (float& radius : tree.spheres.radiusWorld) radius *= float(0.75 + 0.25 * part(random));
+        const double least = n < 4 ? 0.99 : 0.75;
+        for (float& radius : tree.spheres.radiusWorld) {
+            radius *= float(least + (1 - least) * part(random));
+        }
         const auto faults = checkMeshCovered(tree, mesh, nullptr);
         for (const SphereTreeLevel& level : tree.levels) {
             bool anyOutside = false;
@@ -99,8 +103,66 @@ TEST_F(MeshCheck, AgreesWithPointsOfTheSurface)
             for (const TreeFault& fault : faults) reported |= fault.sentence.rfind(start, 0) == 0;
             // Every point outside is found; what is found may be less than what samples see.
             EXPECT_LE(anyOutside, reported) << n << ' ' << level.level;
+            quiet += !reported;
         }
     }
+    EXPECT_GE(quiet, 6) << "half of those whose radii are all but right";
+}
+
+/// The cubes that a level covers are those of the object, not those of the mesh.
+TEST_F(MeshCheck, FindsWhatAnObjectLacksOfTheMesh)
+{
+    const TriangleMesh mesh = bracket();
+    const auto object = meshToObject(mesh, 1);
+    const openvdb::CoordBBox arm({9, -5, -5}, {30, 30, 30});
+    object->fill(arm, false, false);
+    const SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
+    const auto faults = checkMeshCovered(tree, mesh, &*object);
+    EXPECT_EQ(tree.levels.size(), faults.size());
+    for (const TreeFault& fault : faults) EXPECT_EQ(FaultKind::Surface, fault.kind);
+}
+
+TEST_F(MeshCheck, FindsATriangleThatIsALine)
+{
+    TriangleMesh mesh = bracket();
+    const auto object = meshToObject(mesh, 1);
+    const SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
+    const auto first = uint32_t(mesh.points.size());
+    for (const float x : {0.5f, 50.f, 100.f}) mesh.points.emplace_back(x, 2.f, 2.f);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    const auto faults = checkMeshCovered(tree, mesh, &*object);
+    ASSERT_EQ(tree.levels.size(), faults.size());
+    EXPECT_NE(std::string::npos, faults[0].sentence.find("pieces of triangles without area"))
+        << faults[0].sentence;
+}
+
+/// Voxels have coordinates of 32 bits, the mesh is beyond them.
+TEST_F(MeshCheck, OfAMeshFarFromItsTreeSaysThatNothingIsCovered)
+{
+    const TriangleMesh mesh = bracket();
+    const auto object = meshToObject(mesh, 1);
+    for (const double away : {1e4, 1e10, 1e15}) {
+        const auto moved = object->deepCopy();
+        moved->transform().postTranslate(Vec3d(away, 0, -away));
+        const SphereTree tree = treeOf(*moved, SphereTreeSettings::kPadCubes);
+        const auto faults = checkMeshCovered(tree, mesh, &*moved);
+        ASSERT_EQ(tree.levels.size(), faults.size()) << away;
+        EXPECT_NE(std::string::npos, faults[0].sentence.find(": 100% of its surface"))
+            << faults[0].sentence;
+    }
+}
+
+/// In pieces of a voxel it would be 10^12 of them.
+TEST_F(MeshCheck, OfAHugeTriangleLooksOnlyAtWhatIsNearTheObject)
+{
+    const auto object = meshToObject(bracket(), 1);
+    const SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
+    TriangleMesh mesh;
+    mesh.name = "huge";
+    mesh.points = {openvdb::Vec3s(-1e6f, -1e6f, 5), openvdb::Vec3s(1e6f, -1e6f, 5),
+        openvdb::Vec3s(0, 1e6f, 5)};
+    mesh.triangles = {openvdb::Vec3I(0, 1, 2)};
+    EXPECT_EQ(tree.levels.size(), checkMeshCovered(tree, mesh, &*object).size());
 }
 
 TEST_F(MeshCheck, TakesTheObjectsCubesOnlyWhereSpheresCoverThem)

@@ -141,6 +141,62 @@ TEST_F(MeshSolid, HoldsOfWholeVoxelsThoseThatNoTriangleMeets)
     EXPECT_THROW(meshToObject(mesh, 1, centers), openvdb::ValueError);
 }
 
+/// A room that a neck narrower than a voxel leads to is outside, and so is a hollow.
+TEST_F(MeshSolid, HoldsNoWholeVoxelOfARoomOrAHollow)
+{
+    MeshSolidSettings whole;
+    whole.coverage = Coverage::Whole;
+    const CoordBBox room(Coord(-9), Coord(9));
+    const auto expectShell = [&](const TriangleMesh& mesh) {
+        const auto object = meshToObject(mesh, 1, whole);
+        for (auto voxel = room.begin(); voxel; ++voxel) {
+            ASSERT_FALSE(object->tree().isValueOn(*voxel)) << *voxel;
+        }
+        EXPECT_TRUE(object->tree().isValueOn(Coord(15)));
+        EXPECT_EQ(CoordBBox(Coord(-19), Coord(19)), object->evalActiveVoxelBoundingBox());
+        EXPECT_TRUE(meshToObject(mesh, 1)->tree().isValueOn(Coord(0))) << "on the safe side there";
+    };
+    TriangleMesh hollow = boxMesh(Vec3d(-20.3), Vec3d(20.3));
+    addBox(hollow, Vec3d(-10.3), Vec3d(10.3), /*inverted=*/true);
+    expectShell(hollow);
+
+    // A bottle: of both lids, a hole is left, and a neck joins the two.
+    TriangleMesh bottle;
+    bottle.name = "bottle";
+    const double n = 0.2;
+    const auto quad = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+        const auto first = uint32_t(bottle.points.size());
+        for (const Vec3d& p : {a, b, c, d}) bottle.points.emplace_back(p);
+        bottle.triangles.emplace_back(first, first + 1, first + 2);
+        bottle.triangles.emplace_back(first, first + 2, first + 3);
+    };
+    const auto shell = [&](double s, bool out) { // all but the lid, and the lid around the hole
+        TriangleMesh box = boxMesh(Vec3d(-s), Vec3d(s), !out);
+        box.triangles.erase(box.triangles.begin() + 2, box.triangles.begin() + 4);
+        const auto first = uint32_t(bottle.points.size());
+        bottle.points.insert(bottle.points.end(), box.points.begin(), box.points.end());
+        for (const Vec3I& t : box.triangles) bottle.triangles.push_back(t + Vec3I(first));
+        const std::pair<double, double> around[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+        for (int i = 0; i < 4; ++i) {
+            const auto [x0, y0] = around[i];
+            const auto [x1, y1] = around[(i + 1) % 4];
+            const Vec3d a(s * x0, s * y0, s), b(s * x1, s * y1, s), c(n * x1, n * y1, s),
+                d(n * x0, n * y0, s);
+            out ? quad(a, b, c, d) : quad(a, d, c, b);
+        }
+    };
+    shell(20.3, true);
+    shell(10.3, false);
+    const std::pair<double, double> around[] = {{-n, -n}, {n, -n}, {n, n}, {-n, n}};
+    for (int i = 0; i < 4; ++i) { // the neck faces its own middle
+        const auto [x0, y0] = around[i];
+        const auto [x1, y1] = around[(i + 1) % 4];
+        quad({x0, y0, 10.3}, {x0, y0, 20.3}, {x1, y1, 20.3}, {x1, y1, 10.3});
+    }
+    ASSERT_GT(openEdges(bottle), 0) << "corners are given anew for each face";
+    expectShell(bottle);
+}
+
 /// A box of walls without thickness, with a square hole in its lid.
 TriangleMesh openBox(double width)
 {
@@ -175,6 +231,38 @@ TEST_F(MeshSolid, WithAGapClosesHolesOfThatWidth)
         EXPECT_LE(full - 81, voxelsOf(*closed)) << width;
         EXPECT_TRUE(closed->tree().isValueOn(Coord(20, 20, 38))) << width;
         EXPECT_EQ(CoordBBox(Coord(0), Coord(40)), closed->evalActiveVoxelBoundingBox());
+    }
+}
+
+/// Slits in any direction, as wide as they may be: nothing gets in.
+TEST_F(MeshSolid, WithAGapClosesSlitsThatAreTurned)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> angle(0, 6), between(0, 1);
+    for (int n = 0; n < 30; ++n) {
+        const double gap = 1 + 5 * between(random);
+        TriangleMesh mesh = boxMesh(Vec3d(-14), Vec3d(14));
+        mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4); // at z = 14
+        const auto half = [&](double x0, double x1) {
+            const auto first = uint32_t(mesh.points.size());
+            mesh.points.emplace_back(float(x0), -14.f, 14.f);
+            mesh.points.emplace_back(float(x1), -14.f, 14.f);
+            mesh.points.emplace_back(float(x1), 14.f, 14.f);
+            mesh.points.emplace_back(float(x0), 14.f, 14.f);
+            mesh.triangles.emplace_back(first, first + 1, first + 2);
+            mesh.triangles.emplace_back(first, first + 2, first + 3);
+        };
+        const double slit = 4 * between(random);
+        half(-14, slit);
+        half(slit + 0.999 * gap, 14);
+        const openvdb::Mat3d turn =
+            openvdb::math::rotation<openvdb::Mat3d>(openvdb::math::X_AXIS, angle(random))
+            * openvdb::math::rotation<openvdb::Mat3d>(openvdb::math::Z_AXIS, angle(random));
+        const Vec3d shift(between(random), between(random), between(random));
+        for (Vec3s& point : mesh.points) point = Vec3s(turn * Vec3d(point) + shift);
+        const auto closed = meshToObject(mesh, 1, withGap(gap));
+        EXPECT_TRUE(closed->tree().isValueOn(Coord::round(shift))) << n << ' ' << gap;
+        EXPECT_GT(voxelsOf(*closed), 26 * 26 * 26) << n << ' ' << gap;
     }
 }
 
@@ -213,7 +301,7 @@ TEST_F(MeshSolid, RefusesWhatIsOutOfRange)
     for (const double gap : {-1.0, nan, 127.0}) {
         const std::string message =
             messageOf<openvdb::ValueError>([&] { meshToObject(mesh, 1, withGap(gap)); });
-        EXPECT_TRUE(mentions(message, "is out of range: it must be 0 to 126 voxels")) << message;
+        EXPECT_TRUE(mentions(message, "is out of range: it must be 0 to 125 voxels")) << message;
     }
     TriangleMesh bad = mesh;
     bad.points[3][1] = std::numeric_limits<float>::quiet_NaN();
