@@ -21,7 +21,6 @@
 // Triangles, and the voxels that they meet.
 #include "mesh/TriangleMesh.h"
 #include "mesh/TriangleVoxels.h"
-#include "mesh/WindingNumber.h"
 
 // A grid to the object that it stands for.
 #include "input/DelayedValues.h"
@@ -31,6 +30,7 @@
 
 // A mesh to the object of all voxels that its solid meets.
 #include "solid/MeshSolid.h"
+#include "solid/WindingNumber.h"
 
 // The object to a pyramid of ever coarser ones.
 #include "pyramid/BlockModel.h"

@@ -5,7 +5,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
-#include <openvdb_spheretree/mesh/WindingNumber.h>
+#include <openvdb_spheretree/solid/WindingNumber.h>
 #include <openvdb_spheretree/pyramid/BallMorphology.h>
 #include <openvdb_spheretree/pyramid/Closing.h>
 #include <openvdb_spheretree/topology/ObjectParts.h>

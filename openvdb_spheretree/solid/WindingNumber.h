@@ -8,12 +8,12 @@
 /// edge that rounding might decide, another place is taken: the next of a fixed list. A ray along each axis is
 /// counted, and the middle one of the three numbers taken: one ray may leave by a hole of the mesh.
 ///
-/// Cost: for each ray, the triangles whose boxes it meets, and a look at all; parallel over voxels. It is meant
-/// for few voxels, such as one of each cavity. Tests: TestWindingNumber.cc.
+/// Cost: a bounding tree of the triangles, and for each ray those whose boxes it meets. Parallel. Tests:
+/// TestWindingNumber.cc.
 
 #pragma once
 
-#include "TriangleVoxels.h"
+#include <openvdb_spheretree/mesh/TriangleVoxels.h>
 
 #include <openvdb/Types.h>
 #include <openvdb/util/NullInterrupter.h>

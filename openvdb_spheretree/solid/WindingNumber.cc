@@ -2,6 +2,7 @@
 #include "WindingNumber.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/index/BoundingTree.h>
 
 #include <algorithm>
 #include <array>
@@ -56,25 +57,51 @@ std::optional<int> crossing(
     return sides[0] > 0 ? 1 : -1;
 }
 
-/// @return the sum over the triangles, or nothing where one is in doubt.
-std::optional<int> sumAlong(int axis, const Vec3d& place, const IndexMesh& mesh,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    int sum = 0;
-    std::size_t looked = 0;
-    for (const openvdb::Vec3I& t : mesh.triangles) {
-        if (++looked % 65536 == 0) detail::checkInterrupt(interrupter);
-        const auto one =
-            crossing(place, {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, axis, u, v);
-        if (!one) return std::nullopt;
-        sum += *one;
-    }
-    return sum;
-}
+/// Triangles, and a tree of their boxes.
+class RayMesh {
+public:
+    RayMesh(const IndexMesh& mesh, openvdb::util::NullInterrupter* interrupter)
+        : mMesh(mesh), mTree(boundsOf(mesh), interrupter)
+    {}
 
-int windingAlong(int axis, const openvdb::Coord& voxel, const IndexMesh& mesh,
-    openvdb::util::NullInterrupter* interrupter)
+    /// @return the sum of what the ray from @a place along an axis crosses, or nothing where one is in doubt.
+    std::optional<int> sumAlong(int axis, const Vec3d& place) const
+    {
+        Vec3d direction(0);
+        direction[axis] = 1;
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        std::optional<int> sum = 0;
+        mTree.visitAlong(detail::Ray(place, direction), kFar, [&](int32_t leaf, double far) {
+            const openvdb::Vec3I& t = mMesh.triangles[mTree.order()[leaf]];
+            const auto one = crossing(
+                place, {mMesh.points[t[0]], mMesh.points[t[1]], mMesh.points[t[2]]}, axis, u, v);
+            if (one) *sum += *one;
+            else sum.reset();
+            return one ? far : -1; // the end, where one is in doubt
+        });
+        return sum;
+    }
+
+private:
+    static constexpr double kFar = 1e30;
+
+    static std::vector<detail::Bound> boundsOf(const IndexMesh& mesh)
+    {
+        std::vector<detail::Bound> bounds;
+        bounds.reserve(mesh.triangles.size());
+        for (const openvdb::Vec3I& t : mesh.triangles) {
+            detail::Box box;
+            for (int i = 0; i < 3; ++i) box.expand(mesh.points[t[i]]);
+            bounds.push_back(detail::Bound::ofBox(box));
+        }
+        return bounds;
+    }
+
+    const IndexMesh& mMesh;
+    detail::BoundingTree mTree;
+};
+
+int windingAlong(int axis, const openvdb::Coord& voxel, const RayMesh& mesh)
 {
     constexpr int kPlaces = 16;
     // Multiples of the golden ratio and the like are spread evenly, and seldom in line with a mesh.
@@ -85,7 +112,7 @@ int windingAlong(int axis, const openvdb::Coord& voxel, const IndexMesh& mesh,
             const double turn = i * steps[a];
             place[a] += 0.8 * (turn - std::floor(turn) - 0.5); // well within the cube
         }
-        if (const auto sum = sumAlong(axis, place, mesh, interrupter)) return *sum;
+        if (const auto sum = mesh.sumAlong(axis, place)) return *sum;
     }
     return 0;
 }
@@ -96,10 +123,12 @@ std::vector<int> windingNumbers(const IndexMesh& mesh, const std::vector<openvdb
     openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<int> numbers(voxels.size());
+    if (voxels.empty()) return numbers;
+    const RayMesh rays(mesh, interrupter);
     detail::parallelFor(voxels.size(), interrupter, [&](std::size_t i) {
         std::array<int, 3> along{};
         for (int axis = 0; axis < 3; ++axis) {
-            along[axis] = windingAlong(axis, voxels[i], mesh, interrupter);
+            along[axis] = windingAlong(axis, voxels[i], rays);
         }
         std::sort(along.begin(), along.end());
         numbers[i] = along[1];

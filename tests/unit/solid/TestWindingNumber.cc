@@ -4,7 +4,7 @@
 
 #include "support/Meshes.h"
 
-#include <openvdb_spheretree/mesh/WindingNumber.h>
+#include <openvdb_spheretree/solid/WindingNumber.h>
 
 #include <openvdb/math/Mat3.h>
 #include <openvdb/math/Transform.h>
