@@ -36,6 +36,8 @@ namespace openvdb_spheretree {
 
 namespace {
 
+constexpr const char* kCoverages[] = {"centers", "cubes", "whole"};
+
 using detail::HalfSpace;
 using detail::toText;
 using openvdb::Index;
@@ -308,6 +310,10 @@ Wanted wantedOf(const openvdb::GridBase& grid, const ObjectSettings& settings)
         wanted.below = valuesBelow(*settings.below);
         wanted.text += (wanted.text.empty() ? "below " : " and below ") + toText(*settings.below);
     }
+    if (wanted.above && wanted.below && !(*settings.above < *settings.below)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid) << " has no value " << wanted.text << ": nothing lies between");
+    }
     if (wanted.above || wanted.below) return wanted;
     checkFinite(settings.threshold, "threshold");
     wanted.above = valuesAbove(settings.threshold);
@@ -383,6 +389,7 @@ struct MaskOfGrid {
     openvdb::util::NullInterrupter* interrupter;
     MaskTree::Ptr mask;
     std::string criterion;
+    bool isInterpolated = false; ///< between centers
 
     template <typename GridT>
     void operator()(const GridT& grid)
@@ -394,6 +401,7 @@ struct MaskOfGrid {
         const bool isWhole = settings.coverage == Coverage::Whole;
         criterion = (isWhole ? "no voxel whose whole cube is " : "no value ") + wanted.text;
         mask = valueMask(grid, wanted, settings.coverage, interrupter);
+        isInterpolated = wanted.labels.empty();
     }
     void operator()(const openvdb::MaskGrid& grid)
     {
@@ -420,6 +428,20 @@ private:
 
 } // namespace
 
+void setCoverage(openvdb::BoolGrid& object, Coverage coverage)
+{
+    object.insertMeta(kCoverageKey, openvdb::StringMetadata(kCoverages[int(coverage)]));
+}
+
+std::optional<Coverage> coverageOf(const openvdb::GridBase& grid)
+{
+    const auto text = grid.getMetadata<openvdb::StringMetadata>(kCoverageKey);
+    for (int i = 0; text && i < 3; ++i) {
+        if (text->value() == kCoverages[i]) return Coverage(i);
+    }
+    return std::nullopt;
+}
+
 bool isObjectGrid(const openvdb::GridBase& grid)
 {
     return grid.apply<ObjectGridTypes>([](const auto&) {});
@@ -436,7 +458,7 @@ openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSetti
     }
     requireUniformVoxels(grid);
 
-    MaskOfGrid op{settings, interrupter, {}, {}};
+    MaskOfGrid op{settings, interrupter, {}, {}, {}};
     grid.apply<ObjectGridTypes>(op);
     openvdb::tools::pruneInactive(*op.mask);
     if (op.mask->empty()) {
@@ -448,6 +470,9 @@ openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSetti
         openvdb::BoolGrid::create(detail::copyTopology<openvdb::BoolTree>(*op.mask, interrupter));
     object->setName(grid.getName());
     object->setTransform(grid.transform().copy());
+    const auto coverage =
+        op.isInterpolated ? std::optional<Coverage>(settings.coverage) : coverageOf(grid);
+    if (coverage) setCoverage(*object, *coverage);
     return object;
 }
 

@@ -55,6 +55,14 @@ struct ObjectSettings {
 openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSettings& settings = {},
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
+/// Text metadata of objects of interpolated values and of meshes: `centers`, `cubes` or `whole`. objectOf()
+/// and meshToObject() set it, and it goes on from object to object.
+constexpr const char* kCoverageKey = "spheretree_coverage";
+void setCoverage(openvdb::BoolGrid& object, Coverage coverage);
+
+/// @return by what rule the voxels of a grid were taken from a solid; nothing if it does not say.
+std::optional<Coverage> coverageOf(const openvdb::GridBase& grid);
+
 /// @return whether objectOf() accepts grids of this type.
 bool isObjectGrid(const openvdb::GridBase& grid);
 

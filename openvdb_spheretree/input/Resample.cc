@@ -153,6 +153,17 @@ ValueT roundedTo(double number)
     return number >= double(kMost) ? kMost : ValueT(std::llround(number));
 }
 
+/// Two transforms that agree do so but for rounding, which would let neighbours take part.
+Vec3d onCenters(Vec3d at)
+{
+    constexpr double kRounding = 1e-9; // voxels
+    for (int axis = 0; axis < 3; ++axis) {
+        const double center = std::round(at[axis]);
+        if (std::abs(at[axis] - center) < kRounding) at[axis] = center;
+    }
+    return at;
+}
+
 /// The interpolation between the eight centers around a place.
 template <typename Reader>
 auto linearSample(const Reader& reader, const Vec3d& at)
@@ -191,7 +202,7 @@ void sampleLeaf(LeafT& leaf, const Reader& reader, Sampling sampling, const Tran
     using ValueT = typename LeafT::ValueType;
     constexpr bool isMask = std::is_same_v<ValueT, openvdb::ValueMask>;
     for (openvdb::Index n = 0; n < LeafT::SIZE; ++n) {
-        const Vec3d at = from.worldToIndex(to.indexToWorld(leaf.offsetToGlobalCoord(n)));
+        const Vec3d at = onCenters(from.worldToIndex(to.indexToWorld(leaf.offsetToGlobalCoord(n))));
         const auto sample = [&] {
             if constexpr (isMask || std::is_same_v<ValueT, bool>) return nearestSample(reader, at);
             else if (sampling == Sampling::Nearest) return nearestSample(reader, at);

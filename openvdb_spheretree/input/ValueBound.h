@@ -16,6 +16,11 @@ struct ValueBound {
 
     double nearest;  ///< the number, or the double next to it
     double rest = 0; ///< the number less `nearest`; not 0 only of integers beyond 2^53
+
+    bool operator<(const ValueBound& o) const
+    {
+        return nearest < o.nearest || (nearest == o.nearest && rest < o.rest);
+    }
 };
 
 namespace detail {

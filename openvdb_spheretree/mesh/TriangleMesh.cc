@@ -19,7 +19,7 @@ using openvdb::Vec3I;
 using openvdb::Vec3s;
 
 /// Half of what Coord holds, so that a narrow band and OpenVDB's own margins fit around it.
-constexpr double kMaxIndex = 1 << 30;
+constexpr double kMaxIndex = 1 << 29; // a side of twice that has boxes of 2^31
 
 } // namespace
 
@@ -94,9 +94,21 @@ void requireUsableMesh(const TriangleMesh& mesh, double voxelSize)
             OPENVDB_THROW(openvdb::ValueError,
                 "mesh '" << mesh.name << "' reaches coordinate " << point[axis]
                          << ", too far for voxel size " << voxelSize
-                         << " (indices must stay within 2^30); use larger voxels");
+                         << " (indices must stay within 2^29); use larger voxels");
         }
     }
+}
+
+double longestEdge(const TriangleMesh& mesh)
+{
+    double longestSq = 0;
+    for (const openvdb::Vec3I& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const openvdb::Vec3d from(mesh.points[t[i]]), to(mesh.points[t[(i + 1) % 3]]);
+            longestSq = std::max(longestSq, (to - from).lengthSqr());
+        }
+    }
+    return std::sqrt(longestSq);
 }
 
 double areaOf(const TriangleMesh& mesh)

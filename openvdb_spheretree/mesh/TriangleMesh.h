@@ -37,11 +37,14 @@ openvdb::SharedPtr<openvdb::math::Transform> transformOfVoxels(double voxelSize)
 
 /// @brief See to it that a mesh can become voxels of this size.
 /// @throw openvdb::ValueError naming the mesh, if it has no triangles, a triangle has a corner that
-///        is not there, or a coordinate is not finite or beyond 2^30 voxels
+///        is not there, or a coordinate is not finite or beyond 2^29 voxels
 void requireUsableMesh(const TriangleMesh& mesh, double voxelSize);
 
 /// @return the area of all triangles, world units squared.
 double areaOf(const TriangleMesh& mesh);
+
+/// @return the length of the longest edge, world units; 0 of no triangles.
+double longestEdge(const TriangleMesh& mesh);
 
 /// @return the box of all points, world units.
 openvdb::math::BBox<openvdb::Vec3d> boxOf(const TriangleMesh& mesh);

@@ -10,7 +10,8 @@
 /// a linear function of the box's corner.
 ///
 /// Rounding never loses a voxel: each function has a bound of what rounding can do to it, and is taken as
-/// it suits the voxel. So a voxel may be added that a triangle misses by some 2^-45 of its coordinates.
+/// it suits the voxel. So a voxel may be added that a triangle misses by some 2^-45 of its coordinates; by more
+/// where an edge is much shorter than these, as its direction is then less certain.
 ///
 /// 1. `TriangleBoxTest`: the linear functions of a triangle, for boxes of 1, 2, 4, ... voxels a side.
 /// 2. `Piece`: triangles as they are, and large ones cut along the nodes of 128^3 voxels that they meet.
@@ -47,7 +48,7 @@ bool meetsVoxel(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb:
     const openvdb::Coord& voxel);
 
 /// @return the voxels whose closed cubes, of half a voxel to each side of their center, a triangle meets.
-/// @param mesh         its corners must be there, and within 2^30 voxels (requireUsableMesh())
+/// @param mesh         its corners must be there, and within 2^29 voxels (requireUsableMesh())
 /// @param interrupter  may be null; asked from many threads
 /// @throw Interrupted if the interrupter said so
 /// @note The same for any number of threads.

@@ -29,18 +29,19 @@ using openvdb::MaskTree;
 using openvdb::Vec3d;
 using openvdb::util::NullInterrupter;
 
-/// A surface has a leaf of 8^3 voxels for each 64 faces of voxels of its area, at the least, and three trees of
-/// them are held at a time; by its box it cannot have more.
+/// A surface has a leaf of 8^3 voxels for each 64 faces of voxels of its area, and as many as an edge is long,
+/// at the least, and three trees of them are held at a time; by its box it cannot have more.
 void requireRoomForSurface(const TriangleMesh& mesh, double voxelSize)
 {
     constexpr double kBytes = 300;
     const double leaf = 8 * voxelSize;
     const Vec3d sides = boxOf(mesh).extents() / leaf + Vec3d(1);
-    const double leaves = std::min(areaOf(mesh) / (leaf * leaf), sides[0] * sides[1] * sides[2]);
+    const double leaves = std::min(std::max(areaOf(mesh) / (leaf * leaf), longestEdge(mesh) / leaf),
+        sides[0] * sides[1] * sides[2]);
     const Vec3d voxels = boxOf(mesh).extents() / voxelSize + Vec3d(1);
     std::ostringstream what;
-    what << "the surface of mesh '" << mesh.name << "', in a box of " << std::setprecision(2)
-         << voxels[0] * voxels[1] * voxels[2] << " voxels,";
+    what << "the voxels at the surface of mesh '" << mesh.name << "', in a box of "
+         << std::setprecision(2) << voxels[0] * voxels[1] * voxels[2] << " voxels,";
     detail::requireMemory(leaves * kBytes, what.str(), "use a larger voxel");
 }
 
@@ -112,7 +113,41 @@ openvdb::BoolGrid::Ptr meshToObject(const TriangleMesh& mesh, double voxelSize,
         openvdb::BoolGrid::create(detail::copyTopology<openvdb::BoolTree>(*solid, interrupter));
     object->setTransform(transform);
     object->setName(mesh.name);
+    setCoverage(*object, settings.coverage);
     return object;
+}
+
+double hollowShare(const TriangleMesh& mesh, const openvdb::BoolGrid& object)
+{
+    constexpr double kPoints = 4096, kMostRows = 64, kAway = 2; // voxels
+    const IndexMesh triangles = toIndexSpace(mesh, object.transform());
+    const auto corner = [&](const openvdb::Vec3I& t, int i) { return triangles.points[t[i]]; };
+    const auto normalOf = [&](const openvdb::Vec3I& t) {
+        return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+    };
+    double all = 0, hollow = 0; // twice the area
+    for (const openvdb::Vec3I& t : triangles.triangles) all += normalOf(t).length();
+    const auto values = object.getConstAccessor();
+    for (const openvdb::Vec3I& t : triangles.triangles) {
+        const Vec3d normal = normalOf(t);
+        const double area = normal.length();
+        if (!(area > 0)) continue;
+        const Vec3d away = kAway / area * normal;
+        // The middles of the small triangles of a grid that stand as the large one does.
+        const auto rows = int(std::clamp(std::sqrt(kPoints * area / all), 1.0, kMostRows));
+        int points = 0, bare = 0;
+        for (int i = 0; i < rows; ++i) {
+            for (int j = 0; i + j < rows; ++j, ++points) {
+                const double u = (i + 1.0 / 3) / rows, v = (j + 1.0 / 3) / rows;
+                const Vec3d at = corner(t, 0) + u * (corner(t, 1) - corner(t, 0))
+                    + v * (corner(t, 2) - corner(t, 0));
+                bare += !values.isValueOn(openvdb::Coord::round(at + away))
+                    && !values.isValueOn(openvdb::Coord::round(at - away));
+            }
+        }
+        hollow += area * bare / points;
+    }
+    return all > 0 ? hollow / all : 0;
 }
 
 MissedSurface missedSurface(

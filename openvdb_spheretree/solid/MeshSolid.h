@@ -48,6 +48,12 @@ struct MeshSolidSettings {
 openvdb::SharedPtr<openvdb::BoolGrid> meshToObject(const TriangleMesh& mesh, double voxelSize,
     const MeshSolidSettings& settings = {}, openvdb::util::NullInterrupter* interrupter = nullptr);
 
+/// @brief How much of a mesh has nothing inside: the share of its area, 0 to 1, of which neither side is in the
+/// object, two voxels away. Of a solid that is thicker than that it is 0, or nearly so; of a sheet, or of a
+/// mesh that is open too wide to have an inside, it is large.
+/// @note Some thousand points of the mesh are looked at. Cost: O(triangles).
+double hollowShare(const TriangleMesh& mesh, const openvdb::BoolGrid& object);
+
 /// What an object lacks of a mesh.
 struct MissedSurface {
     int64_t voxels =

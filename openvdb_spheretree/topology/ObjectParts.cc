@@ -59,7 +59,7 @@ openvdb::BoolGrid::Ptr chosenOf(const openvdb::BoolGrid& object,
     const auto chosen = choose(*copyTopology<MaskTree>(object.tree(), interrupter), interrupter);
     const auto result =
         openvdb::BoolGrid::create(copyTopology<openvdb::BoolTree>(*chosen, interrupter));
-    result->setName(object.getName());
+    result->insertMeta(object);
     result->setTransform(object.transform().copy());
     return result;
 }

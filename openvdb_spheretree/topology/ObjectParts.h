@@ -17,7 +17,7 @@
 
 namespace openvdb_spheretree {
 
-/// @return the part of the most voxels, with the object's name and transform. Of several, that with the
+/// @return the part of the most voxels, with the object's metadata and transform. Of several, that with the
 ///         first voxel, by x, then y, then z. Nothing if the object is empty. Tiles stay tiles.
 /// @throw as levelTopology()
 /// Cost: as levelTopology(), and 24 bytes for each part within a leaf node.
@@ -25,7 +25,7 @@ openvdb::SharedPtr<openvdb::BoolGrid> largestPart(
     const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return the object and all background that cannot be reached from far outside by steps across faces,
-///         with the object's name and transform. Whole empty nodes become tiles. (An object one voxel
+///         with the object's metadata and transform. Whole empty nodes become tiles. (An object one voxel
 ///         thick has no cavities: its holes are open to either side.)
 /// @throw as levelTopology()
 /// Cost: as levelTopology(), and linear in nodes of the object, however large its cavities.

@@ -124,6 +124,9 @@ TEST_F(CommandMesh, FillsAnOpenMeshFromOutside)
     const Result filled = run("-read open.obj -mesh2ls voxel=1 fill=outside gap=40" + tail);
     EXPECT_TRUE(has(filled.out, "box 41 x 41 x 41")) << filled.out << filled.err;
     EXPECT_FALSE(has(filled.err, "warning")) << filled.err;
+    const Result hollow = run("-quiet -read open.obj -mesh2ls voxel=1 fill=outside gap=4" + tail);
+    EXPECT_TRUE(has(hollow.err, "% of it has nothing inside")) << hollow.err;
+    EXPECT_TRUE(has(hollow.err, "wider than gap=4, so make gap larger")) << hollow.err;
 }
 
 TEST_F(CommandMesh, RefusesOptionsThatSayNothing)

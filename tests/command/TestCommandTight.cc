@@ -178,6 +178,9 @@ TEST_F(CommandTight, ADistanceHasAUnitWhereTheObjectHasOne)
              "-read ball.vdb scale=0.001 -spheretree distance=5mm -write t.vdb"}) {
         EXPECT_EQ(run(line).exitCode, 2) << line;
     }
+    EXPECT_EQ(run("-read ball.vdb units=m -resample voxel=50cm -write v.vdb").exitCode, 0);
+    EXPECT_EQ(readGrids("v.vdb").at(0)->voxelSize()[0], 0.5);
+    EXPECT_EQ(run("-read ball.vdb -resample voxel=50cm -write v.vdb").exitCode, 2);
     EXPECT_EQ(run("-read ball.vdb units=mm -spheretree distance=5mi -write t.vdb").exitCode, 2);
 }
 

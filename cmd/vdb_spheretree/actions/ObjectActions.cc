@@ -74,16 +74,31 @@ void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::FloatGrid
         + spheretree::detail::shortNumber(missed.distance) + " (world units): " + remedy);
 }
 
+/// Of an open mesh whose holes are not closed there is little but the surface.
+void warnIfHollow(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& object, double gap,
+    Session& session)
+{
+    constexpr double kMuch = 0.25;
+    if (spheretree::openEdges(mesh, &session.progress) == 0) return;
+    const double share = spheretree::hollowShare(mesh, object);
+    if (share < kMuch) return;
+    session.warn("mesh '" + mesh.name + "' is open, and " + std::to_string(int(100 * share))
+        + "% of it has nothing inside: where it ought to be solid, a hole is wider than gap="
+        + spheretree::detail::shortNumber(gap) + ", so make gap larger");
+}
+
 openvdb::GridBase::Ptr gridOf(
     const spheretree::TriangleMesh& mesh, double voxel, const ActionCall& call, Session& session)
 {
     const bool outside = call.text("fill") == "outside";
     spheretree::MeshSolidSettings settings;
     if (call.text("cover") == "whole") settings.coverage = spheretree::Coverage::Whole;
-    if (outside) settings.gap = call.given("gap") ? call.real("gap") : 2 * voxel;
+    if (outside) settings.gap = call.given("gap") ? call.length("gap") : 2 * voxel;
     if (!outside) warnIfOpen(mesh, session);
     if (outside || call.text("cover") != "0") {
-        return spheretree::meshToObject(mesh, voxel, settings, &session.progress);
+        const auto object = spheretree::meshToObject(mesh, voxel, settings, &session.progress);
+        if (outside) warnIfHollow(mesh, *object, settings.gap, session);
+        return object;
     }
     const auto levelSet =
         spheretree::meshToLevelSet(mesh, voxel, call.real("width"), &session.progress);
@@ -96,7 +111,7 @@ void runMesh2ls(const ActionCall& call, Session& session)
     StackItem& item = session.stack.selectMesh(call.text("geo"));
     const auto mesh = item.mesh;
     const double voxel = call.given("voxel")
-        ? call.real("voxel")
+        ? call.length("voxel")
         : spheretree::voxelSizeForDim(*mesh, int(call.integer("dim")));
     StackItem result;
     result.grid = gridOf(*mesh, voxel, call, session);
@@ -136,7 +151,7 @@ void checkMask(const ActionCall& call, Plan&)
         }
     }
     if (!call.given("above") || !call.given("below")) return;
-    if (call.real("above") > call.real("below")) {
+    if (!(boundOf(call, "above") < boundOf(call, "below"))) {
         throwUsage("no value is above " + call.text("above") + " and below " + call.text("below"));
     }
 }
@@ -203,6 +218,20 @@ void runMask(const ActionCall& call, Session& session)
     session.seconds.mask += watch.seconds();
 }
 
+/// @return whether a tree has @a object for its object: the same voxels in the same place.
+bool isObjectOf(const openvdb::BoolGrid& object, const spheretree::SphereTree& tree)
+{
+    const auto& info = tree.object;
+    if (int64_t(object.activeVoxelCount()) != info.voxels) return false;
+    if (object.evalActiveVoxelBoundingBox() != info.bbox) return false;
+    const double much = 1e-3 * tree.voxelSize(); // as for -check
+    for (const openvdb::Coord& corner : {info.bbox.min(), info.bbox.max()}) {
+        const auto here = object.transform().indexToWorld(corner);
+        if ((here - tree.transform->indexToWorld(corner)).length() > much) return false;
+    }
+    return true;
+}
+
 bool isObjectGrid(const StackItem& item)
 {
     return item.grid && spheretree::isObjectGrid(*item.grid);
@@ -250,13 +279,30 @@ openvdb::BoolGrid::Ptr objectOf(
     }
 }
 
+openvdb::BoolGrid::Ptr objectOfTree(
+    const StackItem& item, const spheretree::SphereTree& tree, Session& session)
+{
+    using spheretree::Coverage;
+    for (const Coverage coverage : {Coverage::Centers, Coverage::Cubes, Coverage::Whole}) {
+        spheretree::ObjectSettings settings;
+        settings.coverage = coverage;
+        try {
+            const auto object = objectOf(item, settings, session);
+            if (isObjectOf(*object, tree)) return object;
+            if (spheretree::coverageOf(*object) != coverage) return nullptr; // the same for each
+        } catch (const CommandError&) { // no voxel is of that kind
+        }
+    }
+    return nullptr;
+}
+
 ActionSpec mesh2lsAction()
 {
     ActionSpec action{"mesh2ls", "", "",
         "turn a closed mesh into a level set, or into the voxels that its solid meets"};
     action.options = {
         integer("dim", "256", 1, 1 << 20, "voxels along the longest side of the mesh"),
-        real("voxel", "", kTiny, kHuge, "size of a voxel in world units, in place of dim"),
+        length("voxel", "", kTiny, kHuge, "size of a voxel in world units, in place of dim"),
         real("width", "3", 1, 1000, "half the width of the narrow band, in voxels"),
         choice("cover", {"0", "1", "whole"},
             "0: a level set, of which voxels with their center inside count; 1: the object of "
@@ -268,7 +314,7 @@ ActionSpec mesh2lsAction()
             "what is inside: what a closed mesh bounds, or all that cannot be reached from outside "
             "through "
             "holes narrower than gap (with cover=1)"),
-        real("gap", "", 0, kHuge,
+        length("gap", "", 0, kHuge,
             "with fill=outside: the width of holes to close, in world units; by default 2 voxels"),
         text("geo", "", "the mesh, by its age among the meshes (0 is the newest) or its name"),
         keepOption(), nameOption("", "name of the result (by default that of the mesh)")};

@@ -25,6 +25,13 @@ StackItem* onlyObjectGrid(Session& session);
 openvdb::BoolGrid::Ptr objectOf(
     const StackItem& item, const openvdb_spheretree::ObjectSettings& settings, Session& session);
 
+/// @brief The object of a grid of the stack that @a tree was built of, where nobody says how: voxels by their
+/// centers, or all that the solid meets, or that lie wholly in it.
+/// @return the one that has the tree's voxels in its place of the world, or null
+/// @throw as above, but for a grid that holds no object
+openvdb::BoolGrid::Ptr objectOfTree(
+    const StackItem& item, const openvdb_spheretree::SphereTree& tree, Session& session);
+
 /// @brief Compute the errors of a tree whose object is known, and add up the time.
 void computeErrors(StackItem& item, Session& session);
 

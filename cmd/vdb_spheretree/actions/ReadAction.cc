@@ -232,9 +232,11 @@ void readVdbFile(const std::string& path, Reading& reading, Session& session)
     }
 }
 
-StackItem readSpheres(const std::string& path, const Reading& reading, Session& session)
+/// @param file  where the content of @a path is
+StackItem readSpheres(
+    const std::string& file, const std::string& path, const Reading& reading, Session& session)
 {
-    const auto spheres = openvdb_spheretree::readSphereFile(path, reading.level);
+    const auto spheres = openvdb_spheretree::readSphereFile(file, reading.level, path);
     try {
         return sphereItem(spheres, reading.scale, session);
     } catch (...) {
@@ -246,15 +248,15 @@ void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
     if (kind == FileKind::Vdb) return readVdbFile(path, reading, session);
-    StackItem item;
-    if (kind == FileKind::Csv || kind == FileKind::Json) {
-        item = readSpheres(path, reading, session);
-        if (reading.filter.accepts(item.tree->settings.name)) session.stack.push(item);
-        return;
-    }
     std::optional<SpooledInput> spooled;
     if (isStdin(path)) spooled.emplace(path);
     const std::string file = spooled ? spooled->path() : path;
+    StackItem item;
+    if (kind == FileKind::Csv || kind == FileKind::Json) {
+        item = readSpheres(file, path, reading, session);
+        if (reading.filter.accepts(item.tree->settings.name)) session.stack.push(item);
+        return;
+    }
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
             openvdb_spheretree::readMeshFile(file, path));
@@ -326,8 +328,8 @@ ActionSpec readAction()
         "read grids and sphere-trees (.vdb), volumes (.vol, .longvol), meshes (.obj, .ply, .stl, "
         ".off ...) and spheres of other tools (.csv, .json)"};
     action.options = {list("files", "",
-                          "files to read, or stdin.vdb, .vol, .obj, .off, .ply, .stl; the "
-                          "extension says what they "
+                          "files to read, or stdin.vdb, .vol, .obj, .off, .ply, .stl, .csv, "
+                          ".json; the extension says what they "
                           "are"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
         flag("spheres", false,

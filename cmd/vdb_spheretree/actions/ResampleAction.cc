@@ -19,7 +19,7 @@ void runResample(const ActionCall& call, Session& session)
     StackItem result;
     try {
         const double voxel =
-            call.given("voxel") ? call.real("voxel") : spheretree::shortestVoxelEdge(*item.grid);
+            call.given("voxel") ? call.length("voxel") : spheretree::shortestVoxelEdge(*item.grid);
         result.grid = spheretree::resampled(*item.grid, voxel,
             call.flag("nearest") ? spheretree::Sampling::Nearest : spheretree::Sampling::Linear,
             &session.progress);
@@ -45,7 +45,7 @@ ActionSpec resampleAction()
         "their "
         "surface, other grids interpolated, masks take the nearest voxel"};
     action.options = {
-        real("voxel", "", 1e-30, 1e30,
+        length("voxel", "", 1e-30, 1e30,
             "size of a voxel in world units (by default the shortest edge of those there "
             "are)"),
         flag("nearest", false, "take the value of the nearest voxel, as for labels"),

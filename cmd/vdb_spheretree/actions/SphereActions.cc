@@ -52,7 +52,7 @@ openvdb::GridBase::Ptr levelSetOf(
             + spheretree::toString(tree.settings.dist()) + " are none: use -spheres2mask");
     }
     const auto voxel =
-        call.given("voxel") ? std::optional<double>(call.real("voxel")) : std::nullopt;
+        call.given("voxel") ? std::optional<double>(call.length("voxel")) : std::nullopt;
     const auto grid =
         spheretree::levelSetOfSpheres(tree, level, voxel, call.real("width"), &session.progress);
     throwIfStopped();
@@ -106,7 +106,8 @@ ActionSpec spheres2lsAction()
     ActionSpec action{
         "spheres2ls", "", "level", "the union of a level's spheres, as stored, as a level set"};
     action.options = {levelOption(),
-        real("voxel", "", 1e-30, 1e30, "size of a voxel in world units (by default the source's)"),
+        length(
+            "voxel", "", 1e-30, 1e30, "size of a voxel in world units (by default the source's)"),
         real("width", "3", 1, 1000, "half the width of the narrow band, in voxels"),
         vdbOption("the tree"), keepOption(),
         nameOption("", "name of the result (by default that of the tree)")};

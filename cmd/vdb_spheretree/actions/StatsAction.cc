@@ -58,20 +58,6 @@ void checkStats(const ActionCall& call, Plan& plan)
     }
 }
 
-/// @return whether a tree has @a object for its object: the same voxels in the same place.
-bool isObjectOf(const openvdb::BoolGrid& object, const openvdb_spheretree::SphereTree& tree)
-{
-    const auto& info = tree.object;
-    if (int64_t(object.activeVoxelCount()) != info.voxels) return false;
-    if (object.evalActiveVoxelBoundingBox() != info.bbox) return false;
-    const double much = 1e-3 * tree.voxelSize(); // as for -check
-    for (const openvdb::Coord& corner : {info.bbox.min(), info.bbox.max()}) {
-        const auto here = object.transform().indexToWorld(corner);
-        if ((here - tree.transform->indexToWorld(corner)).length() > much) return false;
-    }
-    return true;
-}
-
 /// Finds the object of a tree that was read from a file: the only grid on the stack that an object
 /// can be made of, if it is that. -stats does without one, so nothing here is an error.
 void findObject(StackItem& item, Session& session)
@@ -82,12 +68,7 @@ void findObject(StackItem& item, Session& session)
         if (grid) return;
         grid = other.get();
     }
-    if (!grid) return;
-    try {
-        const auto object = objectOf(*grid, {}, session);
-        if (isObjectOf(*object, *item.tree)) item.object = object;
-    } catch (const CommandError&) { // it holds none
-    }
+    if (grid) item.object = objectOfTree(*grid, *item.tree, session);
 }
 
 /// @return whether there may be something to count: errors, or those of stored spheres.

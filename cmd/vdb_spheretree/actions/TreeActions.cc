@@ -111,13 +111,25 @@ SphereTree treeOf(const BoolGrid& object, const spheretree::WorldSpheres* leaves
     }
 }
 
+/// A cube of an object by other rules sticks out of the solid.
+void requireWholeVoxels(const StackItem& input)
+{
+    const auto coverage = spheretree::coverageOf(*input.grid);
+    if (!coverage || *coverage == spheretree::Coverage::Whole) return;
+    throwInput("strict=1 wants voxels that lie wholly in the solid, and those of "
+        + input.description() + " do not: make them with cover=whole of -mesh2ls or -mask");
+}
+
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem* const leaves =
         call.text("leaves") == "given" ? &selectGivenSpheres(session) : nullptr;
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
     spheretree::ObjectSettings objectSettings;
-    if (call.flag("strict")) objectSettings.coverage = spheretree::Coverage::Whole;
+    if (call.flag("strict")) {
+        requireWholeVoxels(input);
+        objectSettings.coverage = spheretree::Coverage::Whole;
+    }
     const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
@@ -219,10 +231,16 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
     const bool anyObject = std::any_of(items.begin(), items.end(),
         [](const auto& other) { return other->grid && spheretree::isObjectGrid(*other->grid); });
     if (!anyObject && !call.given("vdb") && session.stack.holdsMesh()) return nullptr;
+    const StackItem& grid = selectObjectGrid(session, call.text("vdb"));
+    const Stopwatch watch;
+    if (const auto object = objectOfTree(grid, *item.tree, session)) {
+        session.seconds.mask += watch.seconds();
+        return object;
+    }
     const auto* inner = item.tree->settings.find<spheretree::InnerOptions>();
     spheretree::ObjectSettings settings;
     if (inner && inner->strict) settings.coverage = spheretree::Coverage::Whole;
-    return timedObjectOf(selectObjectGrid(session, call.text("vdb")), settings, session);
+    return timedObjectOf(grid, settings, session);
 }
 
 std::vector<spheretree::TreeFault> faultsOf(const StackItem& item, const BoolGrid::ConstPtr& object,

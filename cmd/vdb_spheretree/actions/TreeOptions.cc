@@ -63,18 +63,6 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
         "out");
 }
 
-/// A file seldom says what its unit of length is.
-void requireKnownUnit(const ActionCall& call, const Plan& plan)
-{
-    const auto distance = parseLength(call.text("distance"));
-    if (!distance || plan.worldIsInMetres()) return;
-    throwUsage("distance=" + call.text("distance")
-        + ": a file does not say what its unit of length is; say it where it is read, such as "
-          "-read "
-          "part.stl units="
-        + distance->unit + ", or write the number alone, in the units of the file");
-}
-
 } // namespace
 
 std::vector<OptionSpec> spheretreeOptions()
@@ -131,7 +119,7 @@ LongWork longWorkOf(const ActionCall& call)
 void checkTreeOptions(const ActionCall& call, Plan& plan)
 {
     refuseOptionsOfOtherTrees(call);
-    requireKnownUnit(call, plan);
+    plan.requireKnownUnit("distance", call.text("distance"));
     if (call.given("edges") && !call.flag("dag")) {
         throwUsage("edges=" + call.text("edges")
             + " says which edges of the Sphere-DAG to store, and none are: add dag=1");

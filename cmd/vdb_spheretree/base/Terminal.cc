@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -47,6 +48,25 @@ size_t columnsOf(const std::string& text)
         else if (byte >= 0xc0) columns += 2; // the first byte of a character
     }
     return columns;
+}
+
+std::string brokenAt(const std::string& text, size_t columns)
+{
+    if (columns == 0) return text;
+    std::istringstream lines(text);
+    std::string result, line;
+    while (std::getline(lines, line)) {
+        while (columnsOf(line) > columns) {
+            size_t fits = line.size();
+            while (columnsOf(line.substr(0, fits)) > columns) --fits;
+            const size_t blank = line.rfind(' ', fits);
+            if (blank == line.npos || line.find_first_not_of(' ') > blank) break;
+            result += line.substr(0, blank) + '\n';
+            line = "    " + line.substr(blank + 1);
+        }
+        result += line + '\n';
+    }
+    return result;
 }
 
 std::string cutToColumns(const std::string& text, size_t columns)

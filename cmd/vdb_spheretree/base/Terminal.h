@@ -27,6 +27,10 @@ size_t columnsOf(const std::string& text);
 /// @return @a text, or its start and "..." where it takes more columns.
 std::string cutToColumns(const std::string& text, size_t columns);
 
+/// @return @a text with its lines broken at blanks where they take more columns, and what goes on moved in by
+///         four; 0 columns: as it is.
+std::string brokenAt(const std::string& text, size_t columns);
+
 enum class Colour { Red, Green, Yellow, Bold };
 
 /// @return whether standardOutput() or std::cerr (no other stream) is a terminal.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SpooledInput.h
 /// @brief Standard input as a file on the disk, for readers that must know its size, or go back in
-/// it: those of meshes and volumes.
+/// it: those of meshes, volumes and spheres.
 
 #pragma once
 

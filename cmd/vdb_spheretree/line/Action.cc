@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Action.h"
 
+#include "Length.h"
+
 #include <openvdb_spheretree/base/Text.h>
 
 #include <algorithm>
@@ -32,6 +34,13 @@ std::string numberText(double number)
     return std::string(buffer, end);
 }
 
+/// @return a length as it was typed, in metres where it has a unit.
+std::optional<double> lengthOf(const std::string& typed)
+{
+    if (const auto length = parseLength(typed)) return length->metres;
+    return parseNumber<double>(typed);
+}
+
 std::string rangeText(const OptionSpec& option)
 {
     if (std::isinf(option.highest)) return numberText(option.lowest) + " or more";
@@ -45,6 +54,7 @@ std::string allowedText(const OptionSpec& option)
     case OptionKind::Flag: return "1 or 0";
     case OptionKind::Integer: return "a whole number" + (bounded ? ", " + rangeText(option) : "");
     case OptionKind::Real: return "a number" + (bounded ? ", " + rangeText(option) : "");
+    case OptionKind::Length: return "a length, such as 5 or 5mm, " + rangeText(option);
     case OptionKind::Vector: return "three numbers, a comma between";
     default: break;
     }
@@ -66,6 +76,10 @@ bool isAllowed(const OptionSpec& option, const std::string& value)
     }
     case OptionKind::Real: {
         const auto number = parseNumber<double>(value);
+        return number && inRange(*number);
+    }
+    case OptionKind::Length: {
+        const auto number = lengthOf(value);
         return number && inRange(*number);
     }
     case OptionKind::Vector: return parseVector(value).has_value();
@@ -103,6 +117,12 @@ OptionSpec real(const std::string& name, const std::string& fallback, double low
     const std::string& doc)
 {
     return {name, OptionKind::Real, fallback, doc, lowest, highest};
+}
+
+OptionSpec length(const std::string& name, const std::string& fallback, double lowest,
+    double highest, const std::string& doc)
+{
+    return {name, OptionKind::Length, fallback, doc, lowest, highest};
 }
 
 OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc)
@@ -209,6 +229,8 @@ double ActionCall::real(const std::string& option) const
 {
     return *parseNumber<double>(text(option));
 }
+
+double ActionCall::length(const std::string& option) const { return *lengthOf(text(option)); }
 
 std::array<double, 3> ActionCall::vector(const std::string& option) const
 {

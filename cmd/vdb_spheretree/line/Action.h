@@ -32,6 +32,7 @@ enum class OptionKind {
     Flag,    ///< 1|0|true|false|yes|no|on|off
     Integer, ///< within [lowest, highest]
     Real,    ///< within [lowest, highest]
+    Length,  ///< the same, in world units; or with a unit behind it, in metres
     Vector,  ///< three numbers with commas between
     Choice   ///< one of `choices`
 };
@@ -58,6 +59,8 @@ OptionSpec integer(const std::string& name, const std::string& fallback, int64_t
     int64_t highest, const std::string& doc);
 OptionSpec real(const std::string& name, const std::string& fallback, double lowest, double highest,
     const std::string& doc);
+OptionSpec length(const std::string& name, const std::string& fallback, double lowest,
+    double highest, const std::string& doc);
 OptionSpec vector(const std::string& name, const std::string& fallback, const std::string& doc);
 OptionSpec choice(const std::string& name, const std::vector<std::string>& choices,
     const std::string& doc); ///< the first choice is the default
@@ -121,6 +124,7 @@ public:
     bool flag(const std::string& option) const;
     int64_t integer(const std::string& option) const;
     double real(const std::string& option) const;
+    double length(const std::string& option) const;
     std::array<double, 3> vector(const std::string& option) const;
     /// @}
 

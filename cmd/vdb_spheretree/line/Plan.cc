@@ -4,6 +4,7 @@
 #include "base/Errors.h"
 #include "base/Terminal.h"
 #include "files/AtomicFile.h"
+#include "Length.h"
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
@@ -50,18 +51,14 @@ bool isArray(const std::string& path)
 [[noreturn]] void refuseToRead(const std::string& path)
 {
     const std::string kinds =
-        "it reads .vdb, .vol, .longvol and meshes (.obj, .ply, .stl, .off ...), "
-        "by their extension";
+        "it reads .vdb, .vol, .longvol and meshes (.obj, .ply, .stl, .off ...) and "
+        "spheres (.csv, .json), by their extension";
     if (isArray(path)) {
         throwInput("cannot read " + path + ": pictures and plain arrays of values are not read; "
             + "make a .vdb of it first (pyopenvdb does so with an array), or a .vol, which is a "
               "few "
               "lines of text before the bytes; "
             + kinds);
-    }
-    if (isOneOf(extensionOf(path), {".csv", ".json"})) {
-        throwInput("cannot read " + path + ": tables are not read; a sphere-tree is read from the "
-            + ".vdb that -write makes of it");
     }
     throwInput("cannot read " + path + ": files of this kind are not read; " + kinds);
 }
@@ -71,14 +68,28 @@ bool isArray(const std::string& path)
 bool isStdin(const std::string& path)
 {
     return path.rfind("stdin.", 0) == 0
-        && isOneOf(extensionOf(path), {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl"});
+        && isOneOf(extensionOf(path),
+            {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl", ".csv", ".json"});
 }
 
 bool isStdout(const std::string& path)
 {
     return path == "-"
         || (path.rfind("stdout.", 0) == 0
-            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png"}));
+            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png", ".jpg"}));
+}
+
+void Plan::addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }
+
+void Plan::requireKnownUnit(const std::string& option, const std::string& typed) const
+{
+    const auto length = parseLength(typed);
+    if (!length || mAllMetres.value_or(false)) return;
+    throwUsage(option + "=" + typed
+        + ": a file does not say what its unit of length is; say it where it is read, such as "
+          "-read "
+          "part.stl units="
+        + length->unit + ", or write the number alone, in the units of the file");
 }
 
 bool Plan::replacesInput(const std::string& path) const

@@ -34,9 +34,10 @@ public:
     void addOutput(const std::string& path);
 
     /// @param metres  whether what comes from a source is in metres: said by units= of -read
-    void addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }
-    /// @return whether all that was read so far is in metres.
-    bool worldIsInMetres() const { return mAllMetres.value_or(false); }
+    void addWorldUnit(bool metres);
+    /// @param typed  a length, as the value of @a option
+    /// @throw CommandError (usage) if it has a unit, and not all that was read so far is in metres
+    void requireKnownUnit(const std::string& option, const std::string& typed) const;
 
     /// @return whether stdout carries data, so that tables and lists have to go to stderr.
     bool stdoutIsTaken() const { return mStdoutTaken; }

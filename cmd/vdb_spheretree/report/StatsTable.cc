@@ -287,7 +287,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     printTopologyReason(out, tree);
     printDag(out, tree, limit);
     printSeconds(out, session);
-    return out.str();
+    return brokenAt(out.str(), limit);
 }
 
 } // namespace command

@@ -17,9 +17,12 @@ Plan checkLine(const std::vector<ActionCall>& line)
 {
     Plan plan;
     for (const ActionCall& call : line) {
-        if (!call.spec().check) continue;
         try {
-            call.spec().check(call, plan);
+            for (const OptionSpec& option : call.spec().options) {
+                if (option.kind != OptionKind::Length || !call.given(option.name)) continue;
+                plan.requireKnownUnit(option.name, call.text(option.name));
+            }
+            if (call.spec().check) call.spec().check(call, plan);
         } catch (...) {
             rethrowNamed(call.where(), kUsage);
         }

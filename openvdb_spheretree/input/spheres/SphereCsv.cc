@@ -91,9 +91,20 @@ private:
     static char separatorOf(const std::string& line)
     {
         for (const char separator : {';', ',', '\t'}) {
-            if (line.find(separator) != line.npos) return separator;
+            if (outsideQuotes(line, std::string_view(&separator, 1)) != line.npos) return separator;
         }
         return ' ';
+    }
+
+    /// @return where the first of some characters is that stands in no quotes.
+    static std::size_t outsideQuotes(std::string_view text, std::string_view characters)
+    {
+        bool quoted = false;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] == '"') quoted = !quoted;
+            else if (!quoted && characters.find(text[i]) != characters.npos) return i;
+        }
+        return text.npos;
     }
 
     /// Cuts the line into mFields. Many blanks separate as one does.
@@ -107,7 +118,7 @@ private:
                 if (rest.empty()) return;
             }
             const std::size_t end =
-                mSeparator == ' ' ? rest.find_first_of(kBlanks) : rest.find(mSeparator);
+                outsideQuotes(rest, mSeparator == ' ' ? kBlanks : std::string_view(&mSeparator, 1));
             mFields.push_back(trimmed(rest.substr(0, end)));
             if (mFields.size() > kMostColumns) fail("it has more than 4096 columns");
             if (end == rest.npos) return;

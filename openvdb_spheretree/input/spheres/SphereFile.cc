@@ -109,7 +109,7 @@ WorldSpheres SphereList::take(std::optional<int> level)
 
 namespace {
 
-void requireRegularFile(const std::string& path)
+void requireRegularFile(const std::string& path, const std::string& name)
 {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -118,7 +118,7 @@ void requireRegularFile(const std::string& path)
     else if (std::filesystem::is_directory(status)) why = "is a directory, not a file of spheres";
     else if (!std::filesystem::is_regular_file(status)) why = "is not a regular file";
     else if (std::filesystem::file_size(path, error) == 0) why = "the file is empty";
-    if (why) throw openvdb::IoError(path + ": " + why);
+    if (why) throw openvdb::IoError(name + ": " + why);
 }
 
 } // namespace
@@ -129,24 +129,26 @@ bool isSphereFileName(const std::string& path)
     return extension == ".csv" || extension == ".json";
 }
 
-WorldSpheres readSphereFile(const std::string& path, std::optional<int> level)
+WorldSpheres readSphereFile(
+    const std::string& path, std::optional<int> level, const std::string& shownAs)
 {
-    requireRegularFile(path);
+    const std::string& name = shownAs.empty() ? path : shownAs;
+    requireRegularFile(path, name);
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw openvdb::IoError(path + ": cannot be opened for reading");
+    if (!file) throw openvdb::IoError(name + ": cannot be opened for reading");
     try {
         detail::SphereList list;
         std::string assumption;
-        if (detail::lowerExtension(path) == ".json") detail::parseSphereJson(file, list);
+        if (detail::lowerExtension(name) == ".json") detail::parseSphereJson(file, list);
         else assumption = detail::parseSphereCsv(file, list);
         if (file.bad()) throw openvdb::IoError("cannot be read to its end");
         WorldSpheres spheres = list.take(level);
-        spheres.name = std::filesystem::path(path).stem().string();
+        spheres.name = std::filesystem::path(name).stem().string();
         if (!assumption.empty()) spheres.assumption = assumption;
-        if (!spheres.assumption.empty()) spheres.assumption = path + ": " + spheres.assumption;
+        if (!spheres.assumption.empty()) spheres.assumption = name + ": " + spheres.assumption;
         return spheres;
     } catch (const openvdb::IoError& error) {
-        throw openvdb::IoError(path + ": " + detail::messageOf(error));
+        throw openvdb::IoError(name + ": " + detail::messageOf(error));
     }
 }
 

@@ -28,12 +28,15 @@ bool isSphereFileName(const std::string& path);
 /// @return whether this build reads `.json`, because it has nlohmann-json.
 bool readsSphereJson();
 
-/// @param level  of files in which spheres have one: which are taken; by default the finest there is
+/// @param level    of files in which spheres have one: which are taken; by default the finest there is
+/// @param shownAs  in place of @a path, what messages and the spheres are named after, and whose extension
+///                 says the format: for files without a name of their own
 /// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no sphere; the message
 ///        names the file, and the line or entry. (A table cut between two lines is read as the
 ///        shorter table that it is.)
 /// Memory: 40 bytes a sphere while reading, and a line.
-WorldSpheres readSphereFile(const std::string& path, std::optional<int> level = {});
+WorldSpheres readSphereFile(
+    const std::string& path, std::optional<int> level = {}, const std::string& shownAs = {});
 
 /// @brief The points of a grid as spheres, whoever wrote it: each at its position `P`, with the radius
 /// of the attribute `pscale` or, if there is none, `radius`.

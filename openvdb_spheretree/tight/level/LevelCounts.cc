@@ -129,11 +129,15 @@ void CutErrors::throwTooMany(int64_t count)
 {
     const int64_t most = mBudget.spheres.front();
     std::string reached;
-    if (mBudget.bounds == BoundOf::Stored || count < mLeafBalls) reached = "; " + figures(count);
+    if (mBudget.bounds == BoundOf::Stored || count < mLeafBalls) {
+        reached = " (" + figures(count) + ")";
+    }
     OPENVDB_THROW(openvdb::ValueError,
-        boundsText(mBudget) << " cannot be reached with spheres=" << most << ": it takes " << count
-                            << " spheres (before any search); " << figures(most) << reached
-                            << "; allow more of them, or a looser bound");
+        boundsText(mBudget) << " cannot be reached with spheres=" << most
+                            << ": the fewest found within it are " << count << reached << "; "
+                            << figures(most)
+                            << "; allow more of them, or a looser bound; other voxels and "
+                               "quality=best may take fewer");
 }
 
 } // namespace

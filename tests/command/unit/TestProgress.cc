@@ -142,6 +142,10 @@ TEST(Terminal, TextIsCutBetweenCharacters)
     EXPECT_EQ(command::cutToColumns("aaa\u4e16\u754c", 6), "aaa...");
     EXPECT_EQ(command::cutToColumns("aa\u4e16\u754caa", 7), "aa\u4e16...");
     EXPECT_EQ(command::cutToColumns("abc", 2), "..");
+    EXPECT_EQ(
+        command::brokenAt("one two three four\nfive\n", 9), "one two\n    three\n    four\nfive\n");
+    EXPECT_EQ(command::brokenAt("   one\nlonglonglong\n", 5), "   one\nlonglonglong\n");
+    EXPECT_EQ(command::brokenAt("one two three\n", 0), "one two three\n");
     EXPECT_EQ(command::cutToColumns("abc", 0), "");
     EXPECT_EQ(command::counted(1, "sphere"), "1 sphere");
     EXPECT_EQ(command::counted(2000, "sphere"), "2,000 spheres");

@@ -92,6 +92,28 @@ TEST(Resample, AVoxelAloneIsATentToEitherSide)
     }
 }
 
+/// Voxels of 0.1, and others that are moved, are not centered anywhere but for rounding.
+TEST(Resample, ToItsOwnVoxelsAGridStaysAsItIs)
+{
+    for (const double voxel : {0.1, 0.3, 1.0, 1.0 / 3}) {
+        const auto grid = named<FloatGrid>("fog", 0.0f);
+        grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+        const auto transform = Transform::createLinearTransform(voxel);
+        transform->postTranslate({0.3, 0.7, 0.1});
+        grid->setTransform(transform);
+        for (const Coord& ijk : CoordBBox(Coord(-9, 40, 1000), Coord(-2, 47, 1007))) {
+            grid->tree().setValue(ijk, float(ijk[0] * 3 + ijk[1] + ijk[2] * 7));
+        }
+        const auto result = openvdb::gridPtrCast<FloatGrid>(resampled(*grid, voxel));
+        EXPECT_EQ(result->activeVoxelCount(), 512u) << voxel;
+        for (auto value = result->cbeginValueOn(); value; ++value) {
+            const Coord there =
+                Coord::round(grid->worldToIndex(result->indexToWorld(value.getCoord())));
+            ASSERT_EQ(*value, grid->tree().getValue(there)) << voxel;
+        }
+    }
+}
+
 TEST(Resample, IntegersAreRoundedToTheNearest)
 {
     const auto grid = named<Int32Grid>("scan", 0);

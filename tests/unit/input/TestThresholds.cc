@@ -153,7 +153,7 @@ TEST(Ranges, ValuesBetweenTheBoundsCountAndTheBoundsDoNot)
     EXPECT_EQ(
         voxelsOf(*objectOf(*grid, range(std::nullopt, -7))), (Voxels{{-9, 0, 0}, {-8, 0, 0}}));
     EXPECT_TRUE(mentions(whyNot(*grid, range(3, 4)), "no value above 3 and below 4"));
-    EXPECT_TRUE(mentions(whyNot(*grid, range(5, 2)), "holds no object"));
+    EXPECT_TRUE(mentions(whyNot(*grid, range(5, 2)), "nothing lies between"));
     EXPECT_TRUE(mentions(whyNot(*grid, range(-1, 1)), "no bounds"));
     EXPECT_TRUE(mentions(whyNot(*grid, range(std::nullopt, 1)), "no bounds"));
     EXPECT_TRUE(mentions(whyNot(*grid, range(kInfinity, 1)), "above="));
@@ -202,6 +202,24 @@ TEST(Ranges, ContradictionsAreErrorsThatSayWhatToDo)
     settings = labels({1});
     settings.coverage = Coverage::Cubes;
     EXPECT_TRUE(mentions(whyNot(*fog, settings), "coverage"));
+}
+
+/// Voxels by their cubes take a value above and one below: not of an empty range.
+TEST(Ranges, WithoutAValueBetweenAreRefused)
+{
+    const auto fog = named<FloatGrid>("fog", 0.0f);
+    fog->tree().setValue(Coord(1, 2, 3), 9.0f);
+    for (const Coverage coverage : {Coverage::Centers, Coverage::Cubes, Coverage::Whole}) {
+        for (const auto& [above, below] : {std::pair(5.0, 5.0), {5.0, 3.0}}) {
+            ObjectSettings settings = range(above, below);
+            settings.coverage = coverage;
+            EXPECT_TRUE(mentions(whyNot(*fog, settings), "nothing lies between"));
+        }
+    }
+    const int64_t large = (int64_t(1) << 60) + 1; // the double next to it is one less
+    EXPECT_TRUE(ValueBound::of(large) < ValueBound::of(large + 1));
+    EXPECT_FALSE(ValueBound::of(large + 1) < ValueBound::of(large));
+    EXPECT_FALSE(ValueBound::of(large) < ValueBound::of(large));
 }
 
 } // namespace

@@ -292,6 +292,18 @@ TEST(TrilinearCover, TilesBesideTilesAreNotCut)
     EXPECT_EQ(cubes->tree().activeTileCount(), 8u);
 }
 
+/// A leaf node beside a tile is no reason to leave the tile whole.
+TEST(TrilinearCover, TilesBesideLeafNodesThatAreNotFullAreCut)
+{
+    const auto grid = named<FloatGrid>("tile", 1.0f);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->tree().addTile(2, Coord(0), -1.5f, false);
+    grid->tree().setValue(Coord(133, 60, 60), -1.5f);
+    const auto whole = objectOf(*grid, covering(iso(-0.9), Coverage::Whole));
+    EXPECT_FALSE(whole->tree().isValueOn(Coord(127, 60, 60)));
+    EXPECT_EQ(whole->activeVoxelCount(), uint64_t(126) * 126 * 126);
+}
+
 // ---- Values that are left in the file
 
 TEST(TrilinearCover, ValuesInTheFileStayThere)

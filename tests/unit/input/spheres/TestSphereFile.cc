@@ -67,6 +67,7 @@ TEST_F(SphereFile, TablesHaveTheirColumnsInAnyOrderAndWithAnySeparator)
     for (const char* text : {"x,y,z,radius\n1,2.5,-3,0.1\n4e5,0,0.125,7\n",
              "R;name;Z;y;X\r\n.1;a b;-3;2.5;+1\r\n7;;0.125;0;400000\r\n",
              "id\tx\ty\tz\tdiameter\n0\t1\t2.5\t-3\t0.2\n\n1\t4e5\t0\t0.125\t14",
+             "\"a; b\";X;Y;Z;R\n\"c;;d\";1;2.5;-3;0.1\n;4e5;0;0.125;\"7\"\n",
              "# of another tool\n\n   x  y z   d\n 1 2.5   -3 .2 \n4e5 0 0.125 14\n",
              "\xEF\xBB\xBF\"x\", \"y\", \"z\", \"r\"\n1, 2.5, -3, 0.1\n \"4e5\", 0, 0.125, 7\n"}) {
         const WorldSpheres spheres = read("two.csv", text);
