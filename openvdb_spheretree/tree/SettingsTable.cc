@@ -239,7 +239,8 @@ Setting distRow()
             }
         },
         "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of a "
-        "step across a face, an edge and a corner, such as chamfer:3,4,5; with dim=2 also chamfer:3,4 (tight: l2)");
+        "step across a face, an edge and a corner, such as chamfer:3,4,5; with dim=2 also "
+        "chamfer:3,4 (tight: l2)");
 }
 
 Setting modelRow()
@@ -411,7 +412,8 @@ std::vector<Setting> makeTable()
             "what spheres contain for certain: together, down the tree, every voxel; or each of "
             "them the leaf balls below it (tight)"),
         choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
-            "what level 0 is made of: the medial balls that are needed, or all; or given spheres, such "
+            "what level 0 is made of: the medial balls that are needed, or all; or given spheres, "
+            "such "
             "as those that -read found in a .csv (tight)"),
         optional(flag<InnerOptions>("strict", 26, &InnerOptions::strict,
             "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "

@@ -106,13 +106,23 @@ void runStats(const ActionCall& call, Session& session)
     for (const auto& file : files) file->commit();
 }
 
+/// One number of cubes, else three.
+std::string voxelText(const openvdb::Vec3d& size)
+{
+    std::ostringstream out;
+    out << size[0];
+    if (size.eq(openvdb::Vec3d(size[0]), 1e-6 * size[0])) return out.str();
+    out << " x " << size[1] << " x " << size[2] << " (-resample makes cubes)";
+    return out.str();
+}
+
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     const openvdb::Coord size = grid.empty() ? openvdb::Coord(0) : box.dim();
     out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
-        << grid.voxelSize()[0] << ", box " << size[0] << " x " << size[1] << " x " << size[2]
-        << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
+        << voxelText(grid.voxelSize()) << ", box " << size[0] << " x " << size[1] << " x "
+        << size[2] << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
 }
 
 void printItem(std::ostream& out, const StackItem& item)
