@@ -12,6 +12,7 @@
 #include "DelayedValues.h"
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
@@ -236,7 +237,10 @@ typename GridT::Ptr sampled(const GridT& grid, const Transform::Ptr& to, Samplin
     const auto boxes = boxesOf(grid.tree());
     const double ratio = voxelVolume(grid) / std::pow(to->voxelSize()[0], 3);
     double voxels = 0;
-    for (const CoordBBox& box : boxes) voxels += double(box.volume()) * ratio;
+    for (const CoordBBox& box : boxes) {
+        const auto sides = detail::sidesOf(box);
+        voxels += double(sides[0]) * double(sides[1]) * double(sides[2]) * ratio;
+    }
     requireRoom(grid, voxels,
         double(sizeof(LeafT) + sizeof(typename LeafT::Buffer)) / LeafT::SIZE
             + double(sizeof(typename GridT::ValueType)),

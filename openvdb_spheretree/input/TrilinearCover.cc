@@ -3,6 +3,7 @@
 
 #include "LeafValues.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
@@ -60,7 +61,7 @@ public:
     {
         mAround.expand(kLeafDim);
         forEachStep([&](int dx, int dy, int dz) {
-            const int side = tile.dim()[0];
+            const auto side = int(sidesOf(tile)[0]);
             visitNode(tile.min().offsetBy(dx * side, dy * side, dz * side), side);
         });
     }

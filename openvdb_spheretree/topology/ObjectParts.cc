@@ -2,6 +2,7 @@
 #include "ObjectParts.h"
 
 #include "PartSets.h"
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
@@ -214,7 +215,7 @@ MaskTree::Ptr largestPart(const MaskTree& object, openvdb::util::NullInterrupter
         leaves[i]->setValueMask(mask);
     });
     for (const openvdb::CoordBBox& box : lost) {
-        const int side = box.dim()[0];
+        const auto side = int(detail::sidesOf(box)[0]);
         const openvdb::Index level = side == kLeafDim ? 1 : side == int(LowerNode::DIM) ? 2 : 3;
         joined.mask->addTile(level, box.min(), false, false);
     }

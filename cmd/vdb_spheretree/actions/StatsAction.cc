@@ -12,6 +12,7 @@
 #include "report/StatsReport.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 #include <iostream>
@@ -119,7 +120,8 @@ std::string voxelText(const openvdb::Vec3d& size)
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    const openvdb::Coord size = grid.empty() ? openvdb::Coord(0) : box.dim();
+    auto size = openvdb_spheretree::detail::sidesOf(box);
+    if (grid.empty()) size = {0, 0, 0};
     out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
         << voxelText(grid.voxelSize()) << ", box " << size[0] << " x " << size[1] << " x "
         << size[2] << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
