@@ -152,7 +152,7 @@ TEST(TightBounds, SayWhenABoundCannotBeReached)
     const std::string message =
         messageOf<openvdb::ValueError>([&] { buildSphereTree(*grid, settings); });
     EXPECT_TRUE(mentions(message, "error=1.5 and distance=0.25 cannot be reached with spheres="));
-    EXPECT_TRUE(mentions(message, "it takes " + std::to_string(fewest)));
+    EXPECT_TRUE(mentions(message, "found within it: " + std::to_string(fewest)));
 }
 
 } // namespace

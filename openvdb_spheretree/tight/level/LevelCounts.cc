@@ -128,14 +128,12 @@ void CutErrors::throwUnreachable()
 void CutErrors::throwTooMany(int64_t count)
 {
     const int64_t most = mBudget.spheres.front();
-    std::string reached;
-    if (mBudget.bounds == BoundOf::Stored || count < mLeafBalls) {
-        reached = " (" + figures(count) + ")";
-    }
+    const bool isKnown = mBudget.bounds == BoundOf::Stored || count < mLeafBalls;
     OPENVDB_THROW(openvdb::ValueError,
         boundsText(mBudget) << " cannot be reached with spheres=" << most
-                            << ": the fewest found within it are " << count << reached << "; "
-                            << figures(most)
+                            << "; the fewest found within it: "
+                            << (isKnown ? figures(count) : std::to_string(count) + " spheres")
+                            << "; " << figures(most)
                             << "; allow more of them, or a looser bound; other voxels and "
                                "quality=best may take fewer");
 }
