@@ -159,7 +159,9 @@ void requireDefault(
     if (setting.isForPyramids() && settings.find<PyramidOptions>()) return;
     OPENVDB_THROW(openvdb::ValueError,
         setting.name << "=" << onOneLine(text, 60) << " is not for tree="
-                     << toString(settings.type()) << (settings.isInner() ? " side=inner" : ""));
+                     << toString(settings.type()) << (settings.isInner()     ? " side=inner"
+                         : settings.isFit() ? " side=fit"
+                                            : ""));
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)
