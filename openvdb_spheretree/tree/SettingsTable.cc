@@ -324,6 +324,17 @@ Setting spheresRow()
         "distance= is the most that these may take (tight)");
 }
 
+/// A setting of budgets that spheres with side=fit do not have.
+Setting notForFit(Setting setting)
+{
+    setting.fit = false;
+    setting.set = [set = setting.set](SphereTreeSettings& settings, const std::string& text) {
+        SphereTreeSettings other; // a mistake is one in any kind of tree
+        set(settings.isFit() ? other : settings, text);
+    };
+    return setting;
+}
+
 Setting distanceRow()
 {
     Setting setting = special(
@@ -342,8 +353,8 @@ Setting distanceRow()
     setting.type = SettingType::Length;
     setting.lowest = 0;
     setting.isOptional = setting.isBound = true;
-    setting.fit = setting.extended = setting.reversible = setting.given = false;
-    return setting;
+    setting.extended = setting.reversible = setting.given = false;
+    return notForFit(std::move(setting));
 }
 
 /// Which spheres a bound is of. Files of trees without a bound do not record it.
@@ -382,8 +393,7 @@ Setting cutsRow()
 {
     Setting setting = flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
         "also store the spheres of every number of spheres, for -level spheres=N (tight)");
-    setting.fit = false;
-    return setting;
+    return notForFit(std::move(setting));
 }
 
 /// A setting that files of the first version may lack.
