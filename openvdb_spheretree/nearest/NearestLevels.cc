@@ -205,8 +205,8 @@ int32_t firstPlane(const openvdb::MaskTree& voxels)
 }
 
 /// The inner spheres that searches start from, in their order.
-std::vector<ExactSphere> innerSpheres(const MedialLevel& medial,
-    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+std::vector<ExactSphere> innerSpheres(const MedialLevel& medial, const SphereTreeSettings& settings,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const std::vector<int64_t>& spheres = settings.budgeted().budget.spheres;
     const int64_t most =
@@ -233,8 +233,8 @@ void appendNearestTree(SphereTree& tree, const openvdb::MaskTree& object, StageS
     auto inner = detail::timed("inner balls", interrupter, &seconds.tree,
         [&] { return innerSpheres(medial, settings, interrupter); });
     const tight::SampledObject samples(medial.layout);
-    const NearestObject nearest{voxels, samples, medial.layout.voxelCount(), settings.dim,
-        settings.memory, interrupter};
+    const NearestObject nearest{
+        voxels, samples, medial.layout.voxelCount(), settings.dim, settings.memory, interrupter};
     const detail::Stage stage("nearest spheres", interrupter, &seconds.tree);
     LevelSearch search(nearest, std::move(inner), tree.voxelSize());
     const std::vector<int64_t> counts = countsOf(settings.budgeted().budget, search);

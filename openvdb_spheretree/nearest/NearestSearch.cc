@@ -17,8 +17,7 @@ constexpr int kFewRounds = 4;                         ///< before spheres go aga
 class Search {
 public:
     Search(const NearestObject& object, std::vector<ExactSphere> start)
-        : mObject(object), mCount(int64_t(start.size())),
-          mBest{start, wrongVoxels(object, start)},
+        : mObject(object), mCount(int64_t(start.size())), mBest{start, wrongVoxels(object, start)},
           mSet(object.samples, object.dim == 2, std::move(start), object.interrupter)
     {}
 

@@ -19,8 +19,7 @@ using tight::kFineShift;
 struct VoxelRange {
     int64_t first, last;
 
-    VoxelRange(int64_t center, int64_t restSq)
-        : first(INT64_MAX), last(INT64_MIN)
+    VoxelRange(int64_t center, int64_t restSq) : first(INT64_MAX), last(INT64_MIN)
     {
         if (restSq < 0) return;
         const int64_t reach = detail::floorSqrt(restSq);
@@ -47,8 +46,7 @@ int64_t restAt(const ExactSphere& sphere, int64_t restSq, int axis, int64_t voxe
 int64_t sharedVoxels(const ExactSphere& a, const ExactSphere& b, bool flat)
 {
     int64_t count = 0;
-    const VoxelRange alongX =
-        VoxelRange(a.center[0], a.radiusSq).meet({b.center[0], b.radiusSq});
+    const VoxelRange alongX = VoxelRange(a.center[0], a.radiusSq).meet({b.center[0], b.radiusSq});
     for (int64_t x = alongX.first; x <= alongX.last; ++x) {
         const int64_t ax = restAt(a, a.radiusSq, 0, x), bx = restAt(b, b.radiusSq, 0, x);
         const VoxelRange alongY = VoxelRange(a.center[1], ax).meet({b.center[1], bx});

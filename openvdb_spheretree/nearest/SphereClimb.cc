@@ -11,8 +11,7 @@ namespace {
 
 /// Tries all neighbours at a step; @a best is what the sphere gains.
 /// @return whether one was better, and taken.
-bool stepUp(
-    const GainWindow& window, LocalSphere& sphere, int64_t& best, int64_t step, bool flat)
+bool stepUp(const GainWindow& window, LocalSphere& sphere, int64_t& best, int64_t step, bool flat)
 {
     const auto radius = int64_t(std::lround(std::sqrt(double(sphere.radiusSq))));
     LocalSphere found = sphere;

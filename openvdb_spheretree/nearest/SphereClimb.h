@@ -16,7 +16,8 @@
 
 namespace openvdb_spheretree::nearest {
 
-constexpr int64_t kLargestStep = 2 * tight::kFine, kSmallestStep = tight::kFine / 4; ///< 1/16 sample
+constexpr int64_t kLargestStep = 2 * tight::kFine,
+                  kSmallestStep = tight::kFine / 4; ///< 1/16 sample
 /// How far a sphere may reach beyond where it was, in samples.
 constexpr int kMargin = 4;
 

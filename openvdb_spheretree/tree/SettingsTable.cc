@@ -249,7 +249,8 @@ Setting distRow()
             }
         },
         "what balls are balls of: l2 (Euclidean), l1, linf, or chamfer:a,b,c with the costs of a "
-        "step across a face, an edge and a corner, such as chamfer:3,4,5; with dim=2 also chamfer:3,4 (tight: l2)");
+        "step across a face, an edge and a corner, such as chamfer:3,4,5; with dim=2 also "
+        "chamfer:3,4 (tight: l2)");
 }
 
 Setting modelRow()
@@ -441,14 +442,14 @@ std::vector<Setting> makeTable()
             "what spheres contain for certain: together, down the tree, every voxel; or each of "
             "them the leaf balls below it (tight)"),
         choice<TightOptions>("leaves", 20, kLeaves, &TightOptions::leaves,
-            "what level 0 is made of: the medial balls that are needed, or all; or given spheres, such "
+            "what level 0 is made of: the medial balls that are needed, or all; or given spheres, "
+            "such "
             "as those that -read found in a .csv (tight)"),
         optional(flag<InnerOptions>("strict", 26, &InnerOptions::strict,
             "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "
             "that are "
             "wholly in it")),
-        cutsRow(),
-        sideRow(),
+        cutsRow(), sideRow(),
         optional(flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
             "count components, tunnels and cavities of every level's voxels")),
         nameRow(), memoryRow()};
@@ -458,8 +459,8 @@ std::vector<Setting> makeTable()
 
 bool Setting::isFor(const SphereTreeSettings& settings) const
 {
-    return (tight && settings.find<TightOptions>()) || (inner && settings.isInner()) || (fit && settings.isFit())
-        || (extended && settings.find<ExtendedOptions>())
+    return (tight && settings.find<TightOptions>()) || (inner && settings.isInner())
+        || (fit && settings.isFit()) || (extended && settings.find<ExtendedOptions>())
         || (reversible && settings.find<ReversibleOptions>()) || (given && settings.isGiven());
 }
 

@@ -73,15 +73,17 @@ void requireFit(const SphereBudget& budget, bool cuts, double padding)
 {
     if (padding > 0) {
         OPENVDB_THROW(openvdb::ValueError,
-            "side=fit and padding=" << paddingToString(padding)
-                                    << " contradict each other: its spheres are the nearest ones as "
-                                       "they are stored, and larger ones are not; leave padding out");
+            "side=fit and padding="
+                << paddingToString(padding)
+                << " contradict each other: its spheres are the nearest ones as "
+                   "they are stored, and larger ones are not; leave padding out");
     }
     if (budget.distance) {
         OPENVDB_THROW(openvdb::ValueError,
             "side=fit and distance="
                 << distanceBoundToString(budget)
-                << " contradict each other: its spheres are sought by the voxels that are wrong, not "
+                << " contradict each other: its spheres are sought by the voxels that are wrong, "
+                   "not "
                    "by how far they reach; use error=, spheres= or branching=");
     }
     if (cuts) {

@@ -173,9 +173,8 @@ std::vector<std::map<std::string, std::string>> table(const std::string& csv)
 
 TEST_F(CommandPipes, LevelsAsCsvHaveTheNamesAndNumbersOfTheJson)
 {
-    for (const char* kind :
-        {"reversible", "side=inner spheres=8,2", "side=fit spheres=8,2", "spheres=8,2",
-            "reversible topology=0"}) {
+    for (const char* kind : {"reversible", "side=inner spheres=8,2", "side=fit spheres=8,2",
+             "spheres=8,2", "reversible topology=0"}) {
         SCOPED_TRACE(kind);
         const Result result =
             run(std::string("-read a.vol -spheretree ") + kind + " -stats lev.csv lev.json");
@@ -209,7 +208,8 @@ TEST_F(CommandPipes, CellsOfErrorsThatWereNotCountedAreEmpty)
         for (auto row : table(readText(path("lev.csv")))) {
             EXPECT_EQ(row["spheres"], "4");
             EXPECT_NE(row["radius_max"], "");
-            for (const char* name : {"covered", "missing", "hausdorff", "dice", "covered_percent"}) {
+            for (const char* name :
+                {"covered", "missing", "hausdorff", "dice", "covered_percent"}) {
                 EXPECT_EQ(row[name], "") << name;
             }
         }

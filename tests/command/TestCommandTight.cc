@@ -102,8 +102,8 @@ TEST_F(CommandTight, StrictInnerSpheresLieInTheSolid)
 
 TEST_F(CommandTight, NearestSpheresHaveTheErrorsThatTheyAreStoredWith)
 {
-    const Result built = run(
-        "-read a.vol -spheretree side=fit spheres=5,2 keep=1 -stats json=s.json -check -write t.vdb");
+    const Result built = run("-read a.vol -spheretree side=fit spheres=5,2 keep=1 -stats "
+                             "json=s.json -check -write t.vdb");
     EXPECT_EQ(built.exitCode, 0) << built.err;
     const auto stats = nlohmann::json::parse(readText(path("s.json")));
     EXPECT_EQ(stats["settings"]["side"], "fit");

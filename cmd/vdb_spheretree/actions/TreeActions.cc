@@ -246,7 +246,8 @@ void runCheck(const ActionCall& call, Session& session)
     placeInObject(item, session, call.text("vdb"));
     const auto object = objectToCheck(item, call, session);
     const auto& settings = item.tree->settings;
-    const bool covers = !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
+    const bool covers =
+        !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
     const auto mesh = covers ? meshOf(session) : nullptr;
     if (mesh) warnOfUnits(*item.tree, *mesh, session);
     const auto faults = faultsOf(item, object, mesh.get(), session);

@@ -65,7 +65,8 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
     }
     if (fit) {
         refuse(call, "padding",
-            "would make spheres larger, and those of side=fit are the nearest ones as they are: leave "
+            "would make spheres larger, and those of side=fit are the nearest ones as they are: "
+            "leave "
             "it out");
     }
     if (!inner) return;

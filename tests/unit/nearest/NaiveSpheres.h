@@ -44,8 +44,8 @@ inline std::set<Coord> naiveVoxels(
     for (const auto& sphere : spheres) {
         if (sphere.empty()) continue;
         const int reach = int(sphere.radius()) / 16 + 2;
-        const Coord at(int(sphere.center[0] >> 4), int(sphere.center[1] >> 4),
-            int(sphere.center[2] >> 4));
+        const Coord at(
+            int(sphere.center[0] >> 4), int(sphere.center[1] >> 4), int(sphere.center[2] >> 4));
         for (int x = -reach; x <= reach; ++x) {
             for (int y = -reach; y <= reach; ++y) {
                 for (int z = -reach; z <= reach; ++z) {
@@ -59,8 +59,8 @@ inline std::set<Coord> naiveVoxels(
 }
 
 /// @return excess + missing
-inline int64_t naiveWrong(const Voxels& object,
-    const std::vector<openvdb_spheretree::ExactSphere>& spheres, bool flat)
+inline int64_t naiveWrong(
+    const Voxels& object, const std::vector<openvdb_spheretree::ExactSphere>& spheres, bool flat)
 {
     const std::set<Coord> held = naiveVoxels(spheres, flat);
     int64_t both = 0;
@@ -69,8 +69,7 @@ inline int64_t naiveWrong(const Voxels& object,
 }
 
 /// @return a sphere around a place near a random voxel of the object.
-inline openvdb_spheretree::ExactSphere randomSphere(
-    const Voxels& object, Random& random, bool flat)
+inline openvdb_spheretree::ExactSphere randomSphere(const Voxels& object, Random& random, bool flat)
 {
     const Coord at = object[std::size_t(random.between(0, int(object.size()) - 1))];
     openvdb_spheretree::ExactSphere sphere;

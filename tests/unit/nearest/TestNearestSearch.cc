@@ -57,8 +57,8 @@ TEST(NearestSearch, CountsExcessAndMissing)
             for (int i = 0; i < 3; ++i) {
                 spheres.push_back(randomSphere(stage.voxels, random, dim == 2));
             }
-            EXPECT_EQ(wrongVoxels(stage.object, spheres),
-                naiveWrong(stage.voxels, spheres, dim == 2))
+            EXPECT_EQ(
+                wrongVoxels(stage.object, spheres), naiveWrong(stage.voxels, spheres, dim == 2))
                 << object.name;
             // Each ball of what is missing makes less wrong, and all of them leave nothing missing.
             const std::set<Coord> held = naiveVoxels(spheres, dim == 2);

@@ -173,8 +173,8 @@ TEST(NearestTree, NoLevelIsWorseThanACoarserOne)
         SphereTree tree = buildSphereTree(*grid, fitSettings({1, 2, 3, 4, 5, 6, 7, 8, 12, 16}));
         computeLevelErrors(tree, *grid);
         for (std::size_t k = 1; k < tree.levels.size(); ++k) {
-            EXPECT_GE(tree.levels[k].error->hammingPercent,
-                tree.levels[k - 1].error->hammingPercent)
+            EXPECT_GE(
+                tree.levels[k].error->hammingPercent, tree.levels[k - 1].error->hammingPercent)
                 << object.name << ", level " << k;
         }
         EXPECT_EQ(firstFault(tree, *grid), "") << object.name;
@@ -213,8 +213,9 @@ TEST(NearestTree, ABoundOnTheErrorIsKept)
     EXPECT_EQ(tree.root().size(), 1);
     settings.budgeted().budget.branching = 0;
     settings.budgeted().budget.spheres = {2};
-    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { buildSphereTree(*object, settings); }),
-        "error=8 cannot be reached with spheres=2"));
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { buildSphereTree(*object, settings); }),
+            "error=8 cannot be reached with spheres=2"));
 }
 
 TEST(NearestTree, IsTheSameForAnyNumberOfThreads)
@@ -237,6 +238,7 @@ TEST(NearestTree, CanBeInterruptedAnywhere)
     for (const int asked : {0, 5, 20, 60, 150}) {
         Stopper stopper;
         stopper.left = asked;
-        EXPECT_THROW(buildSphereTree(*object, fitSettings({40, 5}), nullptr, &stopper), Interrupted);
+        EXPECT_THROW(
+            buildSphereTree(*object, fitSettings({40, 5}), nullptr, &stopper), Interrupted);
     }
 }
