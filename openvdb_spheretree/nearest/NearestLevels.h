@@ -9,7 +9,7 @@
 /// 3. A level that comes out worse than a coarser one is searched again, from the spheres of the coarser one and
 ///    those of what these miss: no level has a larger error than a coarser one.
 /// 4. With a bound on the error, numbers are doubled from 1 on until it holds, then halved between.
-/// 5. Parents: SharedVoxels.h.
+/// 5. Parents: SharedVoxels.h. Tests: TestNearestTree.cc.
 
 #pragma once
 

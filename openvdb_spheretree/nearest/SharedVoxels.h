@@ -3,7 +3,7 @@
 /// @brief How many voxels two spheres have in common, and the parents that follow: of each sphere the one of the next
 /// level that shares most voxels with it.
 ///
-/// Exact. Cost: of a pair, a square root for each row of the smaller sphere. Tests: TestSharedVoxels.cc, against
+/// Exact. Cost: of a pair, a square root for each row of the smaller sphere. Tests: TestNearestTree.cc, against
 /// counting voxel by voxel.
 
 #pragma once

@@ -11,7 +11,7 @@
 /// longer than that of a sphere of such a radius: cost goes by spheres and not by voxels. At level 0, samples are
 /// voxels and gains are exact.
 ///
-/// Memory: a window for each thread (GainWindow.h), and the grid of spheres. Tests: TestSphereSet.cc.
+/// Memory: a window for each thread (GainWindow.h), and the grid of spheres. Tests: TestNearestSearch.cc.
 
 #pragma once
 

@@ -7,7 +7,7 @@
 /// |16q - c|^2 = |c|^2 + 256|q|^2 - 32 q.c. Of all radii with the same voxels, the one in the middle between two such
 /// values is taken: no voxel center is near its sphere. A float is off by 2^-25 of it at most, which moves no voxel
 /// up to radii of 700 voxels. The sphere is then what the float says (`coverRadiusSq` and `radius` are made from it), so
-/// what is counted of it holds for the stored sphere, whatever its radius.
+/// what is counted of it holds for the stored sphere, whatever its radius. Tests: TestNearestTree.cc.
 
 #pragma once
 
