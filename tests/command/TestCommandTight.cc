@@ -15,6 +15,7 @@
 namespace {
 
 using command_test::CommandTest;
+using command_test::readText;
 using command_test::Result;
 
 class CommandTight : public CommandTest {
