@@ -43,16 +43,11 @@ public:
 
     int64_t most() const { return int64_t(mInner.size()); }
 
-    const Level& of(int64_t count)
-    {
-        const auto known = mKnown.find(count);
-        if (known != mKnown.end()) return known->second;
-        return mKnown[count] = searched({mInner.begin(), mInner.begin() + count});
-    }
+    const Level& of(int64_t count) { return known(count); }
     /// @return the same, or a better one from the spheres of a coarser level.
     const Level& noWorseThan(const Level& coarser, int64_t count)
     {
-        Level& level = const_cast<Level&>(of(count));
+        Level& level = known(count);
         if (level.wrong <= coarser.wrong) return level;
         std::vector<ExactSphere> start = coarser.spheres;
         const auto more = missingBalls(mObject, start, count - int64_t(start.size()));
@@ -72,14 +67,33 @@ public:
             low = high;
             high = std::min(2 * high, most());
         }
-        while (high - low > 1) {
-            const int64_t middle = low + (high - low) / 2;
+        for (bool guess = true; high - low > 1; guess = !guess) {
+            const int64_t middle =
+                guess && low > 0 ? guessBetween(low, high, percent) : low + (high - low) / 2;
             (errorPercent(middle) <= percent ? high : low) = middle;
         }
         return high;
     }
 
 private:
+    Level& known(int64_t count)
+    {
+        const auto found = mKnown.find(count);
+        if (found != mKnown.end()) return found->second;
+        return mKnown[count] = searched({mInner.begin(), mInner.begin() + count});
+    }
+
+    /// @return where the error comes down to @a percent, if it is a power of the number of spheres between.
+    int64_t guessBetween(int64_t low, int64_t high, double percent)
+    {
+        const double least = 0.5 / double(mObject.voxelCount); // half a voxel stands for none
+        const auto logOf = [least](double error) { return std::log(std::max(error, 100 * least)); };
+        const double from = logOf(errorPercent(low)), to = logOf(errorPercent(high));
+        const double share = (from - logOf(percent)) / (from - to);
+        const double guess = double(low) * std::pow(double(high) / double(low), share);
+        return std::clamp(int64_t(std::lround(guess)), low + 1, high - 1);
+    }
+
     Level searched(std::vector<ExactSphere> start) const
     {
         Level level;

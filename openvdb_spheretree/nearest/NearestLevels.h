@@ -8,7 +8,8 @@
 /// 2. Radii are rounded to floats, and the spheres are those of the floats (StoredSphere.h).
 /// 3. A level that comes out worse than a coarser one is searched again, from the spheres of the coarser one and
 ///    those of what these miss: no level has a larger error than a coarser one.
-/// 4. With a bound on the error, numbers are doubled from 1 on until it holds, then halved between.
+/// 4. With a bound on the error, numbers are doubled from 1 on until it holds. Between the last two, guesses by a power
+///    law and halving take turns.
 /// 5. Parents: SharedVoxels.h. Tests: TestNearestTree.cc.
 
 #pragma once

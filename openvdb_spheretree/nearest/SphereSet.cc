@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <utility>
 
@@ -80,9 +81,9 @@ std::vector<int32_t> SphereSet::takeBatch(std::vector<int32_t>& waiting) const
     tight::BallGrid taken;
     std::vector<int32_t> batch, rest;
     for (const int32_t i : waiting) {
-        // Both move by their margins at most.
+        // Both stay in their windows, the corners of which are the margin's diagonal away.
         ExactSphere reach = mSpheres[i];
-        const double radius = reach.radius() + slackOf(reach);
+        const double radius = reach.radius() + std::sqrt(3.0) * slackOf(reach);
         reach.radiusSq = int64_t(radius * radius) + 1;
         if (!taken.near(reach, 1).empty()) {
             rest.push_back(i);
