@@ -15,7 +15,7 @@ namespace {
 
 openvdb::MaskTree::Ptr unionOf(const NearestObject& object, const std::vector<ExactSphere>& spheres)
 {
-    const SphereMetric metric(Distance(), int(tight::kFine));
+    const SphereMetric metric{Distance(), int(tight::kFine)};
     openvdb::CoordBBox box = boundingBox(spheres, metric);
     if (object.dim == 2) box.min()[2] = box.max()[2] = 0;
     return sphereUnion(spheres, box, metric, object.interrupter);
