@@ -225,6 +225,25 @@ TEST(TrilinearCover, APartThinnerThanAVoxelIsCoveredIfAVoxelIsInsideAndNoneIsLos
     EXPECT_TRUE(mentions(whyNot(*grid, covering(iso(0), Coverage::Whole)), "whole cube"));
 }
 
+/// So the object by centers lacks no part of a level set or fog by more than that, and needs no warning.
+TEST(TrilinearCover, EveryVoxelThatTheSolidMeetsTouchesOneWhoseCenterIsInside)
+{
+    std::size_t added = 0;
+    for (uint32_t seed = 1; seed <= 20; ++seed) {
+        const auto grid = randomNumbers<FloatGrid>(seed, 4);
+        grid->setGridClass(openvdb::GRID_LEVEL_SET);
+        const auto centers = objectVoxels(*grid, iso(-0.3));
+        for (const Coord& met : objectVoxels(*grid, covering(iso(-0.3), Coverage::Cubes))) {
+            const CoordBBox around(met.offsetBy(-1), met.offsetBy(1));
+            int touched = 0;
+            for (const Coord& ijk : around) touched += int(centers.count(ijk));
+            EXPECT_GT(touched, 0) << met << ", seed " << seed;
+            added += centers.count(met) == 0;
+        }
+    }
+    EXPECT_GT(added, 2000u);
+}
+
 TEST(TrilinearCover, TheSphereIsCoveredAndCoversWhatIsWhole)
 {
     const auto grid =
