@@ -91,6 +91,19 @@ TEST(FewLevels, OneLevelIsNotWorseThanClusters)
     }
 }
 
+/// A third of a ring is nearly as wide as the ring: clusters are worse than one ball.
+TEST(FewLevels, OfARingAreNotWorseThanOneBall)
+{
+    for (const int radius : {12, 16, 21}) {
+        const Merged merged(ring(radius));
+        for (const int64_t count : {2, 3, 4}) {
+            const auto around =
+                expectChains(merged, fewLevels({count, 1}, Quality::Fast, merged.maker));
+            EXPECT_LE(around[0], around[1]) << count << " balls, radius " << radius;
+        }
+    }
+}
+
 /// More balls could not be better.
 TEST(FewLevels, WorkEndsWhereOneBallCostsNothing)
 {

@@ -46,6 +46,15 @@ TEST(MonotoneLevels, AMiddleLevelBecomesACopyAndItsChildrenHangBelowTheCopy)
     expectEqual(monotoneLevels(threeLevels(), {10, 31, 30}), expected);
 }
 
+TEST(MonotoneLevels, ChildrenHangBelowTheCopyOfTheirGrandparent)
+{
+    const std::vector<TightLevel> levels{
+        level({1, 2, 3, 4}, {0, 1, 2, 2}), level({10, 20, 30}, {1, 0, 1}), level({100, 200}, {})};
+    const std::vector<TightLevel> expected{
+        level({1, 2, 3, 4}, {1, 0, 1, 1}), level({100, 200}, {0, 1}), level({100, 200}, {})};
+    expectEqual(monotoneLevels(levels, {1, 9, 8}), expected);
+}
+
 TEST(MonotoneLevels, TheFinestLevelBecomesACopyOfTheMiddleOne)
 {
     const std::vector<TightLevel> expected{
@@ -56,7 +65,7 @@ TEST(MonotoneLevels, TheFinestLevelBecomesACopyOfTheMiddleOne)
 TEST(MonotoneLevels, AllBecomeTheCoarsestOneWhereThatIsBest)
 {
     const std::vector<TightLevel> expected{level({100}, {0}), level({100}, {0}), level({100}, {})};
-    expectEqual(monotoneLevels(threeLevels(), {21, 20, 5}), expected);
+    expectEqual(monotoneLevels(threeLevels(), {7, 20, 5}), expected);
 }
 
 TEST(MonotoneLevels, BallsOfACopyWithoutChildrenAreDropped)
