@@ -15,6 +15,8 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
+/// Starts already have their balls where they are needed.
+constexpr std::size_t kRelocations = 2;
 constexpr FitEffort kStartFit{false, 4, 1, false, 16}; // of starts: they are placed anew later
 
 /// How much work a level gets.
@@ -35,7 +37,7 @@ FewEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
         return std::max(2, int(starts * 8 / std::max<int64_t>(8, count)));
     };
     if (quality == Quality::Fast) {
-        return large ? FewEffort{fewer(4), {2}, 1, 1} : FewEffort{fewer(4), {8}, 2, 1};
+        return large ? FewEffort{fewer(4), {2}, 1, 1} : FewEffort{fewer(4), {many ? 8 : 4}, 2, 1};
     }
     if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
     if (large && many) return {2, {2, 4}, 2, 2, 16, 640};
@@ -157,7 +159,9 @@ private:
         }
         const VoxelGoal goal =
             mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
-        return withCost(withoutEmpty(mMaker.search(balls, spare, goal, trialsPerBall).balls));
+        const SearchEffort effort{mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations};
+        return withCost(withoutEmpty(
+            improveCover(balls, spare, mMaker.object, goal, effort, mMaker.interrupter).balls));
     }
 
     /// A trial takes longer where balls are large. A search of few trials is none: what moves balls
