@@ -118,17 +118,38 @@ bool keepsBounds(const TightLevel& level, const SphereTree& tree, const openvdb:
     return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, meter, interrupter));
 }
 
-/// @return the levels, where none has a larger error than a coarser one.
-std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, const SphereTree& tree,
-    const openvdb::BoolGrid& object, openvdb::util::NullInterrupter* interrupter)
+/// @return the levels, where none has a larger error than a coarser one; but all leaf balls stay, even
+/// given ones that reach far out of the object.
+std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, std::size_t leafBalls,
+    const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<std::optional<int64_t>> covered;
-    for (const TightLevel& level : levels) covered.push_back(coveredBy(level, tree, interrupter));
+    for (const TightLevel& level : levels) {
+        const bool areLeaves = level.balls.size() == leafBalls;
+        covered.push_back(areLeaves ? std::nullopt : coveredBy(level, tree, interrupter));
+    }
     auto changed = monotoneLevels(levels, covered);
     // A bound on distances may be lost.
     const bool finestStays = changed.front().balls == levels.front().balls;
     return finestStays || keepsBounds(changed.front(), tree, object, interrupter) ? changed
                                                                                   : levels;
+}
+
+/// @return which of two trees' levels, as many in both, have the smaller product of errors.
+const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
+    const std::vector<TightLevel>& others, const SphereTree& tree,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    double gain = 0; // of `some`, log of a ratio
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        const auto mine = coveredBy(some[k], tree, interrupter);
+        const auto theirs = coveredBy(others[k], tree, interrupter);
+        if (!mine || !theirs) continue;
+        const auto excess = [&](int64_t voxels) { return double(1 + voxels - tree.object.voxels); };
+        gain += std::log(excess(*theirs) / excess(*mine));
+    }
+    return gain >= 0 ? some : others;
 }
 
 /// What the levels of a tree are made from.
@@ -204,12 +225,22 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     const TightObject source{object, leaves,
         {samples, effortOf(options.quality, leafCount), settings.dim == 2, interrupter}};
     const auto counts = budget.counts(int64_t(leafCount));
-    const bool areFew = !budget.hasBound() && !options.cuts && options.cover == Cover::Voxels
-        && counts.front() <= kFewSpheres && counts.front() < int64_t(leafCount);
-    const auto levels = areFew ? detail::timed("levels", interrupter, &seconds->tree,
-                            [&] { return fewLevels(counts, options.quality, source.maker); })
-                               : mergedLevels(tree, source, interrupter, seconds);
-    appendLevels(options.cuts ? levels : monotone(levels, tree, object, interrupter), tree);
+    // Of given spheres levels are made by merging these.
+    const bool areFew = !given && !budget.hasBound() && !options.cuts
+        && options.cover == Cover::Voxels && counts.front() <= kFewSpheres
+        && counts.front() < int64_t(leafCount);
+    std::vector<TightLevel> levels;
+    if (areFew) {
+        levels = detail::timed("levels", interrupter, &seconds->tree,
+            [&] { return fewLevels(counts, options.quality, source.maker); });
+    }
+    // Of objects with arms and legs a long search of merged leaf balls may end better.
+    if (!areFew || options.quality == Quality::Best) {
+        const auto merged = mergedLevels(tree, source, interrupter, seconds);
+        levels = areFew ? betterOf(levels, merged, tree, interrupter) : merged;
+    }
+    appendLevels(
+        options.cuts ? levels : monotone(levels, leafCount, tree, object, interrupter), tree);
 }
 
 } // namespace openvdb_spheretree::tight

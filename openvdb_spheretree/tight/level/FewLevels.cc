@@ -41,7 +41,7 @@ FewEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
     }
     if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
     if (large && many) return {2, {2, 4}, 2, 2, 16, 640};
-    return {fewer(48), {2, 4, 8}, fewer(12), many ? 2 : 3, 16, 640};
+    return {fewer(large ? 16 : 48), {2, 4, 8}, fewer(large ? 4 : 12), many ? 2 : 3, 16, 640};
 }
 
 /// The balls of a level with their groups, and what they cost.
@@ -84,20 +84,28 @@ public:
 private:
     static constexpr std::size_t kBlocks = 4096;
 
+    /// One ball is one fit: it gets all the effort there is.
     Found oneBall() const
     {
-        return withCost(ungrouped(clusterCover(clusterCenters(mBlocks, 1, 0), mMaker.object,
-            mMaker.fit, mMaker.flat, mMaker.interrupter)));
+        constexpr FitEffort kAll{true, 12, 1, true, 40};
+        return withCost(ungrouped(clusterCover(
+            clusterCenters(mBlocks, 1, 0), mMaker.object, kAll, mMaker.flat, mMaker.interrupter)));
     }
 
     /// @param fewer  what fewer balls cost
     Found searched(int64_t count, double fewer) const
     {
-        // Clusters know nothing of a ball that costs nearly nothing, as of a ball: many times as much.
+        // Of an object like a ball many clusters cost many times what one ball costs, as each must hold
+        // corners of its own; few of them may still be better.
         constexpr double kHopeless = 4;
+        constexpr int64_t kFewer = 8, kFewest = 2;
         const FewEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
         const std::vector<Found> starts = startsOf(count, effort);
-        if (starts.front().cost > kHopeless * fewer) return {};
+        if (starts.front().cost > kHopeless * fewer) {
+            const int64_t less = std::max(
+                mAbove.balls.empty() ? kFewest : int64_t(mAbove.balls.size()) + 1, count / kFewer);
+            return less < count ? searched(less, fewer) : Found();
+        }
         Found best;
         const int kept = mAbove.balls.empty() ? effort.kept : effort.keptBound;
         for (int i = 0; i < std::min(kept, int(starts.size())); ++i) {
@@ -168,12 +176,13 @@ private:
     /// elsewhere would take most of its time.
     int trialsFor(const std::vector<CoverBall>& balls, const FewEffort& effort) const
     {
-        constexpr std::size_t kLeaves = 30000; // in the balls of all trials
+        const std::size_t leavesInAll =
+            mQuality == Quality::Best ? 300000 : 30000; // in all trials' balls
         constexpr int kFewest = 10;
         if (effort.trialsPerBall == 0) return 0;
         std::size_t leaves = 1;
         for (const CoverBall& ball : balls) leaves += regionOf(ball.ball, mVoxels).size();
-        const int most = std::min(effort.mostTrials / int(balls.size()), int(kLeaves / leaves));
+        const int most = std::min(effort.mostTrials / int(balls.size()), int(leavesInAll / leaves));
         return most < kFewest ? 0 : std::min(effort.trialsPerBall, most);
     }
 

@@ -13,6 +13,9 @@
 ///    where its ancestors hold it (FinerLevel.h). The start is dealt out to the balls of that level.
 /// 4. A level that would cost more than the one above it, or than one ball, is a copy of that.
 ///
+/// A level may cost more than the same level of less quality where those above it cost less: it is bound to
+/// these.
+///
 /// Cost: by the balls that are asked for, and a few passes over the voxels; not by leaf balls. Costs are
 /// counted on samples.
 
