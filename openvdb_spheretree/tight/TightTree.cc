@@ -5,7 +5,9 @@
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/measure/LevelMeter.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/tight/level/FewLevels.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
+#include <openvdb_spheretree/tight/level/MonotoneLevels.h>
 #include <openvdb_spheretree/tight/level/SearchedLevels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
@@ -13,8 +15,11 @@
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/LeafBalls.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
+#include <openvdb_spheretree/sphere/SphereUnion.h>
+#include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -88,6 +93,110 @@ BoundedError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
     return {only.stored->hammingPercent, only.stored->reachWorld, ""};
 }
 
+/// @return how many voxels a tree of this level alone covers; nothing if they are too many to be counted.
+/// @param tree  as of errorOf()
+std::optional<int64_t> coveredBy(
+    const TightLevel& level, SphereTree tree, openvdb::util::NullInterrupter* interrupter)
+{
+    if (!level.digital.empty()) return tree.object.voxels;
+    appendLevels({{level.balls, {}, {}}}, tree);
+    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels.front());
+    if (crossedRows(spheres, levelBox(tree, spheres), metricOf(tree)) > double(kMaxUnionRows)) {
+        return std::nullopt;
+    }
+    return detail::countVoxels(*levelUnion(tree, tree.levels.front(), interrupter));
+}
+
+/// @return whether a tree of the level alone is within the bounds of the settings.
+bool keepsBounds(const TightLevel& level, const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const SphereBudget& budget = tree.settings.tight().budget;
+    if (!budget.hasBound()) return true;
+    const detail::LevelMeter meter(object, tree.settings.dist());
+    const TightLevel alone{level.balls, {}, level.digital};
+    return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, meter, interrupter));
+}
+
+/// @return the levels, where none has a larger error than a coarser one; but all leaf balls stay, even
+/// given ones that reach far out of the object.
+std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, std::size_t leafBalls,
+    const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<std::optional<int64_t>> covered;
+    for (const TightLevel& level : levels) {
+        const bool areLeaves = level.balls.size() == leafBalls;
+        covered.push_back(areLeaves ? std::nullopt : coveredBy(level, tree, interrupter));
+    }
+    auto changed = monotoneLevels(levels, covered);
+    // A bound on distances may be lost.
+    const bool finestStays = changed.front().balls == levels.front().balls;
+    return finestStays || keepsBounds(changed.front(), tree, object, interrupter) ? changed
+                                                                                  : levels;
+}
+
+/// @return which of two trees' levels, as many in both, have the smaller product of errors.
+const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
+    const std::vector<TightLevel>& others, const SphereTree& tree,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    double gain = 0; // of `some`, log of a ratio
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        const auto mine = coveredBy(some[k], tree, interrupter);
+        const auto theirs = coveredBy(others[k], tree, interrupter);
+        if (!mine || !theirs) continue;
+        const auto excess = [&](int64_t voxels) { return double(1 + voxels - tree.object.voxels); };
+        gain += std::log(excess(*theirs) / excess(*mine));
+    }
+    return gain >= 0 ? some : others;
+}
+
+/// What the levels of a tree are made from.
+struct TightObject {
+    const openvdb::BoolGrid& grid;
+    const LeafBalls& leaves;
+    LevelMaker maker;
+};
+
+/// Levels by merging the leaf balls; and the cuts if the settings say so.
+std::vector<TightLevel> mergedLevels(SphereTree& tree, const TightObject& object,
+    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
+{
+    const SphereTreeSettings& settings = tree.settings;
+    const TightOptions& options = settings.tight();
+    const SphereBudget& budget = options.budget;
+    const LeafBalls& leaves = object.leaves;
+    const LevelMaker& maker = object.maker;
+    const std::size_t leafCount = leaves.balls.size();
+    requireRoomForMerging(leafCount);
+    const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
+        // A detail of this stage: how far it is, the merging says.
+        const auto model = detail::timed(
+            "", interrupter, nullptr, [&] { return modelFor(options, leaves.balls, maker); });
+        return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
+    });
+    std::optional<detail::LevelMeter> meter;
+    if (budget.hasBound()) meter.emplace(object.grid, settings.dist());
+    const auto cutError = [&](int64_t count) {
+        return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
+    };
+    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree,
+        [&] { return levelCounts(settings, int64_t(leafCount), tree.voxelSize(), cutError); });
+    const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
+    // A bound is on the finest level, which then is searched first and by itself.
+    const std::size_t middle = budget.hasBound() ? 0 : counts.size() / 2;
+    const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
+        const auto cuts = levelsOf(forest, counts, leaves.digital);
+        if (!search) return cuts;
+        // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
+        const auto searched = searchedLevels(forest, counts, leaves, middle, maker);
+        return keepsBounds(searched.front(), tree, object.grid, interrupter) ? searched : cuts;
+    });
+    if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
+    return levels;
+}
+
 } // namespace
 
 void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const SphereTree* given,
@@ -113,39 +222,25 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
                       : givenLeaves(*given, flat, *voxels, sampled, interrupter);
     });
     const std::size_t leafCount = leaves.balls.size();
-    requireRoomForMerging(leafCount);
-    const LevelMaker maker{
-        samples, effortOf(options.quality, leafCount), settings.dim == 2, interrupter};
-    const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
-        // A detail of this stage: how far it is, the merging says.
-        const auto model = detail::timed(
-            "", interrupter, nullptr, [&] { return modelFor(options, leaves.balls, maker); });
-        return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
-    });
-    std::optional<detail::LevelMeter> meter;
-    if (budget.hasBound()) meter.emplace(object, settings.dist());
-    const auto cutError = [&](int64_t count) {
-        return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
-    };
-    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree,
-        [&] { return levelCounts(settings, int64_t(leafCount), tree.voxelSize(), cutError); });
-    // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
-    const auto keepsBounds = [&](const TightLevel& finest) {
-        if (!budget.hasBound()) return true;
-        const TightLevel alone{finest.balls, {}, finest.digital};
-        return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, *meter, interrupter));
-    };
-    const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
-    // A bound is on the finest level, which then is searched first and by itself.
-    const std::size_t middle = budget.hasBound() ? 0 : counts.size() / 2;
-    const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
-        const auto cuts = levelsOf(forest, counts, leaves.digital);
-        if (!search) return cuts;
-        const auto searched = searchedLevels(forest, counts, leaves, middle, maker);
-        return keepsBounds(searched.front()) ? searched : cuts;
-    });
-    appendLevels(levels, tree);
-    if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
+    const TightObject source{object, leaves,
+        {samples, effortOf(options.quality, leafCount), settings.dim == 2, interrupter}};
+    const auto counts = budget.counts(int64_t(leafCount));
+    // Of given spheres levels are made by merging these.
+    const bool areFew = !given && !budget.hasBound() && !options.cuts
+        && options.cover == Cover::Voxels && counts.front() <= kFewSpheres
+        && counts.front() < int64_t(leafCount);
+    std::vector<TightLevel> levels;
+    if (areFew) {
+        levels = detail::timed("levels", interrupter, &seconds->tree,
+            [&] { return fewLevels(counts, options.quality, source.maker); });
+    }
+    // Of objects with arms and legs a long search of merged leaf balls may end better.
+    if (!areFew || options.quality == Quality::Best) {
+        const auto merged = mergedLevels(tree, source, interrupter, seconds);
+        levels = areFew ? betterOf(levels, merged, tree, interrupter) : merged;
+    }
+    appendLevels(
+        options.cuts ? levels : monotone(levels, leafCount, tree, object, interrupter), tree);
 }
 
 } // namespace openvdb_spheretree::tight

@@ -7,6 +7,7 @@
 #include "support/TightObjects.h"
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
 
 namespace {
 
@@ -76,7 +77,8 @@ TEST(TightTrees, OfRandomObjectsKeepTheirChains)
     }
 }
 
-TEST(TightTrees, HaveTheCountsAskedFor)
+/// A level of fewer spheres is a copy of a coarser one, than which it would have been worse.
+TEST(TightTrees, HaveTheCountsAskedForAndErrorsThatFall)
 {
     int searched = 0;
     for (const RandomObject& object : smallObjects()) {
@@ -88,7 +90,8 @@ TEST(TightTrees, HaveTheCountsAskedFor)
             settings.budgeted().budget = SphereBudget();
             settings.budgeted().budget.spheres = {2, 7, 1000000, 1, 4};
             SCOPED_TRACE(object.name + ": " + describeTight(settings));
-            const SphereTree tree = buildSphereTree(*grid, settings);
+            SphereTree tree = buildSphereTree(*grid, settings);
+            computeLevelErrors(tree, *grid);
             const int32_t leaves = tree.levels[0].size();
             ASSERT_EQ(rebuilt(tree), object.voxels);
             std::vector<int64_t> counts;
@@ -96,8 +99,13 @@ TEST(TightTrees, HaveTheCountsAskedFor)
             counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
             ASSERT_EQ(tree.levels.size(), counts.size());
             for (std::size_t k = 0; k < counts.size(); ++k) {
-                if (quality == Quality::Best) ASSERT_LE(tree.levels[k].size(), counts[k]);
-                else ASSERT_EQ(tree.levels[k].size(), counts[k]);
+                const SphereTreeLevel& level = tree.levels[k];
+                ASSERT_LE(level.size(), counts[k]);
+                if (k + 1 == counts.size()) continue;
+                const SphereTreeLevel& coarser = tree.levels[k + 1];
+                ASSERT_LE(level.error->hammingPercent, coarser.error->hammingPercent);
+                if (quality == Quality::Best || level.size() == counts[k]) continue;
+                ASSERT_EQ(level.error->hammingPercent, coarser.error->hammingPercent);
             }
         }
     }

@@ -49,47 +49,6 @@ std::vector<int32_t> groupsFor(VoxelRegion cell, const std::vector<int32_t>& can
     return groups;
 }
 
-/// @return the leaf balls with their groups; a ball in several groups comes several times.
-std::vector<CoverBall> dealtOut(const BallCells& leafBalls, const TightLevel& coarser,
-    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
-{
-    const BallGrid grid(coarser.balls);
-    std::vector<std::vector<int32_t>> groups(leafBalls.balls.size());
-    detail::parallelFor(groups.size(), maker.interrupter, [&](std::size_t i) {
-        groups[i] = groupsFor(leafBalls.cells[i], grid.near(leafBalls.balls[i], 1), regions);
-    });
-    std::vector<CoverBall> dealt;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        for (const int32_t group : groups[i]) dealt.push_back({leafBalls.balls[i], group});
-    }
-    return dealt;
-}
-
-/// @return the balls of a level before the search: leaf balls merged within their groups.
-std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& leafBalls,
-    const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
-{
-    std::vector<VoxelRegion> held(leafBalls.size());
-    detail::parallelFor(held.size(), maker.interrupter, [&](std::size_t i) {
-        const VoxelRegion region = regionOf(leafBalls[i].ball, maker.object.level(0));
-        held[i] = partOf(region, regions[leafBalls[i].group], true);
-    });
-    SlackMerging merging(
-        maker.object, leafBalls, std::move(held), maker.fit, maker.flat, maker.interrupter);
-    constexpr int kNeighbours = 6;
-    const std::vector<ForestNode> forest = mergeToRoots(merging, kNeighbours, maker.interrupter);
-    std::vector<int32_t> group(groupsOf(leafBalls));
-    group.resize(forest.size(), -1);
-    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
-        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
-    }
-    std::vector<CoverBall> balls;
-    for (const int32_t node : cutOf(forest, count)) {
-        balls.push_back({forest[node].ball, group[node]});
-    }
-    return balls;
-}
-
 } // namespace
 
 std::vector<VoxelRegion> chainRegions(
@@ -104,13 +63,54 @@ std::vector<VoxelRegion> chainRegions(
     return regions;
 }
 
+std::vector<CoverBall> dealtOut(const BallCells& cells, const TightLevel& coarser,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
+{
+    const BallGrid grid(coarser.balls);
+    std::vector<std::vector<int32_t>> groups(cells.balls.size());
+    detail::parallelFor(groups.size(), maker.interrupter, [&](std::size_t i) {
+        groups[i] = groupsFor(cells.cells[i], grid.near(cells.balls[i], 1), regions);
+    });
+    std::vector<CoverBall> dealt;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (const int32_t group : groups[i]) dealt.push_back({cells.balls[i], group});
+    }
+    return dealt;
+}
+
+std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& balls,
+    const std::vector<VoxelRegion>& regions, int64_t count, bool areInside, const LevelMaker& maker)
+{
+    if (int64_t(balls.size()) <= count) return balls;
+    std::vector<VoxelRegion> held(balls.size());
+    detail::parallelFor(held.size(), maker.interrupter, [&](std::size_t i) {
+        const VoxelRegion region = regionOf(balls[i].ball, maker.object.level(0));
+        held[i] = partOf(region, regions[balls[i].group], true);
+    });
+    SlackMerging merging(
+        maker.object, balls, std::move(held), maker.fit, maker.flat, maker.interrupter, areInside);
+    constexpr int kNeighbours = 6;
+    const std::vector<ForestNode> forest =
+        mergeToCount(merging, kNeighbours, count, maker.interrupter);
+    std::vector<int32_t> group(groupsOf(balls));
+    group.resize(forest.size(), -1);
+    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
+        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
+    }
+    std::vector<CoverBall> merged;
+    for (const int32_t node : cutOf(forest, count)) {
+        merged.push_back({forest[node].ball, group[node]});
+    }
+    return merged;
+}
+
 TightLevel finerLevel(const TightLevel& coarser, const std::vector<VoxelRegion>& regions,
     const BallCells& leafBalls, int64_t count, const LevelMaker& maker)
 {
     const std::vector<CoverBall> dealt = dealtOut(leafBalls, coarser, regions, maker);
     const VoxelGoal goal(maker.object.level(0), regions);
-    const auto balls =
-        filledUp(maker.improve(mergedInGroups(dealt, regions, count, maker), dealt, goal), dealt);
+    const auto balls = filledUp(
+        maker.improve(mergedInGroups(dealt, regions, count, true, maker), dealt, goal), dealt);
     TightLevel level;
     level.balls = ballsOf(balls);
     level.parent = groupsOf(balls);

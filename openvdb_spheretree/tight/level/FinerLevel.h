@@ -30,6 +30,21 @@ struct BallCells {
 std::vector<VoxelRegion> chainRegions(
     const TightLevel& level, const std::vector<VoxelRegion>& above, const LevelMaker& maker);
 
+/// Deals a cover out to the groups below a finished level.
+/// @param cells    of the cover's balls
+/// @param regions  the chainRegions() of @a coarser: together the object
+/// @return the balls with their groups; a ball whose cell lies in several comes several times.
+std::vector<CoverBall> dealtOut(const BallCells& cells, const TightLevel& coarser,
+    const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
+
+/// @param balls      that are dealt out
+/// @param count      no less than there are groups
+/// @param areInside  the balls have no voxel outside the object
+/// @return at most @a count of them, or balls that they were merged to within their groups.
+std::vector<CoverBall> mergedInGroups(const std::vector<CoverBall>& balls,
+    const std::vector<VoxelRegion>& regions, int64_t count, bool areInside,
+    const LevelMaker& maker);
+
 /// @param coarser  whose balls become parents
 /// @param regions  its chainRegions(): together the object
 /// @param count    of balls, at most

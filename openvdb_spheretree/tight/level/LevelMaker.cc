@@ -45,7 +45,7 @@ std::vector<ExactSphere> LevelMaker::merged(const std::vector<ExactSphere>& ball
     HeldByLeafBalls held = heldVoxels(points);
     held.areInside = false;
     StrictMerging merging(object, balls, std::move(held), fit, flat, interrupter);
-    return ballsOfCut(mergeToRoots(merging, kNeighbours, interrupter), count);
+    return ballsOfCut(mergeToCount(merging, kNeighbours, count, interrupter), count);
 }
 
 std::vector<CoverBall> filledUp(

@@ -37,10 +37,10 @@ public:
         for (int32_t i = 0; i < mLive; ++i) addNode(leafBalls[i], model.groupOf(i));
     }
 
-    std::vector<ForestNode> run()
+    std::vector<ForestNode> run(int64_t count)
     {
         int32_t rebuildAt = mLive;
-        while (mLive > 1) {
+        while (mLive > count) {
             detail::checkInterrupt(mInterrupter, percentDone());
             const detail::Stage round("", mInterrupter, nullptr); // its loops are details
             if (mLive <= rebuildAt || mQueue.empty()) {
@@ -269,10 +269,16 @@ private:
 
 } // namespace
 
+std::vector<ForestNode> mergeToCount(
+    MergeModel& model, int neighbours, int64_t count, openvdb::util::NullInterrupter* interrupter)
+{
+    return Forest(model, neighbours, interrupter).run(std::max<int64_t>(1, count));
+}
+
 std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter)
 {
-    return Forest(model, neighbours, interrupter).run();
+    return mergeToCount(model, neighbours, 1, interrupter);
 }
 
 } // namespace openvdb_spheretree::tight

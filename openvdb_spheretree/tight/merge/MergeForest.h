@@ -64,9 +64,13 @@ struct ForestNode {
     int32_t first = 1, last = 0; ///< it is in the cuts of first to last balls: SphereCuts.h
 };
 
-/// Merges until each group is one ball.
+/// Merges until @a count balls are left, or each group is one ball. There are no cuts below that.
 /// @return the leaf balls, then every merged node in order.
 /// @param neighbours  that a ball may merge with: 6 where time counts; more than 8 gain nothing
+std::vector<ForestNode> mergeToCount(
+    MergeModel& model, int neighbours, int64_t count, openvdb::util::NullInterrupter* interrupter);
+
+/// Merges until each group is one ball.
 std::vector<ForestNode> mergeToRoots(
     MergeModel& model, int neighbours, openvdb::util::NullInterrupter* interrupter);
 

@@ -26,14 +26,17 @@ uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
 
 SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
     std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
-    openvdb::util::NullInterrupter* interrupter)
+    openvdb::util::NullInterrupter* interrupter, bool areInside)
     : mObject(object), mVoxels(object.level(0)), mEffort(effort), mFlat(flat),
-      mInterrupter(interrupter), mLeafBalls(int32_t(leafBalls.size())), mBalls(ballsOf(leafBalls)),
-      mGroups(groupsOf(leafBalls)), mRegions(std::move(regions)),
+      mInterrupter(interrupter), mLeafBalls(int32_t(leafBalls.size())), mAreInside(areInside),
+      mBalls(ballsOf(leafBalls)), mGroups(groupsOf(leafBalls)), mRegions(std::move(regions)),
       mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
 {
     for (const VoxelRegion& region : mRegions) {
         for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);
+    }
+    for (int32_t i = 0; i < mLeafBalls; ++i) {
+        if (!isInside(i)) mMerged.add(i, mBalls[i]);
     }
 }
 
@@ -58,7 +61,7 @@ MergeCandidate SlackMerging::evaluate(int32_t a, int32_t b) const
     }
     std::vector<ExactSphere> replaced;
     for (const int32_t node : {a, b}) {
-        if (!isLeafBall(node)) replaced.push_back(mBalls[node]);
+        if (!isInside(node)) replaced.push_back(mBalls[node]);
     }
     const double freed = fit.costOf(replaced);
     const FittedBall fitted = fit.best(mEffort, mFlat);
@@ -78,7 +81,7 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
         for (const int32_t child : {c.a, c.b}) {
             for (const RegionLeaf& part : mRegions[child]) mCounts.remove(part.leaf, part.mask);
             VoxelRegion().swap(mRegions[child]);
-            if (!isLeafBall(child)) mMerged.remove(child, mBalls[child]);
+            if (!isInside(child)) mMerged.remove(child, mBalls[child]);
         }
         if (c.ball.empty()) continue;
         for (const RegionLeaf& part : regions[i]) mCounts.add(part.leaf, part.mask);

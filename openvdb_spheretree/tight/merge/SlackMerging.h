@@ -28,12 +28,13 @@ namespace openvdb_spheretree::tight {
 
 class SlackMerging : public MergeModel {
 public:
-    /// @param leafBalls  inside the object
+    /// @param leafBalls  that are merged
     /// @param regions    voxels of each leaf ball; together the object
     /// @param flat       centers keep their z
+    /// @param areInside  the leaf balls have no voxel outside the object
     SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
-        openvdb::util::NullInterrupter* interrupter);
+        openvdb::util::NullInterrupter* interrupter, bool areInside = true);
 
     std::vector<ExactSphere> leafBalls() const override
     {
@@ -45,8 +46,7 @@ public:
     bool dependsOnOthers() const override { return true; }
 
 private:
-    /// Leaf balls hold nothing outside the object.
-    bool isLeafBall(int32_t node) const { return node < mLeafBalls; }
+    bool isInside(int32_t node) const { return mAreInside && node < mLeafBalls; }
 
     const SampledObject& mObject;
     const SampleLevel& mVoxels;
@@ -54,11 +54,12 @@ private:
     bool mFlat;
     openvdb::util::NullInterrupter* mInterrupter;
     int32_t mLeafBalls;
+    bool mAreInside; ///< the leaf balls: they cost nothing
     std::vector<ExactSphere> mBalls;
     std::vector<int32_t> mGroups;      ///< of leaf balls
     std::vector<VoxelRegion> mRegions; ///< of living nodes
     CoverCounts mCounts;               ///< of the living nodes' regions
-    BallGrid mMerged;                  ///< living nodes that are no leaf balls
+    BallGrid mMerged;                  ///< living nodes that may cost something
 };
 
 } // namespace openvdb_spheretree::tight

@@ -52,6 +52,7 @@ struct SearchEffort {
     int trialsPerBall = 20;
     uint64_t seed = 0; ///< of the random changes
     bool flat = false;
+    std::size_t relocations = 6; ///< how often in a search balls move elsewhere; at least 1
 };
 
 /// The number of a ball that is in a part, but not yet in the cover.

@@ -13,8 +13,6 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-constexpr std::size_t kRelocations = 6;
-
 /// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too.
 std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover)
 {
@@ -78,7 +76,7 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
     const std::size_t size = cover.size();
     const std::size_t batch = std::max<std::size_t>(4, std::min<std::size_t>(64, size / 8));
     const std::size_t trials = size * std::size_t(effort.trialsPerBall);
-    const std::size_t perRelocation = std::max<std::size_t>(1, trials / kRelocations);
+    const std::size_t perRelocation = std::max<std::size_t>(1, trials / effort.relocations);
     for (std::size_t done = 0; done < trials; done += batch) {
         if (done % perRelocation < batch) relocation.relocate();
         std::vector<CoverChange> changes(batch);

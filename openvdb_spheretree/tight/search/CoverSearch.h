@@ -4,8 +4,8 @@
 /// those that lower the cost.
 ///
 /// 1. Every ball is placed anew, over and over, until nothing changes.
-/// 2. Many trials disturb one ball and refit its neighbours (CoverTrial.h). Six times in a search,
-///    balls move elsewhere (CoverRelocation.h).
+/// 2. Many trials disturb one ball and refit its neighbours (CoverTrial.h). A few times in a
+///    search, balls move elsewhere (CoverRelocation.h).
 /// 3. Every ball is placed anew once more.
 ///
 /// Trials of a batch start from the same cover and run in parallel. Of those that lower the cost, the

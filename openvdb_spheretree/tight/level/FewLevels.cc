@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FewLevels.h"
+
+#include "FinerLevel.h"
+#include "FreeLevel.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/cluster/ClusterCover.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace openvdb_spheretree::tight {
+
+namespace {
+
+/// Starts already have their balls where they are needed.
+constexpr std::size_t kRelocations = 2;
+constexpr FitEffort kStartFit{false, 4, 1, false, 16}; // of starts: they are placed anew later
+
+/// How much work a level gets.
+struct FewEffort {
+    int seeds;                        ///< starts of as many clusters as the level has balls
+    std::vector<int64_t> timesAsMany; ///< starts of so many times as many clusters, merged
+    int kept;                         ///< starts that are placed anew
+    int keptBound;                    ///< the same below another level, where it takes longer
+    int trialsPerBall = 0;            ///< of the search of the best; 0: none
+    int mostTrials = 0;
+};
+
+/// Starts of many balls take longer, and differ less; those of large objects take longer.
+FewEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
+{
+    const bool many = count > 32, large = leaves > 1000;
+    const auto fewer = [&](int starts) {
+        return std::max(2, int(starts * 8 / std::max<int64_t>(8, count)));
+    };
+    if (quality == Quality::Fast) {
+        return large ? FewEffort{fewer(4), {2}, 1, 1} : FewEffort{fewer(4), {many ? 8 : 4}, 2, 1};
+    }
+    if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
+    if (large && many) return {2, {2, 4}, 2, 2, 16, 640};
+    return {fewer(large ? 16 : 48), {2, 4, 8}, fewer(large ? 4 : 12), many ? 2 : 3, 16, 640};
+}
+
+/// The balls of a level with their groups, and what they cost.
+struct Found {
+    std::vector<CoverBall> balls;
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+std::vector<CoverBall> withoutEmpty(std::vector<CoverBall> balls)
+{
+    balls.erase(std::remove_if(
+                    balls.begin(), balls.end(), [](const CoverBall& ball) { return ball.empty(); }),
+        balls.end());
+    return balls;
+}
+
+class FewLevels {
+public:
+    FewLevels(Quality quality, const LevelMaker& maker)
+        : mMaker(maker), mStarts{maker.object, kStartFit, maker.flat, maker.interrupter},
+          mVoxels(maker.object.level(0)), mQuality(quality), mBlocks(voxelBlocks(mVoxels, kBlocks))
+    {}
+
+    /// Makes the next finer level.
+    TightLevel next(int64_t count)
+    {
+        const bool isFirst = mAbove.balls.empty();
+        const Found fewer = isFirst ? oneBall() : mFound;
+        Found best = fewer.cost > 0 && count > 1 ? searched(count, fewer.cost) : Found();
+        if (fewer.cost <= best.cost) best = {eachInItsGroup(ballsOf(fewer.balls)), fewer.cost};
+        TightLevel level;
+        level.balls = ballsOf(best.balls);
+        if (!isFirst) level.parent = groupsOf(best.balls);
+        mRegions = chainRegions(level, mRegions, mMaker);
+        mFound = std::move(best);
+        mAbove = level;
+        return level;
+    }
+
+private:
+    static constexpr std::size_t kBlocks = 4096;
+
+    /// One ball is one fit: it gets all the effort there is.
+    Found oneBall() const
+    {
+        constexpr FitEffort kAll{true, 12, 1, true, 40};
+        return withCost(ungrouped(clusterCover(
+            clusterCenters(mBlocks, 1, 0), mMaker.object, kAll, mMaker.flat, mMaker.interrupter)));
+    }
+
+    /// @param fewer  what fewer balls cost
+    Found searched(int64_t count, double fewer) const
+    {
+        // Of an object like a ball many clusters cost many times what one ball costs, as each must hold
+        // corners of its own; few of them may still be better.
+        constexpr double kHopeless = 4;
+        constexpr int64_t kFewer = 8, kFewest = 2;
+        const FewEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
+        const std::vector<Found> starts = startsOf(count, effort);
+        if (starts.front().cost > kHopeless * fewer) {
+            const int64_t less = std::max(
+                mAbove.balls.empty() ? kFewest : int64_t(mAbove.balls.size()) + 1, count / kFewer);
+            return less < count ? searched(less, fewer) : Found();
+        }
+        Found best;
+        const int kept = mAbove.balls.empty() ? effort.kept : effort.keptBound;
+        for (int i = 0; i < std::min(kept, int(starts.size())); ++i) {
+            Found placed = improved(bound(starts[i].balls, count), 0);
+            if (placed.cost < best.cost) best = std::move(placed);
+        }
+        const int trials = trialsFor(best.balls, effort);
+        if (trials == 0 || best.cost <= 0) return best;
+        Found found = improved(best.balls, trials);
+        return found.cost < best.cost ? found : best;
+    }
+
+    /// @return covers of at most @a count balls, the cheapest first, and one of each cost.
+    std::vector<Found> startsOf(int64_t count, const FewEffort& effort) const
+    {
+        std::vector<Found> starts;
+        const auto add = [&](const std::vector<ExactSphere>& balls) {
+            starts.push_back(withCost(ungrouped(balls)));
+        };
+        for (int seed = 0; seed < effort.seeds; ++seed) add(clusters(count, uint64_t(seed)));
+        for (const int64_t times : effort.timesAsMany) {
+            const auto many = clusters(count * times, 1);
+            add(mStarts.merged(many, powerCellPoints(many, mVoxels, mMaker.interrupter), count));
+        }
+        std::stable_sort(starts.begin(), starts.end(),
+            [](const Found& a, const Found& b) { return a.cost < b.cost; });
+        starts.erase(std::unique(starts.begin(), starts.end(),
+                         [](const Found& a, const Found& b) { return a.cost == b.cost; }),
+            starts.end());
+        return starts;
+    }
+
+    std::vector<ExactSphere> clusters(int64_t count, uint64_t seed) const
+    {
+        return clusterCover(clusterCenters(mBlocks, std::size_t(count), seed), mMaker.object,
+            kStartFit, mMaker.flat, mMaker.interrupter);
+    }
+
+    /// @return a start within the groups of the level above.
+    std::vector<CoverBall> bound(const std::vector<CoverBall>& start, int64_t count) const
+    {
+        if (mAbove.balls.empty()) return start;
+        return mergedInGroups(dealt(ballsOf(start)), mRegions, count, false, mMaker);
+    }
+
+    std::vector<CoverBall> dealt(const std::vector<ExactSphere>& balls) const
+    {
+        const BallCells cells{balls, powerCells(balls, mVoxels, mMaker.interrupter)};
+        return dealtOut(cells, mAbove, mRegions, mMaker);
+    }
+
+    Found improved(const std::vector<CoverBall>& balls, int trialsPerBall) const
+    {
+        constexpr int64_t kSmaller = 4; // balls to insert, for each of the level
+        std::vector<CoverBall> spare;
+        if (trialsPerBall > 0) {
+            const auto smaller = clusters(kSmaller * int64_t(balls.size()), 1);
+            spare = mAbove.balls.empty() ? ungrouped(smaller) : dealt(smaller);
+        }
+        const VoxelGoal goal =
+            mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
+        const SearchEffort effort{mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations};
+        return withCost(withoutEmpty(
+            improveCover(balls, spare, mMaker.object, goal, effort, mMaker.interrupter).balls));
+    }
+
+    /// A trial takes longer where balls are large. A search of few trials is none: what moves balls
+    /// elsewhere would take most of its time.
+    int trialsFor(const std::vector<CoverBall>& balls, const FewEffort& effort) const
+    {
+        const std::size_t leavesInAll =
+            mQuality == Quality::Best ? 300000 : 30000; // in all trials' balls
+        constexpr int kFewest = 10;
+        if (effort.trialsPerBall == 0) return 0;
+        std::size_t leaves = 1;
+        for (const CoverBall& ball : balls) leaves += regionOf(ball.ball, mVoxels).size();
+        const int most = std::min(effort.mostTrials / int(balls.size()), int(leavesInAll / leaves));
+        return most < kFewest ? 0 : std::min(effort.trialsPerBall, most);
+    }
+
+    Found withCost(std::vector<CoverBall> balls) const
+    {
+        const double cost = costOfCover(ballsOf(balls), mMaker.object, mMaker.fit);
+        return {std::move(balls), cost};
+    }
+
+    const LevelMaker& mMaker;
+    const LevelMaker mStarts; ///< of less effort
+    const SampleLevel& mVoxels;
+    const Quality mQuality;
+    const std::vector<VoxelBlock> mBlocks;
+    TightLevel mAbove;                 ///< the level above; without balls at first
+    Found mFound;                      ///< the same with its groups
+    std::vector<VoxelRegion> mRegions; ///< chainRegions() of it
+};
+
+} // namespace
+
+std::vector<TightLevel> fewLevels(
+    const std::vector<int64_t>& counts, Quality quality, const LevelMaker& maker)
+{
+    FewLevels few(quality, maker);
+    std::vector<TightLevel> levels(counts.size());
+    for (std::size_t k = counts.size(); k-- > 0;) levels[k] = few.next(counts[k]);
+    for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);
+    return levels;
+}
+
+} // namespace openvdb_spheretree::tight
