@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/inner/InnerLevels.h>
+#include <openvdb_spheretree/nearest/NearestLevels.h>
 #include <openvdb_spheretree/paper/IntersectionDag.h>
 #include <openvdb_spheretree/paper/MiniballCenters.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
@@ -263,6 +264,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
     }
     auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
     if (settings.isInner()) detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
+    else if (settings.isFit()) nearest::appendNearestTree(tree, *voxels, *seconds, interrupter);
     else appendPyramidTree(tree, std::move(voxels), *seconds, interrupter);
     return tree;
 }

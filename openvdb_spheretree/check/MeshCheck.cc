@@ -279,7 +279,7 @@ std::vector<Piece> trianglesOf(const TriangleMesh& mesh, const openvdb::math::Tr
 std::vector<TreeFault> checkMeshCovered(const SphereTree& tree, const TriangleMesh& mesh,
     const openvdb::BoolGrid* object, openvdb::util::NullInterrupter* interrupter)
 {
-    if (tree.settings.isInner() || !tree.settings.dist().isEuclidean()) {
+    if (tree.settings.isInner() || tree.settings.isFit() || !tree.settings.dist().isEuclidean()) {
         OPENVDB_THROW(
             openvdb::ValueError, "a mesh is covered by spheres with side=outer alone, of dist=l2");
     }

@@ -44,6 +44,7 @@ using Check = detail::CheckReport;
 bool hasLinks(const SphereTree& tree) { return tree.levels.size() > 1; }
 bool isTight(const SphereTree& tree) { return tree.settings.type() == TreeType::Tight; }
 bool isInner(const SphereTree& tree) { return tree.settings.isInner(); }
+bool isFit(const SphereTree& tree) { return tree.settings.isFit(); }
 bool isGiven(const SphereTree& tree) { return tree.settings.isGiven(); }
 
 const char kInCuts[] = "in the cuts, ";
@@ -199,7 +200,7 @@ void checkErrors(Check& check)
 
 /// The three radii of a node agree: coverSq is the floor of the radius squared, in the tree's
 /// units, or of two such terms' sum; the stored one is no less than radius and padding, or no more
-/// than the radius where spheres lie inside the object.
+/// than the radius where spheres lie inside the object, or the same with side=fit.
 /// @param nodes  of a tree or of its cuts
 /// @param where  what sentences about them begin with
 void checkRadii(Check& check, const Spheres& nodes, const char* where)
@@ -209,14 +210,16 @@ void checkRadii(Check& check, const Spheres& nodes, const char* where)
     const double padding = tree.settings.paddingVoxels(), voxel = tree.voxelSize();
     constexpr double kRounding = 1e-12; // of doubles, many times over; floats are far coarser
     const double unit = double(tree.subdivision) * tree.settings.dist().unit();
-    Offenders apart, small, large;
+    Offenders apart, small, large, unequal;
     for (int32_t id = 0; id < nodes.size(); ++id) {
         const double exact = std::sqrt(double(nodes.coverRadiusSq[id])) / unit;
         const double over = nodes.radius[id] - exact, rounding = kRounding * nodes.radius[id];
         if (over < -rounding || over > 0.5 + rounding) apart.add(id);
         const double padded = (nodes.radius[id] + padding) * voxel;
         const double stored = nodes.radiusWorld[id];
-        if (isInner(tree)) {
+        if (isFit(tree)) {
+            if (std::abs(stored - padded) > padded * kRounding) unequal.add(id);
+        } else if (isInner(tree)) {
             if (stored > nodes.radius[id] * voxel * (1 + kRounding)) large.add(id);
         } else if (stored < padded * (1 - kRounding)) {
             small.add(id);
@@ -224,6 +227,7 @@ void checkRadii(Check& check, const Spheres& nodes, const char* where)
     }
     if (apart) check.fail(where, "radius and cover_sq are not the same sphere for ", apart);
     if (small) check.fail(where, "the stored radius is less than radius and padding for ", small);
+    if (unequal) check.fail(where, "the stored radius is not the radius for ", unequal);
     if (large)
         check.fail(where, "the stored radius is more than that inside the object for ", large);
 }
@@ -268,7 +272,7 @@ void checkDagEdges(Check& check)
     }
 }
 
-/// Extended and tight trees: every node above level 0 has a child.
+/// Extended and tight trees, but for side=fit: every node above level 0 has a child.
 void checkChildren(Check& check)
 {
     check.kind = FaultKind::Links;
@@ -336,16 +340,17 @@ bool checkLinks(Check& check)
     reportAll(check, "", detail::edgeDamage(tree.dag, tree));
     if (check.faults.empty() && tree.hasDag && hasLinks(tree)) checkDagEdges(check);
     if (!parentsRight || !hasLinks(tree)) return parentsRight;
-    if (tree.settings.type() != TreeType::Reversible) checkChildren(check);
+    if (tree.settings.type() != TreeType::Reversible && !isFit(tree)) checkChildren(check);
     if (containsLeaves(tree)) checkLeavesContained(check);
     return true;
 }
 
 /// Every voxel has a chain of nodes that hold it, in a tight tree; in others it has a node of every
-/// level. In those that lie inside the object, nodes hold nothing else.
+/// level. In those that lie inside the object, nodes hold nothing else. Nearest spheres may do either.
 void checkCovering(Check& check, bool parentsRight)
 {
     const SphereTree& tree = check.tree;
+    if (isFit(tree)) return;
     if (isInner(tree)) {
         detail::checkInside(check);
         return;

@@ -48,7 +48,8 @@ struct TreeFault {
 /// level, each the child of the one above, that all hold it, in exact radii and in stored ones;
 /// where there are cuts, those of 1, 2, 4, ... and all spheres have such chains up to them.
 /// Coverage: of other trees, or where chains break. Inside: of trees with side=inner, in place of
-/// these two.
+/// these two. Of trees with side=fit nothing of the kind: what their spheres have in excess and miss is as
+/// recorded, and their nodes need no child.
 ///
 /// Of given spheres (GivenTree.h): shape, place, counts, records, radii, coverage and errors.
 ///

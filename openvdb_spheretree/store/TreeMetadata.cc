@@ -158,8 +158,11 @@ void requireDefault(
     if (setting.isFor(settings) || text == setting.get(settings)) return;
     if (setting.isForPyramids() && settings.find<PyramidOptions>()) return;
     OPENVDB_THROW(openvdb::ValueError,
-        setting.name << "=" << onOneLine(text, 60) << " is not for tree="
-                     << toString(settings.type()) << (settings.isInner() ? " side=inner" : ""));
+        setting.name << "=" << onOneLine(text, 60)
+                     << " is not for tree=" << toString(settings.type())
+                     << (settings.isInner()        ? " side=inner"
+                                : settings.isFit() ? " side=fit"
+                                                   : ""));
 }
 
 SphereTreeSettings readSettings(const GridBase& grid)

@@ -27,7 +27,9 @@ using detail::nameOf;
 constexpr std::array<Named<TreeType>, 3> kTreeTypes{{{TreeType::Tight, "tight"},
     {TreeType::Extended, "extended"}, {TreeType::Reversible, "reversible"}}};
 constexpr char kGiven[] = "given"; // in files only: nobody can ask for it
-constexpr std::array<Named<bool>, 2> kSides{{{false, "outer"}, {true, "inner"}}}; // is it inner?
+enum class Side { Outer, Inner, Fit };
+constexpr std::array<Named<Side>, 3> kSides{
+    {{Side::Outer, "outer"}, {Side::Inner, "inner"}, {Side::Fit, "fit"}}};
 constexpr std::array<Named<Quality>, 3> kQualities{
     {{Quality::Normal, "normal"}, {Quality::Fast, "fast"}, {Quality::Best, "best"}}};
 constexpr std::array<Named<Cover>, 2> kCovers{{{Cover::Voxels, "voxels"}, {Cover::Balls, "balls"}}};
@@ -108,6 +110,7 @@ Setting row(const char* name, int jsonPlace, SettingType type, Access access, Wr
     const auto has = [](SphereTreeSettings settings) { return bool(partOf<Owner>(settings)); };
     setting.tight = has(TightOptions());
     setting.inner = has(InnerOptions());
+    setting.fit = has(FitOptions());
     setting.extended = has(ExtendedOptions());
     setting.reversible = has(ReversibleOptions());
     setting.given = has(GivenOptions());
@@ -206,19 +209,26 @@ Setting treeRow()
     return setting;
 }
 
+Side sideOf(const SphereTreeSettings& settings)
+{
+    if (settings.isFit()) return Side::Fit;
+    return settings.isInner() ? Side::Inner : Side::Outer;
+}
+
 Setting sideRow()
 {
     Setting setting = special(
         "side", 21,
-        [](const SphereTreeSettings& settings) { return nameOf(kSides, settings.isInner()); },
+        [](const SphereTreeSettings& settings) { return nameOf(kSides, sideOf(settings)); },
         [](SphereTreeSettings& settings, const std::string& text) {
-            const bool inner = fromName(kSides, "side", text);
-            if (settings.type() != TreeType::Tight || inner == settings.isInner()) return;
-            if (inner) settings.kind = InnerOptions();
+            const Side side = fromName(kSides, "side", text);
+            if (settings.type() != TreeType::Tight || side == sideOf(settings)) return;
+            if (side == Side::Inner) settings.kind = InnerOptions();
+            else if (side == Side::Fit) settings.kind = FitOptions();
             else settings.kind = TightOptions();
         },
-        "outer: spheres cover the object; inner: they lie inside it and cover what they can "
-        "(tight)");
+        "outer: spheres cover the object; inner: they lie inside it and cover what they can; fit: "
+        "the nearest ones, with the fewest voxels in excess or missing (tight)");
     addChoices(setting, kSides);
     setting.extended = setting.reversible = setting.given = false;
     return setting;
@@ -258,7 +268,7 @@ Setting modelRow()
         "what becomes of 2x2x2 voxels (or factor per axis): or, one voxel if any is on; or "
         "closing:R, the same after a closing by a ball of radius R, 1 to 64 voxels (extended, "
         "reversible)");
-    setting.tight = setting.inner = setting.given = false;
+    setting.tight = setting.inner = setting.fit = setting.given = false;
     return setting;
 }
 
@@ -291,14 +301,16 @@ Setting paddingRow()
     return special(
         "padding", 9,
         [](const SphereTreeSettings& settings) {
-            return paddingToString(settings.isInner() || settings.isGiven() ? 0 : settings.padding);
+            const bool none = settings.isInner() || settings.isFit() || settings.isGiven();
+            return paddingToString(none ? 0 : settings.padding);
         },
         [](SphereTreeSettings& settings, const std::string& text) {
             const double padding = paddingFromString(text);
-            if (!settings.isInner()) settings.padding = padding;
+            const bool ignored = settings.isInner() || (settings.isFit() && padding <= 0);
+            if (!ignored) settings.padding = padding; // more is refused with side=fit
         },
         "added to stored radii: cubes covers whole voxels, voxels their centres; or a number "
-        "of voxels; nothing with side=inner");
+        "of voxels; nothing with side=inner and side=fit");
 }
 
 Setting spheresRow()
@@ -311,6 +323,17 @@ Setting spheresRow()
         },
         "how many spheres levels have, at most, such as 512,64,8; one number with error= or "
         "distance= is the most that these may take (tight)");
+}
+
+/// A setting of budgets that spheres with side=fit do not have.
+Setting notForFit(Setting setting)
+{
+    setting.fit = false;
+    setting.set = [set = setting.set](SphereTreeSettings& settings, const std::string& text) {
+        SphereTreeSettings other; // a mistake is one in any kind of tree
+        set(settings.isFit() ? other : settings, text);
+    };
+    return setting;
 }
 
 Setting distanceRow()
@@ -332,7 +355,7 @@ Setting distanceRow()
     setting.lowest = 0;
     setting.isOptional = setting.isBound = true;
     setting.extended = setting.reversible = setting.given = false;
-    return setting;
+    return notForFit(std::move(setting));
 }
 
 /// Which spheres a bound is of. Files of trees without a bound do not record it.
@@ -365,6 +388,13 @@ Setting memoryRow()
         "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
         "500MB, or a share of the machine's; more are compressed, and go to a temporary file "
         "in $TMPDIR where they must; the tree is the same");
+}
+
+Setting cutsRow()
+{
+    Setting setting = flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
+        "also store the spheres of every number of spheres, for -level spheres=N (tight)");
+    return notForFit(std::move(setting));
 }
 
 /// A setting that files of the first version may lack.
@@ -419,9 +449,7 @@ std::vector<Setting> makeTable()
             "with side=inner: spheres lie inside the solid itself: in the union of the voxel cubes "
             "that are "
             "wholly in it")),
-        flag<BudgetOptions>("cuts", 22, &BudgetOptions::cuts,
-            "also store the spheres of every number of spheres, for -level spheres=N (tight)"),
-        sideRow(),
+        cutsRow(), sideRow(),
         optional(flag<SphereTreeSettings>("topology", 12, &SphereTreeSettings::topology,
             "count components, tunnels and cavities of every level's voxels")),
         nameRow(), memoryRow()};
@@ -432,7 +460,7 @@ std::vector<Setting> makeTable()
 bool Setting::isFor(const SphereTreeSettings& settings) const
 {
     return (tight && settings.find<TightOptions>()) || (inner && settings.isInner())
-        || (extended && settings.find<ExtendedOptions>())
+        || (fit && settings.isFit()) || (extended && settings.find<ExtendedOptions>())
         || (reversible && settings.find<ReversibleOptions>()) || (given && settings.isGiven());
 }
 

@@ -43,7 +43,7 @@ struct Setting {
     std::string fallback; ///< the default as it would be typed
     /// @name Which kinds of trees have it
     /// @{
-    bool tight = true, inner = true, extended = true, reversible = true, given = true;
+    bool tight = true, inner = true, fit = true, extended = true, reversible = true, given = true;
     /// @}
     std::vector<std::string> choices = {}; ///< the default first
     bool isBound = false;    ///< on the error or on the distance: inner trees have none
@@ -64,7 +64,7 @@ const Setting& settingNamed(const std::string& name);
 std::vector<const Setting*> settingsInJson();
 
 /// @return default settings of the kind that these two name.
-/// @throw openvdb::ValueError if an inner tree is to be of another type than tight
+/// @throw openvdb::ValueError if a tree of another type than tight is to have a side
 SphereTreeSettings settingsOfKind(const std::string& tree, const std::string& side);
 
 /// @return the shortest text that reads back to the same double, and back.

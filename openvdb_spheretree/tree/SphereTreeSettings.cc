@@ -68,6 +68,31 @@ void requireValid(const PyramidOptions& options, bool fitted)
     }
 }
 
+/// What spheres with side=fit cannot be asked for.
+void requireFit(const SphereBudget& budget, bool cuts, double padding)
+{
+    if (padding > 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "side=fit and padding="
+                << paddingToString(padding)
+                << " contradict each other: its spheres are the nearest ones as "
+                   "they are stored, and larger ones are not; leave padding out");
+    }
+    if (budget.distance) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "side=fit and distance="
+                << distanceBoundToString(budget)
+                << " contradict each other: its spheres are sought by the voxels that are wrong, "
+                   "not "
+                   "by how far they reach; use error=, spheres= or branching=");
+    }
+    if (cuts) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "side=fit and cuts=1 contradict each other: every number of spheres is searched by "
+            "itself; name those wanted with spheres=");
+    }
+}
+
 /// Stands for the custom model of a tree that was read from a file.
 struct UnknownModel {
     openvdb::MaskTree::Ptr operator()(const openvdb::MaskTree&, const PyramidStep&) const
@@ -105,7 +130,7 @@ const Distance& SphereTreeSettings::dist() const
 
 double SphereTreeSettings::paddingVoxels() const
 {
-    if (isInner() || isGiven()) return 0;
+    if (isInner() || isFit() || isGiven()) return 0;
     if (padding != kPadCubes) return padding;
     return dist().length(0.5, 0.5, dim == 3 ? 0.5 : 0) / dist().unit();
 }
@@ -137,6 +162,7 @@ void SphereTreeSettings::validate() const
             "spheres reach nowhere outside, and cover what their number allows; use spheres or "
             "branching");
     }
+    if (isFit()) requireFit(levels->budget, levels->cuts, padding);
     if (memory < 0) {
         OPENVDB_THROW(openvdb::ValueError,
             "memory=" << memory << " is out of range: it must be a number of bytes, or 0 for "

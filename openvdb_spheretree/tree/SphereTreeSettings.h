@@ -30,7 +30,7 @@
 
 namespace openvdb_spheretree {
 
-/// The names of trees: inner trees go by `Tight`. `Given` are spheres that were not built here.
+/// The names of trees: those of any side go by `Tight`. `Given` are spheres that were not built here.
 enum class TreeType { Reversible, Extended, Tight, Given };
 
 enum class ParentRule {
@@ -80,7 +80,7 @@ enum class Leaves {
     Given   ///< spheres that come from elsewhere: buildSphereTreeOver()
 };
 
-/// What tight and inner trees share.
+/// What tight trees of all sides share.
 struct BudgetOptions {
     SphereBudget budget; ///< which levels there are
     bool cuts = false;   ///< also keep the tree for every number of spheres: SphereCuts.h
@@ -100,6 +100,11 @@ struct InnerOptions : BudgetOptions {
     /// voxels.
     bool strict = false;
 };
+
+/// Spheres nearest to the object: with as little excess + missing as a search finds for their number. They
+/// neither lie inside nor cover it. Their budget has no bound on the distance, their radii no padding, and
+/// there are no cuts.
+struct FitOptions : BudgetOptions {};
 
 /// What the two trees of the paper share, which are built along a pyramid.
 struct PyramidOptions {
@@ -140,8 +145,8 @@ struct ReversibleOptions : PyramidOptions {};
 struct GivenOptions {};
 
 struct SphereTreeSettings {
-    using Kind =
-        std::variant<TightOptions, InnerOptions, ExtendedOptions, ReversibleOptions, GivenOptions>;
+    using Kind = std::variant<TightOptions, InnerOptions, FitOptions, ExtendedOptions,
+        ReversibleOptions, GivenOptions>;
 
     Kind kind; ///< which kind of tree, and what only such trees can be asked for
     /// 3, or 2 for an object one voxel thick along an axis, which then takes no part.
@@ -173,6 +178,7 @@ struct SphereTreeSettings {
 
     TreeType type() const;
     bool isInner() const { return std::holds_alternative<InnerOptions>(kind); }
+    bool isFit() const { return std::holds_alternative<FitOptions>(kind); }
     bool isGiven() const { return std::holds_alternative<GivenOptions>(kind); }
 
     /// @return the options, if the kind is or shares these; else null.
@@ -193,7 +199,7 @@ struct SphereTreeSettings {
         return const_cast<Options*>(std::as_const(*this).template find<Options>());
     }
     /// @name The options of a kind, or that it shares
-    /// tight() is that of trees with side=outer alone; budgeted() is for either side.
+    /// tight() is that of trees with side=outer alone; budgeted() is for any side.
     /// @throw openvdb::ValueError if the tree is of another kind
     /// @{
     const TightOptions& tight() const { return required(find<TightOptions>(), "tight"); }
@@ -211,7 +217,7 @@ struct SphereTreeSettings {
 
     /// @return that of the pyramid's options; Euclidean for other trees.
     const Distance& dist() const;
-    /// @return the padding in voxels of level 0: none for inner trees and given spheres.
+    /// @return the padding in voxels of level 0: none for inner trees, nearest spheres (side=fit) and given ones.
     double paddingVoxels() const;
     /// @throw openvdb::ValueError naming the first setting out of range, and its range.
     void validate() const;

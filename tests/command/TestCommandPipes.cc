@@ -173,8 +173,8 @@ std::vector<std::map<std::string, std::string>> table(const std::string& csv)
 
 TEST_F(CommandPipes, LevelsAsCsvHaveTheNamesAndNumbersOfTheJson)
 {
-    for (const char* kind :
-        {"reversible", "side=inner spheres=8,2", "spheres=8,2", "reversible topology=0"}) {
+    for (const char* kind : {"reversible", "side=inner spheres=8,2", "side=fit spheres=8,2",
+             "spheres=8,2", "reversible topology=0"}) {
         SCOPED_TRACE(kind);
         const Result result =
             run(std::string("-read a.vol -spheretree ") + kind + " -stats lev.csv lev.json");
@@ -201,14 +201,15 @@ TEST_F(CommandPipes, LevelsAsCsvHaveTheNamesAndNumbersOfTheJson)
 
 TEST_F(CommandPipes, CellsOfErrorsThatWereNotCountedAreEmpty)
 {
-    for (const char* side : {"outer", "inner"}) {
+    for (const char* side : {"outer", "inner", "fit"}) {
         const std::string build = std::string("-read a.vol -spheretree errors=0 side=") + side;
         ASSERT_EQ(run(build + " spheres=4 -write t.vdb").exitCode, 0);
         ASSERT_EQ(run("-read t.vdb -stats lev.csv").exitCode, 0);
         for (auto row : table(readText(path("lev.csv")))) {
             EXPECT_EQ(row["spheres"], "4");
             EXPECT_NE(row["radius_max"], "");
-            for (const char* name : {"covered", "missing", "hausdorff", "covered_percent"}) {
+            for (const char* name :
+                {"covered", "missing", "hausdorff", "dice", "covered_percent"}) {
                 EXPECT_EQ(row[name], "") << name;
             }
         }

@@ -15,6 +15,7 @@
 namespace {
 
 using command_test::CommandTest;
+using command_test::readText;
 using command_test::Result;
 
 class CommandTight : public CommandTest {
@@ -98,6 +99,46 @@ TEST_F(CommandTight, StrictInnerSpheresLieInTheSolid)
     EXPECT_NE(outer.err.find("strict=1 is for side=inner"), std::string::npos) << outer.err;
     const Result other = run("-read ball.vdb -spheretree extended strict=1 -write u.vdb");
     EXPECT_NE(other.err.find("is for tree=tight"), std::string::npos) << other.err;
+}
+
+TEST_F(CommandTight, NearestSpheresHaveTheErrorsThatTheyAreStoredWith)
+{
+    const Result built = run("-read a.vol -spheretree side=fit spheres=5,2 keep=1 -stats "
+                             "json=s.json -check -write t.vdb");
+    EXPECT_EQ(built.exitCode, 0) << built.err;
+    const auto stats = nlohmann::json::parse(readText(path("s.json")));
+    EXPECT_EQ(stats["settings"]["side"], "fit");
+    EXPECT_EQ(spheresOf(stats), (std::vector<int>{5, 2}));
+    const double voxels = stats["object"]["voxels"];
+    for (const auto& level : stats["levels"]) {
+        EXPECT_EQ(level["stored_hamming_percent"], level["hamming_percent"]);
+        const double covered = level["covered"], excess = level["excess"];
+        EXPECT_NEAR(level["dice"], 2 * (covered - excess) / (voxels + covered), 1e-12);
+    }
+    EXPECT_LE(double(stats["levels"][0]["hamming_percent"]),
+        double(stats["levels"][1]["hamming_percent"]));
+    const Result checked = run("-read a.vol -read t.vdb -check");
+    EXPECT_EQ(checked.exitCode, 0) << checked.err;
+    const Result table = run("-read t.vdb -stats");
+    EXPECT_NE(table.out.find("side fit"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("  dice\n"), std::string::npos) << table.out;
+    EXPECT_EQ(run("-read a.vol -spheretree -stats").out.find("dice"), std::string::npos);
+}
+
+TEST_F(CommandTight, ABoundOnTheErrorIsKeptByTheFewestNearestSpheres)
+{
+    const Result built = run("-read a.vol -spheretree side=fit error=20 -stats json=s.json");
+    EXPECT_EQ(built.exitCode, 0) << built.err;
+    const auto level = nlohmann::json::parse(readText(path("s.json")))["levels"][0];
+    EXPECT_LE(double(level["stored_hamming_percent"]), 20);
+    const int spheres = level["spheres"];
+    ASSERT_GT(spheres, 1);
+    const auto fewer = statsOf("side=fit spheres=" + std::to_string(spheres - 1))["levels"][0];
+    EXPECT_GT(double(fewer["stored_hamming_percent"]), 20);
+    const Result few = run("-read a.vol -spheretree side=fit error=0.1 spheres=1 -stats");
+    EXPECT_EQ(few.exitCode, 3) << few.err;
+    EXPECT_NE(few.err.find("error=0.1 cannot be reached with spheres=1"), std::string::npos)
+        << few.err;
 }
 
 TEST_F(CommandTight, LevelsHaveTheSpheresAskedFor)

@@ -263,12 +263,14 @@ void runCheck(const ActionCall& call, Session& session)
     session.noteIfUnverified(item);
     placeInObject(item, session, call.text("vdb"));
     const auto object = objectToCheck(item, call, session);
-    const bool covers = !item.tree->settings.isInner(); // and there is something to prove of a mesh
+    const auto& settings = item.tree->settings;
+    const bool covers =
+        !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
     const auto mesh = covers ? meshOf(session) : nullptr;
     if (mesh) warnOfUnits(*item.tree, *mesh, session);
     const auto faults = faultsOf(item, object, mesh.get(), session);
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
-    const bool isGiven = item.tree->settings.isGiven();
+    const bool isGiven = settings.isGiven();
     if (!faults.empty() && isGiven) {
         throw CommandError(kCheckFailed, item.description() + ": " + faults.front().sentence);
     }

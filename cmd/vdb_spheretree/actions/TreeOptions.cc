@@ -43,9 +43,10 @@ void refuse(const ActionCall& call, const std::string& option, const std::string
 void refuseOptionsOfOtherTrees(const ActionCall& call)
 {
     const std::string tree = call.text("tree");
-    const bool tight = tree == "tight", inner = tight && call.text("side") == "inner";
+    const bool tight = tree == "tight", inner = tight && call.text("side") == "inner",
+               fit = tight && call.text("side") == "fit";
     for (const Setting& setting : spheretree::detail::settingsTable()) {
-        const bool isForTight = setting.tight || setting.inner;
+        const bool isForTight = setting.tight || setting.inner || setting.fit;
         if (tight && !isForTight) {
             refuse(
                 call, setting.name, "is for tree=extended and tree=reversible, not for tree=tight");
@@ -53,9 +54,20 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
             refuse(call, setting.name, "is for tree=tight, not for tree=" + tree);
         } else if (inner && (!setting.inner || setting.isBound)) {
             refuse(call, setting.name, "is for spheres that cover the object, not for side=inner");
-        } else if (tight && !inner && !setting.tight) {
+        } else if (fit && !setting.fit) {
+            refuse(call, setting.name,
+                setting.inner && !setting.tight
+                    ? "is for side=inner, not for side=fit"
+                    : "is for spheres that cover the object or lie inside it, not for side=fit");
+        } else if (tight && !inner && !fit && !setting.tight) {
             refuse(call, setting.name, "is for side=inner, not for spheres that cover the object");
         }
+    }
+    if (fit) {
+        refuse(call, "padding",
+            "would make spheres larger, and those of side=fit are the nearest ones as they are: "
+            "leave "
+            "it out");
     }
     if (!inner) return;
     refuse(call, "padding",
@@ -100,6 +112,7 @@ SphereTreeSettings settingsOf(const ActionCall& call)
 LongWork longWorkOf(const ActionCall& call)
 {
     if (call.text("tree") != "tight" || call.text("side") == "inner") return {};
+    if (call.text("side") == "fit") return {"nearest spheres", 1, ""};
     const bool search = call.text("quality") == "best" && call.text("cover") == "voxels";
     LongWork work{"merging", 1, ""};
     // Counted over 10^3 to 10^5 voxels: 1900 to 2200 for a level of 64 spheres.

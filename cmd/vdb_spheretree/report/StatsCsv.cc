@@ -50,12 +50,13 @@ std::string lineOf(const SphereTree& tree, const SphereTreeLevel& level)
     }
     line.add(radii.smallest).add(radii.largest);
     const bool inner = tree.settings.isInner();
-    if (!level.error) return line.addEmpty(inner ? 8 : 7).take();
+    if (!level.error) return line.addEmpty(inner ? 9 : 8).take();
     const auto& error = *level.error;
     line.add(error.covered).add(error.excess).add(error.missing);
     line.add(error.hammingPercent).add(error.hausdorff);
     if (level.stored) line.add(level.stored->hammingPercent).add(level.stored->reachWorld);
     else line.addEmpty(2);
+    line.add(diceOf(tree, level));
     if (inner) line.add(coveredPercent(tree, level));
     return line.take();
 }
@@ -66,7 +67,7 @@ std::string statsCsv(const SphereTree& tree)
 {
     std::string text = "level,spheres,pyramid_voxels,components,tunnels,cavities,radius_min,"
                        "radius_max,covered,excess,missing,hamming_percent,hausdorff,"
-                       "stored_hamming_percent,stored_reach";
+                       "stored_hamming_percent,stored_reach,dice";
     text += tree.settings.isInner() ? ",covered_percent\n" : "\n";
     for (const SphereTreeLevel& level : tree.levels) text += lineOf(tree, level);
     return text;

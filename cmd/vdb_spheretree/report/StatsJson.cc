@@ -26,6 +26,8 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         json.value("radius_min", radii.smallest);
         json.value("radius_max", radii.largest);
         writeError(json, level);
+        if (level.error) json.value("dice", diceOf(tree, level));
+        else json.null("dice");
         if (tree.settings.isInner()) {
             if (level.error) json.value("covered_percent", coveredPercent(tree, level));
             else json.null("covered_percent");

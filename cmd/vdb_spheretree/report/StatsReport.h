@@ -23,6 +23,11 @@ LevelRadii radiiOf(
 double coveredPercent(
     const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
 
+/// @return the Dice coefficient of a level and the object: twice the voxels that both have, by those of the
+///         one and of the other, 0 to 1. Its error must have been counted.
+double diceOf(
+    const openvdb_spheretree::SphereTree& tree, const openvdb_spheretree::SphereTreeLevel& level);
+
 /// @return the seconds of every stage of the command line, by its name.
 std::vector<std::pair<const char*, double>> stageSeconds(const Session& session);
 

@@ -30,6 +30,7 @@ Row headerOf(const SphereTree& tree)
         "radius max", "covered", "excess", "missing", "hamming %", "hausdorff", "stored %",
         "reach"};
     if (tree.settings.isInner()) row.push_back("covered %");
+    if (tree.settings.isFit()) row.push_back("dice");
     return row;
 }
 
@@ -74,6 +75,7 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
             level.stored ? fixed(level.stored->hammingPercent, 2) : "-",
             level.stored ? significant(level.stored->reachWorld) : "-"});
     if (tree.settings.isInner()) row.push_back(fixed(coveredPercent(tree, level), 2));
+    if (tree.settings.isFit()) row.push_back(fixed(diceOf(tree, level), 4));
     return row;
 }
 
@@ -214,6 +216,7 @@ std::string kindOf(const openvdb_spheretree::SphereTreeSettings& settings)
     std::string text = settings.isGiven() ? "as they were read" : toString(settings.type());
     if (pyramid) text += ", factor " + std::to_string(pyramid->factor);
     if (settings.isInner()) text += ", side inner";
+    if (settings.isFit()) text += ", side fit";
     if (tight) text += std::string(", quality ") + toString(tight->quality);
     if (tight && tight->cover == Cover::Balls) text += ", cover balls";
     if (tight && tight->leaves == Leaves::Medial) text += ", leaves medial";
@@ -251,6 +254,12 @@ double coveredPercent(const SphereTree& tree, const SphereTreeLevel& level)
 {
     const int64_t inside = level.error->covered - level.error->excess;
     return 100.0 * double(inside) / double(tree.object.voxels);
+}
+
+double diceOf(const SphereTree& tree, const SphereTreeLevel& level)
+{
+    const int64_t both = level.error->covered - level.error->excess;
+    return 2 * double(both) / double(tree.object.voxels + level.error->covered);
 }
 
 std::vector<std::pair<const char*, double>> stageSeconds(const Session& session)

@@ -18,7 +18,8 @@ namespace {
 
 std::vector<SphereTreeSettings> allKinds()
 {
-    return {TightOptions(), InnerOptions(), ExtendedOptions(), ReversibleOptions(), GivenOptions()};
+    return {TightOptions(), InnerOptions(), FitOptions(), ExtendedOptions(), ReversibleOptions(),
+        GivenOptions()};
 }
 
 /// A value that no setting has by default.
@@ -46,7 +47,7 @@ bool choosesKind(const Setting& setting)
 bool isFree(const Setting& setting, const SphereTreeSettings& settings)
 {
     if (setting.name == "dist" && !settings.find<PyramidOptions>()) return false;
-    const bool padded = !settings.isInner() && !settings.isGiven();
+    const bool padded = !settings.isInner() && !settings.isFit() && !settings.isGiven();
     return setting.isFor(settings) && (padded || setting.name != "padding");
 }
 
@@ -109,6 +110,7 @@ TEST(SettingsTable, TreeAndSideChooseTheKind)
 {
     EXPECT_TRUE(settingsOfKind("tight", "outer").find<TightOptions>());
     EXPECT_TRUE(settingsOfKind("tight", "inner").find<InnerOptions>());
+    EXPECT_TRUE(settingsOfKind("tight", "fit").find<FitOptions>());
     EXPECT_TRUE(settingsOfKind("extended", "outer").find<ExtendedOptions>());
     EXPECT_TRUE(settingsOfKind("reversible", "outer").find<ReversibleOptions>());
     EXPECT_TRUE(mentions(

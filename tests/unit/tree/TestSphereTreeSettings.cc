@@ -208,6 +208,28 @@ TEST(SphereTreeSettings, InnerTreesHaveNoBoundOnWhatTheyReachOutside)
     EXPECT_TRUE(mentions(whyInvalid(options), "side=inner and a bound"));
 }
 
+TEST(SphereTreeSettings, NearestSpheresHaveNoPaddingNoCutsAndNoBoundOnTheirReach)
+{
+    FitOptions options;
+    options.budget.error = 1;
+    SphereTreeSettings settings = options;
+    EXPECT_TRUE(settings.isFit());
+    EXPECT_FALSE(settings.isInner());
+    EXPECT_EQ(settings.type(), TreeType::Tight);
+    EXPECT_NO_THROW(settings.validate());
+    EXPECT_EQ(settings.paddingVoxels(), 0);
+    settings.padding = 0;
+    EXPECT_NO_THROW(settings.validate()) << "none is what there is";
+    settings.padding = 0.5;
+    EXPECT_TRUE(mentions(whyInvalid(settings), "side=fit and padding=0.5"));
+    options.cuts = true;
+    EXPECT_TRUE(mentions(whyInvalid(options), "side=fit and cuts=1"));
+    options.cuts = false;
+    options.budget.distance = 2;
+    options.budget.distanceInVoxels = true;
+    EXPECT_TRUE(mentions(whyInvalid(options), "side=fit and distance=2vox"));
+}
+
 TEST(SphereTreeSettings, CubesPadByHalfADiagonalOfTheDimension)
 {
     SphereTreeSettings settings;
