@@ -4,15 +4,17 @@
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/measure/LevelMeter.h>
-#include <openvdb_spheretree/medial/MedialLevel.h>
-#include <openvdb_spheretree/tight/level/FewLevels.h>
+#include <openvdb_spheretree/tight/level/BottomUpLevels.h>
+#include <openvdb_spheretree/tight/level/CarriedLevels.h>
+#include <openvdb_spheretree/tight/level/FreeCovers.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
 #include <openvdb_spheretree/tight/level/MonotoneLevels.h>
-#include <openvdb_spheretree/tight/level/SearchedLevels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
+#include <openvdb_spheretree/tight/level/TopDownLevels.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
+#include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/LeafBalls.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
@@ -34,33 +36,44 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-FitEffort effortOf(Quality quality, std::size_t leafBalls)
+/// Levels of named counts are made from so many leaf balls at least, and from so many for each ball of the
+/// finest. With fewer, a voxel of the coarse object is too large for its balls.
+constexpr int64_t kLeastLeafBalls = 2048, kLeafBallsPerBall = 4;
+
+LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
+    std::size_t leafBalls, openvdb::util::NullInterrupter* interrupter)
 {
-    if (quality == Quality::Fast) return {false, 4, 1, false, 16};
+    const bool flat = settings.dim == 2;
+    const Quality quality = settings.tight().quality;
+    if (quality == Quality::Fast) return {object, {false, 4, 1, false, 16}, flat, interrupter};
     // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
     // for each ball of a larger object would grow.
     constexpr double kMost = 40, kLeast = 16, kFew = 4000;
     const double samples =
         std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
-    return {true, 12, 1, true, int(samples)};
+    LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
+    maker.merging.samples = int(samples);
+    maker.searchesAll = quality == Quality::Best;
+    return maker;
 }
 
 std::unique_ptr<MergeModel> modelFor(
     const TightOptions& options, const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker)
 {
-    const auto& [object, fit, flat, interrupter] = maker;
+    const SampledObject& object = maker.object;
+    const auto interrupter = maker.interrupter;
     const SampleLevel& voxels = object.level(0);
     if (options.cover == Cover::Balls) {
-        return std::make_unique<StrictMerging>(
-            object, leafBalls, heldBalls(leafBalls), fit, flat, interrupter);
+        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls), heldBalls(leafBalls),
+            maker.fit, maker.flat, interrupter);
     }
     if (options.quality == Quality::Fast) {
         auto held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter));
-        return std::make_unique<StrictMerging>(
-            object, leafBalls, std::move(held), fit, flat, interrupter);
+        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls), std::move(held),
+            maker.fit, maker.flat, interrupter);
     }
     return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
-        regionsOf(leafBalls, voxels, interrupter), fit, flat, interrupter);
+        regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter);
 }
 
 /// Regions, pairs of neighbours and merged balls: 1200 to 1800 bytes a leaf ball were measured, of
@@ -136,40 +149,21 @@ std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, std::siz
                                                                                   : levels;
 }
 
-/// @return which of two trees' levels, as many in both, have the smaller product of errors.
-const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
-    const std::vector<TightLevel>& others, const SphereTree& tree,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    double gain = 0; // of `some`, log of a ratio
-    for (std::size_t k = 0; k < some.size(); ++k) {
-        const auto mine = coveredBy(some[k], tree, interrupter);
-        const auto theirs = coveredBy(others[k], tree, interrupter);
-        if (!mine || !theirs) continue;
-        const auto excess = [&](int64_t voxels) { return double(1 + voxels - tree.object.voxels); };
-        gain += std::log(excess(*theirs) / excess(*mine));
-    }
-    return gain >= 0 ? some : others;
-}
-
-/// What the levels of a tree are made from.
-struct TightObject {
-    const openvdb::BoolGrid& grid;
+/// The object, and the leaf balls that its levels are made from.
+struct TightSource {
+    const openvdb::BoolGrid& object;
     const LeafBalls& leaves;
-    LevelMaker maker;
+    const LevelMaker& maker;
 };
 
-/// Levels by merging the leaf balls; and the cuts if the settings say so.
-std::vector<TightLevel> mergedLevels(SphereTree& tree, const TightObject& object,
-    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
+/// Levels that are cuts of one forest of merges; and the cuts if the settings say so.
+std::vector<TightLevel> cutLevels(
+    SphereTree& tree, const TightSource& source, StageSeconds* seconds)
 {
-    const SphereTreeSettings& settings = tree.settings;
-    const TightOptions& options = settings.tight();
-    const SphereBudget& budget = options.budget;
-    const LeafBalls& leaves = object.leaves;
-    const LevelMaker& maker = object.maker;
-    const std::size_t leafCount = leaves.balls.size();
-    requireRoomForMerging(leafCount);
+    const TightOptions& options = tree.settings.tight();
+    const auto& [object, leaves, maker] = source;
+    const auto interrupter = maker.interrupter;
+    requireRoomForMerging(leaves.balls.size());
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
         // A detail of this stage: how far it is, the merging says.
         const auto model = detail::timed(
@@ -177,24 +171,83 @@ std::vector<TightLevel> mergedLevels(SphereTree& tree, const TightObject& object
         return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
     });
     std::optional<detail::LevelMeter> meter;
-    if (budget.hasBound()) meter.emplace(object.grid, settings.dist());
+    if (options.budget.hasBound()) meter.emplace(object, tree.settings.dist());
     const auto cutError = [&](int64_t count) {
         return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
     };
-    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree,
-        [&] { return levelCounts(settings, int64_t(leafCount), tree.voxelSize(), cutError); });
-    const bool search = options.quality == Quality::Best && options.cover == Cover::Voxels;
-    // A bound is on the finest level, which then is searched first and by itself.
-    const std::size_t middle = budget.hasBound() ? 0 : counts.size() / 2;
-    const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
-        const auto cuts = levelsOf(forest, counts, leaves.digital);
-        if (!search) return cuts;
-        // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
-        const auto searched = searchedLevels(forest, counts, leaves, middle, maker);
-        return keepsBounds(searched.front(), tree, object.grid, interrupter) ? searched : cuts;
-    });
+    const auto counts =
+        detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
+            return levelCounts(
+                tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
+        });
     if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
-    return levels;
+    return levelsOf(forest, counts, leaves.digital);
+}
+
+/// @return the finest level of a tree: all leaf balls, or the fewest balls within the bounds.
+/// @param counts  receives those of all levels
+TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCovers& free,
+    std::vector<int64_t>& counts)
+{
+    const auto& [object, leaves, maker] = source;
+    const auto leafCount = int64_t(leaves.balls.size());
+    const auto levelOf = [&](int64_t count) -> TightLevel {
+        if (count == leafCount) return {leaves.balls, {}, leaves.digital};
+        return {free.cover(count), {}, {}};
+    };
+    std::optional<detail::LevelMeter> meter;
+    if (tree.settings.tight().budget.hasBound()) meter.emplace(object, tree.settings.dist());
+    counts = levelCounts(tree.settings, leafCount, tree.voxelSize(), [&](int64_t count) {
+        return errorOf({levelOf(count)}, tree, *meter, source.maker.interrupter);
+    });
+    TightLevel level = levelOf(counts.front());
+    if (counts.front() == leafCount || !maker.searchesAll) return level;
+    // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
+    TightLevel searched;
+    searched.balls = ballsOf(withoutEmpty(maker.improve(ungrouped(level.balls),
+        ungrouped(free.cover(4 * counts.front())), VoxelGoal(maker.object.level(0)))));
+    return keepsBounds(searched, tree, object, maker.interrupter) ? searched : level;
+}
+
+/// Levels on top of a finest one that is not chosen freely.
+std::vector<TightLevel> levelsOnFinest(
+    const SphereTree& tree, const TightSource& source, StageSeconds* seconds)
+{
+    const auto interrupter = source.maker.interrupter;
+    FreeCovers free(source.leaves.balls, !source.leaves.digital.empty(), source.maker);
+    std::vector<int64_t> counts;
+    const TightLevel finest = detail::timed("spheres within the bound", interrupter,
+        &seconds->tree, [&] { return finestLevel(tree, source, free, counts); });
+    return detail::timed("levels", interrupter, &seconds->tree,
+        [&] { return bottomUpLevels(finest, counts, source.maker); });
+}
+
+/// Levels of named counts: made where the pyramid suits them, and carried down to the object.
+std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObject& coarse,
+    bool areGiven, const LevelMaker& maker, StageSeconds* seconds)
+{
+    const SphereTreeSettings& settings = tree.settings;
+    const TightOptions& options = settings.tight();
+    const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
+    return detail::timed("levels", maker.interrupter, &seconds->tree, [&] {
+        FreeCovers free(leafBalls, !coarse.leaves.digital.empty(), maker);
+        const auto counts = options.budget.counts(int64_t(leafBalls.size()));
+        auto levels = topDownLevels(counts, free, !areGiven, options.quality, maker);
+        for (std::size_t step = coarse.steps.size(); step-- > 0;) {
+            const SampledObject finer(LeafLayout(*coarse.levels[step]));
+            levels = carriedDown(std::move(levels), coarse.steps[step],
+                makerFor(settings, finer, leafBalls.size(), maker.interrupter));
+        }
+        return levels;
+    });
+}
+
+/// @return whether the number of spheres does not follow from the settings alone, or all levels need
+/// the object's own leaf balls.
+bool needsLeafBalls(const TightOptions& options)
+{
+    return options.budget.hasBound() || options.budget.spheres.empty() || options.cuts
+        || options.cover == Cover::Balls || options.leaves == Leaves::Medial;
 }
 
 } // namespace
@@ -204,43 +257,35 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
 {
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
-    const SphereBudget& budget = options.budget;
     requireReachable(settings, tree.voxelSize());
     const FlatAxis flat(tree.flatAxis);
-    const auto voxels = voxelsOf(object, flat);
-    std::optional<MedialLevel> medial;
-    if (!given) {
-        LevelQueries queries;
-        queries.memory = settings.memory;
-        medial.emplace(*voxels, settings.dim, settings.dist(), interrupter, seconds, queries);
+    const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flat);
+    constexpr int64_t kAll = INT64_MAX;
+    CoarseObject coarse;
+    if (given) {
+        coarse.levels.push_back(voxels);
+        coarse.samples = SampledObject(LeafLayout(*voxels));
+        coarse.leaves = givenLeaves(*given, flat, *voxels, coarse.samples.level(0), interrupter);
+    } else {
+        const int64_t least = needsLeafBalls(options)
+            ? kAll
+            : std::max(kLeastLeafBalls, options.budget.counts(kAll).front() * kLeafBallsPerBall);
+        coarse = coarseObject(voxels, settings, least, interrupter, seconds);
     }
-    const auto layout = medial ? nullptr : std::make_unique<const LeafLayout>(*voxels);
-    const SampledObject samples(medial ? medial->layout : *layout);
-    const LeafBalls leaves = detail::timed("leaves", interrupter, &seconds->tree, [&] {
-        const SampleLevel& sampled = samples.level(0);
-        return medial ? medialLeaves(*medial, sampled, options.leaves, interrupter)
-                      : givenLeaves(*given, flat, *voxels, sampled, interrupter);
-    });
-    const std::size_t leafCount = leaves.balls.size();
-    const TightObject source{object, leaves,
-        {samples, effortOf(options.quality, leafCount), settings.dim == 2, interrupter}};
-    const auto counts = budget.counts(int64_t(leafCount));
-    // Of given spheres levels are made by merging these.
-    const bool areFew = !given && !budget.hasBound() && !options.cuts
-        && options.cover == Cover::Voxels && counts.front() <= kFewSpheres
-        && counts.front() < int64_t(leafCount);
-    std::vector<TightLevel> levels;
-    if (areFew) {
-        levels = detail::timed("levels", interrupter, &seconds->tree,
-            [&] { return fewLevels(counts, options.quality, source.maker); });
-    }
-    // Of objects with arms and legs a long search of merged leaf balls may end better.
-    if (!areFew || options.quality == Quality::Best) {
-        const auto merged = mergedLevels(tree, source, interrupter, seconds);
-        levels = areFew ? betterOf(levels, merged, tree, interrupter) : merged;
-    }
+    const LeafBalls& leaves = coarse.leaves;
+    const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), interrupter);
+    const TightSource source{object, leaves, maker};
+    const auto leafCount = int64_t(leaves.balls.size());
+    const auto levels = [&] {
+        if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source, seconds);
+        const bool isFixed =
+            options.budget.hasBound() || options.budget.counts(leafCount).front() == leafCount;
+        return isFixed ? levelsOnFinest(tree, source, seconds)
+                       : levelsOfCounts(tree, coarse, given != nullptr, maker, seconds);
+    }();
     appendLevels(
-        options.cuts ? levels : monotone(levels, leafCount, tree, object, interrupter), tree);
+        options.cuts ? levels : monotone(levels, leaves.balls.size(), tree, object, interrupter),
+        tree);
 }
 
 } // namespace openvdb_spheretree::tight

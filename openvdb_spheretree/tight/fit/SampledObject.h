@@ -65,6 +65,8 @@ private:
 
 class SampledObject {
 public:
+    /// Of an object without voxels.
+    SampledObject() : mLevels(1, SampleLevel({}, {})) {}
     explicit SampledObject(const LeafLayout& object);
 
     /// @param k  0 or more; levels beyond the last one have no samples

@@ -2,9 +2,12 @@
 #include "LevelMaker.h"
 
 #include "TightLevels.h"
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
+#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -13,13 +16,6 @@ int LevelMaker::trialsFor(std::size_t count)
 {
     constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
     return int(std::max(kLeast, std::min(kMost, kAll / count)));
-}
-
-SearchedCover LevelMaker::search(const std::vector<CoverBall>& start,
-    const std::vector<CoverBall>& finer, const CoverGoal& goal, int trialsPerBall, int number) const
-{
-    const SearchEffort effort{fit, trialsPerBall, uint64_t(number) << 40, flat};
-    return improveCover(start, finer, object, goal, effort, interrupter);
 }
 
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
@@ -31,35 +27,66 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::size_t searches = std::max<std::size_t>(1, std::min(kMost, kBalls / start.size()));
     SearchedCover best;
     best.balls = start;
-    for (int number = 0; number < int(searches); ++number) {
-        SearchedCover found = search(start, finer, goal, trialsFor(start.size()), number);
+    for (uint64_t number = 0; number < searches; ++number) {
+        const SearchEffort effort{fit, trialsFor(start.size()), number << 40, flat};
+        SearchedCover found = improveCover(start, finer, object, goal, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }
     return std::move(best.balls);
 }
 
-std::vector<ExactSphere> LevelMaker::merged(const std::vector<ExactSphere>& balls,
-    const std::vector<std::vector<openvdb::Coord>>& points, int64_t count) const
+std::vector<CoverBall> LevelMaker::placed(
+    const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop) const
 {
-    constexpr int kNeighbours = 8;
-    HeldByLeafBalls held = heldVoxels(points);
-    held.areInside = false;
-    StrictMerging merging(object, balls, std::move(held), fit, flat, interrupter);
-    return ballsOfCut(mergeToCount(merging, kNeighbours, count, interrupter), count);
+    auto balls = improveCover(cover, {}, object, goal, {fit, 0, 0, flat}, interrupter).balls;
+    return drop ? withoutEmpty(std::move(balls)) : balls;
 }
 
-std::vector<CoverBall> filledUp(
-    const std::vector<CoverBall>& cover, const std::vector<CoverBall>& leafBalls)
+std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
+    const HeldPoints& points, bool areInside, int64_t count) const
 {
-    std::vector<CoverBall> filled;
-    for (const CoverBall& ball : cover) {
-        if (!ball.empty()) filled.push_back(ball);
+    HeldByLeafBalls held = heldVoxels(points);
+    held.areInside = areInside;
+    StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
+    const std::vector<ForestNode> forest = mergeToCount(model, neighbours, count, interrupter);
+    std::vector<int32_t> group = groupsOf(balls);
+    group.resize(forest.size(), -1);
+    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
+        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
     }
-    for (const CoverBall& ball : leafBalls) {
-        if (filled.size() == cover.size()) break;
-        if (std::find(cover.begin(), cover.end(), ball) == cover.end()) filled.push_back(ball);
+    std::vector<CoverBall> cover;
+    for (const int32_t node : cutOf(forest, 1)) cover.push_back({forest[node].ball, group[node]});
+    return cover;
+}
+
+double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const
+{
+    CoveringFit window;
+    BallGrid before;
+    double cost = 0;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        window.open(object, balls[i], fit.samples);
+        for (const int32_t other : before.meeting(window.box())) window.cover(balls[other]);
+        cost += window.costOf({balls[i]});
+        before.add(int32_t(i), balls[i]);
     }
-    return filled;
+    return cost;
+}
+
+int64_t halvedTowards(int64_t many, int64_t count)
+{
+    constexpr double kRounding = 1e-9;
+    const double ratio = double(many) / double(count);
+    const double steps = std::max(1.0, std::ceil(std::log2(ratio) - kRounding));
+    return std::max<int64_t>(count, std::llround(double(many) / std::pow(ratio, 1 / steps)));
+}
+
+std::vector<CoverBall> withoutEmpty(std::vector<CoverBall> cover)
+{
+    cover.erase(std::remove_if(
+                    cover.begin(), cover.end(), [](const CoverBall& ball) { return ball.empty(); }),
+        cover.end());
+    return cover;
 }
 
 } // namespace openvdb_spheretree::tight

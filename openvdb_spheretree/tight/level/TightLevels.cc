@@ -122,6 +122,14 @@ void dropChildless(TightLevel& level, TightLevel& finer)
     level = std::move(kept);
 }
 
+void adoptOrphans(TightLevel& finer, const std::vector<ExactSphere>& level)
+{
+    for (std::size_t i = 0; i < finer.balls.size(); ++i) {
+        if (!level[finer.parent[i]].empty()) continue;
+        finer.parent[i] = leastProtruding(finer.balls[i], level);
+    }
+}
+
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level)
 {
     const auto protrusion = [&](const ExactSphere& other) {

@@ -30,6 +30,9 @@ std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64
 /// Drops the balls of @a level that have no child in @a finer: no chain needs them.
 void dropChildless(TightLevel& level, TightLevel& finer);
 
+/// Gives the children of empty balls of @a level to the ball out of which they reach least. No chain needs them.
+void adoptOrphans(TightLevel& finer, const std::vector<ExactSphere>& level);
+
 /// @return the ball of @a level out of which @a ball reaches least; empty ones do not count.
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
 

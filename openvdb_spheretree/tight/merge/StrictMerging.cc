@@ -72,12 +72,12 @@ Held extremeBalls(const Held& held)
 
 } // namespace
 
-StrictMerging::StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
+StrictMerging::StrictMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
     HeldByLeafBalls held, const FitEffort& effort, bool flat,
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
-      mInterrupter(interrupter), mBalls(std::move(leafBalls)), mHeld(held.held),
-      mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
+      mInterrupter(interrupter), mBalls(ballsOf(leafBalls)), mGroups(groupsOf(leafBalls)),
+      mHeld(held.held), mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
 {
     if (held.areInside) return;
     detail::parallelFor(mBalls.size(), interrupter, [&](std::size_t i) {

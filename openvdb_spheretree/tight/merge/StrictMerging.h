@@ -11,6 +11,7 @@
 
 #pragma once
 
+#include "CoverBall.h"
 #include "MergeForest.h"
 #include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
@@ -33,13 +34,14 @@ struct HeldByLeafBalls {
 
 class StrictMerging : public MergeModel {
 public:
-    /// @param leafBalls  whose union is the object
+    /// @param leafBalls  that are merged
     /// @param flat       centers keep their z
-    StrictMerging(const SampledObject& object, std::vector<ExactSphere> leafBalls,
+    StrictMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         HeldByLeafBalls held, const FitEffort& effort, bool flat,
         openvdb::util::NullInterrupter* interrupter);
 
     std::vector<ExactSphere> leafBalls() const override { return mBalls; }
+    int32_t groupOf(int32_t leafBall) const override { return mGroups[leafBall]; }
     MergeCandidate evaluate(int32_t a, int32_t b) const override;
     void complete(MergeCandidate& merge) const override;
     void merge(const std::vector<MergeCandidate>& merges, int32_t node) override;
@@ -51,6 +53,7 @@ private:
     bool mFlat, mVoxels;
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<ExactSphere> mBalls;
+    std::vector<int32_t> mGroups; ///< of leaf balls
     std::vector<Held> mHeld;    ///< of living nodes: all balls, or all extreme voxels
     std::vector<Held> mExtreme; ///< of living nodes: the part that a new ball is fitted to
     std::vector<double> mCost;  ///< outside voxels in a node's ball

@@ -70,4 +70,31 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
     return region;
 }
 
+VoxelRegion intersectionOf(const VoxelRegion& a, const VoxelRegion& b)
+{
+    VoxelRegion region;
+    auto other = b.begin(); // searched, as b may be much larger
+    for (const RegionLeaf& part : a) {
+        other = std::lower_bound(other, b.end(), part.leaf,
+            [](const RegionLeaf& some, uint32_t leaf) { return some.leaf < leaf; });
+        if (other == b.end()) break;
+        const LeafMask both = other->leaf == part.leaf ? part.mask & other->mask : LeafMask{};
+        if (!both.none()) region.push_back({part.leaf, both});
+    }
+    return region;
+}
+
+VoxelRegion differenceOf(const VoxelRegion& a, const VoxelRegion& b)
+{
+    VoxelRegion region;
+    std::size_t j = 0;
+    for (const RegionLeaf& part : a) {
+        while (j < b.size() && b[j].leaf < part.leaf) ++j;
+        const bool inBoth = j < b.size() && b[j].leaf == part.leaf;
+        const LeafMask left = inBoth ? part.mask - b[j].mask : part.mask;
+        if (!left.none()) region.push_back({part.leaf, left});
+    }
+    return region;
+}
+
 } // namespace openvdb_spheretree::tight

@@ -54,5 +54,8 @@ VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const Sa
 void joinLeaves(VoxelRegion& parts);
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
+VoxelRegion intersectionOf(const VoxelRegion& a, const VoxelRegion& b);
+/// @return the voxels of @a a that are not in @a b.
+VoxelRegion differenceOf(const VoxelRegion& a, const VoxelRegion& b);
 
 } // namespace openvdb_spheretree::tight

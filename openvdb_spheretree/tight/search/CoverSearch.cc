@@ -6,7 +6,6 @@
 #include <openvdb_spheretree/base/Parallel.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -16,34 +15,40 @@ namespace {
 /// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too.
 std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover)
 {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t kMost = 64, kSeen = 4 * kMost;
     std::vector<FineBox> boxes;
     std::vector<int32_t> taken, left;
     for (const int32_t id : ids) {
         const ExactSphere& ball = cover[id].ball;
         if (ball.empty()) continue;
+        if (taken.size() == kMost || boxes.size() == kSeen) {
+            left.push_back(id);
+            continue;
+        }
         const FineBox box(ball, 0.5 * ball.radius() + 4 * kFine);
-        const bool free = taken.size() < kMost && !box.meetsAny(boxes);
-        (free ? taken : left).push_back(id);
-        if (taken.size() < kMost) boxes.push_back(box); // those that wait keep their turn
+        (box.meetsAny(boxes) ? left : taken).push_back(id);
+        boxes.push_back(box); // those that wait keep their turn
     }
     ids.swap(left);
     return taken;
 }
 
-/// Places every ball anew, the largest first, until nothing changes.
+/// Places every ball anew, the largest first, until nothing changes. A ball that no change came near
+/// since it was placed stays.
 /// @param change  the change of the cost is added to it
 void placeAll(BallCover& cover, const PartFit& fit, double& change,
     openvdb::util::NullInterrupter* interrupter)
 {
     constexpr int kMost = 10;
-    std::vector<int32_t> order(cover.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<char> isStale(cover.size(), 1);
     for (int sweep = 0; sweep < kMost; ++sweep) {
-        std::stable_sort(order.begin(), order.end(),
+        std::vector<int32_t> left;
+        for (int32_t id = 0; id < int32_t(cover.size()); ++id) {
+            if (isStale[id]) left.push_back(id);
+        }
+        if (left.empty()) return;
+        std::stable_sort(left.begin(), left.end(),
             [&](int32_t a, int32_t b) { return cover[a].ball.radiusSq > cover[b].ball.radiusSq; });
-        std::vector<int32_t> left(order);
-        bool any = false;
         while (!left.empty()) {
             const std::vector<int32_t> ids = takeApart(left, cover);
             std::vector<CoverChange> changes(ids.size());
@@ -52,13 +57,16 @@ void placeAll(BallCover& cover, const PartFit& fit, double& change,
                 fit.refit(part, part.indexOf(ids[k]));
                 changes[k] = fit.changeOf(part);
             });
+            for (const int32_t id : ids) isStale[id] = 0;
             for (const CoverChange& some : changes) {
-                any = any || !some.ids.empty();
                 apply(some, cover);
                 change += some.change;
+                if (some.ids.empty()) continue;
+                for (const int32_t id : cover.grid().meeting(some.box)) {
+                    if (id != some.ids.front()) isStale[id] = 1;
+                }
             }
         }
-        if (!any) return;
     }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "FewLevels.h"
+#include "TopDownLevels.h"
 
-#include "FinerLevel.h"
-#include "FreeLevel.h"
+#include "GroupedCover.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
@@ -20,7 +19,7 @@ constexpr std::size_t kRelocations = 2;
 constexpr FitEffort kStartFit{false, 4, 1, false, 16}; // of starts: they are placed anew later
 
 /// How much work a level gets.
-struct FewEffort {
+struct LevelEffort {
     int seeds;                        ///< starts of as many clusters as the level has balls
     std::vector<int64_t> timesAsMany; ///< starts of so many times as many clusters, merged
     int kept;                         ///< starts that are placed anew
@@ -30,14 +29,14 @@ struct FewEffort {
 };
 
 /// Starts of many balls take longer, and differ less; those of large objects take longer.
-FewEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
+LevelEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
 {
     const bool many = count > 32, large = leaves > 1000;
     const auto fewer = [&](int starts) {
         return std::max(2, int(starts * 8 / std::max<int64_t>(8, count)));
     };
     if (quality == Quality::Fast) {
-        return large ? FewEffort{fewer(4), {2}, 1, 1} : FewEffort{fewer(4), {many ? 8 : 4}, 2, 1};
+        return large ? LevelEffort{fewer(4), {2}, 1, 1} : LevelEffort{fewer(4), {many ? 8 : 4}, 2, 1};
     }
     if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
     if (large && many) return {2, {2, 4}, 2, 2, 16, 640};
@@ -50,20 +49,13 @@ struct Found {
     double cost = std::numeric_limits<double>::infinity();
 };
 
-std::vector<CoverBall> withoutEmpty(std::vector<CoverBall> balls)
-{
-    balls.erase(std::remove_if(
-                    balls.begin(), balls.end(), [](const CoverBall& ball) { return ball.empty(); }),
-        balls.end());
-    return balls;
-}
-
-class FewLevels {
+class TopDownLevels {
 public:
-    FewLevels(Quality quality, const LevelMaker& maker)
-        : mMaker(maker), mStarts{maker.object, kStartFit, maker.flat, maker.interrupter},
-          mVoxels(maker.object.level(0)), mQuality(quality), mBlocks(voxelBlocks(mVoxels, kBlocks))
-    {}
+    TopDownLevels(FreeCovers& free, bool withClusters, Quality quality, const LevelMaker& maker)
+        : mFree(free), mMaker(maker), mVoxels(maker.object.level(0)), mQuality(quality)
+    {
+        if (withClusters) mBlocks = voxelBlocks(mVoxels, kBlocks);
+    }
 
     /// Makes the next finer level.
     TightLevel next(int64_t count)
@@ -84,9 +76,12 @@ public:
 private:
     static constexpr std::size_t kBlocks = 4096;
 
+    bool hasClusters(int64_t count) const { return !mBlocks.empty() && count <= kFewBalls; }
+
     /// One ball is one fit: it gets all the effort there is.
     Found oneBall() const
     {
+        if (mBlocks.empty()) return withCost(ungrouped(mFree.cover(1)));
         constexpr FitEffort kAll{true, 12, 1, true, 40};
         return withCost(ungrouped(clusterCover(
             clusterCenters(mBlocks, 1, 0), mMaker.object, kAll, mMaker.flat, mMaker.interrupter)));
@@ -99,7 +94,7 @@ private:
         // corners of its own; few of them may still be better.
         constexpr double kHopeless = 4;
         constexpr int64_t kFewer = 8, kFewest = 2;
-        const FewEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
+        const LevelEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
         const std::vector<Found> starts = startsOf(count, effort);
         if (starts.front().cost > kHopeless * fewer) {
             const int64_t less = std::max(
@@ -119,16 +114,16 @@ private:
     }
 
     /// @return covers of at most @a count balls, the cheapest first, and one of each cost.
-    std::vector<Found> startsOf(int64_t count, const FewEffort& effort) const
+    std::vector<Found> startsOf(int64_t count, const LevelEffort& effort) const
     {
         std::vector<Found> starts;
         const auto add = [&](const std::vector<ExactSphere>& balls) {
             starts.push_back(withCost(ungrouped(balls)));
         };
-        for (int seed = 0; seed < effort.seeds; ++seed) add(clusters(count, uint64_t(seed)));
-        for (const int64_t times : effort.timesAsMany) {
-            const auto many = clusters(count * times, 1);
-            add(mStarts.merged(many, powerCellPoints(many, mVoxels, mMaker.interrupter), count));
+        add(mFree.cover(count));
+        if (hasClusters(count)) {
+            for (int seed = 0; seed < effort.seeds; ++seed) add(clusters(count, uint64_t(seed)));
+            for (const int64_t times : effort.timesAsMany) add(mergedClusters(count, times));
         }
         std::stable_sort(starts.begin(), starts.end(),
             [](const Found& a, const Found& b) { return a.cost < b.cost; });
@@ -144,37 +139,46 @@ private:
             kStartFit, mMaker.flat, mMaker.interrupter);
     }
 
+    std::vector<ExactSphere> mergedClusters(int64_t count, int64_t times) const
+    {
+        const auto many = clusters(count * times, 1);
+        const auto points = powerCellPoints(many, mVoxels, mMaker.interrupter);
+        return ballsOf(mMaker.merged(ungrouped(many), points, false, count));
+    }
+
     /// @return a start within the groups of the level above.
     std::vector<CoverBall> bound(const std::vector<CoverBall>& start, int64_t count) const
     {
         if (mAbove.balls.empty()) return start;
-        return mergedInGroups(dealt(ballsOf(start)), mRegions, count, false, mMaker);
-    }
-
-    std::vector<CoverBall> dealt(const std::vector<ExactSphere>& balls) const
-    {
-        const BallCells cells{balls, powerCells(balls, mVoxels, mMaker.interrupter)};
-        return dealtOut(cells, mAbove, mRegions, mMaker);
+        const GroupedCover dealt = dealtOut(ballsOf(start), mAbove, mRegions, mMaker);
+        const auto points = extremePoints(dealt.cells, mVoxels, mMaker.interrupter);
+        return mMaker.merged(dealt.balls, points, false, count);
     }
 
     Found improved(const std::vector<CoverBall>& balls, int trialsPerBall) const
     {
-        constexpr int64_t kSmaller = 4; // balls to insert, for each of the level
-        std::vector<CoverBall> spare;
-        if (trialsPerBall > 0) {
-            const auto smaller = clusters(kSmaller * int64_t(balls.size()), 1);
-            spare = mAbove.balls.empty() ? ungrouped(smaller) : dealt(smaller);
-        }
         const VoxelGoal goal =
             mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
         const SearchEffort effort{mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations};
+        const auto spare =
+            trialsPerBall > 0 ? smallerThan(int64_t(balls.size())) : std::vector<CoverBall>();
         return withCost(withoutEmpty(
             improveCover(balls, spare, mMaker.object, goal, effort, mMaker.interrupter).balls));
     }
 
+    /// @return balls that a search can insert.
+    std::vector<CoverBall> smallerThan(int64_t count) const
+    {
+        constexpr int64_t kSmaller = 4; // balls, for each of the level
+        const auto smaller =
+            hasClusters(count) ? clusters(kSmaller * count, 1) : mFree.cover(kSmaller * count);
+        return mAbove.balls.empty() ? ungrouped(smaller)
+                                    : dealtOut(smaller, mAbove, mRegions, mMaker).balls;
+    }
+
     /// A trial takes longer where balls are large. A search of few trials is none: what moves balls
     /// elsewhere would take most of its time.
-    int trialsFor(const std::vector<CoverBall>& balls, const FewEffort& effort) const
+    int trialsFor(const std::vector<CoverBall>& balls, const LevelEffort& effort) const
     {
         const std::size_t leavesInAll =
             mQuality == Quality::Best ? 300000 : 30000; // in all trials' balls
@@ -188,15 +192,15 @@ private:
 
     Found withCost(std::vector<CoverBall> balls) const
     {
-        const double cost = costOfCover(ballsOf(balls), mMaker.object, mMaker.fit);
+        const double cost = mMaker.costOf(ballsOf(balls));
         return {std::move(balls), cost};
     }
 
+    FreeCovers& mFree;
     const LevelMaker& mMaker;
-    const LevelMaker mStarts; ///< of less effort
     const SampleLevel& mVoxels;
     const Quality mQuality;
-    const std::vector<VoxelBlock> mBlocks;
+    std::vector<VoxelBlock> mBlocks;   ///< empty: no clusters
     TightLevel mAbove;                 ///< the level above; without balls at first
     Found mFound;                      ///< the same with its groups
     std::vector<VoxelRegion> mRegions; ///< chainRegions() of it
@@ -204,12 +208,12 @@ private:
 
 } // namespace
 
-std::vector<TightLevel> fewLevels(
-    const std::vector<int64_t>& counts, Quality quality, const LevelMaker& maker)
+std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
+    bool withClusters, Quality quality, const LevelMaker& maker)
 {
-    FewLevels few(quality, maker);
+    TopDownLevels from(free, withClusters, quality, maker);
     std::vector<TightLevel> levels(counts.size());
-    for (std::size_t k = counts.size(); k-- > 0;) levels[k] = few.next(counts[k]);
+    for (std::size_t k = counts.size(); k-- > 0;) levels[k] = from.next(counts[k]);
     for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);
     return levels;
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TopDownLevels.h
+/// @brief Levels from the coarsest to the finest, each inside the regions of the one above it.
+///
+/// Where balls are few, the start decides what a search finds. So there are several, and each level begins
+/// with what is best for it alone:
+/// 1. Starts are a cover of the object by as many balls, bound to nothing (FreeCovers.h); and for few
+///    balls those around clusters of voxels (ClusterCover.h), which see the whole object: of a box
+///    or a torus nothing tells merges where the cuts between few balls should be.
+/// 2. The cheapest starts are dealt out to the groups of the level above (GroupedCover.h), merged to the
+///    count within these, and placed anew until nothing changes. The coarsest level is bound to nothing.
+/// 3. The best of them is searched (CoverSearch.h) where few balls or quality=best allow it.
+/// 4. A level that would cost more than the one above it, or than one ball, is a copy of that.
+///
+/// A level may cost more than the same level of less quality where those above it cost less: it is bound to
+/// these.
+///
+/// Cost: by the balls that are asked for, and passes over the voxels; not by leaf balls. Costs are
+/// counted on samples.
+
+#pragma once
+
+#include "FreeCovers.h"
+#include "LevelMaker.h"
+#include "TightLevels.h"
+
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree::tight {
+
+/// Up to so many balls are few.
+constexpr int64_t kFewBalls = 64;
+
+/// @param counts        of balls, finest first, falling
+/// @param free          of the same object
+/// @param withClusters  try balls around clusters, too
+/// @param quality       how many starts there are, and how long the best is searched
+std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
+    bool withClusters, Quality quality, const LevelMaker& maker);
+
+} // namespace openvdb_spheretree::tight

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CoarseObject.h"
+
+#include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/medial/MedialLevel.h>
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <utility>
+
+namespace openvdb_spheretree::tight {
+
+namespace {
+
+/// @return the steps and levels of the pyramid, up to the first of less than @a leastVoxels.
+CoarseObject pyramidOf(const openvdb::MaskTree::ConstPtr& voxels, int dim, int64_t leastVoxels,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    openvdb::CoordBBox box;
+    voxels->evalActiveVoxelBoundingBox(box);
+    PyramidStep step;
+    step.dim = dim;
+    step.origin = pyramidOrigin(box);
+    if (dim == 2) step.origin[2] = 0;
+    CoarseObject object;
+    object.levels.push_back(voxels);
+    while (detail::countVoxels(*object.levels.back()) >= leastVoxels) {
+        openvdb::MaskTree::ConstPtr next = coarsen(*object.levels.back(), step, interrupter);
+        object.levels.push_back(std::move(next));
+        object.steps.push_back(step);
+        step.origin = openvdb::Coord(0);
+    }
+    return object;
+}
+
+} // namespace
+
+CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
+    const SphereTreeSettings& settings, int64_t leastBalls,
+    openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
+{
+    // A level has no more leaf balls than voxels.
+    CoarseObject object = detail::timed("pyramid", interrupter, &seconds->pyramid,
+        [&] { return pyramidOf(voxels, settings.dim, leastBalls, interrupter); });
+    LevelQueries queries;
+    queries.memory = settings.memory;
+    for (;;) {
+        const bool isObject = object.steps.empty();
+        const MedialLevel medial(*object.levels.back(), settings.dim,
+            isObject ? settings.dist() : Distance(), interrupter, seconds, queries);
+        object.samples = SampledObject(medial.layout);
+        object.leaves = detail::timed("leaves", interrupter, &seconds->tree, [&] {
+            return medialLeaves(medial, object.samples.level(0),
+                isObject ? settings.tight().leaves : Leaves::Pruned, interrupter);
+        });
+        if (isObject || int64_t(object.leaves.balls.size()) >= leastBalls) return object;
+        object.levels.pop_back();
+        object.steps.pop_back();
+    }
+}
+
+} // namespace openvdb_spheretree::tight
