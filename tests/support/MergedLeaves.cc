@@ -4,6 +4,7 @@
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 
 #include <algorithm>
+#include <set>
 
 namespace spheretree_test {
 
@@ -35,6 +36,32 @@ std::vector<ExactSphere> thereOf(const std::vector<openvdb_spheretree::tight::Co
         if (!ball.empty()) balls.push_back(ball.ball);
     }
     return balls;
+}
+
+std::vector<int64_t> expectChains(const std::vector<TightLevel>& levels, const Voxels& voxels)
+{
+    std::vector<int64_t> around;
+    std::vector<Voxels> chains; // of each ball of the level above
+    for (std::size_t k = levels.size(); k-- > 0;) {
+        const TightLevel& level = levels[k];
+        EXPECT_EQ(level.parent.empty(), k + 1 == levels.size());
+        std::vector<Voxels> held;
+        for (std::size_t i = 0; i < level.balls.size(); ++i) {
+            EXPECT_FALSE(level.balls[i].empty());
+            const Voxels& above =
+                level.parent.empty() ? voxels : chains.at(std::size_t(level.parent.at(i)));
+            held.push_back(heldBy({level.balls[i]}, above));
+        }
+        EXPECT_EQ(together(held), voxels) << "level " << k;
+        if (k > 0) {
+            const std::set<int32_t> parents(
+                levels[k - 1].parent.begin(), levels[k - 1].parent.end());
+            EXPECT_EQ(parents.size(), level.balls.size()) << "each has a child, level " << k;
+        }
+        chains = held;
+        around.insert(around.begin(), excess(level.balls, voxels));
+    }
+    return around;
 }
 
 Voxels heldBy(const std::vector<ExactSphere>& balls, const Voxels& voxels)

@@ -45,6 +45,11 @@ struct MergedLeaves {
 /// The balls that are not empty.
 std::vector<ExactSphere> thereOf(const std::vector<openvdb_spheretree::tight::CoverBall>& cover);
 
+/// Expects that every voxel has a chain of balls through the levels, and no ball is empty or without a child.
+/// @return the voxels outside the object in each level.
+std::vector<int64_t> expectChains(
+    const std::vector<TightLevel>& levels, const Voxels& voxels);
+
 Voxels heldBy(const std::vector<ExactSphere>& balls, const Voxels& voxels);
 
 /// @return the voxels of all parts, sorted.

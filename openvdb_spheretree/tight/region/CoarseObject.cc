@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -24,7 +25,8 @@ CoarseObject pyramidOf(const openvdb::MaskTree::ConstPtr& voxels, int dim, int64
     if (dim == 2) step.origin[2] = 0;
     CoarseObject object;
     object.levels.push_back(voxels);
-    while (detail::countVoxels(*object.levels.back()) >= leastVoxels) {
+    const int64_t least = std::max<int64_t>(leastVoxels, 2); // one voxel is the last level
+    while (detail::countVoxels(*object.levels.back()) >= least) {
         openvdb::MaskTree::ConstPtr next = coarsen(*object.levels.back(), step, interrupter);
         object.levels.push_back(std::move(next));
         object.steps.push_back(step);

@@ -46,6 +46,10 @@ TEST(VoxelRegion, OfABallAreTheObjectsVoxelsInIt)
             those(voxels, [&](const Coord& v) { return holds(a, v) && holds(clip, v); }));
         ASSERT_EQ(regionVoxels(unionOf(inA, inB), level),
             those(voxels, [&](const Coord& v) { return holds(a, v) || holds(b, v); }));
+        ASSERT_EQ(regionVoxels(intersectionOf(inA, inB), level),
+            those(voxels, [&](const Coord& v) { return holds(a, v) && holds(b, v); }));
+        ASSERT_EQ(regionVoxels(differenceOf(inA, inB), level),
+            those(voxels, [&](const Coord& v) { return holds(a, v) && !holds(b, v); }));
         for (uint32_t leaf = 0; leaf < level.leafCount(); ++leaf) {
             ASSERT_EQ(voxelsOf(maskIn(inA, leaf), level.origin(leaf)),
                 those(voxels,

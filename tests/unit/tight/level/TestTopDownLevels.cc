@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/level/FewLevels.h>
+#include <openvdb_spheretree/tight/level/TopDownLevels.h>
 
 #include "support/MergedLeaves.h"
 
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
-#include <openvdb_spheretree/tight/level/FinerLevel.h>
+
+#include <algorithm>
 
 namespace {
 
@@ -18,26 +19,11 @@ struct Merged : MergedLeaves {
     explicit Merged(const Voxels& voxels) : MergedLeaves(voxels, false, ::kEffort) {}
 };
 
-/// Checks that every voxel has a chain through the levels.
-/// @return the voxels outside the object in each level.
-std::vector<int64_t> expectChains(const Merged& merged, const std::vector<TightLevel>& levels)
+std::vector<TightLevel> levelsOf(const Merged& merged, const std::vector<int64_t>& counts,
+    Quality quality, bool withClusters = true)
 {
-    std::vector<int64_t> around;
-    std::vector<Voxels> chains; // of each ball of the level above
-    for (std::size_t k = levels.size(); k-- > 0;) {
-        const TightLevel& level = levels[k];
-        std::vector<Voxels> held;
-        for (std::size_t i = 0; i < level.balls.size(); ++i) {
-            EXPECT_FALSE(level.balls[i].empty());
-            const Voxels& above =
-                level.parent.empty() ? merged.voxels : chains.at(std::size_t(level.parent.at(i)));
-            held.push_back(heldBy({level.balls[i]}, above));
-        }
-        EXPECT_EQ(together(held), merged.voxels) << "level " << k;
-        chains = held;
-        around.insert(around.begin(), excess(level.balls, merged.voxels));
-    }
-    return around;
+    FreeCovers free(merged.leaves, true, merged.maker);
+    return topDownLevels(counts, free, withClusters, quality, merged.maker);
 }
 
 Voxels ring(int count)
@@ -53,7 +39,7 @@ Voxels ring(int count)
     return voxels;
 }
 
-TEST(FewLevels, KeepChainsAndAreNotWorseThanFewerBallsNorThanTheForest)
+TEST(TopDownLevels, KeepChainsAndAreNotWorseThanFewerBallsNorThanTheForest)
 {
     Random random(1);
     int64_t merging = 0, found = 0;
@@ -63,9 +49,9 @@ TEST(FewLevels, KeepChainsAndAreNotWorseThanFewerBallsNorThanTheForest)
         const Merged merged(voxels);
         for (const Quality quality : {Quality::Fast, Quality::Normal}) {
             const std::vector<int64_t> counts{9, 5, 3, 1};
-            const auto levels = fewLevels(counts, quality, merged.maker);
+            const auto levels = levelsOf(merged, counts, quality);
             ASSERT_EQ(levels.size(), counts.size());
-            const auto around = expectChains(merged, levels);
+            const auto around = expectChains(levels, merged.voxels);
             for (std::size_t k = 0; k < counts.size(); ++k) {
                 EXPECT_LE(levels[k].balls.size(), std::size_t(counts[k]));
                 EXPECT_LE(around[k], k + 1 < around.size() ? around[k + 1] : around[k]);
@@ -78,12 +64,12 @@ TEST(FewLevels, KeepChainsAndAreNotWorseThanFewerBallsNorThanTheForest)
     EXPECT_LT(found, merging);
 }
 
-TEST(FewLevels, OneLevelIsNotWorseThanClusters)
+TEST(TopDownLevels, OneLevelIsNotWorseThanClusters)
 {
     const Merged merged(shapes::box(Coord(24, 5, 9)));
     const auto blocks = voxelBlocks(merged.object.level(0), 4096);
     for (const int64_t count : {2, 4, 7}) {
-        const auto level = fewLevels({count}, Quality::Normal, merged.maker).front();
+        const auto level = levelsOf(merged, {count}, Quality::Normal).front();
         for (uint64_t seed = 0; seed < 5; ++seed) {
             const auto clusters = clusterCover(clusterCenters(blocks, std::size_t(count), seed),
                 merged.object, kEffort, false, nullptr);
@@ -93,25 +79,37 @@ TEST(FewLevels, OneLevelIsNotWorseThanClusters)
 }
 
 /// A third of a ring is nearly as wide as the ring: clusters are worse than one ball.
-TEST(FewLevels, OfARingAreNotWorseThanOneBall)
+TEST(TopDownLevels, OfARingAreNotWorseThanOneBall)
 {
     for (const int radius : {12, 16, 21}) {
         const Merged merged(ring(radius));
         for (const int64_t count : {2, 3, 4}) {
             const auto around =
-                expectChains(merged, fewLevels({count, 1}, Quality::Fast, merged.maker));
+                expectChains(levelsOf(merged, {count, 1}, Quality::Fast), merged.voxels);
             EXPECT_LE(around[0], around[1]) << count << " balls, radius " << radius;
         }
     }
 }
 
 /// More balls could not be better.
-TEST(FewLevels, WorkEndsWhereOneBallCostsNothing)
+TEST(TopDownLevels, WorkEndsWhereOneBallCostsNothing)
 {
     const Merged merged(shapes::ball(60));
-    const auto levels = fewLevels({40, 8, 1}, Quality::Normal, merged.maker);
+    const auto levels = levelsOf(merged, {40, 8, 1}, Quality::Normal);
     for (const TightLevel& level : levels) EXPECT_EQ(level.balls.size(), 1u);
-    EXPECT_EQ(expectChains(merged, levels), (std::vector<int64_t>{0, 0, 0}));
+    EXPECT_EQ(expectChains(levels, merged.voxels), (std::vector<int64_t>{0, 0, 0}));
+}
+
+/// Of given spheres, levels are made by merging these alone.
+TEST(TopDownLevels, KeepChainsWithoutClusters)
+{
+    Random random(3);
+    for (int turn = 0; turn < 5; ++turn) {
+        const Merged merged(shapes::noise(Coord(11, 8, 9), 0.3, random));
+        const auto levels = levelsOf(merged, {30, 11, 4, 2, 1}, Quality::Normal, false);
+        const auto around = expectChains(levels, merged.voxels);
+        EXPECT_TRUE(std::is_sorted(around.begin(), around.end()));
+    }
 }
 
 } // namespace

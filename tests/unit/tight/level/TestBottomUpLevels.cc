@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <openvdb_spheretree/tight/level/CoarserLevel.h>
+#include <openvdb_spheretree/tight/level/BottomUpLevels.h>
 
 #include "support/MergedLeaves.h"
 
@@ -37,7 +37,7 @@ int64_t expectLevels(const MergedLeaves& merged, const std::vector<ExactSphere>&
     return around;
 }
 
-TEST(CoarserLevel, KeepsChainsAndIsTighterThanMergedBalls)
+TEST(BottomUpLevels, KeepChainsAndAreTighterThanMergedBalls)
 {
     Random random(1);
     int64_t merging = 0, searched = 0;
@@ -48,6 +48,30 @@ TEST(CoarserLevel, KeepsChainsAndIsTighterThanMergedBalls)
         searched += expectLevels(merged, merged.cut(13), counts);
     }
     EXPECT_LT(searched, merging);
+}
+
+TEST(BottomUpLevels, OfAllLeafBallsKeepTheseAndTheirChains)
+{
+    Random random(2);
+    int64_t merging = 0, found = 0;
+    for (const bool searchesAll : {false, true}) {
+        MergedLeaves merged(shapes::noise(Coord(9, 7, 6), 0.4, random));
+        merged.maker.searchesAll = searchesAll;
+        const TightLevel leaves = merged.levels({int64_t(merged.leaves.size())}).front();
+        const std::vector<int64_t> counts{int64_t(merged.leaves.size()), 20, 5, 1};
+        const auto levels = bottomUpLevels(leaves, counts, merged.maker);
+        ASSERT_EQ(levels.size(), counts.size());
+        EXPECT_EQ(levels.front().balls, merged.leaves);
+        EXPECT_EQ(levels.front().digital.size(), merged.leaves.size());
+        const auto around = expectChains(levels, merged.voxels);
+        EXPECT_EQ(around.front(), 0);
+        for (std::size_t k = 1; k < counts.size(); ++k) {
+            EXPECT_LE(levels[k].balls.size(), std::size_t(counts[k]));
+            merging += excess(merged.cut(counts[k]), merged.voxels);
+            found += around[k];
+        }
+    }
+    EXPECT_LT(found, merging);
 }
 
 } // namespace
