@@ -163,7 +163,6 @@ std::vector<TightLevel> cutLevels(
     const TightOptions& options = tree.settings.tight();
     const auto& [object, leaves, maker] = source;
     const auto interrupter = maker.interrupter;
-    requireRoomForMerging(leaves.balls.size());
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
         // A detail of this stage: how far it is, the merging says.
         const auto model = detail::timed(
@@ -273,6 +272,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
         coarse = coarseObject(voxels, settings, least, interrupter, seconds);
     }
     const LeafBalls& leaves = coarse.leaves;
+    requireRoomForMerging(leaves.balls.size());
     const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), interrupter);
     const TightSource source{object, leaves, maker};
     const auto leafCount = int64_t(leaves.balls.size());

@@ -42,26 +42,38 @@ SphereTreeSettings bounded(Quality quality, std::optional<double> error,
     return settings;
 }
 
-/// Of the cuts there are, the ones with fewer spheres are further off.
-void expectFewest(const openvdb::BoolGrid& grid, const SphereTreeSettings& settings)
+/// Spheres of the trees within bounds, and of the cuts of merges alone that are within them.
+struct Fewest {
+    int64_t found = 0, ofCuts = 0;
+};
+
+/// @return the fewest spheres of a cut within the bounds.
+int32_t fewestOfCuts(const openvdb::BoolGrid& grid, SphereTreeSettings settings)
+{
+    const SphereBudget bounds = settings.budgeted().budget;
+    settings.budgeted().budget = SphereBudget();
+    settings.budgeted().cuts = true;
+    const SphereTree all = buildSphereTree(grid, settings);
+    int32_t count = 1;
+    while (count < all.levels[0].size() && !isWithin(cutTree(all, count), grid, bounds)) ++count;
+    return count;
+}
+
+void expectFewest(
+    const openvdb::BoolGrid& grid, const SphereTreeSettings& settings, Fewest& fewest)
 {
     const SphereTree tree = buildSphereTree(grid, settings);
     ASSERT_EQ(tree.levels.size(), 1u);
     ASSERT_TRUE(isWithin(tree, grid, settings.budgeted().budget)) << tree.size() << " spheres";
     ASSERT_EQ(sentencesOf(checkSphereTree(tree, grid)), "");
-    SphereTreeSettings free = settings;
-    free.budgeted().budget = SphereBudget();
-    free.budgeted().cuts = true;
     if (settings.tight().quality == Quality::Best) return; // has no cuts of what was searched
-    const SphereTree all = buildSphereTree(grid, free);
-    for (int32_t n = tree.size() - 1; n > std::max(0, tree.size() - 9); --n) {
-        ASSERT_FALSE(isWithin(cutTree(all, n), grid, settings.budgeted().budget))
-            << n << " of " << tree.size();
-    }
+    fewest.found += tree.size();
+    fewest.ofCuts += fewestOfCuts(grid, settings);
 }
 
 /// Voxels of 1/2.
-void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settings)
+void expectFewestOf(
+    const RandomObject& object, const SphereTreeSettings& settings, Fewest& fewest)
 {
     const auto grid = gridOf(object.voxels);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
@@ -69,29 +81,32 @@ void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settin
     SCOPED_TRACE(object.name + ": " + describeTight(settings) + ", error "
         + std::to_string(budget.error.value_or(-1)) + ", distance "
         + std::to_string(budget.distance.value_or(-1)));
-    ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings));
+    ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings, fewest));
 }
 
 TEST(TightBounds, HaveTheFewestSpheresWithinABound)
 {
     int turn = 0;
+    Fewest fewest;
     for (const RandomObject& object : smallObjects()) {
         if (object.name == "far apart") continue; // its errors take long to count
         const Quality quality = ++turn % 2 ? Quality::Fast : Quality::Normal;
         for (const double error : {0.0, 20.0, 120.0}) {
-            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, error, {})));
+            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, error, {}), fewest));
         }
         for (const double distance : {0.0, 0.5, 0.9, 2.0}) {
-            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, {}, distance)));
+            ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, {}, distance), fewest));
         }
-        ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, 60.0, 0.9)));
+        ASSERT_NO_FATAL_FAILURE(expectFewestOf(object, bounded(quality, 60.0, 0.9), fewest));
     }
+    EXPECT_LT(fewest.found, fewest.ofCuts);
 }
 
 /// Some of these cannot be reached, and say so.
 TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
 {
     int turn = 0, reached = 0;
+    Fewest fewest;
     for (const RandomObject& object : smallObjects()) {
         if (object.name == "far apart") continue;
         const Quality quality = ++turn % 2 ? Quality::Fast : Quality::Normal;
@@ -102,7 +117,7 @@ TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
             grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
             SCOPED_TRACE(object.name + ", distance " + std::to_string(distance));
             try {
-                ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings));
+                ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings, fewest));
                 ++reached;
             } catch (const openvdb::ValueError& error) {
                 ASSERT_NE(std::string(error.what()).find("cannot be reached: padding="),
@@ -111,8 +126,9 @@ TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
             }
         }
         ASSERT_NO_FATAL_FAILURE(
-            expectFewestOf(object, bounded(quality, 1500.0, {}, BoundOf::Stored)));
+            expectFewestOf(object, bounded(quality, 1500.0, {}, BoundOf::Stored), fewest));
     }
+    EXPECT_LT(fewest.found, fewest.ofCuts);
     EXPECT_GT(reached, turn);
 }
 
@@ -120,10 +136,12 @@ TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
 TEST(TightBounds, StayWithinABoundWhenSearched)
 {
     const RandomObject components = smallObjects()[3];
+    Fewest none;
     for (const double distance : {0.5, 0.9, 1.2}) {
-        ASSERT_NO_FATAL_FAILURE(expectFewestOf(components, bounded(Quality::Best, {}, distance)));
+        ASSERT_NO_FATAL_FAILURE(
+            expectFewestOf(components, bounded(Quality::Best, {}, distance), none));
     }
-    ASSERT_NO_FATAL_FAILURE(expectFewestOf(components, bounded(Quality::Best, 120.0, {})));
+    ASSERT_NO_FATAL_FAILURE(expectFewestOf(components, bounded(Quality::Best, 120.0, {}), none));
 }
 
 TEST(TightBounds, WithinABoundHaveTheLadderBelow)
@@ -135,7 +153,9 @@ TEST(TightBounds, WithinABoundHaveTheLadderBelow)
     const SphereTree tree = buildSphereTree(*grid, settings);
     ASSERT_EQ(tree.levels[0].size(), fewest);
     for (std::size_t k = tree.levels.size(); k-- > 1;) {
-        EXPECT_EQ(tree.levels[k].size(), 1 << (tree.levels.size() - 1 - k));
+        const int most = 1 << (tree.levels.size() - 1 - k);
+        EXPECT_LE(tree.levels[k].size(), most);
+        EXPECT_GT(tree.levels[k].size(), most / 2);
     }
     EXPECT_LE(fewest, 2 * tree.levels[1].size());
 }
