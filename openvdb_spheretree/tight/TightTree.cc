@@ -38,14 +38,20 @@ namespace {
 
 /// Levels of named counts are made from so many leaf balls at least, and from so many for each ball of the
 /// finest. With fewer, a voxel of the coarse object is too large for its balls.
-constexpr int64_t kLeastLeafBalls = 2048, kLeafBallsPerBall = 4;
+constexpr int64_t kLeastLeafBalls = 2048;
+int64_t leafBallsFor(int64_t count, Quality){ double f=getenv("PER")?atof(getenv("PER")):4; return std::max(kLeastLeafBalls,int64_t(f*double(count))); }
 
 LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, openvdb::util::NullInterrupter* interrupter)
 {
     const bool flat = settings.dim == 2;
     const Quality quality = settings.tight().quality;
-    if (quality == Quality::Fast) return {object, {false, 4, 1, false, 16}, flat, interrupter};
+    if (quality == Quality::Fast) {
+        LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
+        fast.sweeps = 2;
+        fast.startTimes = 1;
+        return fast;
+    }
     // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
     // for each ball of a larger object would grow.
     constexpr double kMost = 40, kLeast = 16, kFew = 4000;
@@ -268,7 +274,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     } else {
         const int64_t least = needsLeafBalls(options)
             ? kAll
-            : std::max(kLeastLeafBalls, options.budget.counts(kAll).front() * kLeafBallsPerBall);
+            : leafBallsFor(options.budget.counts(kAll).front(),options.quality);
         coarse = coarseObject(voxels, settings, least, interrupter, seconds);
     }
     const LeafBalls& leaves = coarse.leaves;

@@ -65,8 +65,9 @@ std::vector<ExactSphere> fewerBalls(
     HeldPoints points = units;
     bool areInside = !finer.digital.empty();
     for (auto many = int64_t(balls.size()); many > count;) {
-        // Leaf balls hold little each: they are merged at once to twice what is asked for.
-        many = areInside && 2 * count < many ? 2 * count : halvedTowards(many, count);
+        // Leaf balls hold little each: they are merged at once to about what is asked for.
+        const int64_t first = maker.startTimes * count;
+        many = areInside && first < many ? first : halvedTowards(many, count);
         balls = ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
         const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);
         points = pointsOf(units, owner, balls.size());

@@ -10,8 +10,8 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Of the balls of the start, each holds little: they are merged at once to twice what is asked for,
-/// or to so many.
+/// Of the balls of the start, each holds little: they are merged at once to about what is asked for, or
+/// to so many.
 constexpr int64_t kFirst = 512;
 
 } // namespace
@@ -30,7 +30,7 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto [many, balls] = *mCovers.lower_bound(count);
         if (many == count) return mCovers[count];
         const bool isStart = many == mStart;
-        const int64_t first = std::max(2 * count, kFirst);
+        const int64_t first = std::max(mMaker.startTimes * count, kFirst);
         const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
         mCovers[next] = fewer(balls, isStart && mAreInside, next);
     }

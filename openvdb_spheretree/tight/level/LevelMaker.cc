@@ -38,7 +38,9 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
 std::vector<CoverBall> LevelMaker::placed(
     const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop) const
 {
-    auto balls = improveCover(cover, {}, object, goal, {fit, 0, 0, flat}, interrupter).balls;
+    SearchEffort effort{fit, 0, 0, flat};
+    effort.sweeps = sweeps;
+    auto balls = improveCover(cover, {}, object, goal, effort, interrupter).balls;
     return drop ? withoutEmpty(std::move(balls)) : balls;
 }
 

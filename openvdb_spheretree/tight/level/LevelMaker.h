@@ -29,7 +29,9 @@ struct LevelMaker {
     /// Of balls that two are merged to. Without diagonals, Al.100 has 1.7 % of error with 512 balls, in
     /// place of 1.3.
     FitEffort merging{true, 4, 1, false, 16};
-    int neighbours = 3;       ///< that a ball may merge with: 6 gain little
+    int neighbours = 3; ///< that a ball may merge with: 6 gain little
+    int sweeps = 10;    ///< of placing anew
+    int64_t startTimes = 2; ///< leaf balls are merged at once to so many times as many as are asked for
     bool searchesAll = false; ///< search levels of any number of balls, and move children
 
     /// @return how many trials a ball of a level of @a count balls gets: fewer of many, to bound the

@@ -159,7 +159,8 @@ private:
     {
         const VoxelGoal goal =
             mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
-        const SearchEffort effort{mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations};
+        const SearchEffort effort{
+            mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations, mMaker.sweeps};
         const auto spare =
             trialsPerBall > 0 ? smallerThan(int64_t(balls.size())) : std::vector<CoverBall>();
         return withCost(withoutEmpty(
@@ -211,6 +212,7 @@ private:
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool withClusters, Quality quality, const LevelMaker& maker)
 {
+    for (const int64_t count : counts) free.cover(count); // fewer balls come from more
     TopDownLevels from(free, withClusters, quality, maker);
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) levels[k] = from.next(counts[k]);

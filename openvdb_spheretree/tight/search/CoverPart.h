@@ -53,6 +53,7 @@ struct SearchEffort {
     uint64_t seed = 0; ///< of the random changes
     bool flat = false;
     std::size_t relocations = 6; ///< how often in a search balls move elsewhere; at least 1
+    int sweeps = 10;             ///< how often balls are placed anew in turn, at most
 };
 
 /// The number of a ball that is in a part, but not yet in the cover.

@@ -39,9 +39,8 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
 void placeAll(BallCover& cover, const PartFit& fit, double& change,
     openvdb::util::NullInterrupter* interrupter)
 {
-    constexpr int kMost = 10;
     std::vector<char> isStale(cover.size(), 1);
-    for (int sweep = 0; sweep < kMost; ++sweep) {
+    for (int sweep = 0; sweep < fit.effort().sweeps; ++sweep) {
         std::vector<int32_t> left;
         for (int32_t id = 0; id < int32_t(cover.size()); ++id) {
             if (isStale[id]) left.push_back(id);
