@@ -36,10 +36,13 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Levels of named counts are made from so many leaf balls at least, and from so many for each ball of the
-/// finest. With fewer, a voxel of the coarse object is too large for its balls.
-constexpr int64_t kLeastLeafBalls = 2048;
-int64_t leafBallsFor(int64_t count, Quality){ double f=getenv("PER")?atof(getenv("PER")):4; return std::max(kLeastLeafBalls,int64_t(f*double(count))); }
+/// @return from how many leaf balls levels of named counts are made, at least. With fewer, a voxel of the
+/// coarse object is too large for its balls.
+int64_t leastLeafBalls(int64_t count, Quality quality)
+{
+    constexpr int64_t kLeast = 2048;
+    return std::max(kLeast, (quality == Quality::Fast ? 3 : 4) * count);
+}
 
 LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, openvdb::util::NullInterrupter* interrupter)
@@ -49,7 +52,7 @@ LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& obj
     if (quality == Quality::Fast) {
         LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
         fast.sweeps = 2;
-        fast.startTimes = 1;
+        fast.placesStart = false;
         return fast;
     }
     // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
@@ -236,12 +239,15 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
     return detail::timed("levels", maker.interrupter, &seconds->tree, [&] {
         FreeCovers free(leafBalls, !coarse.leaves.digital.empty(), maker);
-        const auto counts = options.budget.counts(int64_t(leafBalls.size()));
+        auto counts = options.budget.counts(int64_t(leafBalls.size()));
+        const int64_t most = counts.front();
+        // Some are not needed on the fine object.
+        if (!coarse.steps.empty()) counts.front() += counts.front() / 8;
         auto levels = topDownLevels(counts, free, !areGiven, options.quality, maker);
         for (std::size_t step = coarse.steps.size(); step-- > 0;) {
             const SampledObject finer(LeafLayout(*coarse.levels[step]));
             levels = carriedDown(std::move(levels), coarse.steps[step],
-                makerFor(settings, finer, leafBalls.size(), maker.interrupter));
+                step == 0 ? most : counts.front(), makerFor(settings, finer, leafBalls.size(), maker.interrupter));
         }
         return levels;
     });
@@ -274,7 +280,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     } else {
         const int64_t least = needsLeafBalls(options)
             ? kAll
-            : leafBallsFor(options.budget.counts(kAll).front(),options.quality);
+            : leastLeafBalls(options.budget.counts(kAll).front(), options.quality);
         coarse = coarseObject(voxels, settings, least, interrupter, seconds);
     }
     const LeafBalls& leaves = coarse.leaves;

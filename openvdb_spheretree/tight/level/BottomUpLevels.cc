@@ -66,7 +66,7 @@ std::vector<ExactSphere> fewerBalls(
     bool areInside = !finer.digital.empty();
     for (auto many = int64_t(balls.size()); many > count;) {
         // Leaf balls hold little each: they are merged at once to about what is asked for.
-        const int64_t first = maker.startTimes * count;
+        const int64_t first = maker.placesStart ? 2 * count : count;
         many = areInside && first < many ? first : halvedTowards(many, count);
         balls = ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
         const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);

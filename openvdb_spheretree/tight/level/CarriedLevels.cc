@@ -5,6 +5,7 @@
 #include "GroupedCover.h"
 #include <openvdb_spheretree/base/IntegerRoot.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 
 #include <cstddef>
@@ -14,12 +15,12 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Levels whose balls are large enough, and are placed anew from the finest up. A ball that no voxel
+/// Levels whose balls are large enough, and are placed anew from the finest up. A ball above that no voxel
 /// needs is empty, until all are placed.
 class Placing {
 public:
-    Placing(std::vector<TightLevel> levels, const LevelMaker& maker)
-        : mLevels(std::move(levels)), mMaker(maker), mVoxels(maker.object.level(0)),
+    Placing(std::vector<TightLevel> levels, int64_t most, const LevelMaker& maker)
+        : mLevels(std::move(levels)), mMost(most), mMaker(maker), mVoxels(maker.object.level(0)),
           mChains(mLevels.size() + 1)
     {
         for (std::size_t k = mLevels.size(); k-- > 1;) {
@@ -31,7 +32,6 @@ public:
     {
         placeFinest();
         for (std::size_t k = 1; k < mLevels.size(); ++k) placeAbove(k);
-        dropEmpty(mLevels.front());
         for (std::size_t k = 1; k < mLevels.size(); ++k) dropChildless(mLevels[k], mLevels[k - 1]);
         return std::move(mLevels);
     }
@@ -44,11 +44,25 @@ private:
         std::vector<CoverBall> cover = ungrouped(level.balls);
         for (std::size_t i = 0; !isOnly && i < cover.size(); ++i) cover[i].group = level.parent[i];
         const VoxelGoal goal = isOnly ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mChains[1]);
-        level.balls = ballsOf(mMaker.placed(cover, goal, false));
-        mRegions.resize(level.balls.size());
-        detail::parallelFor(mRegions.size(), mMaker.interrupter, [&](std::size_t i) {
-            if (!level.balls[i].empty()) mRegions[i] = regionOf(level.balls[i], mVoxels);
+        cover = mMaker.placed(cover, goal);
+        if (int64_t(cover.size()) > mMost) cover = mMaker.placed(fewer(cover), goal);
+        level.balls = ballsOf(cover);
+        if (!isOnly) level.parent = groupsOf(cover);
+        mRegions = regionsOf(level.balls, mVoxels, mMaker.interrupter);
+    }
+
+    /// @return the finest balls merged to as many as there may be, each within its group.
+    std::vector<CoverBall> fewer(const std::vector<CoverBall>& cover) const
+    {
+        std::vector<VoxelRegion> held(cover.size());
+        detail::parallelFor(held.size(), mMaker.interrupter, [&](std::size_t i) {
+            const auto& [ball, group] = cover[i];
+            held[i] = mLevels.size() == 1 ? regionOf(ball, mVoxels)
+                                          : clipped(mChains[1][group], ball, mVoxels);
         });
+        const auto cells = powerCells(ballsOf(cover), held, mVoxels, mMaker.interrupter);
+        const auto points = extremePoints(cells, mVoxels, mMaker.interrupter);
+        return mMaker.merged(cover, points, false, mMost);
     }
 
     /// Of its children's regions a ball must hold what no other ball of the level holds of its own
@@ -74,18 +88,8 @@ private:
         });
     }
 
-    static void dropEmpty(TightLevel& level)
-    {
-        TightLevel kept;
-        for (std::size_t i = 0; i < level.balls.size(); ++i) {
-            if (level.balls[i].empty()) continue;
-            kept.balls.push_back(level.balls[i]);
-            if (!level.parent.empty()) kept.parent.push_back(level.parent[i]);
-        }
-        level = std::move(kept);
-    }
-
     std::vector<TightLevel> mLevels;
+    const int64_t mMost; ///< balls of the finest level
     const LevelMaker& mMaker;
     const SampleLevel& mVoxels;
     std::vector<std::vector<VoxelRegion>> mChains; ///< of the levels that are not placed yet
@@ -108,14 +112,14 @@ ExactSphere lifted(const ExactSphere& ball, const PyramidStep& step)
     return fine;
 }
 
-std::vector<TightLevel> carriedDown(
-    std::vector<TightLevel> levels, const PyramidStep& step, const LevelMaker& finer)
+std::vector<TightLevel> carriedDown(std::vector<TightLevel> levels, const PyramidStep& step,
+    int64_t most, const LevelMaker& finer)
 {
     for (TightLevel& level : levels) {
         for (ExactSphere& ball : level.balls) ball = lifted(ball, step);
         level.digital.clear();
     }
-    return Placing(std::move(levels), finer).run();
+    return Placing(std::move(levels), most, finer).run();
 }
 
 } // namespace openvdb_spheretree::tight

@@ -17,6 +17,7 @@
 #include "TightLevels.h"
 #include <openvdb_spheretree/pyramid/PyramidModel.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree::tight {
@@ -27,8 +28,10 @@ ExactSphere lifted(const ExactSphere& ball, const PyramidStep& step);
 
 /// @param levels  finest first, of the coarse object
 /// @param step    from the finer object to the coarse one
+/// @param most    balls of the finest level: if more are left when all are placed, they are merged to so
+///                many. On the way down some are no longer needed, so begin with more than are asked for.
 /// @param finer   for the finer object
-std::vector<TightLevel> carriedDown(
-    std::vector<TightLevel> levels, const PyramidStep& step, const LevelMaker& finer);
+std::vector<TightLevel> carriedDown(std::vector<TightLevel> levels, const PyramidStep& step,
+    int64_t most, const LevelMaker& finer);
 
 } // namespace openvdb_spheretree::tight

@@ -30,19 +30,24 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto [many, balls] = *mCovers.lower_bound(count);
         if (many == count) return mCovers[count];
         const bool isStart = many == mStart;
-        const int64_t first = std::max(mMaker.startTimes * count, kFirst);
+        const int64_t first = std::max(mMaker.placesStart ? 2 * count : count, kFirst);
         const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
-        mCovers[next] = fewer(balls, isStart && mAreInside, next);
+        const bool isPlaced = mMaker.placesStart || !isStart || next <= kFirst;
+        const auto cover = merged(balls, isStart && mAreInside, next);
+        mCovers[next] = isPlaced ? placed(cover) : cover;
     }
 }
 
-std::vector<ExactSphere> FreeCovers::fewer(
+std::vector<ExactSphere> FreeCovers::merged(
     const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const
 {
-    const SampleLevel& object = mMaker.object.level(0);
-    const auto points = powerCellPoints(balls, object, mMaker.interrupter);
-    const auto merged = mMaker.merged(ungrouped(balls), points, areInside, count);
-    return ballsOf(mMaker.placed(merged, VoxelGoal(object)));
+    const auto points = powerCellPoints(balls, mMaker.object.level(0), mMaker.interrupter);
+    return ballsOf(mMaker.merged(ungrouped(balls), points, areInside, count));
+}
+
+std::vector<ExactSphere> FreeCovers::placed(const std::vector<ExactSphere>& balls) const
+{
+    return ballsOf(mMaker.placed(ungrouped(balls), VoxelGoal(mMaker.object.level(0))));
 }
 
 } // namespace openvdb_spheretree::tight

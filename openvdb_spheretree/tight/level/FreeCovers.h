@@ -35,8 +35,10 @@ public:
     const std::vector<ExactSphere>& cover(int64_t count);
 
 private:
-    std::vector<ExactSphere> fewer(
+    /// Each ball has to hold its power cell.
+    std::vector<ExactSphere> merged(
         const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;
+    std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls) const;
 
     const LevelMaker& mMaker;
     const bool mAreInside; ///< the balls of the start

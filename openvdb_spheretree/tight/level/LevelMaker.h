@@ -31,7 +31,9 @@ struct LevelMaker {
     FitEffort merging{true, 4, 1, false, 16};
     int neighbours = 3; ///< that a ball may merge with: 6 gain little
     int sweeps = 10;    ///< of placing anew
-    int64_t startTimes = 2; ///< leaf balls are merged at once to so many times as many as are asked for
+    /// Leaf balls are merged at once to twice as many as are asked for, and these placed anew; else
+    /// to as many, and not placed.
+    bool placesStart = true;
     bool searchesAll = false; ///< search levels of any number of balls, and move children
 
     /// @return how many trials a ball of a level of @a count balls gets: fewer of many, to bound the
