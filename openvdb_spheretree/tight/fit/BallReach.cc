@@ -2,29 +2,11 @@
 #include "BallReach.h"
 
 #include <openvdb_spheretree/base/IntegerRoot.h>
-#include <openvdb_spheretree/voxel/LeafMask.h>
 
 #include <algorithm>
 #include <limits>
 
 namespace openvdb_spheretree::tight {
-
-BoxReach::BoxReach(const ExactSphere& ball, const openvdb::CoordBBox& box)
-{
-    for (int a = 0; a < 3; ++a) {
-        const int64_t first = kFine * int64_t(box.min()[a]), last = kFine * int64_t(box.max()[a]);
-        const int64_t c = ball.center[a];
-        const int64_t near = std::max(first, std::min(c, last)) - c;
-        const int64_t far = std::max(c - first, last - c);
-        nearestSq += near * near;
-        farthestSq += far * far;
-    }
-}
-
-bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin)
-{
-    return BoxReach(ball, openvdb::CoordBBox::createCube(origin, kLeafDim)).meets(ball);
-}
 
 openvdb::CoordBBox ballBox(const ExactSphere& ball)
 {

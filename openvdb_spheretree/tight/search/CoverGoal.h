@@ -44,9 +44,10 @@ public:
     void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
-private:
+    /// @return the voxels of a leaf that count as held by the ball.
     LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
 
+private:
     const SampleLevel& mObject;
     std::vector<const VoxelRegion*> mRegions;
 };

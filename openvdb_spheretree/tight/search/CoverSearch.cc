@@ -97,7 +97,7 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
             taken.push_back(some.box);
         }
     }
-    placeAll(cover, fit, change, interrupter);
+    if (trials > 0) placeAll(cover, fit, change, interrupter);
     relocation.fill();
     return {cover.balls(), change + relocation.change()};
 }
