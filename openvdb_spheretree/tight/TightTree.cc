@@ -53,6 +53,7 @@ LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& obj
         LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
         fast.sweeps = 2;
         fast.placesStart = false;
+        fast.merging.diagonals = false;
         return fast;
     }
     // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
