@@ -61,7 +61,7 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
             fallback, joined(where, std::string(openvdb_spheretree::detail::withoutType(what))));
     } catch (const std::bad_alloc&) {
         const ExitCode code = fallback == kUsage ? kInput : fallback; // the line may be right
-        throw CommandError(code, joined(where, "not enough memory"));
+        throw CommandError(code, joined(where, kNoMemory));
     } catch (const std::length_error&) {
         throw CommandError(fallback, joined(where, "asks for more memory than there can be"));
     } catch (const std::ios_base::failure&) {
@@ -84,7 +84,7 @@ int reportError(std::exception_ptr error)
         std::cerr << "vdb_spheretree: interrupted" << std::endl;
         return kInterrupted;
     } catch (const std::bad_alloc&) {
-        std::cerr << start << "not enough memory" << std::endl;
+        std::cerr << start << kNoMemory << std::endl;
         return kInput;
     } catch (const std::exception& e) {
         if (isLackOfThreads(e)) {

@@ -48,7 +48,8 @@ std::string systemError(const std::string& path);
 /// by a code; oneTBB only by its text.
 bool isLackOfThreads(const std::exception& error);
 
-/// What there is to say then.
+/// What there is to say for want of memory, and of threads.
+inline constexpr char kNoMemory[] = "not enough memory";
 inline constexpr char kNoThread[] = "no thread can be started: a limit on processes or on memory "
                                     "is reached (ulimit -u, ulimit -v); "
                                     "raise it, or ask for fewer threads with -threads";

@@ -21,6 +21,7 @@ constexpr unsigned kPatience = 1; // seconds
 std::array<std::atomic<const char*>, 64> sFiles{};
 std::atomic<int> sUninterrupted{0};
 std::atomic<bool> sAllIsDone{false};
+std::atomic<bool> sMemoryWasRefused{false}; // once, to any thread
 static_assert(
     std::atomic<const char*>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
     "signal handlers read them");
@@ -42,14 +43,27 @@ static_assert(
     _exit(code);
 }
 
+/// What operator new calls in place of throwing.
+[[noreturn]] void noteRefusedMemory()
+{
+    sMemoryWasRefused = true;
+    throw std::bad_alloc();
+}
+
+/// The exception that ends the program may not be there to be asked. Where GCC has compiled a
+/// function with something to clean up into one that lets no exception pass, it cleans up, and then
+/// calls std::terminate while the exception is still under way: nobody has caught it. OpenVDB's
+/// Tree::clear() is the former, as it lists nodes before it deletes them, and ~Tree() the latter.
 [[noreturn]] void endByException()
 {
     const std::exception_ptr error = std::current_exception();
+    const bool isHidden = !error || std::uncaught_exceptions() > 0;
+    if (isHidden && sMemoryWasRefused) endWith(kInput, kNoMemory);
     if (!error) endWith(kInternal, "unexpected: std::terminate without an exception");
     try {
         std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-        endWith(kInput, "not enough memory");
+        endWith(kInput, kNoMemory);
     } catch (const std::exception& e) {
         if (isLackOfThreads(e)) endWith(kInput, kNoThread);
         endWith(kInternal, "unexpected exception outside of all actions");
@@ -77,7 +91,11 @@ void endOverdue(int)
     endWith(kInterrupted, "interrupted");
 }
 
-void catchExceptions(int, char**, char**) { std::set_terminate(endByException); }
+void catchExceptions(int, char**, char**)
+{
+    std::set_terminate(endByException);
+    std::set_new_handler(noteRefusedMemory);
+}
 
 } // namespace
 
@@ -124,7 +142,7 @@ void forgetFile(const char* path) noexcept
 
 #ifdef __linux__
 // Run by the dynamic linker before the constructors of any library, which a function of this program
-// could not be otherwise. set_terminate() is a store to a variable, and needs nothing constructed.
+// could not be otherwise. Both calls are a store to a variable, and need nothing constructed.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const kFirstOfAll)(
     int, char**, char**) = catchExceptions;
 #endif

@@ -14,7 +14,8 @@ namespace command {
 /// page of a mapped file is not there any more, and for nothing else; other faults stay signals.
 ///
 /// Exceptions that reach std::terminate are reported from the program's first instruction on, before
-/// any library has started: OpenVDB's logging starts threads before main(). That needs no call.
+/// any library has started: OpenVDB's logging starts threads before main(). That needs no call. One
+/// that nobody can name any more is called a lack of memory (kInput) if memory has been refused.
 void catchLostPages();
 
 /// @brief Have the program end (kInterrupted) a second after it was asked to stop, if it has not
