@@ -74,13 +74,13 @@ std::unique_ptr<MergeModel> modelFor(
     const auto interrupter = maker.interrupter;
     const SampleLevel& voxels = object.level(0);
     if (options.cover == Cover::Balls) {
-        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls), heldBalls(leafBalls),
-            maker.fit, maker.flat, interrupter);
+        return std::make_unique<StrictMerging>(
+            object, ungrouped(leafBalls), heldBalls(leafBalls), maker.fit, maker.flat, interrupter);
     }
     if (options.quality == Quality::Fast) {
         auto held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter));
-        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls), std::move(held),
-            maker.fit, maker.flat, interrupter);
+        return std::make_unique<StrictMerging>(
+            object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
     }
     return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
         regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter);
@@ -184,11 +184,9 @@ std::vector<TightLevel> cutLevels(
     const auto cutError = [&](int64_t count) {
         return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
     };
-    const auto counts =
-        detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
-            return levelCounts(
-                tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
-        });
+    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
+        return levelCounts(tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
+    });
     if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
     return levelsOf(forest, counts, leaves.digital);
 }
@@ -225,10 +223,35 @@ std::vector<TightLevel> levelsOnFinest(
     const auto interrupter = source.maker.interrupter;
     FreeCovers free(source.leaves.balls, !source.leaves.digital.empty(), source.maker);
     std::vector<int64_t> counts;
-    const TightLevel finest = detail::timed("spheres within the bound", interrupter,
-        &seconds->tree, [&] { return finestLevel(tree, source, free, counts); });
+    const TightLevel finest = detail::timed("spheres within the bound", interrupter, &seconds->tree,
+        [&] { return finestLevel(tree, source, free, counts); });
     return detail::timed("levels", interrupter, &seconds->tree,
         [&] { return bottomUpLevels(finest, counts, source.maker); });
+}
+
+/// @return which of two trees' levels, as many in both, have the smaller product of errors.
+const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
+    const std::vector<TightLevel>& others, const LevelMaker& maker)
+{
+    double gain = 0; // of `some`: the log of a ratio
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        gain += std::log(1 + maker.costOf(others[k].balls));
+        gain -= std::log(1 + maker.costOf(some[k].balls));
+    }
+    return gain >= 0 ? some : others;
+}
+
+/// From the top, coarse levels are the better ones, and from the bottom the finest: whatever is found
+/// first is bound to nothing. Few balls gain more from the top, and one level has neither.
+std::vector<TightLevel> betterLevels(const std::vector<int64_t>& counts, FreeCovers& free,
+    bool areGiven, Quality quality, const LevelMaker& maker)
+{
+    const bool onlyTop = counts.size() == 1 || counts.front() <= kFewBalls;
+    const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
+    if (onlyTop) return fromTop();
+    const TightLevel finest{free.cover(counts.front()), {}, {}};
+    const std::vector<TightLevel> fromBottom = bottomUpLevels(finest, counts, maker);
+    return quality == Quality::Fast ? fromBottom : betterOf(fromBottom, fromTop(), maker);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
@@ -244,11 +267,12 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
         const int64_t most = counts.front();
         // Some are not needed on the fine object.
         if (!coarse.steps.empty()) counts.front() += counts.front() / 8;
-        auto levels = topDownLevels(counts, free, !areGiven, options.quality, maker);
+        auto levels = betterLevels(counts, free, areGiven, options.quality, maker);
         for (std::size_t step = coarse.steps.size(); step-- > 0;) {
             const SampledObject finer(LeafLayout(*coarse.levels[step]));
             levels = carriedDown(std::move(levels), coarse.steps[step],
-                step == 0 ? most : counts.front(), makerFor(settings, finer, leafBalls.size(), maker.interrupter));
+                step == 0 ? most : counts.front(),
+                makerFor(settings, finer, leafBalls.size(), maker.interrupter));
         }
         return levels;
     });

@@ -59,8 +59,7 @@ int32_t fewestOfCuts(const openvdb::BoolGrid& grid, SphereTreeSettings settings)
     return count;
 }
 
-void expectFewest(
-    const openvdb::BoolGrid& grid, const SphereTreeSettings& settings, Fewest& fewest)
+void expectFewest(const openvdb::BoolGrid& grid, const SphereTreeSettings& settings, Fewest& fewest)
 {
     const SphereTree tree = buildSphereTree(grid, settings);
     ASSERT_EQ(tree.levels.size(), 1u);
@@ -72,8 +71,7 @@ void expectFewest(
 }
 
 /// Voxels of 1/2.
-void expectFewestOf(
-    const RandomObject& object, const SphereTreeSettings& settings, Fewest& fewest)
+void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settings, Fewest& fewest)
 {
     const auto grid = gridOf(object.voxels);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));

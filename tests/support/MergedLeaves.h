@@ -47,8 +47,7 @@ std::vector<ExactSphere> thereOf(const std::vector<openvdb_spheretree::tight::Co
 
 /// Expects that every voxel has a chain of balls through the levels, and no ball is empty or without a child.
 /// @return the voxels outside the object in each level.
-std::vector<int64_t> expectChains(
-    const std::vector<TightLevel>& levels, const Voxels& voxels);
+std::vector<int64_t> expectChains(const std::vector<TightLevel>& levels, const Voxels& voxels);
 
 Voxels heldBy(const std::vector<ExactSphere>& balls, const Voxels& voxels);
 

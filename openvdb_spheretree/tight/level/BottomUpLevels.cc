@@ -68,7 +68,8 @@ std::vector<ExactSphere> fewerBalls(
         // Leaf balls hold little each: they are merged at once to about what is asked for.
         const int64_t first = maker.placesStart ? 2 * count : count;
         many = areInside && first < many ? first : halvedTowards(many, count);
-        balls = ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
+        balls =
+            ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
         const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);
         points = pointsOf(units, owner, balls.size());
         areInside = false;
@@ -81,8 +82,7 @@ std::vector<ExactSphere> fewerBalls(
 void placeAbove(TightLevel& level, TightLevel& finer, const std::vector<VoxelRegion>& regions,
     const LevelMaker& maker)
 {
-    const auto below =
-        regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+    const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
     const VoxelGoal goal(maker.object.level(0), below);
     const auto balls = eachInItsGroup(level.balls);
     level.balls = ballsOf(

@@ -112,8 +112,8 @@ ExactSphere lifted(const ExactSphere& ball, const PyramidStep& step)
     return fine;
 }
 
-std::vector<TightLevel> carriedDown(std::vector<TightLevel> levels, const PyramidStep& step,
-    int64_t most, const LevelMaker& finer)
+std::vector<TightLevel> carriedDown(
+    std::vector<TightLevel> levels, const PyramidStep& step, int64_t most, const LevelMaker& finer)
 {
     for (TightLevel& level : levels) {
         for (ExactSphere& ball : level.balls) ball = lifted(ball, step);

@@ -31,7 +31,7 @@ ExactSphere lifted(const ExactSphere& ball, const PyramidStep& step);
 /// @param most    balls of the finest level: if more are left when all are placed, they are merged to so
 ///                many. On the way down some are no longer needed, so begin with more than are asked for.
 /// @param finer   for the finer object
-std::vector<TightLevel> carriedDown(std::vector<TightLevel> levels, const PyramidStep& step,
-    int64_t most, const LevelMaker& finer);
+std::vector<TightLevel> carriedDown(
+    std::vector<TightLevel> levels, const PyramidStep& step, int64_t most, const LevelMaker& finer);
 
 } // namespace openvdb_spheretree::tight

@@ -41,7 +41,7 @@ private:
     std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls) const;
 
     const LevelMaker& mMaker;
-    const bool mAreInside; ///< the balls of the start
+    const bool mAreInside;                               ///< the balls of the start
     std::map<int64_t, std::vector<ExactSphere>> mCovers; ///< by the most balls they may have
     int64_t mStart = 0;                                  ///< that of the start
 };

@@ -36,7 +36,8 @@ LevelEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
         return std::max(2, int(starts * 8 / std::max<int64_t>(8, count)));
     };
     if (quality == Quality::Fast) {
-        return large ? LevelEffort{fewer(4), {2}, 1, 1} : LevelEffort{fewer(4), {many ? 8 : 4}, 2, 1};
+        return large ? LevelEffort{fewer(4), {2}, 1, 1}
+                     : LevelEffort{fewer(4), {many ? 8 : 4}, 2, 1};
     }
     if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
     if (large && many) return {2, {2, 4}, 2, 2, 16, 640};

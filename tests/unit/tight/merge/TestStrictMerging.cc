@@ -19,8 +19,8 @@ public:
     WatchedMerging(const Voxels& voxels, const std::vector<ExactSphere>& leaves,
         const HeldByLeafBalls& held, bool flat = false, const FitEffort& effort = kEffort)
         : mVoxels(voxels), mObject(sampled(voxels)),
-          mModel(mObject, ungrouped(leaves), held, effort, flat, nullptr), mVoxelsOnly(held.areVoxels),
-          mBalls(leaves), mHeld(held.held)
+          mModel(mObject, ungrouped(leaves), held, effort, flat, nullptr),
+          mVoxelsOnly(held.areVoxels), mBalls(leaves), mHeld(held.held)
     {}
     /// They are not asked for: of discs they are those of balls, and of large balls estimates.
     void leaveOutCosts() { mCosts = false; }

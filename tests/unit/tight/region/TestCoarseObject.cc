@@ -42,8 +42,8 @@ TEST(CoarseObject, IsTheCoarsestLevelWithEnoughLeafBalls)
         for (const Coord& v : last) EXPECT_TRUE(object.levels.back()->isValueOn(v));
         for (std::size_t k = 0; k < object.steps.size(); ++k) {
             for (auto it = object.levels[k]->cbeginValueOn(); it; ++it) {
-                EXPECT_TRUE(object.levels[k + 1]->isValueOn(
-                    object.steps[k].parentVoxel(it.getCoord())));
+                EXPECT_TRUE(
+                    object.levels[k + 1]->isValueOn(object.steps[k].parentVoxel(it.getCoord())));
             }
         }
         for (const ExactSphere& ball : object.leaves.balls) {
