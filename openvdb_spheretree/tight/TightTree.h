@@ -5,12 +5,13 @@
 /// In the trees of the paper, a sphere contains whole leaf balls, and its center is given. A tight tree
 /// promises less, and so needs smaller spheres. Every object voxel has a chain of nodes, one a level,
 /// each the child of the one above, that all hold the voxel (docs/tight-trees.md).
-/// 1. The leaf balls are the object's medial balls, without those whose voxels all lie in others, or
-///    spheres that were given (LeafBalls.h).
-/// 2. Pairs of neighbours merge, the cheapest first, down to one ball (MergeForest.h). The merges are
-///    a binary forest, and the balls of each of its cuts cover the object.
-/// 3. Levels are cuts of the forest, by count or by the error allowed; quality=best searches for
-///    better ones (SearchedLevels.h).
+/// 1. Levels of named counts are made on a coarse level of the object's pyramid, all others on the object
+///    (CoarseObject.h). There, leaf balls are the medial balls, without those whose voxels all lie in
+///    others, or spheres that were given (LeafBalls.h).
+/// 2. Balls are merged and placed anew by turns, down to the counts (FreeCovers.h).
+/// 3. These covers become levels, from the top (TopDownLevels.h) or from the bottom (BottomUpLevels.h).
+/// 4. Levels are carried down the pyramid to the object (CarriedLevels.h).
+/// With cuts=1 or cover=balls, levels are cuts of one forest of merges instead (MergeForest.h).
 ///
 /// Deterministic: the same bytes for any number of threads.
 

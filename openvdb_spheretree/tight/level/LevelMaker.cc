@@ -4,6 +4,7 @@
 #include "TightLevels.h"
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
+#include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
 
 #include <algorithm>
@@ -11,6 +12,24 @@
 #include <utility>
 
 namespace openvdb_spheretree::tight {
+
+namespace {
+
+/// @return the balls that are left of @a leafBalls, with their groups.
+std::vector<CoverBall> lastCut(
+    const std::vector<ForestNode>& forest, const std::vector<CoverBall>& leafBalls)
+{
+    std::vector<int32_t> group = groupsOf(leafBalls);
+    group.resize(forest.size(), -1);
+    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
+        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
+    }
+    std::vector<CoverBall> cut;
+    for (const int32_t node : cutOf(forest, 1)) cut.push_back({forest[node].ball, group[node]});
+    return cut;
+}
+
+} // namespace
 
 int LevelMaker::trialsFor(std::size_t count)
 {
@@ -50,15 +69,15 @@ std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     HeldByLeafBalls held = heldVoxels(points);
     held.areInside = areInside;
     StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
-    const std::vector<ForestNode> forest = mergeToCount(model, neighbours, count, interrupter);
-    std::vector<int32_t> group = groupsOf(balls);
-    group.resize(forest.size(), -1);
-    for (std::size_t i = 0; i < forest.size(); ++i) { // parents come after their children
-        if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
-    }
-    std::vector<CoverBall> cover;
-    for (const int32_t node : cutOf(forest, 1)) cover.push_back({forest[node].ball, group[node]});
-    return cover;
+    return lastCut(mergeToCount(model, neighbours, count, interrupter), balls);
+}
+
+std::vector<CoverBall> LevelMaker::mergedWithSlack(
+    const std::vector<CoverBall>& balls, std::vector<VoxelRegion> regions, int64_t count) const
+{
+    constexpr int kNeighbours = 6;
+    SlackMerging model(object, balls, std::move(regions), fit, flat, interrupter, false);
+    return lastCut(mergeToCount(model, kNeighbours, count, interrupter), balls);
 }
 
 double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const

@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
+#include <openvdb_spheretree/tight/region/VoxelRegion.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
 
@@ -53,6 +54,10 @@ struct LevelMaker {
     /// @return the balls merged to @a count, or to one for each group.
     std::vector<CoverBall> merged(const std::vector<CoverBall>& balls, const HeldPoints& points,
         bool areInside, int64_t count) const;
+    /// The same with slack (SlackMerging.h), which is better and takes longer.
+    /// @param regions  voxels of each ball; together the object
+    std::vector<CoverBall> mergedWithSlack(
+        const std::vector<CoverBall>& balls, std::vector<VoxelRegion> regions, int64_t count) const;
     /// @return how many voxels outside the object the balls hold together, counted on samples.
     double costOf(const std::vector<ExactSphere>& balls) const;
 };

@@ -152,8 +152,16 @@ private:
     {
         if (mAbove.balls.empty()) return start;
         const GroupedCover dealt = dealtOut(ballsOf(start), mAbove, mRegions, mMaker);
-        const auto points = extremePoints(dealt.cells, mVoxels, mMaker.interrupter);
-        return mMaker.merged(dealt.balls, points, false, count);
+        if (count > kFewBalls) {
+            const auto points = extremePoints(dealt.cells, mVoxels, mMaker.interrupter);
+            return mMaker.merged(dealt.balls, points, false, count);
+        }
+        std::vector<VoxelRegion> held(dealt.balls.size());
+        detail::parallelFor(held.size(), mMaker.interrupter, [&](std::size_t i) {
+            const auto& [ball, group] = dealt.balls[i];
+            held[i] = clipped(mRegions[group], ball, mVoxels);
+        });
+        return mMaker.mergedWithSlack(dealt.balls, std::move(held), count);
     }
 
     Found improved(const std::vector<CoverBall>& balls, int trialsPerBall) const
