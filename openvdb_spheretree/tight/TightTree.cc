@@ -44,6 +44,14 @@ int64_t leastLeafBalls(int64_t count, Quality quality)
     return std::max(kLeast, (quality == Quality::Fast ? 3 : 4) * count);
 }
 
+/// @return of how many voxels the object is large enough for that, whatever its leaf balls: a ball of the finest
+/// level has a radius of 32 of them.
+int64_t enoughVoxels(int64_t count)
+{
+    constexpr int64_t kOfABall = 140000;
+    return count * kOfABall;
+}
+
 LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, openvdb::util::NullInterrupter* interrupter)
 {
@@ -303,10 +311,13 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
         coarse.samples = SampledObject(LeafLayout(*voxels));
         coarse.leaves = givenLeaves(*given, flat, *voxels, coarse.samples.level(0), interrupter);
     } else {
-        const int64_t least = needsLeafBalls(options)
-            ? kAll
-            : leastLeafBalls(options.budget.counts(kAll).front(), options.quality);
-        coarse = coarseObject(voxels, settings, least, interrupter, seconds);
+        int64_t least = kAll, enough = kAll;
+        if (!needsLeafBalls(options)) {
+            const int64_t count = options.budget.counts(kAll).front();
+            least = leastLeafBalls(count, options.quality);
+            enough = enoughVoxels(count);
+        }
+        coarse = coarseObject(voxels, settings, least, enough, interrupter, seconds);
     }
     const LeafBalls& leaves = coarse.leaves;
     requireRoomForMerging(leaves.balls.size());

@@ -38,7 +38,7 @@ CoarseObject pyramidOf(const openvdb::MaskTree::ConstPtr& voxels, int dim, int64
 } // namespace
 
 CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
-    const SphereTreeSettings& settings, int64_t leastBalls,
+    const SphereTreeSettings& settings, int64_t leastBalls, int64_t enough,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
     // A level has no more leaf balls than voxels.
@@ -56,6 +56,7 @@ CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
                 isObject ? settings.tight().leaves : Leaves::Pruned, interrupter);
         });
         if (isObject || int64_t(object.leaves.balls.size()) >= leastBalls) return object;
+        if (detail::countVoxels(*object.levels.back()) >= enough) return object;
         object.levels.pop_back();
         object.steps.pop_back();
     }

@@ -33,10 +33,11 @@ struct CoarseObject {
 /// @param voxels     of the object
 /// @param leastBalls the leaf balls that are enough; if no coarse level has as many, the object itself is
 ///                   taken
+/// @param enough     voxels that are enough, however few leaf balls there are, as of an object like a ball
 /// @param seconds    must not be null
 /// @throw as MedialLevel
 CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
-    const SphereTreeSettings& settings, int64_t leastBalls,
+    const SphereTreeSettings& settings, int64_t leastBalls, int64_t enough,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
 } // namespace openvdb_spheretree::tight

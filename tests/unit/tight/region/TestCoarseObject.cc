@@ -12,12 +12,13 @@ using namespace openvdb_spheretree;
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-CoarseObject coarseOf(const Voxels& voxels, int64_t leastBalls, int dim = 3)
+CoarseObject coarseOf(
+    const Voxels& voxels, int64_t leastBalls, int dim = 3, int64_t enough = INT64_MAX)
 {
     SphereTreeSettings settings;
     settings.dim = dim;
     StageSeconds seconds;
-    return coarseObject(maskOf(voxels), settings, leastBalls, nullptr, &seconds);
+    return coarseObject(maskOf(voxels), settings, leastBalls, enough, nullptr, &seconds);
 }
 
 TEST(CoarseObject, IsTheCoarsestLevelWithEnoughLeafBalls)
@@ -52,6 +53,16 @@ TEST(CoarseObject, IsTheCoarsestLevelWithEnoughLeafBalls)
         }
     }
     EXPECT_GT(levels, 3u);
+}
+
+/// A ball has few leaf balls at any resolution.
+TEST(CoarseObject, IsNoFinerThanItHasToBe)
+{
+    const Voxels ball = shapes::ball(900);
+    EXPECT_EQ(coarseOf(ball, 5000).steps.size(), 0u);
+    const CoarseObject object = coarseOf(ball, 5000, 3, 1000);
+    EXPECT_EQ(object.steps.size(), 2u);
+    EXPECT_GE(object.levels.back()->activeVoxelCount(), 1000u);
 }
 
 TEST(CoarseObject, OfAFlatObjectStaysFlat)
