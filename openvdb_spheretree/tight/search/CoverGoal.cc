@@ -15,7 +15,8 @@ using openvdb::CoordBBox;
 
 namespace {
 
-/// Descends into boxes of voxels that a removed ball reaches, unless another ball holds all of one.
+/// Descends into cubes that have leaves of the object and that a removed ball reaches, unless another
+/// ball holds all of one.
 class UncoveredVoxels {
 public:
     UncoveredVoxels(const VoxelGoal& goal, const SampleLevel& object,
@@ -31,33 +32,44 @@ public:
     /// Lists the voxels that the removed balls hold and none of the others, in the order of leaves.
     void list(const std::vector<CoverBall>& others)
     {
-        mFound.clear();
-        if (mBox.empty()) return;
+        thread_local std::vector<uint32_t> leaves;       // of the object, in the box
         thread_local std::vector<const CoverBall*> near; // of the boxes on the way down
+        mFound.clear();
+        leaves.clear();
         near.clear();
+        if (mBox.empty()) return;
+        mObject.forEachLeaf(mBox, [&](std::size_t leaf) { leaves.push_back(uint32_t(leaf)); });
         for (const CoverBall& ball : others) {
             if (!ball.empty()) near.push_back(&ball);
         }
-        const std::size_t all = near.size();
-        constexpr int kFirst = 128;
-        const Coord first = mBox.min() & ~(kFirst - 1);
-        for (int64_t x = first[0]; x <= mBox.max()[0]; x += kFirst) {
-            for (int64_t y = first[1]; y <= mBox.max()[1]; y += kFirst) {
-                for (int64_t z = first[2]; z <= mBox.max()[2]; z += kFirst) {
-                    descend(Coord(int(x), int(y), int(z)), kFirst, near, 0, all);
-                }
-            }
+        const Coord first = mBox.min() & ~(kLeafDim - 1);
+        int64_t side = kLeafDim;
+        for (int a = 0; a < 3; ++a) {
+            while (int64_t(first[a]) + side <= mBox.max()[a]) side *= 2;
         }
+        const int64_t origin[3] = {first[0], first[1], first[2]};
+        descend(origin, side, {leaves.data(), leaves.data() + leaves.size()}, near, 0, near.size());
         std::sort(mFound.begin(), mFound.end(),
-            [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
+            [](const RegionLeaf& x, const RegionLeaf& y) { return x.leaf < y.leaf; });
     }
 
 private:
-    /// @param begin, end  the others near the box, in @a near; more are put behind them
-    void descend(const Coord& origin, int side, std::vector<const CoverBall*>& near,
-        std::size_t begin, std::size_t end)
+    struct Leaves {
+        uint32_t *begin, *end;
+    };
+
+    /// @param leaves      of the object, in a cube; they change places
+    /// @param begin, end  the others near the cube, in @a near; more are put behind them
+    void descend(const int64_t (&origin)[3], int64_t side, const Leaves& leaves,
+        std::vector<const CoverBall*>& near, std::size_t begin, std::size_t end)
     {
-        const CoordBBox box = CoordBBox::createCube(origin, side);
+        constexpr std::ptrdiff_t kFew = 8;
+        if (leaves.begin == leaves.end) return;
+        CoordBBox box;
+        for (int a = 0; a < 3; ++a) {
+            box.min()[a] = std::max(mBox.min()[a], int32_t(origin[a]));
+            box.max()[a] = int32_t(std::min<int64_t>(mBox.max()[a], origin[a] + side - 1));
+        }
         const bool isReached = std::any_of(mRemoved.begin(), mRemoved.end(), [&](const auto& ball) {
             return !ball.empty() && BoxReach(ball.ball, box).meets(ball.ball);
         });
@@ -70,12 +82,27 @@ private:
             near.push_back(near[i]);
         }
         const std::size_t last = near.size();
-        if (side <= 2 * kLeafDim) return visit(box, near, end);
-        const int half = side / 2;
-        for (int i = 0; i < 8; ++i) {
-            descend(origin.offsetBy(half * (i >> 2), half * (i >> 1 & 1), half * (i & 1)), half,
-                near, end, last);
+        if (side <= 2 * kLeafDim || leaves.end - leaves.begin <= kFew) {
+            return visit(leaves, near, end);
         }
+        descendInto(origin, side / 2, leaves, near, end, last);
+    }
+
+    /// The same for the eight halves of a cube, along x, then y, then z.
+    void descendInto(const int64_t (&origin)[3], int64_t half, const Leaves& leaves,
+        std::vector<const CoverBall*>& near, std::size_t begin, std::size_t end, int axis = 0,
+        int upper = 0)
+    {
+        if (axis == 3) {
+            const int64_t corner[3] = {origin[0] + (upper & 1 ? half : 0),
+                origin[1] + (upper & 2 ? half : 0), origin[2] + (upper & 4 ? half : 0)};
+            return descend(corner, half, leaves, near, begin, end);
+        }
+        uint32_t* middle = std::partition(leaves.begin, leaves.end,
+            [&](uint32_t leaf) { return mObject.origin(leaf)[axis] < origin[axis] + half; });
+        descendInto(origin, half, {leaves.begin, middle}, near, begin, end, axis + 1, upper);
+        descendInto(
+            origin, half, {middle, leaves.end}, near, begin, end, axis + 1, upper | 1 << axis);
     }
 
     /// @return whether the ball counts wherever a removed ball does.
@@ -84,23 +111,21 @@ private:
         return mOneGroup && ball.group == mRemoved.front().group;
     }
 
-    void visit(CoordBBox box, const std::vector<const CoverBall*>& near, std::size_t begin)
+    void visit(const Leaves& leaves, const std::vector<const CoverBall*>& near, std::size_t begin)
     {
-        box.intersect(mBox);
-        if (box.empty()) return;
-        mObject.forEachLeaf(box, [&](std::size_t leaf) {
-            const Coord& origin = mObject.origin(leaf);
+        for (const uint32_t* leaf = leaves.begin; leaf != leaves.end; ++leaf) {
+            const Coord& origin = mObject.origin(*leaf);
             LeafMask uncovered{};
             for (const CoverBall& ball : mRemoved) {
                 if (!ball.empty() && mayReach(ball.ball, origin)) {
-                    uncovered |= mGoal.heldIn(leaf, ball);
+                    uncovered |= mGoal.heldIn(*leaf, ball);
                 }
             }
             for (std::size_t i = begin; i < near.size() && !uncovered.none(); ++i) {
-                if (mayReach(near[i]->ball, origin)) uncovered -= mGoal.heldIn(leaf, *near[i]);
+                if (mayReach(near[i]->ball, origin)) uncovered -= mGoal.heldIn(*leaf, *near[i]);
             }
-            if (!uncovered.none()) mFound.push_back({uint32_t(leaf), uncovered});
-        });
+            if (!uncovered.none()) mFound.push_back({*leaf, uncovered});
+        }
     }
 
     const VoxelGoal& mGoal;
