@@ -149,6 +149,7 @@ bool keepsBounds(const TightLevel& level, const SphereTree& tree, const openvdb:
     return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, meter, interrupter));
 }
 
+/// @param leafBalls  how many the object has; 0 if no level has them all
 /// @return the levels, where none has a larger error than a coarser one; but all leaf balls stay, even
 /// given ones that reach far out of the object.
 std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, std::size_t leafBalls,
@@ -323,17 +324,18 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     requireRoomForMerging(leaves.balls.size());
     const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), interrupter);
     const TightSource source{object, leaves, maker};
+    const bool onObject = coarse.steps.empty();
     const auto leafCount = int64_t(leaves.balls.size());
     const auto levels = [&] {
         if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source, seconds);
-        const bool isFixed =
-            options.budget.hasBound() || options.budget.counts(leafCount).front() == leafCount;
+        const bool isFixed = options.budget.hasBound()
+            || (onObject && options.budget.counts(leafCount).front() == leafCount);
         return isFixed ? levelsOnFinest(tree, source, seconds)
                        : levelsOfCounts(tree, coarse, given != nullptr, maker, seconds);
     }();
+    const std::size_t allLeaves = onObject ? leaves.balls.size() : 0;
     appendLevels(
-        options.cuts ? levels : monotone(levels, leaves.balls.size(), tree, object, interrupter),
-        tree);
+        options.cuts ? levels : monotone(levels, allLeaves, tree, object, interrupter), tree);
 }
 
 } // namespace openvdb_spheretree::tight

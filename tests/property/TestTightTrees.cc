@@ -3,6 +3,7 @@
 /// @brief What holds for every tight tree, whatever it is asked for: chains of spheres by brute force, the
 /// check, counts, cuts.
 
+#include "support/CheckedTrees.h"
 #include "support/ChosenObjects.h"
 #include "support/TightObjects.h"
 
@@ -108,6 +109,41 @@ TEST(TightTrees, HaveTheCountsAskedForAndErrorsThatFall)
         }
     }
     EXPECT_GE(searched, 4) << "objects small enough for the best quality";
+}
+
+/// Levels of named counts are made on a coarse level of the pyramid; and a ball has few leaf balls on each.
+TEST(TightTrees, MadeOnACoarseLevelKeepTheirChains)
+{
+    Random random(5);
+    Voxels ball = shapes::ball(70 * 70);
+    for (Coord& voxel : ball) voxel.offset(3, -5, 1);
+    const Voxels noise = shapes::noise(Coord(60, 50, 40), 0.3, random);
+    const Voxels flat = shapes::noise(Coord(300, 250, 1), 0.4, random);
+    struct Case {
+        const Voxels& voxels;
+        int dim;
+        std::vector<int64_t> spheres;
+    };
+    for (const Case& some : {Case{ball, 3, {1}}, Case{ball, 3, {2, 1}}, Case{noise, 3, {64, 8, 2}},
+             Case{noise, 3, {100, 20}}, Case{flat, 2, {30, 7, 1}}}) {
+        for (const Quality quality : {Quality::Fast, Quality::Normal}) {
+            SphereTreeSettings settings = tightSettings(quality);
+            settings.dim = some.dim;
+            settings.budgeted().budget = SphereBudget();
+            settings.budgeted().budget.spheres = some.spheres;
+            const auto grid = gridOf(some.voxels);
+            SphereTree tree = buildSphereTree(*grid, settings);
+            EXPECT_EQ(sentencesOf(checkSphereTree(tree, *grid)), "");
+            ASSERT_LE(tree.levels.size(), some.spheres.size());
+            computeLevelErrors(tree, *grid);
+            for (std::size_t k = 0; k < tree.levels.size(); ++k) {
+                EXPECT_LE(tree.levels[k].size(), some.spheres[k]);
+                EXPECT_EQ(tree.levels[k].error->missing, 0);
+                const double most = &some.voxels == &ball ? 2 : 1000;
+                EXPECT_LT(tree.levels[k].error->hammingPercent, most);
+            }
+        }
+    }
 }
 
 TEST(TightTrees, PrunedLeavesAreFewerThanMedialOnes)
