@@ -272,10 +272,12 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
     return detail::timed("levels", maker.interrupter, &seconds->tree, [&] {
         FreeCovers free(leafBalls, !coarse.leaves.digital.empty(), maker);
-        auto counts = options.budget.counts(int64_t(leafBalls.size()));
+        // A coarse level may have fewer leaf balls than the object.
+        const bool onObject = coarse.steps.empty();
+        auto counts = options.budget.counts(onObject ? int64_t(leafBalls.size()) : INT64_MAX);
         const int64_t most = counts.front();
         // Some are not needed on the fine object.
-        if (!coarse.steps.empty()) counts.front() += counts.front() / 8;
+        if (!onObject) counts.front() += counts.front() / 8;
         auto levels = betterLevels(counts, free, areGiven, options.quality, maker);
         for (std::size_t step = coarse.steps.size(); step-- > 0;) {
             const SampledObject finer(LeafLayout(*coarse.levels[step]));

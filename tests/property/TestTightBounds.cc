@@ -83,7 +83,7 @@ void expectFewestOf(const RandomObject& object, const SphereTreeSettings& settin
     ASSERT_NO_FATAL_FAILURE(expectFewest(*grid, settings, fewest));
 }
 
-TEST(TightBounds, HaveTheFewestSpheresWithinABound)
+TEST(TightBounds, TakeFewerSpheresThanCuts)
 {
     int turn = 0;
     Fewest fewest;
@@ -102,7 +102,7 @@ TEST(TightBounds, HaveTheFewestSpheresWithinABound)
 }
 
 /// Some of these cannot be reached, and say so.
-TEST(TightBounds, HaveTheFewestSpheresWithinABoundOfStoredSpheres)
+TEST(TightBounds, OfStoredSpheresTakeFewerThanCuts)
 {
     int turn = 0, reached = 0;
     Fewest fewest;

@@ -87,6 +87,20 @@ TEST(TightInvariance, AreTheSameForAnyNumberOfThreads)
     Random random(1);
     const auto many = gridOf(shapes::noise(Coord(14, 13, 9), 0.4, random));
     const auto few = gridOf(shapes::noise(Coord(6, 6, 6), 0.6, random));
+    for (const Quality quality :
+        {Quality::Fast, Quality::Normal}) { // by named counts, and to all leaves
+        for (const std::vector<int64_t>& spheres : {std::vector<int64_t>{100, 20, 3}, {}}) {
+            SphereTreeSettings settings = tightSettings(quality);
+            settings.budgeted().budget = SphereBudget();
+            settings.budgeted().budget.spheres = spheres;
+            std::vector<SphereTree> trees;
+            for (const std::size_t threads : {1u, 4u}) {
+                const Control control(Control::max_allowed_parallelism, threads);
+                trees.push_back(buildSphereTree(*many, settings));
+            }
+            EXPECT_EQ(trees[0].spheres, trees[1].spheres);
+        }
+    }
     for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
         const auto& grid = quality == Quality::Best ? few : many; // many at a time
         for (const Cover cover : {Cover::Voxels, Cover::Balls}) {

@@ -73,12 +73,18 @@ void noteIfAll(int64_t asked, int64_t all, Session& session)
         + (all == 1 ? "the only one is taken" : "all " + std::to_string(all) + " are taken"));
 }
 
-/// The finest level that was asked for has no more spheres than the object has leaves.
+/// The finest level that was asked for may have fewer spheres: all leaves that there are, or all that hold
+/// something of their own.
 void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
 {
     if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
-    const auto most = std::max_element(budget.spheres.begin(), budget.spheres.end());
-    noteIfAll(*most, tree.levels.front().size(), session);
+    const int64_t most = *std::max_element(budget.spheres.begin(), budget.spheres.end());
+    const auto& finest = tree.levels.front();
+    const bool areLeaves = finest.pyramidVoxels > 0;
+    if (areLeaves) return noteIfAll(most, finest.size(), session);
+    if (finest.size() >= most) return;
+    session.note(counted(finest.size(), "sphere") + (finest.size() == 1 ? " does" : " do")
+        + " for spheres=" + std::to_string(most) + ": more would hold no voxel of their own");
 }
 
 /// The newest spheres that were read.

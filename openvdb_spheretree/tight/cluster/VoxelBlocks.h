@@ -22,7 +22,7 @@ struct VoxelBlock {
     int64_t voxels = 0;
 };
 
-/// @param most  blocks, at least 1
+/// @param most  blocks, at least 8: blocks on both sides of the origin are never one
 /// @return the blocks, by place; none of an empty object.
 std::vector<VoxelBlock> voxelBlocks(const SampleLevel& object, std::size_t most);
 

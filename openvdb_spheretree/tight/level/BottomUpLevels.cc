@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
+#include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
     std::vector<int32_t> parents(units.size(), -1);
     detail::parallelFor(units.size(), interrupter, [&](std::size_t i) {
         if (units[i].empty()) {
-            parents[i] = leastProtruding(finer[i], balls);
+            parents[i] = anyNear(finer[i], balls, grid);
             return;
         }
         int64_t best = -1;
@@ -44,14 +45,16 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
     return parents;
 }
 
-/// @return the points of the units of each ball.
-HeldPoints pointsOf(const Units& units, const std::vector<int32_t>& owner, std::size_t balls)
+/// @return extreme points of the units of each ball.
+HeldPoints pointsOf(const Units& units, const std::vector<int32_t>& owner, std::size_t balls,
+    openvdb::util::NullInterrupter* interrupter)
 {
     HeldPoints points(balls);
     for (std::size_t i = 0; i < units.size(); ++i) {
         auto& all = points[owner[i]];
         all.insert(all.end(), units[i].begin(), units[i].end());
     }
+    detail::parallelFor(balls, interrupter, [&](std::size_t b) { dropInnerPoints(points[b]); });
     return points;
 }
 
@@ -71,7 +74,7 @@ std::vector<ExactSphere> fewerBalls(
         balls =
             ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
         const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);
-        points = pointsOf(units, owner, balls.size());
+        points = pointsOf(units, owner, balls.size(), maker.interrupter);
         areInside = false;
     }
     if (!maker.searchesAll) return balls;
@@ -120,6 +123,7 @@ std::vector<TightLevel> bottomUpLevels(
 {
     std::vector<TightLevel> levels{finest};
     if (counts.size() == 1) return levels;
+    requireRoomForRegions(finest.balls, maker.object.level(0));
     auto regions = regionsOf(finest.balls, maker.object.level(0), maker.interrupter);
     for (std::size_t k = 1; k < counts.size(); ++k) {
         TightLevel above = coarserLevel(levels.back(), regions, counts[k], maker);

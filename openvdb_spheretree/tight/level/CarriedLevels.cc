@@ -23,6 +23,11 @@ public:
         : mLevels(std::move(levels)), mMost(most), mMaker(maker), mVoxels(maker.object.level(0)),
           mChains(mLevels.size() + 1)
     {
+        std::vector<ExactSphere> all;
+        for (const TightLevel& level : mLevels) {
+            all.insert(all.end(), level.balls.begin(), level.balls.end());
+        }
+        requireRoomForRegions(all, mVoxels);
         for (std::size_t k = mLevels.size(); k-- > 1;) {
             mChains[k] = chainRegions(mLevels[k], mChains[k + 1], mMaker);
         }

@@ -27,7 +27,7 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
 {
     count = std::min(count, mStart);
     for (;;) {
-        const auto [many, balls] = *mCovers.lower_bound(count);
+        const auto& [many, balls] = *mCovers.lower_bound(count);
         if (many == count) return mCovers[count];
         const bool isStart = many == mStart;
         const int64_t first = std::max(mMaker.placesStart ? 2 * count : count, kFirst);

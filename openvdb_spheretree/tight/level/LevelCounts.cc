@@ -51,8 +51,9 @@ public:
             if (isWithin(middle)) high = middle;
             else low = middle;
         }
-        constexpr int kMoreTries = 8;
-        for (int64_t count = high - 2; count > 0 && count >= high - kMoreTries; --count) {
+        constexpr int kMoreTries = 8; // each may take as long as a tree
+        const int64_t least = std::max<int64_t>(1, high - kMoreTries);
+        for (int64_t count = high - 2; count >= least; --count) {
             if (isWithin(count)) high = count;
         }
         return high;

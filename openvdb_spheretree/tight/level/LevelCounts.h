@@ -21,7 +21,7 @@ struct BoundedError {
     std::string unknown;   ///< why it is not known: then it is within no bound
 };
 
-/// Returns the exact error of the cut with so many balls.
+/// Returns the exact error of a cover with so many balls, or of a cut of merges.
 using ErrorOfCut = std::function<BoundedError(int64_t count)>;
 
 /// @return whether an error is within the bounds of the budget; @a voxelSize is in world units.
@@ -37,7 +37,7 @@ void requireReachable(const SphereTreeSettings& settings, double voxelSize);
 /// @param voxelSize  world units
 /// @return counts, finest first, falling. With a bound on the error, the first one is the smallest for
 /// which the bound was found to hold. Counts are doubled from 1 on until it holds, then halved between,
-/// and a few below are tried: a cut of fewer balls may have a smaller error. That of all leaf balls,
+/// and a few below are tried: fewer balls may have a smaller error. That of all leaf balls,
 /// too, need not be the smallest, where their padding counts.
 /// @throw openvdb::ValueError if the bound needs more balls than the budget allows, or none was found
 /// within it, with what was found

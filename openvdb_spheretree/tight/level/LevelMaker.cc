@@ -2,6 +2,7 @@
 #include "LevelMaker.h"
 
 #include "TightLevels.h"
+#include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
@@ -9,15 +10,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @return the balls that are left of @a leafBalls, with their groups.
-std::vector<CoverBall> lastCut(
-    const std::vector<ForestNode>& forest, const std::vector<CoverBall>& leafBalls)
+/// @return the cut of @a count balls, with their groups; of more if there are more groups.
+std::vector<CoverBall> groupedCut(
+    const std::vector<ForestNode>& forest, const std::vector<CoverBall>& leafBalls, int64_t count)
 {
     std::vector<int32_t> group = groupsOf(leafBalls);
     group.resize(forest.size(), -1);
@@ -25,7 +27,8 @@ std::vector<CoverBall> lastCut(
         if (forest[i].parent >= 0) group[forest[i].parent] = group[i];
     }
     std::vector<CoverBall> cut;
-    for (const int32_t node : cutOf(forest, 1)) cut.push_back({forest[node].ball, group[node]});
+    const int64_t some = std::min(count, int64_t(leafBalls.size()));
+    for (const int32_t node : cutOf(forest, some)) cut.push_back({forest[node].ball, group[node]});
     return cut;
 }
 
@@ -69,7 +72,7 @@ std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     HeldByLeafBalls held = heldVoxels(points);
     held.areInside = areInside;
     StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
-    return lastCut(mergeToCount(model, neighbours, count, interrupter), balls);
+    return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
 }
 
 std::vector<CoverBall> LevelMaker::mergedWithSlack(
@@ -77,21 +80,22 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
 {
     constexpr int kNeighbours = 6;
     SlackMerging model(object, balls, std::move(regions), fit, flat, interrupter, false);
-    return lastCut(mergeToCount(model, kNeighbours, count, interrupter), balls);
+    return groupedCut(mergeToCount(model, kNeighbours, count, interrupter), balls, count);
 }
 
 double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const
 {
-    CoveringFit window;
-    BallGrid before;
-    double cost = 0;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
+    const BallGrid grid(balls);
+    std::vector<double> costs(balls.size()); // of each, without those before it
+    detail::parallelFor(balls.size(), interrupter, [&](std::size_t i) {
+        thread_local CoveringFit window;
         window.open(object, balls[i], fit.samples);
-        for (const int32_t other : before.meeting(window.box())) window.cover(balls[other]);
-        cost += window.costOf({balls[i]});
-        before.add(int32_t(i), balls[i]);
-    }
-    return cost;
+        for (const int32_t other : grid.meeting(window.box())) {
+            if (other < int32_t(i)) window.cover(balls[other]);
+        }
+        costs[i] = window.costOf({balls[i]});
+    });
+    return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
 int64_t halvedTowards(int64_t many, int64_t count)

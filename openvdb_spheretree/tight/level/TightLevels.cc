@@ -124,23 +124,39 @@ void dropChildless(TightLevel& level, TightLevel& finer)
 
 void adoptOrphans(TightLevel& finer, const std::vector<ExactSphere>& level)
 {
+    std::vector<std::size_t> orphans;
     for (std::size_t i = 0; i < finer.balls.size(); ++i) {
-        if (!level[finer.parent[i]].empty()) continue;
-        finer.parent[i] = leastProtruding(finer.balls[i], level);
+        if (level[finer.parent[i]].empty() && !finer.balls[i].empty()) orphans.push_back(i);
     }
+    if (orphans.empty()) return;
+    const BallGrid grid(level);
+    for (const std::size_t i : orphans) finer.parent[i] = anyNear(finer.balls[i], level, grid);
 }
 
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level)
 {
-    const auto protrusion = [&](const ExactSphere& other) {
-        return other.empty() ? std::numeric_limits<double>::infinity()
-                             : centerDistance(ball, other) + ball.radius() - other.radius();
-    };
     std::size_t best = 0;
-    for (std::size_t i = 1; i < level.size(); ++i) {
-        if (protrusion(level[i]) < protrusion(level[best])) best = i;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        if (level[i].empty()) continue;
+        const double protrusion =
+            centerDistance(ball, level[i]) + ball.radius() - level[i].radius();
+        if (protrusion >= least) continue;
+        least = protrusion;
+        best = i;
     }
     return int32_t(best);
+}
+
+int32_t anyNear(
+    const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid)
+{
+    constexpr std::size_t kSome = 8;
+    constexpr int32_t kNone = -1;
+    const std::vector<int32_t> near = grid.nearest(kNone, ball, kSome);
+    std::vector<ExactSphere> balls;
+    for (const int32_t i : near) balls.push_back(level[i]);
+    return near.empty() ? 0 : near[leastProtruding(ball, balls)];
 }
 
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/voxel/MedialBall.h>
+#include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/merge/MergeForest.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
@@ -30,11 +31,15 @@ std::vector<ExactSphere> ballsOfCut(const std::vector<ForestNode>& forest, int64
 /// Drops the balls of @a level that have no child in @a finer: no chain needs them.
 void dropChildless(TightLevel& level, TightLevel& finer);
 
-/// Gives the children of empty balls of @a level to the ball out of which they reach least. No chain needs them.
+/// Gives the children of empty balls of @a level to others that are near. No chain needs them.
 void adoptOrphans(TightLevel& finer, const std::vector<ExactSphere>& level);
 
 /// @return the ball of @a level out of which @a ball reaches least; empty ones do not count.
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
+/// @return the one of those of @a level that are nearest. For balls that no chain needs: it does not matter
+/// which, and levels may be large.
+int32_t anyNear(
+    const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid);
 
 /// @param counts     finest first, falling, none above the number of leaf balls
 /// @param digital    the first nodes of the forest as digital balls; empty if they are none

@@ -23,7 +23,7 @@ struct LevelEffort {
     int seeds;                        ///< starts of as many clusters as the level has balls
     std::vector<int64_t> timesAsMany; ///< starts of so many times as many clusters, merged
     int kept;                         ///< starts that are placed anew
-    int keptBound;                    ///< the same below another level, where it takes longer
+    int keptInGroups;                 ///< the same below another level, where it takes longer
     int trialsPerBall = 0;            ///< of the search of the best; 0: none
     int mostTrials = 0;
 };
@@ -103,9 +103,9 @@ private:
             return less < count ? searched(less, fewer) : Found();
         }
         Found best;
-        const int kept = mAbove.balls.empty() ? effort.kept : effort.keptBound;
+        const int kept = mAbove.balls.empty() ? effort.kept : effort.keptInGroups;
         for (int i = 0; i < std::min(kept, int(starts.size())); ++i) {
-            Found placed = improved(bound(starts[i].balls, count), 0);
+            Found placed = improved(inGroups(starts[i].balls, count), 0);
             if (placed.cost < best.cost) best = std::move(placed);
         }
         const int trials = trialsFor(best.balls, effort);
@@ -148,7 +148,7 @@ private:
     }
 
     /// @return a start within the groups of the level above.
-    std::vector<CoverBall> bound(const std::vector<CoverBall>& start, int64_t count) const
+    std::vector<CoverBall> inGroups(const std::vector<CoverBall>& start, int64_t count) const
     {
         if (mAbove.balls.empty()) return start;
         const GroupedCover dealt = dealtOut(ballsOf(start), mAbove, mRegions, mMaker);
@@ -221,7 +221,9 @@ private:
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool withClusters, Quality quality, const LevelMaker& maker)
 {
-    for (const int64_t count : counts) free.cover(count); // fewer balls come from more
+    for (const int64_t count : counts) { // fewer balls come from more
+        if (count > 1) free.cover(count);
+    }
     TopDownLevels from(free, withClusters, quality, maker);
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) levels[k] = from.next(counts[k]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlackMerging.h
-/// @brief Merging with slack (quality=normal and best). A ball must hold only what no other ball of the
+/// @brief Merging with slack (cuts of quality=normal, and few balls below another level). A ball must hold only what no other ball of the
 /// cover holds. It costs the outside voxels in it that are in no other ball.
 ///
 /// Each node has a region of object voxels. The region of a leaf ball are the voxels in it. The region

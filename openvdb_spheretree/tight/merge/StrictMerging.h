@@ -3,7 +3,7 @@
 /// @brief Plain merging. A ball holds all that the nodes below it hold. It costs the outside voxels in
 /// it, also those that are in other balls.
 ///
-/// With quality=fast, a leaf ball holds the voxels of its power cell (PowerCells.h). The chain of a
+/// A leaf ball holds the voxels of its power cell (PowerCells.h), or of a part of it. The chain of a
 /// voxel is the leaf ball whose cell it is in, and the balls above that. With cover=balls, a leaf ball
 /// holds itself.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverSearch.h
-/// @brief Makes a cover cheaper with the same number of balls (quality=best): tries changes, and keeps
-/// those that lower the cost.
+/// @brief Makes a cover cheaper with the same number of balls: places each anew, tries changes, and keeps
+/// what lowers the cost.
 ///
 /// 1. Every ball is placed anew, over and over, until nothing changes.
 /// 2. Many trials disturb one ball and refit its neighbours (CoverTrial.h). A few times in a
