@@ -180,7 +180,9 @@ std::vector<TightLevel> cutLevels(
     SphereTree& tree, const TightSource& source, StageSeconds* seconds)
 {
     const TightOptions& options = tree.settings.tight();
-    const auto& [object, leaves, maker] = source;
+    const openvdb::BoolGrid& object = source.object;
+    const LeafBalls& leaves = source.leaves;
+    const LevelMaker& maker = source.maker;
     const auto interrupter = maker.interrupter;
     const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
         // A detail of this stage: how far it is, the merging says.
@@ -205,7 +207,9 @@ std::vector<TightLevel> cutLevels(
 TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCovers& free,
     std::vector<int64_t>& counts)
 {
-    const auto& [object, leaves, maker] = source;
+    const openvdb::BoolGrid& object = source.object;
+    const LeafBalls& leaves = source.leaves;
+    const LevelMaker& maker = source.maker;
     const auto leafCount = int64_t(leaves.balls.size());
     const auto levelOf = [&](int64_t count) -> TightLevel {
         if (count == leafCount) return {leaves.balls, {}, leaves.digital};
