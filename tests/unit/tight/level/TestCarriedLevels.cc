@@ -70,10 +70,10 @@ std::pair<int64_t, int64_t> expectCarried(
 TEST(CarriedLevels, KeepChainsAndAreTightOnTheFineObject)
 {
     Random random(2);
-    for (const double rate : {0.1, 0.5}) {
+    for (const double rate : {0.1, 0.5, 0.05, 0.2, 0.3}) {
         const Voxels voxels = shapes::noise(Coord(13, 12, 11), rate, random);
         for (const std::vector<int64_t>& counts :
-            {std::vector<int64_t>{20, 7, 3, 1}, {9, 2}, {12}}) {
+            {std::vector<int64_t>{20, 7, 3, 1}, {30, 14, 9, 5, 3}, {9, 2}, {12}}) {
             const auto [before, after] = expectCarried(voxels, counts, false);
             EXPECT_LT(after, before);
         }

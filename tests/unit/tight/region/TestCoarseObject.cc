@@ -69,7 +69,8 @@ TEST(CoarseObject, OfAFlatObjectStaysFlat)
 {
     Random random(2);
     const CoarseObject object = coarseOf(shapes::noise(Coord(90, 80, 1), 0.3, random), 40, 2);
-    EXPECT_GT(object.steps.size(), 0u);
+    ASSERT_GT(object.steps.size(), 0u);
+    for (const PyramidStep& step : object.steps) EXPECT_EQ(step.dim, 2);
     for (const ExactSphere& ball : object.leaves.balls) EXPECT_EQ(ball.center[2], 0);
 }
 
