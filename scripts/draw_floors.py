@@ -47,9 +47,9 @@ def place_rooms(floors):
     for floor, folders in rows.items():
         inside = [f for f in folders if f.split("/")[0] in towers]
         others = [f for f in folders if f not in inside]
-        for folder in inside:
-            rooms[folder] = (0.0, TOWER, floor)
-        left = TOWER + 2 * GAP if inside else 0.0
+        for i, folder in enumerate(inside):
+            rooms[folder] = (i * (TOWER + GAP), i * (TOWER + GAP) + TOWER, floor)
+        left = len(inside) * (TOWER + GAP) + GAP if inside else 0.0
         width = (WIDTH - left + GAP) / len(others) if others else 0.0
         for i, folder in enumerate(others):
             rooms[folder] = (left + i * width, left + (i + 1) * width - GAP, floor)
