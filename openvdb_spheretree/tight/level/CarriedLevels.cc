@@ -59,13 +59,9 @@ private:
     /// @return the finest balls merged to as many as there may be, each within its group.
     std::vector<CoverBall> fewer(const std::vector<CoverBall>& cover) const
     {
-        std::vector<VoxelRegion> held(cover.size());
-        detail::parallelFor(held.size(), mMaker.interrupter, [&](std::size_t i) {
-            const auto& [ball, group] = cover[i];
-            held[i] = mLevels.size() == 1 ? regionOf(ball, mVoxels)
-                                          : clipped(mChains[1][group], ball, mVoxels);
-        });
-        const auto cells = powerCells(ballsOf(cover), held, mVoxels, mMaker.interrupter);
+        const TightLevel finest{ballsOf(cover), groupsOf(cover), {}};
+        const auto held = chainRegions(finest, mChains[1], mMaker); // mChains[1]: none of one level
+        const auto cells = powerCells(finest.balls, held, mVoxels, mMaker.interrupter);
         const auto points = extremePoints(cells, mVoxels, mMaker.interrupter);
         return mMaker.merged(cover, points, false, mMost);
     }

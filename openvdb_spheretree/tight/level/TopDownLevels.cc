@@ -2,7 +2,6 @@
 #include "TopDownLevels.h"
 
 #include "GroupedCover.h"
-#include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
@@ -156,12 +155,8 @@ private:
             const auto points = extremePoints(dealt.cells, mVoxels, mMaker.interrupter);
             return mMaker.merged(dealt.balls, points, false, count);
         }
-        std::vector<VoxelRegion> held(dealt.balls.size());
-        detail::parallelFor(held.size(), mMaker.interrupter, [&](std::size_t i) {
-            const auto& [ball, group] = dealt.balls[i];
-            held[i] = clipped(mRegions[group], ball, mVoxels);
-        });
-        return mMaker.mergedWithSlack(dealt.balls, std::move(held), count);
+        const TightLevel below{ballsOf(dealt.balls), groupsOf(dealt.balls), {}};
+        return mMaker.mergedWithSlack(dealt.balls, chainRegions(below, mRegions, mMaker), count);
     }
 
     Found improved(const std::vector<CoverBall>& balls, int trialsPerBall) const
