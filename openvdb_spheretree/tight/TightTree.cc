@@ -60,6 +60,7 @@ LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& obj
     if (quality == Quality::Fast) {
         LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
         fast.sweeps = 2;
+        fast.neighbours = 2;
         fast.placesStart = false;
         fast.merging.diagonals = false;
         return fast;
@@ -71,7 +72,12 @@ LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& obj
         std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
     LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
     maker.merging.samples = int(samples);
-    maker.searchesAll = quality == Quality::Best;
+    maker.searchedUpTo = kFewBalls;
+    if (quality == Quality::Best) {
+        maker.searchedUpTo = INT64_MAX;
+        maker.searches = 6;
+        maker.trialsPerBall = 40;
+    }
     return maker;
 }
 
@@ -202,6 +208,17 @@ std::vector<TightLevel> cutLevels(
     return levelsOf(forest, counts, leaves.digital);
 }
 
+/// @return at most @a count balls that are bound to no others, in the sense of CoverSearch.h if there is to be
+/// a search.
+std::vector<ExactSphere> freeBalls(FreeCovers& free, int64_t count, const LevelMaker& maker)
+{
+    const std::vector<ExactSphere>& balls = free.cover(count);
+    if (!maker.searchesLevelOf(balls.size())) return balls;
+    const std::vector<ExactSphere>& smaller = free.cover(4 * count);
+    return ballsOf(withoutEmpty(
+        maker.improve(ungrouped(balls), ungrouped(smaller), VoxelGoal(maker.object.level(0)))));
+}
+
 /// @return the finest level of a tree: all leaf balls, or the fewest balls within the bounds.
 /// @param counts  receives those of all levels
 TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCovers& free,
@@ -220,12 +237,10 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
     counts = levelCounts(tree.settings, leafCount, tree.voxelSize(), [&](int64_t count) {
         return errorOf({levelOf(count)}, tree, *meter, source.maker.interrupter);
     });
-    TightLevel level = levelOf(counts.front());
-    if (counts.front() == leafCount || !maker.searchesAll) return level;
+    const TightLevel level = levelOf(counts.front());
+    if (counts.front() == leafCount) return level;
     // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
-    TightLevel searched;
-    searched.balls = ballsOf(withoutEmpty(maker.improve(ungrouped(level.balls),
-        ungrouped(free.cover(4 * counts.front())), VoxelGoal(maker.object.level(0)))));
+    const TightLevel searched{freeBalls(free, counts.front(), maker), {}, {}};
     return keepsBounds(searched, tree, object, maker.interrupter) ? searched : level;
 }
 
@@ -259,12 +274,13 @@ const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
 std::vector<TightLevel> betterLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool areGiven, Quality quality, const LevelMaker& maker)
 {
-    const bool onlyTop = counts.size() == 1 || counts.front() <= kFewBalls;
+    const bool onlyTop =
+        counts.front() <= kFewBalls || (counts.size() == 1 && quality != Quality::Best);
     const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
     if (onlyTop) return fromTop();
-    const TightLevel finest{free.cover(counts.front()), {}, {}};
+    const TightLevel finest{freeBalls(free, counts.front(), maker), {}, {}};
     const std::vector<TightLevel> fromBottom = bottomUpLevels(finest, counts, maker);
-    return quality == Quality::Fast ? fromBottom : betterOf(fromBottom, fromTop(), maker);
+    return quality == Quality::Best ? betterOf(fromBottom, fromTop(), maker) : fromBottom;
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace openvdb_spheretree::tight {
 
@@ -10,72 +11,103 @@ namespace {
 
 using openvdb::Coord;
 
-/// A point, and where it is in which slice.
-struct SlicePoint {
-    int64_t slice, u, v;
-    Coord at;
-};
-
-/// @return whether going from a over b to c does not turn left: then b is no corner.
-bool turnsRight(const SlicePoint& a, const SlicePoint& b, const SlicePoint& c)
-{
-    const __int128 left = __int128(b.u - a.u) * (c.v - a.v);
-    return left - __int128(b.v - a.v) * (c.u - a.u) <= 0;
-}
-
-/// Appends the corners of the hull of points that are ordered by u, then v.
-void appendHull(const SlicePoint* begin, const SlicePoint* end, std::vector<Coord>& corners,
-    std::vector<SlicePoint>& chain)
-{
-    if (end - begin <= 2) {
-        for (; begin != end; ++begin) corners.push_back(begin->at);
-        return;
-    }
-    chain.clear();
-    const auto grow = [&](const SlicePoint& p, std::size_t atLeast) {
-        while (chain.size() > atLeast && turnsRight(*(chain.end() - 2), chain.back(), p)) {
-            chain.pop_back();
-        }
-        chain.push_back(p);
-    };
-    for (const SlicePoint* p = begin; p != end; ++p) grow(*p, 1);
-    const std::size_t lower = chain.size();
-    for (const SlicePoint* p = end - 1; p-- != begin;) grow(*p, lower);
-    chain.pop_back(); // the first point again
-    for (const SlicePoint& p : chain) corners.push_back(p.at);
-}
-
 /// Parallel slices. The number of a point's slice is a sum of its coordinates with these factors, and
-/// its place there are the coordinates along two axes.
+/// its place there are the coordinates along two axes. Of points in ascending order, those of a slice
+/// ascend by their places, too.
 struct Slicing {
     int x, y, z; ///< factors
     int u, v;    ///< axes
+
+    int64_t of(const Coord& p) const
+    {
+        return int64_t(x) * p[0] + int64_t(y) * p[1] + int64_t(z) * p[2];
+    }
 };
 
 constexpr Slicing kAlongAxes[3] = {{0, 0, 1, 0, 1}, {0, 1, 0, 0, 2}, {1, 0, 0, 1, 2}};
 constexpr Slicing kDiagonal[6] = {{1, 1, 0, 0, 2}, {1, -1, 0, 0, 2}, {1, 0, 1, 0, 1},
-    {1, 0, -1, 0, 1}, {0, 1, 1, 1, 0}, {0, 1, -1, 1, 0}};
+    {1, 0, -1, 0, 1}, {0, 1, 1, 0, 1}, {0, 1, -1, 0, 1}};
 
-/// Keeps the corners of each slice's hull.
-void keepSliceHulls(std::vector<Coord>& points, const Slicing& by)
-{
-    thread_local std::vector<SlicePoint> order, chain;
-    order.clear();
-    for (const Coord& p : points) {
-        const int64_t slice = int64_t(by.x) * p[0] + int64_t(by.y) * p[1] + int64_t(by.z) * p[2];
-        order.push_back({slice, p[by.u], p[by.v], p});
+/// Finds the corners of hulls in slices of points, which ascend.
+class SliceHulls {
+public:
+    /// Keeps the corners of each slice's hull. The points stay in order.
+    void keepCorners(std::vector<Coord>& points, const Slicing& by)
+    {
+        sortBySlice(points, by);
+        mIsCorner.assign(points.size(), 0);
+        for (std::size_t i = 0; i < mOrder.size();) {
+            std::size_t j = i + 1;
+            while (j < mOrder.size() && mSlice[mOrder[j]] == mSlice[mOrder[i]]) ++j;
+            markHull(points, by, i, j);
+            i = j;
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (mIsCorner[i]) points[kept++] = points[i];
+        }
+        points.resize(kept);
     }
-    std::sort(order.begin(), order.end(), [](const SlicePoint& a, const SlicePoint& b) {
-        return a.slice != b.slice ? a.slice < b.slice : a.u != b.u ? a.u < b.u : a.v < b.v;
-    });
-    points.clear();
-    for (std::size_t i = 0; i < order.size();) {
-        std::size_t j = i + 1;
-        while (j < order.size() && order[j].slice == order[i].slice) ++j;
-        appendHull(&order[i], &order[i] + (j - i), points, chain);
-        i = j;
+
+private:
+    /// Numbers the points by slice, and in each slice as they come.
+    void sortBySlice(const std::vector<Coord>& points, const Slicing& by)
+    {
+        mSlice.clear();
+        for (const Coord& p : points) mSlice.push_back(by.of(p));
+        const auto ends = std::minmax_element(mSlice.begin(), mSlice.end());
+        const int64_t first = *ends.first, slices = *ends.second - first + 1;
+        mOrder.resize(points.size());
+        constexpr int64_t kFew = 4096;
+        if (slices > kFew) {
+            std::iota(mOrder.begin(), mOrder.end(), 0);
+            std::stable_sort(mOrder.begin(), mOrder.end(),
+                [&](uint32_t a, uint32_t b) { return mSlice[a] < mSlice[b]; });
+            return;
+        }
+        mBegin.assign(std::size_t(slices) + 1, 0);
+        for (const int64_t slice : mSlice) ++mBegin[std::size_t(slice - first) + 1];
+        std::partial_sum(mBegin.begin(), mBegin.end(), mBegin.begin());
+        for (uint32_t i = 0; i < mSlice.size(); ++i) {
+            mOrder[mBegin[std::size_t(mSlice[i] - first)]++] = i;
+        }
     }
-}
+
+    /// Marks the corners of the hull of a slice: the points with the numbers at @a begin to @a end.
+    void markHull(
+        const std::vector<Coord>& points, const Slicing& by, std::size_t begin, std::size_t end)
+    {
+        if (end - begin <= 2) {
+            for (; begin != end; ++begin) mIsCorner[mOrder[begin]] = 1;
+            return;
+        }
+        mChain.clear();
+        const auto grow = [&](uint32_t p, std::size_t atLeast) {
+            while (mChain.size() > atLeast
+                && !turnsLeft(points[*(mChain.end() - 2)], points[mChain.back()], points[p], by)) {
+                mChain.pop_back();
+            }
+            mChain.push_back(p);
+        };
+        for (std::size_t i = begin; i < end; ++i) grow(mOrder[i], 1);
+        const std::size_t lower = mChain.size();
+        for (std::size_t i = end - 1; i-- > begin;) grow(mOrder[i], lower);
+        for (const uint32_t p : mChain) mIsCorner[p] = 1;
+    }
+
+    /// @return whether going from a over b to c turns left; else b is no corner.
+    static bool turnsLeft(const Coord& a, const Coord& b, const Coord& c, const Slicing& by)
+    {
+        const auto along = [](const Coord& from, const Coord& to, int axis) -> __int128 {
+            return int64_t(to[axis]) - from[axis];
+        };
+        return along(a, b, by.u) * along(a, c, by.v) > along(a, b, by.v) * along(a, c, by.u);
+    }
+
+    std::vector<int64_t> mSlice; ///< of each point
+    std::vector<uint32_t> mOrder, mBegin, mChain;
+    std::vector<char> mIsCorner;
+};
 
 /// The lower and the upper hull of a slice's rows, which are ordered by y.
 template <typename Rows>
@@ -155,15 +187,20 @@ std::vector<Coord>& ExtremePoints::finish()
 
 void dropInnerPoints(std::vector<Coord>& points)
 {
-    constexpr std::size_t kMany = 40; // diagonal slices cost more than they save below
-    if (points.size() >= 5) {
-        for (const Slicing& slices : kAlongAxes) keepSliceHulls(points, slices);
-        if (points.size() > kMany) {
-            for (const Slicing& slices : kDiagonal) keepSliceHulls(points, slices);
-        }
+    constexpr std::size_t kFew = 5, kMany = 40; // diagonal slices cost more than they save below
+    // Often they are those of two sets, each in order.
+    const auto second = std::is_sorted_until(points.begin(), points.end());
+    if (std::is_sorted(second, points.end())) {
+        std::inplace_merge(points.begin(), second, points.end());
+    } else {
+        std::sort(points.begin(), points.end());
     }
-    std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < kFew) return;
+    thread_local SliceHulls hulls;
+    for (const Slicing& slices : kAlongAxes) hulls.keepCorners(points, slices);
+    if (points.size() <= kMany) return;
+    for (const Slicing& slices : kDiagonal) hulls.keepCorners(points, slices);
 }
 
 } // namespace openvdb_spheretree::tight

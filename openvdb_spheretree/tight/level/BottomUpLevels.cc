@@ -77,7 +77,7 @@ std::vector<ExactSphere> fewerBalls(
         points = pointsOf(units, owner, balls.size(), maker.interrupter);
         areInside = false;
     }
-    if (!maker.searchesAll) return balls;
+    if (!maker.searchesLevelOf(balls.size())) return balls;
     return ballsOf(withoutEmpty(maker.improve(ungrouped(balls), ungrouped(finer.balls), goal)));
 }
 
@@ -87,9 +87,7 @@ void placeAbove(TightLevel& level, TightLevel& finer, const std::vector<VoxelReg
 {
     const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
     const VoxelGoal goal(maker.object.level(0), below);
-    const auto balls = eachInItsGroup(level.balls);
-    level.balls = ballsOf(
-        maker.searchesAll ? maker.improve(balls, {}, goal) : maker.placed(balls, goal, false));
+    level.balls = ballsOf(maker.placed(eachInItsGroup(level.balls), goal, false));
     adoptOrphans(finer, level.balls);
     dropChildless(level, finer);
 }
@@ -106,9 +104,7 @@ TightLevel coarserLevel(
     level.balls = fewerBalls(finer, units, count, maker);
     finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
     dropChildless(level, finer);
-    if (maker.searchesAll) {
-        moveChildren(level.balls, finer, regions, maker);
-        placeAbove(level, finer, regions, maker);
+    if (maker.searchesLevelOf(level.balls.size())) {
         moveChildren(level.balls, finer, regions, maker);
     }
     placeAbove(level, finer, regions, maker);

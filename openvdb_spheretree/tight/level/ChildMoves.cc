@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -15,7 +16,17 @@ namespace {
 
 struct Move {
     int32_t child, from, to;
+
+    bool operator==(const Move& o) const
+    {
+        return child == o.child && from == o.from && to == o.to;
+    }
 };
+
+bool isInside(const ExactSphere& ball, const ExactSphere& other)
+{
+    return centerDistance(ball, other) + ball.radius() < other.radius();
+}
 
 /// @return a ball around both.
 ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
@@ -45,34 +56,63 @@ public:
     bool round()
     {
         mBelow = regionsBelow(mRegions, mFiner.parent, mCover.size(), mMaker.interrupter);
-        constexpr std::size_t kParents = 3;
-        std::vector<Move> moves;
-        for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
-            const int32_t from = mFiner.parent[c];
-            if (mCover[from].empty()) continue; // no voxel needs it
-            for (const int32_t to : mCover.grid().nearest(kNewBall, mFiner.balls[c], kParents)) {
-                if (to != from) moves.push_back({int32_t(c), from, to});
-            }
-        }
-        std::vector<std::pair<CoverChange, std::size_t>> changes(moves.size());
+        std::vector<Tried> moves = nextMoves();
         detail::parallelFor(moves.size(), mMaker.interrupter, [&](std::size_t i) {
-            changes[i] = {tryMove(moves[i]), i};
+            if (!moves[i].isKnown) moves[i].change = tryMove(moves[i].move);
+            moves[i].isKnown = true;
         });
-        std::stable_sort(changes.begin(), changes.end(),
-            [](const auto& a, const auto& b) { return a.first.change < b.first.change; });
+        std::vector<std::size_t> order(moves.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return moves[a].change.change < moves[b].change.change;
+        });
         std::vector<FineBox> taken;
-        for (const auto& [change, i] : changes) {
-            if (!change.improves() || change.box.meetsAny(taken)) continue;
+        for (const std::size_t i : order) {
+            const auto& [move, change, isKnown] = moves[i];
+            if (!change.improves()) break;
+            if (change.box.meetsAny(taken)) continue;
             apply(change, mCover);
-            mFiner.parent[moves[i].child] = moves[i].to;
+            mFiner.parent[move.child] = move.to;
             taken.push_back(change.box);
         }
+        // What met no change is worth what it was.
+        for (Tried& tried : moves) tried.isKnown = !tried.change.box.meetsAny(taken);
+        mTried = std::move(moves);
         return !taken.empty();
     }
 
     std::vector<ExactSphere> balls() const { return ballsOf(mCover.balls()); }
 
 private:
+    struct Tried {
+        Move move;
+        CoverChange change;
+        bool isKnown; ///< whether it still holds
+    };
+
+    /// @return for each child the moves to parents that are near; those of the round before as they were.
+    std::vector<Tried> nextMoves() const
+    {
+        constexpr std::size_t kParents = 3;
+        std::vector<Tried> moves;
+        std::size_t before = 0; // of mTried, which is ordered by children
+        for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
+            const int32_t from = mFiner.parent[c];
+            if (mCover[from].empty()) continue;                         // no voxel needs it
+            if (isInside(mFiner.balls[c], mCover[from].ball)) continue; // it keeps no ball large
+            while (before < mTried.size() && mTried[before].move.child < int32_t(c)) ++before;
+            for (const int32_t to : mCover.grid().nearest(kNewBall, mFiner.balls[c], kParents)) {
+                if (to == from) continue;
+                Tried& tried = moves.emplace_back(Tried{{int32_t(c), from, to}, {}, false});
+                for (std::size_t i = before; i < mTried.size(); ++i) {
+                    if (mTried[i].move.child != int32_t(c)) break;
+                    if (mTried[i].isKnown && mTried[i].move == tried.move) tried = mTried[i];
+                }
+            }
+        }
+        return moves;
+    }
+
     CoverChange tryMove(const Move& move) const
     {
         VoxelRegion less; // of the old parent's other children
@@ -92,12 +132,10 @@ private:
         const std::size_t to = part.indexOf(move.to);
         const ExactSphere& child = mFiner.balls[move.child];
         const ExactSphere grown = ballAround(mCover[move.to].ball, child);
-        if (!part.box.contains(FineBox(grown))) return {};
-        fit.replace(part, to, grown);
+        if (!part.box.contains(FineBox(grown))) return noChange(move);
         fit.refit(part, part.indexOf(move.from));
-        fit.refit(part, to);
-        fit.refitNear(
-            part, mCover.grid().nearest(move.to, mCover[move.to].ball, kChangedNeighbours), child);
+        if (!(part.change < 0)) return noChange(move); // the other one can only grow
+        fit.replace(part, to, grown);
         fit.refit(part, to);
         CoverChange change = fit.changeOf(part);
         // Their regions change, also where these balls do not.
@@ -106,11 +144,21 @@ private:
         return change;
     }
 
+    /// @return a change of nothing, whose box is that of the balls it depends on.
+    CoverChange noChange(const Move& move) const
+    {
+        CoverChange none;
+        none.box.expand(mCover[move.from].ball);
+        none.box.expand(mCover[move.to].ball);
+        return none;
+    }
+
     BallCover mCover;
     TightLevel& mFiner;
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
     std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls, before the round
+    std::vector<Tried> mTried;       ///< of the round before
 };
 
 } // namespace

@@ -34,23 +34,20 @@ std::vector<CoverBall> groupedCut(
 
 } // namespace
 
-int LevelMaker::trialsFor(std::size_t count)
-{
-    constexpr std::size_t kLeast = 4, kMost = 100, kAll = 200000;
-    return int(std::max(kLeast, std::min(kMost, kAll / count)));
-}
-
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::vector<CoverBall>& finer, const CoverGoal& goal) const
 {
     // More trials of one search gain little. But searches of few balls end in different places, and
     // take little time: so there are several.
-    constexpr std::size_t kBalls = 128, kMost = 6;
-    const std::size_t searches = std::max<std::size_t>(1, std::min(kMost, kBalls / start.size()));
+    constexpr int kBalls = 128, kFewestTrials = 4, kTrials = 200000; // the last: of all balls
+    const int size = int(start.size());
+    const int several = std::clamp(kBalls / size, 1, searches);
+    const int trials =
+        std::clamp(kTrials / size, std::min(kFewestTrials, trialsPerBall), trialsPerBall);
     SearchedCover best;
     best.balls = start;
-    for (uint64_t number = 0; number < searches; ++number) {
-        const SearchEffort effort{fit, trialsFor(start.size()), number << 40, flat};
+    for (uint64_t number = 0; number < uint64_t(several); ++number) {
+        const SearchEffort effort{fit, trials, number << 40, flat};
         SearchedCover found = improveCover(start, finer, object, goal, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }

@@ -35,13 +35,15 @@ struct LevelMaker {
     /// Leaf balls are merged at once to twice as many as are asked for, and these placed anew; else
     /// to as many, and not placed.
     bool placesStart = true;
-    bool searchesAll = false; ///< search levels of any number of balls, and move children
+    /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
+    /// from one of them to another.
+    int64_t searchedUpTo = 0;
+    int searches = 1;      ///< of a level, at most
+    int trialsPerBall = 8; ///< of a search, at most
 
-    /// @return how many trials a ball of a level of @a count balls gets: fewer of many, to bound the
-    /// time.
-    static int trialsFor(std::size_t count);
+    bool searchesLevelOf(std::size_t balls) const { return int64_t(balls) <= searchedUpTo; }
 
-    /// @return the level after the best of several searches (CoverSearch.h).
+    /// @return the level after the best of several searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
     /// @return the cover with each ball placed anew until nothing changes; without those that no

@@ -54,9 +54,9 @@ TEST(BottomUpLevels, OfAllLeafBallsKeepTheseAndTheirChains)
 {
     Random random(2);
     int64_t merging = 0, found = 0;
-    for (const bool searchesAll : {false, true}) {
+    for (const int64_t searchedUpTo : {0, 1000}) {
         MergedLeaves merged(shapes::noise(Coord(9, 7, 6), 0.4, random));
-        merged.maker.searchesAll = searchesAll;
+        merged.maker.searchedUpTo = searchedUpTo;
         const TightLevel leaves = merged.levels({int64_t(merged.leaves.size())}).front();
         const std::vector<int64_t> counts{int64_t(merged.leaves.size()), 20, 5, 1};
         const auto levels = bottomUpLevels(leaves, counts, merged.maker);
