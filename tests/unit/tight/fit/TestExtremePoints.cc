@@ -50,6 +50,20 @@ TEST(ExtremePoints, StandForVoxelsFarApart)
     }
 }
 
+TEST(ExtremePoints, StandForTwoSetsOneAfterTheOther)
+{
+    Random random(3);
+    for (uint32_t seed = 3000; seed < 3050; ++seed) {
+        const Voxels all = randomObject(seed).voxels;
+        Voxels points, second;
+        for (const Coord& voxel : all) (random.between(0, 1) ? points : second).push_back(voxel);
+        points.insert(points.end(), second.begin(), second.end());
+        dropInnerPoints(points);
+        ASSERT_TRUE(standFor(points, all, random)) << seed;
+        EXPECT_TRUE(std::is_sorted(points.begin(), points.end()));
+    }
+}
+
 TEST(ExtremePoints, AreFew)
 {
     EXPECT_EQ(extremesOf(translated(shapes::box(Coord(20, 30, 25)), Coord(-9, 4, 3))).size(), 8u);
