@@ -257,30 +257,13 @@ std::vector<TightLevel> levelsOnFinest(
         [&] { return bottomUpLevels(finest, counts, source.maker); });
 }
 
-/// @return which of two trees' levels, as many in both, have the smaller product of errors.
-const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
-    const std::vector<TightLevel>& others, const LevelMaker& maker)
-{
-    double gain = 0; // of `some`: the log of a ratio
-    for (std::size_t k = 0; k < some.size(); ++k) {
-        gain += std::log(1 + maker.costOf(others[k].balls));
-        gain -= std::log(1 + maker.costOf(some[k].balls));
-    }
-    return gain >= 0 ? some : others;
-}
-
-/// From the top, coarse levels are the better ones, and from the bottom the finest: whatever is found
-/// first is bound to nothing. Few balls gain more from the top, and one level has neither.
-std::vector<TightLevel> betterLevels(const std::vector<int64_t>& counts, FreeCovers& free,
+/// Few balls are found best from the top, where clusters are starts, too; of many, the finest are the better the
+/// less they are bound to, so they come first.
+std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCovers& free,
     bool areGiven, Quality quality, const LevelMaker& maker)
 {
-    const bool onlyTop =
-        counts.front() <= kFewBalls || (counts.size() == 1 && quality != Quality::Best);
-    const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
-    if (onlyTop) return fromTop();
-    const TightLevel finest{freeBalls(free, counts.front(), maker), {}, {}};
-    const std::vector<TightLevel> fromBottom = bottomUpLevels(finest, counts, maker);
-    return quality == Quality::Best ? betterOf(fromBottom, fromTop(), maker) : fromBottom;
+    if (counts.front() <= kFewBalls) return topDownLevels(counts, free, !areGiven, quality, maker);
+    return bottomUpLevels({freeBalls(free, counts.front(), maker), {}, {}}, counts, maker);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
@@ -298,7 +281,7 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
         const int64_t most = counts.front();
         // Some are not needed on the fine object.
         if (!onObject) counts.front() += counts.front() / 8;
-        auto levels = betterLevels(counts, free, areGiven, options.quality, maker);
+        auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
         for (std::size_t step = coarse.steps.size(); step-- > 0;) {
             const SampledObject finer(LeafLayout(*coarse.levels[step]));
             levels = carriedDown(std::move(levels), coarse.steps[step],

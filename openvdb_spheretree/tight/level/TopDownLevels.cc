@@ -76,8 +76,6 @@ public:
 private:
     static constexpr std::size_t kBlocks = 4096;
 
-    bool hasClusters(int64_t count) const { return !mBlocks.empty() && count <= kFewBalls; }
-
     /// One ball is one fit: it gets all the effort there is.
     Found oneBall() const
     {
@@ -121,7 +119,7 @@ private:
             starts.push_back(withCost(ungrouped(balls)));
         };
         add(mFree.cover(count));
-        if (hasClusters(count)) {
+        if (!mBlocks.empty()) {
             for (int seed = 0; seed < effort.seeds; ++seed) add(clusters(count, uint64_t(seed)));
             for (const int64_t times : effort.timesAsMany) add(mergedClusters(count, times));
         }
@@ -151,10 +149,6 @@ private:
     {
         if (mAbove.balls.empty()) return start;
         const GroupedCover dealt = dealtOut(ballsOf(start), mAbove, mRegions, mMaker);
-        if (count > kFewBalls) {
-            const auto points = extremePoints(dealt.cells, mVoxels, mMaker.interrupter);
-            return mMaker.merged(dealt.balls, points, false, count);
-        }
         const TightLevel below{ballsOf(dealt.balls), groupsOf(dealt.balls), {}};
         return mMaker.mergedWithSlack(dealt.balls, chainRegions(below, mRegions, mMaker), count);
     }
@@ -176,7 +170,7 @@ private:
     {
         constexpr int64_t kSmaller = 4; // balls, for each of the level
         const auto smaller =
-            hasClusters(count) ? clusters(kSmaller * count, 1) : mFree.cover(kSmaller * count);
+            mBlocks.empty() ? mFree.cover(kSmaller * count) : clusters(kSmaller * count, 1);
         return mAbove.balls.empty() ? ungrouped(smaller)
                                     : dealtOut(smaller, mAbove, mRegions, mMaker).balls;
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TopDownLevels.h
-/// @brief Levels from the coarsest to the finest, each inside the regions of the one above it.
+/// @brief Levels of few balls, from the coarsest to the finest, each inside the regions of the one above it.
 ///
 /// Where balls are few, the start decides what a search finds. So there are several, and each level begins
 /// with what is best for it alone:
-/// 1. Starts are a cover of the object by as many balls, bound to nothing (FreeCovers.h); and for few
-///    balls those around clusters of voxels (ClusterCover.h), which see the whole object: of a box
-///    or a torus nothing tells merges where the cuts between few balls should be.
+/// 1. Starts are a cover of the object by as many balls, bound to nothing (FreeCovers.h), and those around
+///    clusters of voxels (ClusterCover.h), which see the whole object: of a box or a torus nothing
+///    tells merges where the cuts between few balls should be.
 /// 2. The cheapest starts are dealt out to the groups of the level above (GroupedCover.h), merged to the
 ///    count within these, and placed anew until nothing changes. The coarsest level is bound to nothing.
-/// 3. The best of them is searched (CoverSearch.h) where few balls or quality=best allow it.
+/// 3. The best of them is searched (CoverSearch.h) where time allows it.
 /// 4. A level that would cost more than the one above it, or than one ball, is a copy of that.
 ///
 /// A level may cost more than the same level of less quality where those above it cost less: it is bound to
@@ -31,10 +31,10 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Up to so many balls are few.
+/// Up to so many balls are few: those of more gain less from starts than they lose by what is above them.
 constexpr int64_t kFewBalls = 64;
 
-/// @param counts        of balls, finest first, falling
+/// @param counts        of balls, finest first, falling; at most kFewBalls
 /// @param free          of the same object
 /// @param withClusters  try balls around clusters, too
 /// @param quality       how many starts there are, and how long the best is searched
