@@ -257,13 +257,30 @@ std::vector<TightLevel> levelsOnFinest(
         [&] { return bottomUpLevels(finest, counts, source.maker); });
 }
 
-/// Few balls are found best from the top, where clusters are starts, too; of many, the finest are the better the
-/// less they are bound to, so they come first.
+/// @return which of two trees' levels, as many in both, have the smaller product of errors.
+const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
+    const std::vector<TightLevel>& others, const LevelMaker& maker)
+{
+    double gain = 0; // of `some`: the log of a ratio
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        gain += std::log(1 + maker.costOf(others[k].balls));
+        gain -= std::log(1 + maker.costOf(some[k].balls));
+    }
+    return gain >= 0 ? some : others;
+}
+
+/// Of many balls the finest level is the better the less it is bound to, so it comes first. Few balls are
+/// made from the top as well, where clusters are starts: of plain solids that is better, and of others not.
 std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCovers& free,
     bool areGiven, Quality quality, const LevelMaker& maker)
 {
-    if (counts.front() <= kFewBalls) return topDownLevels(counts, free, !areGiven, quality, maker);
-    return bottomUpLevels({freeBalls(free, counts.front(), maker), {}, {}}, counts, maker);
+    const auto fromBottom = [&] {
+        return bottomUpLevels({freeBalls(free, counts.front(), maker), {}, {}}, counts, maker);
+    };
+    const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
+    if (counts.front() > kFewBalls) return fromBottom();
+    const bool onlyTop = counts.size() == 1 || quality == Quality::Fast;
+    return onlyTop ? fromTop() : betterOf(fromTop(), fromBottom(), maker);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.

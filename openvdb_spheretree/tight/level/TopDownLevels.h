@@ -31,7 +31,7 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Up to so many balls are few: those of more gain less from starts than they lose by what is above them.
+/// Up to so many balls are few: more gain less from starts than they lose by what is above them.
 constexpr int64_t kFewBalls = 64;
 
 /// @param counts        of balls, finest first, falling; at most kFewBalls
