@@ -3,11 +3,13 @@
 
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/base/StepProgress.h>
 #include <openvdb_spheretree/measure/LevelMeter.h>
 #include <openvdb_spheretree/tight/level/BottomUpLevels.h>
 #include <openvdb_spheretree/tight/level/CarriedLevels.h>
 #include <openvdb_spheretree/tight/level/FreeCovers.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
+#include <openvdb_spheretree/tight/level/LevelWork.h>
 #include <openvdb_spheretree/tight/level/MonotoneLevels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
 #include <openvdb_spheretree/tight/level/TopDownLevels.h>
@@ -53,7 +55,7 @@ int64_t enoughVoxels(int64_t count)
 }
 
 LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
-    std::size_t leafBalls, openvdb::util::NullInterrupter* interrupter)
+    std::size_t leafBalls, detail::StepProgress* interrupter)
 {
     const bool flat = settings.dim == 2;
     const Quality quality = settings.tight().quality;
@@ -182,28 +184,27 @@ struct TightSource {
 };
 
 /// Levels that are cuts of one forest of merges; and the cuts if the settings say so.
-std::vector<TightLevel> cutLevels(
-    SphereTree& tree, const TightSource& source, StageSeconds* seconds)
+std::vector<TightLevel> cutLevels(SphereTree& tree, const TightSource& source)
 {
     const TightOptions& options = tree.settings.tight();
     const openvdb::BoolGrid& object = source.object;
     const LeafBalls& leaves = source.leaves;
     const LevelMaker& maker = source.maker;
-    const auto interrupter = maker.interrupter;
-    const auto forest = detail::timed("merging", interrupter, &seconds->tree, [&] {
-        // A detail of this stage: how far it is, the merging says.
-        const auto model = detail::timed(
-            "", interrupter, nullptr, [&] { return modelFor(options, leaves.balls, maker); });
-        return mergeToRoots(*model, options.quality == Quality::Normal ? 8 : 6, interrupter);
-    });
+    maker.interrupter->expect(1);
+    const auto model = modelFor(options, leaves.balls, maker);
+    const auto forest = [&] {
+        const detail::Step step(maker.interrupter, 1);
+        constexpr int kNeighbours = 6, kMore = 8;
+        const bool isNormal = options.quality == Quality::Normal;
+        return mergeToRoots(*model, isNormal ? kMore : kNeighbours, maker.interrupter);
+    }();
     std::optional<detail::LevelMeter> meter;
     if (options.budget.hasBound()) meter.emplace(object, tree.settings.dist());
-    const auto cutError = [&](int64_t count) {
-        return errorOf(levelsOf(forest, {count}, leaves.digital), tree, *meter, interrupter);
-    };
-    const auto counts = detail::timed("spheres within the bound", interrupter, &seconds->tree, [&] {
-        return levelCounts(tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), cutError);
-    });
+    const auto counts = levelCounts(
+        tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
+            const auto level = levelsOf(forest, {count}, leaves.digital);
+            return errorOf(level, tree, *meter, maker.interrupter);
+        });
     if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
     return levelsOf(forest, counts, leaves.digital);
 }
@@ -245,16 +246,20 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
 }
 
 /// Levels on top of a finest one that is not chosen freely.
-std::vector<TightLevel> levelsOnFinest(
-    const SphereTree& tree, const TightSource& source, StageSeconds* seconds)
+std::vector<TightLevel> levelsOnFinest(const SphereTree& tree, const TightSource& source)
 {
-    const auto interrupter = source.maker.interrupter;
-    FreeCovers free(source.leaves.balls, !source.leaves.digital.empty(), source.maker);
+    const LevelMaker& maker = source.maker;
+    const auto leafBalls = int64_t(source.leaves.balls.size());
+    const LevelWork work(maker);
+    // With how few balls a search for a bound ends, nobody knows.
+    if (tree.settings.tight().budget.hasBound()) {
+        maker.interrupter->expect(2 * work.ofFreeCover(leafBalls, 1));
+    }
+    FreeCovers free(source.leaves.balls, !source.leaves.digital.empty(), maker);
     std::vector<int64_t> counts;
-    const TightLevel finest = detail::timed("spheres within the bound", interrupter, &seconds->tree,
-        [&] { return finestLevel(tree, source, free, counts); });
-    return detail::timed("levels", interrupter, &seconds->tree,
-        [&] { return bottomUpLevels(finest, counts, source.maker); });
+    const TightLevel finest = finestLevel(tree, source, free, counts);
+    maker.interrupter->expect(work.fromBottom(counts));
+    return bottomUpLevels(finest, counts, maker);
 }
 
 /// @return which of two trees' levels, as many in both, have the smaller product of errors.
@@ -269,6 +274,12 @@ const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
     return gain >= 0 ? some : others;
 }
 
+/// @return whether few balls are not worth the time of another try.
+bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality)
+{
+    return counts.size() == 1 || quality == Quality::Fast;
+}
+
 /// Of many balls the finest level is the better the less it is bound to, so it comes first. Few balls are
 /// made from the top as well, where clusters are starts: of plain solids that is better, and of others not.
 std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCovers& free,
@@ -279,34 +290,50 @@ std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCover
     };
     const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
     if (counts.front() > kFewBalls) return fromBottom();
-    const bool onlyTop = counts.size() == 1 || quality == Quality::Fast;
-    return onlyTop ? fromTop() : betterOf(fromTop(), fromBottom(), maker);
+    if (areFromTopAlone(counts, quality)) return fromTop();
+    return betterOf(fromTop(), fromBottom(), maker);
+}
+
+/// Says what levels of named counts are going to cost.
+void expectLevels(const std::vector<int64_t>& counts, const CoarseObject& coarse, Quality quality,
+    const LevelMaker& maker)
+{
+    const LevelWork work(maker);
+    double cost = work.ofFreeCover(int64_t(coarse.leaves.balls.size()), counts.front());
+    const bool few = counts.front() <= kFewBalls;
+    for (const int64_t count : counts) cost += few ? work.fromTop(count, quality) : 0;
+    if (!few || !areFromTopAlone(counts, quality)) {
+        cost += work.ofSearches(counts.front()) + work.fromBottom(counts);
+    }
+    for (std::size_t step = 0; step < coarse.steps.size(); ++step) {
+        cost += LevelWork(maker, coarse.levels[step]->leafCount()).ofCarrying(counts);
+    }
+    maker.interrupter->expect(cost);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
-std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObject& coarse,
-    bool areGiven, const LevelMaker& maker, StageSeconds* seconds)
+std::vector<TightLevel> levelsOfCounts(
+    const SphereTree& tree, const CoarseObject& coarse, bool areGiven, const LevelMaker& maker)
 {
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
-    return detail::timed("levels", maker.interrupter, &seconds->tree, [&] {
-        FreeCovers free(leafBalls, !coarse.leaves.digital.empty(), maker);
-        // A coarse level may have fewer leaf balls than the object.
-        const bool onObject = coarse.steps.empty();
-        auto counts = options.budget.counts(onObject ? int64_t(leafBalls.size()) : INT64_MAX);
-        const int64_t most = counts.front();
-        // Some are not needed on the fine object.
-        if (!onObject) counts.front() += counts.front() / 8;
-        auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
-        for (std::size_t step = coarse.steps.size(); step-- > 0;) {
-            const SampledObject finer(LeafLayout(*coarse.levels[step]));
-            levels = carriedDown(std::move(levels), coarse.steps[step],
-                step == 0 ? most : counts.front(),
+    FreeCovers free(leafBalls, !coarse.leaves.digital.empty(), maker);
+    // A coarse level may have fewer leaf balls than the object.
+    const bool onObject = coarse.steps.empty();
+    auto counts = options.budget.counts(onObject ? int64_t(leafBalls.size()) : INT64_MAX);
+    const int64_t most = counts.front();
+    // Some are not needed on the fine object.
+    if (!onObject) counts.front() += counts.front() / 8;
+    expectLevels(counts, coarse, options.quality, maker);
+    auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
+    for (std::size_t step = coarse.steps.size(); step-- > 0;) {
+        const SampledObject finer(LeafLayout(*coarse.levels[step]));
+        levels =
+            carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
                 makerFor(settings, finer, leafBalls.size(), maker.interrupter));
-        }
-        return levels;
-    });
+    }
+    return levels;
 }
 
 /// @return whether the number of spheres does not follow from the settings alone, or all levels need
@@ -344,17 +371,18 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     }
     const LeafBalls& leaves = coarse.leaves;
     requireRoomForMerging(leaves.balls.size());
-    const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), interrupter);
-    const TightSource source{object, leaves, maker};
     const bool onObject = coarse.steps.empty();
     const auto leafCount = int64_t(leaves.balls.size());
-    const auto levels = [&] {
-        if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source, seconds);
+    const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
+        detail::StepProgress progress(interrupter);
+        const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), &progress);
+        const TightSource source{object, leaves, maker};
+        if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source);
         const bool isFixed = options.budget.hasBound()
             || (onObject && options.budget.counts(leafCount).front() == leafCount);
-        return isFixed ? levelsOnFinest(tree, source, seconds)
-                       : levelsOfCounts(tree, coarse, given != nullptr, maker, seconds);
-    }();
+        return isFixed ? levelsOnFinest(tree, source)
+                       : levelsOfCounts(tree, coarse, given != nullptr, maker);
+    });
     const std::size_t allLeaves = onObject ? leaves.balls.size() : 0;
     appendLevels(
         options.cuts ? levels : monotone(levels, allLeaves, tree, object, interrupter), tree);

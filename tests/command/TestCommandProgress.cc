@@ -50,8 +50,8 @@ protected:
 TEST_F(CommandProgress, OnATerminalThereIsOneBarThatNeverFalls)
 {
     const std::string all = onTerminal(60,
-        "-generate gyroid voxels=3e5 name=an_object_with_a_long_name -spheretree "
-        "quality=fast spheres=512,256,128,64,32 name=a_tree_with_a_long_name topology=0 -stats");
+        "-generate gyroid voxels=1e6 name=an_object_with_a_long_name -spheretree "
+        "spheres=1024,256,64 name=a_tree_with_a_long_name topology=0 -stats");
     std::istringstream in(all);
     std::string frame;
     int last = 0, bars = 0;

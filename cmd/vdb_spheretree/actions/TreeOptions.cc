@@ -113,14 +113,7 @@ LongWork longWorkOf(const ActionCall& call)
 {
     if (call.text("tree") != "tight" || call.text("side") == "inner") return {};
     if (call.text("side") == "fit") return {"nearest spheres", 1, ""};
-    const bool search = call.text("quality") == "best" && call.text("cover") == "voxels";
-    LongWork work{"merging", 1, ""};
-    // Counted over 10^3 to 10^5 voxels: 1900 to 2200 for a level of 64 spheres.
-    constexpr int kPassesOfLevel = 2000, kUsualLevels = 4;
-    const std::string counts = call.text("spheres");
-    const auto levels =
-        counts.empty() ? kUsualLevels : 1 + int(std::count(counts.begin(), counts.end(), ','));
-    if (search) work = {"levels", kPassesOfLevel * std::min(levels, 1000), ""};
+    LongWork work{"levels", 1, ""};
     if (call.text("quality") != "fast") {
         work.advice = "faster than quality=" + call.text("quality")
             + ": quality=fast, and an object of fewer voxels (for up to a hundred spheres some 64 "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ChildMoves.h"
 
+#include "LevelWork.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverPart.h>
@@ -180,6 +181,8 @@ void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
     constexpr int kMostRounds = 8;
+    const detail::Step step(
+        maker.interrupter, LevelWork(maker).ofMoves(int64_t(finer.balls.size())));
     Moves moves(eachInItsGroup(balls), finer, regions, maker);
     for (int round = 0; round < kMostRounds && moves.round(); ++round) {}
     balls = moves.balls();

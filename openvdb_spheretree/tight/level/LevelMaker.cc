@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelMaker.h"
 
+#include "LevelWork.h"
 #include "TightLevels.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
@@ -34,20 +35,28 @@ std::vector<CoverBall> groupedCut(
 
 } // namespace
 
+int LevelMaker::searchesOf(int64_t balls) const
+{
+    constexpr int64_t kBalls = 128;
+    return int(std::clamp<int64_t>(kBalls / balls, 1, searches));
+}
+
+int LevelMaker::trialsOf(int64_t balls) const
+{
+    constexpr int64_t kFewest = 4, kOfAllBalls = 200000;
+    const int64_t most = trialsPerBall;
+    return int(std::clamp(kOfAllBalls / balls, std::min(kFewest, most), most));
+}
+
 std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     const std::vector<CoverBall>& finer, const CoverGoal& goal) const
 {
-    // More trials of one search gain little. But searches of few balls end in different places, and
-    // take little time: so there are several.
-    constexpr int kBalls = 128, kFewestTrials = 4, kTrials = 200000; // the last: of all balls
-    const int size = int(start.size());
-    const int several = std::clamp(kBalls / size, 1, searches);
-    const int trials =
-        std::clamp(kTrials / size, std::min(kFewestTrials, trialsPerBall), trialsPerBall);
+    const auto size = int64_t(start.size());
     SearchedCover best;
     best.balls = start;
-    for (uint64_t number = 0; number < uint64_t(several); ++number) {
-        const SearchEffort effort{fit, trials, number << 40, flat};
+    for (uint64_t number = 0; number < uint64_t(searchesOf(size)); ++number) {
+        const detail::Step step(interrupter, LevelWork(*this).ofSearch(size));
+        const SearchEffort effort{fit, trialsOf(size), number << 40, flat};
         SearchedCover found = improveCover(start, finer, object, goal, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }
@@ -57,6 +66,7 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
 std::vector<CoverBall> LevelMaker::placed(
     const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop) const
 {
+    const detail::Step step(interrupter, LevelWork(*this).ofPlacing(int64_t(cover.size())));
     SearchEffort effort{fit, 0, 0, flat};
     effort.sweeps = sweeps;
     auto balls = improveCover(cover, {}, object, goal, effort, interrupter).balls;
@@ -69,6 +79,7 @@ std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     HeldByLeafBalls held = heldVoxels(points);
     held.areInside = areInside;
     StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
+    const detail::Step step(interrupter, LevelWork(*this).ofMerging(int64_t(balls.size()), count));
     return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
 }
 

@@ -4,14 +4,13 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/StepProgress.h>
 #include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 #include <openvdb_spheretree/tight/region/VoxelRegion.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
-
-#include <openvdb/util/NullInterrupter.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +25,7 @@ struct LevelMaker {
     const SampledObject& object;
     FitEffort fit; ///< of balls that are placed anew
     bool flat;
-    openvdb::util::NullInterrupter* interrupter;
+    detail::StepProgress* interrupter; ///< may be null; what its steps cost, LevelWork.h says
     /// Of balls that two are merged to. Without diagonals, Al.100 has 1.7 % of error with 512 balls, in
     /// place of 1.3.
     FitEffort merging{true, 4, 1, false, 16};
@@ -42,6 +41,11 @@ struct LevelMaker {
     int trialsPerBall = 8; ///< of a search, at most
 
     bool searchesLevelOf(std::size_t balls) const { return int64_t(balls) <= searchedUpTo; }
+    /// @return how many searches a level gets. More trials of one search gain little; but searches of few
+    /// balls end in different places, and take little time.
+    int searchesOf(int64_t balls) const;
+    /// @return how many trials a ball gets in each.
+    int trialsOf(int64_t balls) const;
 
     /// @return the level after the best of several searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,

@@ -2,6 +2,8 @@
 #include "TopDownLevels.h"
 
 #include "GroupedCover.h"
+#include "LevelWork.h"
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
@@ -88,6 +90,25 @@ private:
     /// @param fewer  what fewer balls cost
     Found searched(int64_t count, double fewer) const
     {
+        constexpr double kStarts = 0.4, kSearch = 0.6; // of the work
+        const double work = LevelWork(mMaker).fromTop(count, mQuality);
+        const LevelEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
+        Found best = [&] {
+            const detail::Step step(mMaker.interrupter, kStarts * work);
+            const detail::Stage loops("", mMaker.interrupter, nullptr); // each is a detail
+            return bestStart(count, fewer);
+        }();
+        const detail::Step step(mMaker.interrupter, kSearch * work);
+        if (best.balls.empty() || best.cost <= 0) return best;
+        const int trials = trialsFor(best.balls, effort);
+        if (trials == 0) return best;
+        Found found = improved(best.balls, trials);
+        return found.cost < best.cost ? found : best;
+    }
+
+    /// @return the start that is cheapest after it was placed anew.
+    Found bestStart(int64_t count, double fewer) const
+    {
         // Of an object like a ball many clusters cost many times what one ball costs, as each must hold
         // corners of its own; few of them may still be better.
         constexpr double kHopeless = 4;
@@ -97,7 +118,7 @@ private:
         if (starts.front().cost > kHopeless * fewer) {
             const int64_t less = std::max(
                 mAbove.balls.empty() ? kFewest : int64_t(mAbove.balls.size()) + 1, count / kFewer);
-            return less < count ? searched(less, fewer) : Found();
+            return less < count ? bestStart(less, fewer) : Found();
         }
         Found best;
         const int kept = mAbove.balls.empty() ? effort.kept : effort.keptInGroups;
@@ -105,10 +126,7 @@ private:
             Found placed = improved(inGroups(starts[i].balls, count), 0);
             if (placed.cost < best.cost) best = std::move(placed);
         }
-        const int trials = trialsFor(best.balls, effort);
-        if (trials == 0 || best.cost <= 0) return best;
-        Found found = improved(best.balls, trials);
-        return found.cost < best.cost ? found : best;
+        return best;
     }
 
     /// @return covers of at most @a count balls, the cheapest first, and one of each cost.

@@ -4,6 +4,7 @@
 #include "CoverRelocation.h"
 #include "CoverTrial.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
 
 #include <algorithm>
 #include <utility>
@@ -33,11 +34,43 @@ std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover
     return taken;
 }
 
+/// The loops of a search. About how many turns they have is known before, so it can tell how far it is.
+class SearchLoops {
+public:
+    SearchLoops(
+        std::size_t balls, const SearchEffort& effort, openvdb::util::NullInterrupter* interrupter)
+        : mTurns(balls * usualTurns(effort)), mInterrupter(interrupter)
+    {}
+
+    /// Calls body(i) for i in [0, count), in parallel.
+    template <typename Body>
+    void run(std::size_t count, const Body& body)
+    {
+        constexpr std::size_t kAll = 100;
+        detail::checkInterrupt(mInterrupter, int(std::min(kAll, kAll * mDone / mTurns)));
+        const detail::Stage loop("", mInterrupter, nullptr);
+        detail::parallelFor(count, mInterrupter, body);
+        mDone += count;
+    }
+
+private:
+    /// @return how often a ball is placed anew, in all sweeps, or tried.
+    static std::size_t usualTurns(const SearchEffort& effort)
+    {
+        const std::size_t placings = effort.sweeps > 2 ? 3 : 2;
+        const auto trials = std::size_t(effort.trialsPerBall);
+        return trials == 0 ? placings : 2 * placings + trials;
+    }
+
+    const std::size_t mTurns;
+    std::size_t mDone = 0;
+    openvdb::util::NullInterrupter* mInterrupter;
+};
+
 /// Places every ball anew, the largest first, until nothing changes. A ball that no change came near
 /// since it was placed stays.
 /// @param change  the change of the cost is added to it
-void placeAll(BallCover& cover, const PartFit& fit, double& change,
-    openvdb::util::NullInterrupter* interrupter)
+void placeAll(BallCover& cover, const PartFit& fit, double& change, SearchLoops& loops)
 {
     std::vector<char> isStale(cover.size(), 1);
     for (int sweep = 0; sweep < fit.effort().sweeps; ++sweep) {
@@ -51,7 +84,7 @@ void placeAll(BallCover& cover, const PartFit& fit, double& change,
         while (!left.empty()) {
             const std::vector<int32_t> ids = takeApart(left, cover);
             std::vector<CoverChange> changes(ids.size());
-            detail::parallelFor(ids.size(), interrupter, [&](std::size_t k) {
+            loops.run(ids.size(), [&](std::size_t k) {
                 CoverPart part = fit.around({ids[k]});
                 fit.refit(part, part.indexOf(ids[k]));
                 changes[k] = fit.changeOf(part);
@@ -78,16 +111,20 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
     BallCover cover(std::move(balls));
     const PartFit fit(cover, object, goal, effort);
     CoverRelocation relocation(cover, fit, finer, interrupter);
-    double change = 0;
-    placeAll(cover, fit, change, interrupter);
     const std::size_t size = cover.size();
+    SearchLoops loops(size, effort, interrupter);
+    double change = 0;
+    placeAll(cover, fit, change, loops);
     const std::size_t batch = std::max<std::size_t>(4, std::min<std::size_t>(64, size / 8));
     const std::size_t trials = size * std::size_t(effort.trialsPerBall);
     const std::size_t perRelocation = std::max<std::size_t>(1, trials / effort.relocations);
     for (std::size_t done = 0; done < trials; done += batch) {
-        if (done % perRelocation < batch) relocation.relocate();
+        if (done % perRelocation < batch) {
+            const detail::Stage relocating("", interrupter, nullptr);
+            relocation.relocate();
+        }
         std::vector<CoverChange> changes(batch);
-        detail::parallelFor(batch, interrupter,
+        loops.run(batch,
             [&](std::size_t t) { changes[t] = tryChange(cover, fit, effort.seed + done + t); });
         std::vector<FineBox> taken;
         for (const CoverChange& some : changes) {
@@ -97,7 +134,8 @@ SearchedCover improveCover(std::vector<CoverBall> balls, const std::vector<Cover
             taken.push_back(some.box);
         }
     }
-    if (trials > 0) placeAll(cover, fit, change, interrupter);
+    if (trials > 0) placeAll(cover, fit, change, loops);
+    const detail::Stage filling("", interrupter, nullptr);
     relocation.fill();
     return {cover.balls(), change + relocation.change()};
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LevelWork.h"
+
+#include <algorithm>
+
+namespace openvdb_spheretree::tight {
+
+double LevelWork::ofMerging(int64_t balls, int64_t count) const
+{
+    const double perMerge = mMaker.merging.diagonals ? 250e-6 : 130e-6;
+    return perMerge * double(std::max<int64_t>(0, balls - count));
+}
+
+double LevelWork::ofPlacing(int64_t balls) const
+{
+    constexpr int kFewSweeps = 2;
+    const bool isQuick = mMaker.sweeps <= kFewSweeps;
+    const double perBall = isQuick ? 90e-6 : 150e-6, perLeaf = isQuick ? 0.8e-6 : 2e-6;
+    return perBall * double(balls) + perLeaf * mLeaves;
+}
+
+double LevelWork::ofSearch(int64_t balls) const
+{
+    constexpr double kTrial = 0.5e-3, kRelocations = 20e-3;
+    return (kTrial * mMaker.trialsOf(balls) + kRelocations) * double(balls);
+}
+
+double LevelWork::ofSearches(int64_t balls) const
+{
+    const bool any = mMaker.searchesLevelOf(std::size_t(balls));
+    return any ? mMaker.searchesOf(balls) * ofSearch(balls) : 0;
+}
+
+double LevelWork::ofMoves(int64_t children) const
+{
+    return (0.5e-3 + 0.3e-6 * mLeaves) * double(children);
+}
+
+double LevelWork::ofFreeCover(int64_t start, int64_t count) const
+{
+    double work = ofMerging(start, count);
+    const int64_t first = mMaker.placesStart ? 2 * count : 0;
+    for (int64_t many = std::min(start, first); many >= count; many /= 2) work += ofPlacing(many);
+    return work;
+}
+
+double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
+{
+    double work = 0;
+    for (std::size_t k = 1; k < counts.size(); ++k) {
+        const int64_t finer = counts[k - 1], count = counts[k];
+        work += ofMerging(finer, count) + ofPlacing(count); // the second: below fixed parents
+        for (int64_t many = finer / 2; many >= count; many /= 2) work += ofPlacing(many);
+        work += ofSearches(count);
+        if (mMaker.searchesLevelOf(std::size_t(count))) work += ofMoves(finer);
+    }
+    return work;
+}
+
+double LevelWork::fromTop(int64_t count, Quality quality) const
+{
+    if (quality == Quality::Fast) return 0.01 + 0.002 * double(count);
+    if (quality == Quality::Best) return 0.9 + 0.075 * double(count);
+    return 0.3 + 0.012 * double(count);
+}
+
+double LevelWork::ofCarrying(const std::vector<int64_t>& counts) const
+{
+    double work = 0;
+    for (const int64_t count : counts) work += ofPlacing(count);
+    return work;
+}
+
+} // namespace openvdb_spheretree::tight
