@@ -14,7 +14,7 @@ namespace openvdb_spheretree::detail {
 /// Stands between loops and an interrupter. What a loop says of itself becomes a part of the step that
 /// it is in. Loops in a stage of a step (Stage.h) are details: the step itself says how far it is.
 ///
-/// Steps begin and end on one thread; any thread may ask.
+/// Steps begin and end on one thread. Any thread may ask; one that is late may pass on what it knew before.
 class StepProgress : public openvdb::util::NullInterrupter {
 public:
     /// @param to  is told percentages, and says when to stop; may be null
