@@ -5,10 +5,12 @@
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
+#include <openvdb_spheretree/tight/TightEstimate.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace openvdb_spheretree {
@@ -16,7 +18,8 @@ namespace openvdb_spheretree {
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const LeafLayout layout(*voxelsOf(object, flatAxisOf(object, settings.dim)));
+    const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flatAxisOf(object, settings.dim));
+    const LeafLayout layout(*voxels);
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
     plan.slabs = layout.slabCount();
@@ -37,8 +40,28 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     plan.packed = found.packed;
     plan.packedBytes = found.packedBytes;
     plan.storedBytes = found.storedBytes;
+    const auto* tightOptions = settings.find<TightOptions>();
+    if (tightOptions) {
+        const auto levels = tight::estimateTightTree(voxels, settings, interrupter);
+        plan.leafBalls = int64_t(levels.leafBalls);
+        plan.levelsBytes = levels.bytes;
+        plan.levelsSeconds = levels.seconds;
+    }
     return plan;
 }
+
+namespace {
+
+/// @return the number with two digits that count.
+std::string roughly(double number)
+{
+    const double unit = number > 0 ? std::pow(10.0, std::floor(std::log10(number)) - 1) : 1;
+    std::ostringstream text;
+    text << std::round(number / unit) * unit;
+    return text.str();
+}
+
+} // namespace
 
 std::string toString(const MemoryPlan& plan)
 {
@@ -51,6 +74,11 @@ std::string toString(const MemoryPlan& plan)
         text << ", labels compressed: " << gib(plan.packedBytes) << " before compression; "
              << gib(plan.storedBytes) << " of compressed labels may stay in memory, what exceeds "
              << "that goes to a temporary file";
+    }
+    if (plan.leafBalls > 0) {
+        text << "; levels from about " << roughly(double(plan.leafBalls)) << " leaf balls: about "
+             << gib(int64_t(plan.levelsBytes)) << " and " << roughly(plan.levelsSeconds)
+             << " s of one processor";
     }
     return text.str();
 }

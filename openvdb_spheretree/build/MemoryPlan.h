@@ -14,7 +14,7 @@
 
 namespace openvdb_spheretree {
 
-/// For the power labels of level 0: the other levels have fewer.
+/// For the power labels of level 0 (the other levels have fewer), and for the levels of a tight tree.
 struct MemoryPlan {
     int64_t allowed = 0;      ///< bytes, by SphereTreeSettings::memory
     int64_t needed = 0;       ///< bytes, at most
@@ -23,6 +23,12 @@ struct MemoryPlan {
     bool packed = false;      ///< whether labels are compressed; else all are kept in memory
     int64_t packedBytes = 0;  ///< of all labels before they are compressed, if they are
     int64_t storedBytes = 0;  ///< of compressed labels that may stay in memory; others go to a file
+    /// @name Of a tight tree's levels, within a factor of three. 0 for other trees.
+    /// @{
+    int64_t leafBalls = 0;
+    double levelsBytes = 0;   ///< at its peak; labels are gone then
+    double levelsSeconds = 0; ///< of one processor
+    /// @}
 };
 
 /// @brief Ask before a long build, or find out why one is refused.

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -25,6 +26,9 @@ SpillFile::SpillFile()
 {
     const char* folder = std::getenv("TMPDIR");
     mFolder = folder && *folder ? folder : "/tmp";
+    mFile = open(mFolder.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (mFile >= 0) return;
+    // Not every file system has files without a name.
     std::string name = mFolder + "/spheretree.XXXXXX";
     mFile = mkostemp(name.data(), O_CLOEXEC);
     if (mFile < 0) fail("cannot be made: " + whyNot(errno));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightTree.h"
 
-#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StepProgress.h>
 #include <openvdb_spheretree/measure/LevelMeter.h>
@@ -19,6 +18,7 @@
 #include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/LeafBalls.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
+#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 #include <openvdb_spheretree/sphere/SphereUnion.h>
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
@@ -37,51 +37,6 @@
 namespace openvdb_spheretree::tight {
 
 namespace {
-
-/// @return from how many leaf balls levels of named counts are made, at least. With fewer, a voxel of the
-/// coarse object is too large for its balls.
-int64_t leastLeafBalls(int64_t count, Quality quality)
-{
-    constexpr int64_t kLeast = 2048;
-    return std::max(kLeast, (quality == Quality::Fast ? 3 : 4) * count);
-}
-
-/// @return of how many voxels the object is large enough for that, whatever its leaf balls: a ball of the finest
-/// level has a radius of 32 of them.
-int64_t enoughVoxels(int64_t count)
-{
-    constexpr int64_t kOfABall = 140000;
-    return count * kOfABall;
-}
-
-LevelMaker makerFor(const SphereTreeSettings& settings, const SampledObject& object,
-    std::size_t leafBalls, detail::StepProgress* interrupter)
-{
-    const bool flat = settings.dim == 2;
-    const Quality quality = settings.tight().quality;
-    if (quality == Quality::Fast) {
-        LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
-        fast.sweeps = 2;
-        fast.neighbours = 2;
-        fast.placesStart = false;
-        fast.merging.diagonals = false;
-        return fast;
-    }
-    // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
-    // for each ball of a larger object would grow.
-    constexpr double kMost = 40, kLeast = 16, kFew = 4000;
-    const double samples =
-        std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
-    LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
-    maker.merging.samples = int(samples);
-    maker.searchedUpTo = kFewBalls;
-    if (quality == Quality::Best) {
-        maker.searchedUpTo = INT64_MAX;
-        maker.searches = 6;
-        maker.trialsPerBall = 40;
-    }
-    return maker;
-}
 
 std::unique_ptr<MergeModel> modelFor(
     const TightOptions& options, const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker)
@@ -102,14 +57,17 @@ std::unique_ptr<MergeModel> modelFor(
         regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter);
 }
 
-/// Regions, pairs of neighbours and merged balls: 1200 to 1800 bytes a leaf ball were measured, of
-/// solids, sheets and noise. What is refused needs more than there is even with half of that.
-void requireRoomForMerging(std::size_t leafBalls)
+/// @param allLeaves  whether they are a level of the tree
+/// @throw openvdb::ValueError if making levels from the leaf balls needs more memory than there may be
+void requireRoom(const CoarseObject& coarse, bool allLeaves, int64_t memory)
 {
-    constexpr double kBytes = 600;
-    detail::requireMemory(kBytes * double(leafBalls),
-        "the regions and neighbours of " + std::to_string(leafBalls) + " leaf balls",
-        "use a larger voxel, split the object, or use tree=extended");
+    const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
+    const std::size_t leafNodes = coarse.samples.level(0).leafCount();
+    WorkingMemory needed;
+    needed.addSamples(leafNodes).addMerging(leafBalls.size());
+    if (allLeaves) needed.addRegions(leafBalls, leafNodes);
+    needed.require(memory,
+        "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");
 }
 
 /// @param tree  with settings, object and transform, and without nodes
@@ -274,12 +232,6 @@ const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
     return gain >= 0 ? some : others;
 }
 
-/// @return whether few balls are not worth the time of another try.
-bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality)
-{
-    return counts.size() == 1 || quality == Quality::Fast;
-}
-
 /// Of many balls the finest level is the better the less it is bound to, so it comes first. Few balls are
 /// made from the top as well, where clusters are starts: of plain solids that is better, and of others not.
 std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCovers& free,
@@ -292,23 +244,6 @@ std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCover
     if (counts.front() > kFewBalls) return fromBottom();
     if (areFromTopAlone(counts, quality)) return fromTop();
     return betterOf(fromTop(), fromBottom(), maker);
-}
-
-/// Says what levels of named counts are going to cost.
-void expectLevels(const std::vector<int64_t>& counts, const CoarseObject& coarse, Quality quality,
-    const LevelMaker& maker)
-{
-    const LevelWork work(maker);
-    double cost = work.ofFreeCover(int64_t(coarse.leaves.balls.size()), counts.front());
-    const bool few = counts.front() <= kFewBalls;
-    for (const int64_t count : counts) cost += few ? work.fromTop(count, quality) : 0;
-    if (!few || !areFromTopAlone(counts, quality)) {
-        cost += work.ofSearches(counts.front()) + work.fromBottom(counts);
-    }
-    for (std::size_t step = 0; step < coarse.steps.size(); ++step) {
-        cost += LevelWork(maker, coarse.levels[step]->leafCount()).ofCarrying(counts);
-    }
-    maker.interrupter->expect(cost);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
@@ -325,23 +260,31 @@ std::vector<TightLevel> levelsOfCounts(
     const int64_t most = counts.front();
     // Some are not needed on the fine object.
     if (!onObject) counts.front() += counts.front() / 8;
-    expectLevels(counts, coarse, options.quality, maker);
+    LevelWork work(maker);
+    double cost = work.ofCounts(int64_t(leafBalls.size()), counts, options.quality);
+    for (std::size_t step = 0; step < coarse.steps.size(); ++step) {
+        cost += LevelWork(maker, coarse.levels[step]->leafCount()).ofCarrying(counts);
+    }
+    maker.interrupter->expect(cost);
     auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
         const SampledObject finer(LeafLayout(*coarse.levels[step]));
         levels =
             carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
-                makerFor(settings, finer, leafBalls.size(), maker.interrupter));
+                levelMakerFor(settings, finer, leafBalls.size(), maker.interrupter));
     }
     return levels;
 }
 
-/// @return whether the number of spheres does not follow from the settings alone, or all levels need
-/// the object's own leaf balls.
-bool needsLeafBalls(const TightOptions& options)
+/// @return the object with the given leaf balls.
+CoarseObject objectOf(const SphereTree& given, const FlatAxis& flat,
+    const openvdb::MaskTree::ConstPtr& voxels, openvdb::util::NullInterrupter* interrupter)
 {
-    return options.budget.hasBound() || options.budget.spheres.empty() || options.cuts
-        || options.cover == Cover::Balls || options.leaves == Leaves::Medial;
+    CoarseObject object;
+    object.levels.push_back(voxels);
+    object.samples = SampledObject(LeafLayout(*voxels));
+    object.leaves = givenLeaves(given, flat, *voxels, object.samples.level(0), interrupter);
+    return object;
 }
 
 } // namespace
@@ -354,38 +297,27 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     requireReachable(settings, tree.voxelSize());
     const FlatAxis flat(tree.flatAxis);
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flat);
-    constexpr int64_t kAll = INT64_MAX;
-    CoarseObject coarse;
-    if (given) {
-        coarse.levels.push_back(voxels);
-        coarse.samples = SampledObject(LeafLayout(*voxels));
-        coarse.leaves = givenLeaves(*given, flat, *voxels, coarse.samples.level(0), interrupter);
-    } else {
-        int64_t least = kAll, enough = kAll;
-        if (!needsLeafBalls(options)) {
-            const int64_t count = options.budget.counts(kAll).front();
-            least = leastLeafBalls(count, options.quality);
-            enough = enoughVoxels(count);
-        }
-        coarse = coarseObject(voxels, settings, least, enough, interrupter, seconds);
-    }
+    const CoarseObject coarse = given
+        ? objectOf(*given, flat, voxels, interrupter)
+        : coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);
     const LeafBalls& leaves = coarse.leaves;
-    requireRoomForMerging(leaves.balls.size());
     const bool onObject = coarse.steps.empty();
     const auto leafCount = int64_t(leaves.balls.size());
+    const bool allLeaves = onObject && !options.budget.hasBound()
+        && options.budget.counts(leafCount).front() == leafCount;
+    requireRoom(coarse, allLeaves, settings.memory);
     const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
         detail::StepProgress progress(interrupter);
-        const LevelMaker maker = makerFor(settings, coarse.samples, leaves.balls.size(), &progress);
+        const LevelMaker maker =
+            levelMakerFor(settings, coarse.samples, leaves.balls.size(), &progress);
         const TightSource source{object, leaves, maker};
         if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source);
-        const bool isFixed = options.budget.hasBound()
-            || (onObject && options.budget.counts(leafCount).front() == leafCount);
-        return isFixed ? levelsOnFinest(tree, source)
-                       : levelsOfCounts(tree, coarse, given != nullptr, maker);
+        return allLeaves || options.budget.hasBound()
+            ? levelsOnFinest(tree, source)
+            : levelsOfCounts(tree, coarse, given != nullptr, maker);
     });
-    const std::size_t allLeaves = onObject ? leaves.balls.size() : 0;
-    appendLevels(
-        options.cuts ? levels : monotone(levels, allLeaves, tree, object, interrupter), tree);
+    const std::size_t kept = onObject ? leaves.balls.size() : 0;
+    appendLevels(options.cuts ? levels : monotone(levels, kept, tree, object, interrupter), tree);
 }
 
 } // namespace openvdb_spheretree::tight

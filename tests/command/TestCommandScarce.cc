@@ -8,6 +8,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cerrno>
+#include <filesystem>
 
 #include <sys/resource.h>
 
@@ -39,13 +40,23 @@ protected:
             << result.exitCode << ", signal " << result.signal << "\n"
             << result.err;
         for (size_t i = 0; i < kTargets.size(); ++i) {
-            const bool isNew = readText(path(kTargets[i])) == mExpected[i];
+            bool isNew = readText(path(kTargets[i])) == mExpected[i];
+            if (!isNew && done && kTargets[i] == "t.vdb") isNew = readsBackAsExpected();
             EXPECT_TRUE(isNew || (isOld(kTargets[i]) && !done)) << kTargets[i];
         }
         EXPECT_EQ(files(), mBefore);
         EXPECT_TRUE(done || result.err.find(missing) != std::string::npos) << result.err;
         writeOld(kTargets);
         return done;
+    }
+
+    /// Where Blosc lacks memory, OpenVDB stores values as they are: other bytes, and the same tree.
+    bool readsBackAsExpected()
+    {
+        const int code = run("-read t.vdb -write again.csv").exitCode;
+        const std::string again = readText(path("again.csv"));
+        std::filesystem::remove(path("again.csv"));
+        return code == 0 && again == mExpected.front();
     }
 
     std::vector<std::string> mExpected; ///< what kTargets hold afterwards

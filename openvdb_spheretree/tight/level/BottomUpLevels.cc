@@ -119,7 +119,7 @@ std::vector<TightLevel> bottomUpLevels(
 {
     std::vector<TightLevel> levels{finest};
     if (counts.size() == 1) return levels;
-    requireRoomForRegions(finest.balls, maker.object.level(0));
+    maker.requireRoomForRegions(finest.balls);
     auto regions = regionsOf(finest.balls, maker.object.level(0), maker.interrupter);
     for (std::size_t k = 1; k < counts.size(); ++k) {
         TightLevel above = coarserLevel(levels.back(), regions, counts[k], maker);

@@ -27,7 +27,7 @@ public:
         for (const TightLevel& level : mLevels) {
             all.insert(all.end(), level.balls.begin(), level.balls.end());
         }
-        requireRoomForRegions(all, mVoxels);
+        mMaker.requireRoomForRegions(all);
         for (std::size_t k = mLevels.size(); k-- > 1;) {
             mChains[k] = chainRegions(mLevels[k], mChains[k + 1], mMaker);
         }

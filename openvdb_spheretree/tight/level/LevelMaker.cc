@@ -8,10 +8,12 @@
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
+#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -91,6 +93,13 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
     return groupedCut(mergeToCount(model, kNeighbours, count, interrupter), balls, count);
 }
 
+void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const
+{
+    const std::size_t leafNodes = object.level(0).leafCount();
+    const WorkingMemory needed = WorkingMemory().addSamples(leafNodes).addRegions(balls, leafNodes);
+    needed.require(memory, "the regions of " + std::to_string(balls.size()) + " balls");
+}
+
 double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const
 {
     const BallGrid grid(balls);
@@ -104,6 +113,37 @@ double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const
         costs[i] = window.costOf({balls[i]});
     });
     return std::accumulate(costs.begin(), costs.end(), 0.0);
+}
+
+LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject& object,
+    std::size_t leafBalls, detail::StepProgress* interrupter)
+{
+    const bool flat = settings.dim == 2;
+    const Quality quality = settings.tight().quality;
+    if (quality == Quality::Fast) {
+        LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
+        fast.sweeps = 2;
+        fast.neighbours = 2;
+        fast.placesStart = false;
+        fast.merging.diagonals = false;
+        fast.memory = settings.memory;
+        return fast;
+    }
+    // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
+    // for each ball of a larger object would grow.
+    constexpr double kMost = 40, kLeast = 16, kFew = 4000;
+    const double samples =
+        std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
+    LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
+    maker.merging.samples = int(samples);
+    maker.memory = settings.memory;
+    maker.searchedUpTo = kFewBalls;
+    if (quality == Quality::Best) {
+        maker.searchedUpTo = INT64_MAX;
+        maker.searches = 6;
+        maker.trialsPerBall = 40;
+    }
+    return maker;
 }
 
 int64_t halvedTowards(int64_t many, int64_t count)

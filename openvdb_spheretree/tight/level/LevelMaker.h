@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/tight/region/VoxelRegion.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,7 @@ struct LevelMaker {
     /// Leaf balls are merged at once to twice as many as are asked for, and these placed anew; else
     /// to as many, and not placed.
     bool placesStart = true;
+    int64_t memory = 0; ///< as of SphereTreeSettings
     /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
     /// from one of them to another.
     int64_t searchedUpTo = 0;
@@ -64,9 +66,20 @@ struct LevelMaker {
     /// @param regions  voxels of each ball; together the object
     std::vector<CoverBall> mergedWithSlack(
         const std::vector<CoverBall>& balls, std::vector<VoxelRegion> regions, int64_t count) const;
+    /// @throw openvdb::ValueError if the regions of the balls need more than `memory`
+    void requireRoomForRegions(const std::vector<ExactSphere>& balls) const;
     /// @return how many voxels outside the object the balls hold together, counted on samples.
     double costOf(const std::vector<ExactSphere>& balls) const;
 };
+
+/// @return that for the quality and memory of the settings.
+/// @param leafBalls    of the whole object
+/// @param interrupter  may be null
+LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject& object,
+    std::size_t leafBalls, detail::StepProgress* interrupter);
+
+/// Up to so many balls are few: more gain less from starts than they lose by what is above them.
+constexpr int64_t kFewBalls = 64;
 
 /// @return how many balls come next on the way from @a many to @a count, fewer: in equal ratios of at
 /// most two. Merging and placing anew by turns (FreeCovers.h) goes in such steps.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelWork.h"
 
+#include "TopDownLevels.h"
+
 #include <algorithm>
 
 namespace openvdb_spheretree::tight {
@@ -62,6 +64,16 @@ double LevelWork::fromTop(int64_t count, Quality quality) const
     if (quality == Quality::Fast) return 0.01 + 0.002 * double(count);
     if (quality == Quality::Best) return 0.9 + 0.075 * double(count);
     return 0.3 + 0.012 * double(count);
+}
+
+double LevelWork::ofCounts(
+    int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality) const
+{
+    double work = ofFreeCover(leafBalls, counts.front());
+    const bool few = counts.front() <= kFewBalls;
+    for (const int64_t count : counts) work += few ? fromTop(count, quality) : 0;
+    if (few && areFromTopAlone(counts, quality)) return work;
+    return work + ofSearches(counts.front()) + fromBottom(counts);
 }
 
 double LevelWork::ofCarrying(const std::vector<int64_t>& counts) const

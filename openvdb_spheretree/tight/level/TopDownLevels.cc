@@ -238,4 +238,9 @@ std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCo
     return levels;
 }
 
+bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality)
+{
+    return counts.size() == 1 || quality == Quality::Fast;
+}
+
 } // namespace openvdb_spheretree::tight

@@ -31,14 +31,14 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Up to so many balls are few: more gain less from starts than they lose by what is above them.
-constexpr int64_t kFewBalls = 64;
-
 /// @param counts        of balls, finest first, falling; at most kFewBalls
 /// @param free          of the same object
 /// @param withClusters  try balls around clusters, too
 /// @param quality       how many starts there are, and how long the best is searched
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool withClusters, Quality quality, const LevelMaker& maker);
+
+/// @return whether few balls are not worth the time of another try, from the bottom.
+bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality);
 
 } // namespace openvdb_spheretree::tight

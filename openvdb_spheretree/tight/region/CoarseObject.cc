@@ -35,15 +35,46 @@ CoarseObject pyramidOf(const openvdb::MaskTree::ConstPtr& voxels, int dim, int64
     return object;
 }
 
+/// @return from how many leaf balls levels of named counts are made, at least. With fewer, a voxel of the
+/// coarse object is too large for its balls.
+int64_t leastLeafBalls(int64_t count, Quality quality)
+{
+    constexpr int64_t kLeast = 2048;
+    return std::max(kLeast, (quality == Quality::Fast ? 3 : 4) * count);
+}
+
+/// @return of how many voxels the object is large enough for that, whatever its leaf balls: a ball of the finest
+/// level has a radius of 32 of them.
+int64_t enoughVoxels(int64_t count)
+{
+    constexpr int64_t kOfABall = 140000;
+    return count * kOfABall;
+}
+
+/// @return whether the number of spheres does not follow from the settings alone, or all levels need
+/// the object's own leaf balls.
+bool needsLeafBalls(const TightOptions& options)
+{
+    return options.budget.hasBound() || options.budget.spheres.empty() || options.cuts
+        || options.cover == Cover::Balls || options.leaves == Leaves::Medial;
+}
+
 } // namespace
 
+CoarseSize sizeFor(const TightOptions& options)
+{
+    if (needsLeafBalls(options)) return {};
+    const int64_t count = options.budget.counts(INT64_MAX).front();
+    return {leastLeafBalls(count, options.quality), enoughVoxels(count)};
+}
+
 CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
-    const SphereTreeSettings& settings, int64_t leastBalls, int64_t enough,
+    const SphereTreeSettings& settings, const CoarseSize& size,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
     // A level has no more leaf balls than voxels.
     CoarseObject object = detail::timed("pyramid", interrupter, &seconds->pyramid,
-        [&] { return pyramidOf(voxels, settings.dim, leastBalls, interrupter); });
+        [&] { return pyramidOf(voxels, settings.dim, size.leafBalls, interrupter); });
     LevelQueries queries;
     queries.memory = settings.memory;
     for (;;) {
@@ -55,8 +86,8 @@ CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
             return medialLeaves(medial, object.samples.level(0),
                 isObject ? settings.tight().leaves : Leaves::Pruned, interrupter);
         });
-        if (isObject || int64_t(object.leaves.balls.size()) >= leastBalls) return object;
-        if (detail::countVoxels(*object.levels.back()) >= enough) return object;
+        if (isObject || int64_t(object.leaves.balls.size()) >= size.leafBalls) return object;
+        if (detail::countVoxels(*object.levels.back()) >= size.voxels) return object;
         object.levels.pop_back();
         object.steps.pop_back();
     }

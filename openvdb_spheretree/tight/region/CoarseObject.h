@@ -30,14 +30,21 @@ struct CoarseObject {
     LeafBalls leaves;               ///< of the last level
 };
 
+/// How large a level of the pyramid has to be: as many leaf balls, or as many voxels, as of an object like a
+/// ball.
+struct CoarseSize {
+    int64_t leafBalls = INT64_MAX, voxels = INT64_MAX;
+};
+
+/// @return the size that levels of named counts need; for all others, that of no coarse level.
+CoarseSize sizeFor(const TightOptions& options);
+
 /// @param voxels     of the object
-/// @param leastBalls the leaf balls that are enough; if no coarse level has as many, the object itself is
-///                   taken
-/// @param enough     voxels that are enough, however few leaf balls there are, as of an object like a ball
+/// @param size       that is enough; if no coarse level has it, the object itself is taken
 /// @param seconds    must not be null
 /// @throw as MedialLevel
 CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
-    const SphereTreeSettings& settings, int64_t leastBalls, int64_t enough,
+    const SphereTreeSettings& settings, const CoarseSize& size,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
 } // namespace openvdb_spheretree::tight

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VoxelRegion.h"
 
-#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
 #include <openvdb_spheretree/tight/fit/BallReach.h>
@@ -29,20 +28,6 @@ std::vector<VoxelRegion> regionsOf(const std::vector<ExactSphere>& balls, const 
     detail::parallelFor(
         balls.size(), interrupter, [&](std::size_t i) { regions[i] = regionOf(balls[i], object); });
     return regions;
-}
-
-void requireRoomForRegions(const std::vector<ExactSphere>& balls, const SampleLevel& object)
-{
-    constexpr double kOfCube = 0.5236; // a ball of a cube
-    double leaves = 0;
-    for (const ExactSphere& ball : balls) {
-        if (ball.empty()) continue;
-        const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
-        leaves += std::min(double(object.leafCount()), kOfCube * side * side * side);
-    }
-    detail::requireMemory(leaves / 2 * double(sizeof(RegionLeaf)),
-        "the regions of " + std::to_string(balls.size()) + " balls",
-        "use a larger voxel, ask for fewer spheres (spheres=), or use tree=extended");
 }
 
 const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)

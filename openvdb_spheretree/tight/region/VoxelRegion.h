@@ -29,9 +29,6 @@ VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object);
 std::vector<VoxelRegion> regionsOf(const std::vector<ExactSphere>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @throw openvdb::RuntimeError if these regions need more memory than there is, even by half of an estimate
-void requireRoomForRegions(const std::vector<ExactSphere>& balls, const SampleLevel& object);
-
 /// @return the voxels of the region in one leaf.
 const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf);
 

@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/build/MemoryPlan.h>
 
+#include "support/BuiltTrees.h"
 #include "support/Messages.h"
 #include "support/TreeSettings.h"
 #include "support/TemporaryFolder.h"
@@ -39,6 +40,13 @@ openvdb::BoolGrid::Ptr plateGrid()
     auto plate = openvdb::BoolGrid::create();
     plate->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(239, 199, 0)), true);
     return plate;
+}
+
+/// With thousands of leaf balls.
+openvdb::BoolGrid::Ptr noiseGrid()
+{
+    Random random(1);
+    return gridOf(shapes::noise(Coord(40, 36, 32), 0.2, random));
 }
 
 std::string fileOf(const SphereTree& tree)
@@ -111,6 +119,47 @@ TEST_F(MemoryPlanTest, SaysWhatIsGoingToHappen)
     const MemoryPlan machine = memoryPlan(*ball, settingsOf(TreeType::Extended, 0));
     EXPECT_GT(machine.allowed, 100 * kMiB);
     EXPECT_FALSE(machine.packed);
+}
+
+TEST_F(MemoryPlanTest, TellsWhatTheLevelsOfATightTreeWillTake)
+{
+    const auto noise = noiseGrid();
+    EXPECT_EQ(memoryPlan(*noise, settingsOf(TreeType::Extended, 0)).leafBalls, 0);
+    SphereTreeSettings settings = settingsOf(TreeType::Tight, 0);
+    settings.budgeted().budget.spheres = {};
+    const MemoryPlan all = memoryPlan(*noise, settings);
+    const int64_t leafBalls = buildSphereTree(*noise, settings).levels.front().size();
+    EXPECT_GE(all.leafBalls, leafBalls / 3);
+    EXPECT_LE(all.leafBalls, 3 * leafBalls);
+    EXPECT_GT(all.levelsBytes, 1000.0 * double(leafBalls));
+    EXPECT_TRUE(mentions(toString(all), " leaf balls: about "));
+    settings.tight().quality = Quality::Fast;
+    EXPECT_LT(memoryPlan(*noise, settings).levelsSeconds, all.levelsSeconds);
+    settings.budgeted().budget.spheres = {4};
+    EXPECT_LT(memoryPlan(*noise, settings).levelsBytes, all.levelsBytes);
+    for (const bool cuts : {false, true}) {
+        settings.budgeted().budget.error = 20;
+        settings.budgeted().cuts = cuts;
+        EXPECT_GT(memoryPlan(*noise, settings).levelsSeconds, 0);
+    }
+}
+
+/// What levels take is within memory=, too; and what a refusal names is enough.
+TEST_F(MemoryPlanTest, LevelsThatNeedMoreAreRefusedWithTheNumber)
+{
+    const auto noise = noiseGrid();
+    SphereTreeSettings settings = settingsOf(TreeType::Tight, 0);
+    settings.tight().quality = Quality::Fast;
+    const std::string usual = fileOf(buildSphereTree(*noise, settings));
+    settings.memory = kMiB;
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*noise, settings); });
+    EXPECT_TRUE(mentions(why, " leaf balls need about ")) << why;
+    EXPECT_TRUE(mentions(why, "memory= allows 1 MiB: allow more")) << why;
+    const std::string about = "need about ";
+    const double named = std::stod(why.substr(why.find(about) + about.size()));
+    settings.memory = int64_t((named + 0.1) * kMiB);
+    EXPECT_EQ(fileOf(buildSphereTree(*noise, settings)), usual);
 }
 
 TEST_F(MemoryPlanTest, TooLittleIsRefused)

@@ -18,7 +18,7 @@ CoarseObject coarseOf(
     SphereTreeSettings settings;
     settings.dim = dim;
     StageSeconds seconds;
-    return coarseObject(maskOf(voxels), settings, leastBalls, enough, nullptr, &seconds);
+    return coarseObject(maskOf(voxels), settings, {leastBalls, enough}, nullptr, &seconds);
 }
 
 TEST(CoarseObject, IsTheCoarsestLevelWithEnoughLeafBalls)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TightEstimate.h"
+
+#include <openvdb_spheretree/tight/level/LevelWork.h>
+#include <openvdb_spheretree/tight/region/CoarseObject.h>
+#include <openvdb_spheretree/tight/region/WorkingMemory.h>
+#include <openvdb_spheretree/voxel/MaskDifference.h>
+
+#include <cmath>
+
+namespace openvdb_spheretree::tight {
+
+namespace {
+
+constexpr double kGrowth = 3.5; // of leaf balls, from a level of the pyramid to the next finer one
+
+/// A level of the pyramid that levels are made on, with as many leaf balls as are guessed there.
+struct GuessedObject {
+    std::size_t level = 0; ///< of the pyramid
+    double leafBalls = 0;
+};
+
+GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
+{
+    GuessedObject guess{coarse.steps.size(), double(coarse.leaves.balls.size())};
+    while (guess.level > 0 && guess.leafBalls < double(size.leafBalls)
+        && detail::countVoxels(*coarse.levels[guess.level]) < size.voxels) {
+        --guess.level;
+        guess.leafBalls *= kGrowth;
+    }
+    return guess;
+}
+
+/// The regions of all leaf balls, as if each were one of a coarse level, as many times as large.
+double bytesOfLeafRegions(
+    const CoarseObject& coarse, const GuessedObject& guess, std::size_t leafNodes)
+{
+    const double scale = std::exp2(double(coarse.steps.size() - guess.level));
+    std::vector<ExactSphere> balls = coarse.leaves.balls;
+    for (ExactSphere& ball : balls) ball.radiusSq = int64_t(double(ball.radiusSq) * scale * scale);
+    WorkingMemory regions;
+    regions.addRegions(balls, leafNodes);
+    return regions.bytes * guess.leafBalls / double(balls.size());
+}
+
+/// Regions of covers at most: each leaf node is in about three of a level's balls.
+double bytesOfCoverRegions(const std::vector<int64_t>& counts, std::size_t leafNodes)
+{
+    constexpr double kTimes = 3;
+    return kTimes * double(counts.size()) * double(leafNodes) * double(sizeof(RegionLeaf));
+}
+
+/// The work for one forest of all merges.
+double secondsOfForest(const TightOptions& options, double leafBalls)
+{
+    constexpr double kStrict = 0.2e-3, kSlack = 3e-3;
+    const bool strict = options.quality == Quality::Fast || options.cover == Cover::Balls;
+    return (strict ? kStrict : kSlack) * leafBalls;
+}
+
+} // namespace
+
+TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
+{
+    constexpr int64_t kEnough = 2000; // leaf balls to guess from
+    const TightOptions& options = settings.tight();
+    StageSeconds seconds;
+    const CoarseObject coarse =
+        coarseObject(voxels, settings, {kEnough, INT64_MAX}, interrupter, &seconds);
+    const GuessedObject guess = guessedObject(coarse, sizeFor(options));
+    const auto leafBalls = int64_t(guess.leafBalls);
+    const auto leafNodesOf = [&](std::size_t level) { return coarse.levels[level]->leafCount(); };
+    const std::size_t leafNodes = leafNodesOf(guess.level);
+    const LevelMaker maker =
+        levelMakerFor(settings, coarse.samples, std::size_t(leafBalls), nullptr);
+    const LevelWork work(maker, leafNodes);
+    const std::vector<int64_t> counts = options.budget.counts(leafBalls);
+
+    TightEstimate estimate;
+    estimate.leafBalls = guess.leafBalls;
+    WorkingMemory memory;
+    memory.addSamples(leafNodesOf(0)).addMerging(std::size_t(leafBalls));
+    estimate.bytes = memory.bytes;
+    if (options.cuts || options.cover == Cover::Balls) {
+        estimate.seconds = secondsOfForest(options, guess.leafBalls);
+    } else if (options.budget.hasBound()) {
+        estimate.seconds = 2 * work.ofFreeCover(leafBalls, 1);
+    } else if (counts.front() == leafBalls) {
+        estimate.seconds = work.fromBottom(counts);
+        estimate.bytes += bytesOfLeafRegions(coarse, guess, leafNodes);
+    } else {
+        estimate.seconds = work.ofCounts(leafBalls, counts, options.quality);
+        for (std::size_t level = 0; level < guess.level; ++level) {
+            estimate.seconds += LevelWork(maker, leafNodesOf(level)).ofCarrying(counts);
+        }
+        estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(0));
+    }
+    return estimate;
+}
+
+} // namespace openvdb_spheretree::tight

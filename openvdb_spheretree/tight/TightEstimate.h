@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TightEstimate.h
+/// @brief What the levels of a tight tree are going to take, before they are made.
+
+#pragma once
+
+#include <openvdb_spheretree/tree/SphereTreeSettings.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
+
+#include <openvdb/util/NullInterrupter.h>
+
+namespace openvdb_spheretree::tight {
+
+/// Guessed from the leaf balls of a coarse level of the pyramid, of which each finer level has about 3.5 times as
+/// many: medial axes of solids are sheets. Right within a factor of three.
+struct TightEstimate {
+    double leafBalls = 0; ///< that levels are made from
+    double seconds = 0;   ///< of one processor
+    double bytes = 0;     ///< beside the object, its labels and the tree
+};
+
+/// @param voxels  flat objects are flat along z
+/// @note Cost: the pyramid, and leaf balls of some coarse levels.
+TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
+
+} // namespace openvdb_spheretree::tight

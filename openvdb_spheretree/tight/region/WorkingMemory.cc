@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WorkingMemory.h"
+
+#include "VoxelRegion.h"
+#include <openvdb_spheretree/base/Memory.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+
+namespace openvdb_spheretree::tight {
+
+WorkingMemory& WorkingMemory::addSamples(std::size_t leafNodes)
+{
+    constexpr double kLevels = 1.15, kBytes = 84; // all levels, for each of the finest
+    bytes += kLevels * kBytes * double(leafNodes);
+    return *this;
+}
+
+WorkingMemory& WorkingMemory::addMerging(std::size_t balls)
+{
+    constexpr double kBytes = 1500; // 1200 to 1800 were measured
+    bytes += kBytes * double(balls);
+    return *this;
+}
+
+WorkingMemory& WorkingMemory::addRegions(
+    const std::vector<ExactSphere>& balls, std::size_t leafNodes)
+{
+    constexpr double kOfCube = 0.5236; // a ball of a cube
+    double leaves = 0;
+    for (const ExactSphere& ball : balls) {
+        if (ball.empty()) continue;
+        const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
+        leaves += std::min(double(leafNodes), kOfCube * side * side * side);
+    }
+    constexpr double kCopies = 2; // of the next coarser level's balls, too
+    bytes += kCopies * leaves * double(sizeof(RegionLeaf));
+    return *this;
+}
+
+void WorkingMemory::require(int64_t memory, const std::string& what) const
+{
+    const char* const remedy =
+        "use a larger voxel, ask for fewer spheres (spheres=), or use tree=extended";
+    if (memory <= 0) {
+        detail::requireMemory(bytes / 2, what, remedy);
+    } else if (bytes > double(memory)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            what << " need about " << detail::asText(bytes) << ", and memory= allows "
+                 << detail::asText(double(memory), false) << ": allow more, " << remedy);
+    }
+}
+
+} // namespace openvdb_spheretree::tight

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file WorkingMemory.h
+/// @brief What making levels takes of memory, about, and its refusal where there may not be as much.
+
+#pragma once
+
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace openvdb_spheretree::tight {
+
+/// Parts add up. Each is an estimate from above for solids, sheets and noise.
+struct WorkingMemory {
+    double bytes = 0;
+
+    /// Samples of an object of so many leaf nodes (SampledObject.h).
+    WorkingMemory& addSamples(std::size_t leafNodes);
+    /// Merging so many balls: what they hold, their neighbours, the merged balls.
+    WorkingMemory& addMerging(std::size_t balls);
+    /// The voxels of each ball of a level (VoxelRegion.h), and below those of the next coarser one; of an object
+    /// of so many leaf nodes.
+    WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
+
+    /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has, and as estimates are
+    ///                from above, half of them
+    /// @throw openvdb::ValueError if it is more
+    void require(int64_t memory, const std::string& what) const;
+};
+
+} // namespace openvdb_spheretree::tight
