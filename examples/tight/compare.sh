@@ -3,7 +3,7 @@
 # How many spheres for which error? Builds trees of every kind of one object, and draws their Hamming
 # errors against the numbers of their spheres.
 #
-#   examples/tight/compare.sh [--trees KIND,...] [--spheres N,...] OBJECT [OUTPUT]
+#   examples/tight/compare.sh [--trees KIND,...] [--spheres N,...] [--times] OBJECT [OUTPUT]
 #
 #   OBJECT     a .vol, .longvol or .vdb file
 #   OUTPUT     the start of the names of the files to make: OUTPUT.png, .svg and .csv
@@ -11,6 +11,7 @@
 #   --trees    of alone, best, normal, fast, miniball, extended, reversible (all). alone: quality=best,
 #              with a tree for each number of spheres; this one and best take minutes
 #   --spheres  of the levels of tight trees, falling (512,256,128,64,32,16,8)
+#   --times    draw what the trees took, too: seconds against the mean of the levels' errors
 #
 # The program is built first, unless the variable VDB_SPHERETREE names one.
 set -euo pipefail
@@ -19,9 +20,10 @@ here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 source "$here/../../scripts/dependencies.sh"
 trees=alone,best,normal,fast,miniball,extended,reversible
 spheres=512,256,128,64,32,16,8
+times=()
 
 usage() {
-    sed -n '6,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    sed -n '6,14s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
     exit "$1"
 }
 
@@ -29,6 +31,11 @@ parse_arguments() {
     while [[ "${1:-}" == -* ]]; do
         case "$1" in
             -h | --help) usage 0 ;;
+            --times)
+                times=(--times)
+                shift
+                continue
+                ;;
             --trees | --spheres) if [ $# -lt 2 ]; then usage 2; fi ;;
             *) usage 2 ;;
         esac
@@ -74,5 +81,5 @@ for kind in "${kinds[@]}"; do
             -stats "json=$work/$kind.$count.json" </dev/null >&2
     done
 done
-"${python[@]}" "$here/curve.py" "$name" "$output" "$work" "${kinds[@]}"
+"${python[@]}" "$here/curve.py" "${times[@]}" "$name" "$output" "$work" "${kinds[@]}"
 say "the curve: $output.png, .svg and .csv"

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The error of each level against its number of spheres: curve.py NAME OUTPUT FOLDER KIND...
+"""The error of each level against its number of spheres: curve.py [--times] NAME OUTPUT FOLDER KIND...
 
 Reads FOLDER/KIND.*.json, the statistics of one tree or more, and writes OUTPUT.png, .svg and .csv. Levels
-without an error, which are on no logarithmic scale, and those of one sphere are left out.
+without an error, which are on no logarithmic scale, and those of one sphere are left out. With --times, what
+the trees of a kind took stands beside it: the seconds of all of them against the geometric mean of the
+levels' errors.
 """
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -43,12 +46,42 @@ def levels_of(folder, kind):
     return sorted(((n, error) for n, error in points if error and n > 1), reverse=True)
 
 
+def seconds_of(folder, kind):
+    times = [json.loads(path.read_text(encoding="utf-8"))["seconds"]
+             for path in folder.glob(f"{kind}.*.json")]
+    return sum(seconds for time in times for stage, seconds in time.items()
+               if stage not in ("read", "total"))
+
+
+def mean_error(points):
+    return math.exp(sum(math.log(error) for _, error in points) / len(points))
+
+
 def plain(value, _):
     return f"{value:,.0f}" if value >= 1 else f"{value:g}"
 
 
-def draw(name, curves):
-    figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
+def draw_times(axes, curves, times):
+    for kind, seconds in times.items():
+        _, color, marker, _ = STYLES[kind]
+        axes.plot(seconds, mean_error(curves[kind]), color=color, marker=marker, linestyle="none",
+                  markersize=9, markeredgecolor="white", markeredgewidth=0.8)
+    axes.margins(x=0.12)
+    axes.set(xscale="log", ylim=(0, 1.15 * max(mean_error(curves[kind]) for kind in times)),
+             xlabel="seconds for all levels",
+             ylabel="mean Hamming error of the levels, %", title="what tight trees take")
+    axes.xaxis.set_major_formatter(FuncFormatter(plain))
+    axes.xaxis.set_minor_formatter(FuncFormatter(lambda *_: ""))
+
+
+def draw(name, curves, times):
+    panels = 2 if times else 1
+    figure, all_axes = plt.subplots(
+        1, panels, figsize=(7.2 if panels == 1 else 10.4, 4.6), layout="constrained", squeeze=False,
+        width_ratios=[1.6, 1][:panels])
+    axes = all_axes[0][0]
+    if times:
+        draw_times(all_axes[0][1], curves, times)
     for kind, points in curves.items():
         label, color, marker, dash = STYLES[kind]
         axes.plot(*zip(*points), label=label, color=color, marker=marker, linestyle=dash,
@@ -61,14 +94,19 @@ def draw(name, curves):
     return figure
 
 
-def main(name, output, folder, *kinds):
+def main(*arguments):
+    with_times = arguments[0] == "--times"
+    name, output, folder, *kinds = arguments[with_times:]
     curves = {kind: levels_of(Path(folder), kind) for kind in kinds}
     curves = {kind: points for kind, points in curves.items() if points}
     if not curves:
         sys.exit("curve.py: no tree has a level that can be drawn")
     rows = [f"{kind},{n},{error:.6g}\n" for kind, points in curves.items() for n, error in points]
     Path(output + ".csv").write_text("tree,spheres,hamming_percent\n" + "".join(rows))
-    figure = draw(name, curves)
+    # Of trees with the same numbers of spheres: else means say nothing.
+    timed = [kind for kind in curves if with_times and STYLES[kind][0].startswith("tight")]
+    times = {kind: seconds_of(Path(folder), kind) for kind in timed}
+    figure = draw(name, curves, times)
     # No dates and no versions: the same numbers give the same files.
     figure.savefig(output + ".svg", metadata={"Date": None, "Creator": None})
     figure.savefig(output + ".png", dpi=110, metadata={"Software": None})

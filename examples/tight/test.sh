@@ -44,6 +44,9 @@ done
 expect 0 'the curve' --trees alone,normal,fast,extended --spheres 8,4 a,b.vol again/curve
 diff -r first again || wrong "the same input gives another curve"
 
+expect 0 'the curve' --times --trees normal,fast --spheres 8,4 a,b.vol times/curve
+[ "$(wc -c <times/curve.png)" -gt "$(wc -c <first/curve.png)" ] || wrong "--times draws no more"
+
 expect 1 'cannot read' missing.vol
 expect 2 'OBJECT'
 expect 2 'OBJECT' --unknown a,b.vol

@@ -6,7 +6,8 @@
 /// Which ball holds which cell is free: balls are merged and placed anew by turns, as in FreeCovers.h. The
 /// ball that a cell is deepest in becomes the parent of the finer ball. Then parents are fixed. Now a ball
 /// must hold only those voxels of its children's regions that no other ball holds for children of its
-/// own, and is placed anew once more. quality=best moves children to other parents, too (ChildMoves.h).
+/// own, and is placed anew once more. Of levels that are searched, children move to other parents before
+/// (ChildMoves.h).
 
 #pragma once
 
