@@ -50,7 +50,7 @@ def seconds_of(folder, kind):
     times = [json.loads(path.read_text(encoding="utf-8"))["seconds"]
              for path in folder.glob(f"{kind}.*.json")]
     return sum(seconds for time in times for stage, seconds in time.items()
-               if stage not in ("read", "total"))
+               if stage not in ("read", "error", "write", "total"))
 
 
 def mean_error(points):

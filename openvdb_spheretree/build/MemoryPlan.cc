@@ -41,7 +41,7 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     plan.packedBytes = found.packedBytes;
     plan.storedBytes = found.storedBytes;
     const auto* tightOptions = settings.find<TightOptions>();
-    if (tightOptions) {
+    if (tightOptions && tightOptions->leaves != Leaves::Given) {
         const auto levels = tight::estimateTightTree(voxels, settings, interrupter);
         plan.leafBalls = int64_t(levels.leafBalls);
         plan.levelsBytes = levels.bytes;

@@ -23,7 +23,7 @@ struct MemoryPlan {
     bool packed = false;      ///< whether labels are compressed; else all are kept in memory
     int64_t packedBytes = 0;  ///< of all labels before they are compressed, if they are
     int64_t storedBytes = 0;  ///< of compressed labels that may stay in memory; others go to a file
-    /// @name Of a tight tree's levels, within a factor of three. 0 for other trees.
+    /// @name Of a tight tree's levels, within a factor of three. 0 for other trees, and over given spheres.
     /// @{
     int64_t leafBalls = 0;
     double levelsBytes = 0;   ///< at its peak; labels are gone then
@@ -34,11 +34,11 @@ struct MemoryPlan {
 /// @brief Ask before a long build, or find out why one is refused.
 /// @param settings     `memory`, and which labels it is about
 /// @param interrupter  may be null
-/// @throw openvdb::ValueError if buildSphereTree() would, for lack of memory or for a radius that
+/// @throw openvdb::ValueError if buildSphereTree() would, for lack of memory for labels or for a radius that
 ///        does not fit
 /// @throw Interrupted if the interrupter said so
 /// @note Cost: O(leaf nodes log leaf nodes); where balls may have radii above 127 voxels, that of a
-///       distance transform.
+///       distance transform; for tight trees that of a pyramid, and of the leaf balls of coarse levels.
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -5,6 +5,7 @@
 #include "SharedVoxels.h"
 #include "StoredSphere.h"
 #include <openvdb_spheretree/base/Stage.h>
+#include <openvdb_spheretree/base/StepProgress.h>
 #include <openvdb_spheretree/inner/InnerOrder.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
@@ -37,9 +38,13 @@ struct Level {
 class LevelSearch {
 public:
     /// @param inner  the inner spheres, in their order
-    LevelSearch(const NearestObject& object, std::vector<ExactSphere> inner, double voxelSize)
-        : mObject(object), mInner(std::move(inner)), mVoxelSize(voxelSize)
+    /// @param progress  the object's interrupter: each search is a step that costs kSearch
+    LevelSearch(const NearestObject& object, std::vector<ExactSphere> inner, double voxelSize,
+        detail::StepProgress& progress)
+        : mObject(object), mInner(std::move(inner)), mVoxelSize(voxelSize), mProgress(progress)
     {}
+
+    static constexpr double kSearch = 1; ///< few spheres are tried more often, many take longer
 
     int64_t most() const { return int64_t(mInner.size()); }
 
@@ -96,6 +101,7 @@ private:
 
     Level searched(std::vector<ExactSphere> start) const
     {
+        const detail::Step step(&mProgress, kSearch);
         Level level;
         for (const ExactSphere& sphere : nearestFrom(mObject, std::move(start)).spheres) {
             level.stored.push_back(storedSphere(sphere, mVoxelSize));
@@ -108,6 +114,7 @@ private:
     const NearestObject& mObject;
     const std::vector<ExactSphere> mInner;
     const double mVoxelSize;
+    detail::StepProgress& mProgress;
     std::map<int64_t, Level> mKnown; ///< by count
 };
 
@@ -247,11 +254,16 @@ void appendNearestTree(SphereTree& tree, const openvdb::MaskTree& object, StageS
     auto inner = detail::timed("inner balls", interrupter, &seconds.tree,
         [&] { return innerSpheres(medial, settings, interrupter); });
     const tight::SampledObject samples(medial.layout);
-    const NearestObject nearest{
-        voxels, samples, medial.layout.voxelCount(), settings.dim, settings.memory, interrupter};
     const detail::Stage stage("nearest spheres", interrupter, &seconds.tree);
-    LevelSearch search(nearest, std::move(inner), tree.voxelSize());
-    const std::vector<int64_t> counts = countsOf(settings.budgeted().budget, search);
+    detail::StepProgress progress(interrupter);
+    const NearestObject nearest{
+        voxels, samples, medial.layout.voxelCount(), settings.dim, settings.memory, &progress};
+    LevelSearch search(nearest, std::move(inner), tree.voxelSize(), progress);
+    const SphereBudget& budget = settings.budgeted().budget;
+    constexpr double kUsual = 15; // searches for the fewest spheres within a bound
+    const double searches = budget.error ? kUsual : double(budget.counts(search.most()).size());
+    progress.expect(LevelSearch::kSearch * searches);
+    const std::vector<int64_t> counts = countsOf(budget, search);
     tree.subdivision = int(tight::kFine);
     tree.levels.resize(counts.size());
     LevelAppender levels(tree, plane, interrupter);

@@ -2,6 +2,8 @@
 #include "NearestSearch.h"
 
 #include "SphereSet.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
 
 #include <algorithm>
 #include <utility>
@@ -24,15 +26,35 @@ public:
     NearestSpheres run()
     {
         if (mBest.wrong == 0) return mBest;
-        mSet.descend(kManyRounds, kCoarseSamples);
-        keep(mSet);
+        turn([&] {
+            mSet.descend(kManyRounds, kCoarseSamples);
+            keep(mSet);
+        });
         relocate();
-        mSet.descend(kManyRounds, kFineSamples);
-        keep(mSet);
+        turn([&] {
+            mSet.descend(kManyRounds, kFineSamples);
+            keep(mSet);
+        });
         return std::move(mBest);
     }
 
 private:
+    /// @return how often some spheres go elsewhere, at most: few spheres are worth more trials.
+    int64_t trials() const
+    {
+        constexpr int64_t kLeast = 3, kMost = 12;
+        return std::clamp(1024 / mCount, kLeast, kMost);
+    }
+
+    /// One of the descents, told as a part of all of them.
+    template <typename Descent>
+    void turn(const Descent& descent)
+    {
+        detail::checkInterrupt(mObject.interrupter, int(100 * mTurns++ / (trials() + 2)));
+        const detail::Stage loops("", mObject.interrupter, nullptr); // each is a detail
+        descent();
+    }
+
     /// @return how many voxels fewer are wrong than with the best so far, which it then becomes; 0 if none.
     int64_t keep(const SphereSet& set)
     {
@@ -43,17 +65,18 @@ private:
         return less;
     }
 
-    /// Few spheres are worth more trials, and larger ones.
+    /// More of few spheres are worth a trial.
     void relocate()
     {
-        constexpr int64_t kFew = 256, kLeastTrials = 3, kMostTrials = 12, kPays = 300;
+        constexpr int64_t kFew = 256, kPays = 300;
         int64_t moved = mCount <= kFew ? (mCount + 1) / 2 : mCount / 8;
-        const int64_t trials = std::clamp(1024 / mCount, kLeastTrials, kMostTrials);
-        for (int64_t trial = 0; trial < trials && moved > 0 && mBest.wrong > 0; ++trial) {
-            SphereSet set = relocated(moved);
-            const int64_t less = keep(set);
-            if (less > 0) mSet = std::move(set);
-            if (less * kPays < mBest.wrong) moved /= 2;
+        for (int64_t trial = 0; trial < trials() && moved > 0 && mBest.wrong > 0; ++trial) {
+            turn([&] {
+                SphereSet set = relocated(moved);
+                const int64_t less = keep(set);
+                if (less > 0) mSet = std::move(set);
+                if (less * kPays < mBest.wrong) moved /= 2;
+            });
         }
     }
 
@@ -69,6 +92,7 @@ private:
 
     const NearestObject& mObject;
     int64_t mCount;
+    int64_t mTurns = 0; ///< descents so far
     NearestSpheres mBest;
     SphereSet mSet;
 };

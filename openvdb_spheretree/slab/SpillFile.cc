@@ -26,8 +26,10 @@ SpillFile::SpillFile()
 {
     const char* folder = std::getenv("TMPDIR");
     mFolder = folder && *folder ? folder : "/tmp";
+#ifdef O_TMPFILE
     mFile = open(mFolder.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
     if (mFile >= 0) return;
+#endif
     // Not every file system has files without a name.
     std::string name = mFolder + "/spheretree.XXXXXX";
     mFile = mkostemp(name.data(), O_CLOEXEC);

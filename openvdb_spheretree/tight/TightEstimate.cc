@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/WorkingMemory.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <cmath>
 
@@ -63,20 +64,22 @@ double secondsOfForest(const TightOptions& options, double leafBalls)
 TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter)
 {
-    constexpr int64_t kEnough = 2000; // leaf balls to guess from
+    constexpr CoarseSize kEnough{2000, 2000000}; // to guess from
     const TightOptions& options = settings.tight();
     StageSeconds seconds;
-    const CoarseObject coarse =
-        coarseObject(voxels, settings, {kEnough, INT64_MAX}, interrupter, &seconds);
+    const CoarseObject coarse = coarseObject(voxels, settings, kEnough, interrupter, &seconds);
     const GuessedObject guess = guessedObject(coarse, sizeFor(options));
     const auto leafBalls = int64_t(guess.leafBalls);
-    const auto leafNodesOf = [&](std::size_t level) { return coarse.levels[level]->leafCount(); };
+    const auto leafNodesOf = [&](std::size_t level) {
+        return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
+    };
     const std::size_t leafNodes = leafNodesOf(guess.level);
     const LevelMaker maker =
         levelMakerFor(settings, coarse.samples, std::size_t(leafBalls), nullptr);
     const LevelWork work(maker, leafNodes);
     const std::vector<int64_t> counts = options.budget.counts(leafBalls);
 
+    const bool allLeaves = !options.budget.hasBound() && counts.front() == leafBalls;
     TightEstimate estimate;
     estimate.leafBalls = guess.leafBalls;
     WorkingMemory memory;
@@ -85,16 +88,20 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     if (options.cuts || options.cover == Cover::Balls) {
         estimate.seconds = secondsOfForest(options, guess.leafBalls);
     } else if (options.budget.hasBound()) {
-        estimate.seconds = 2 * work.ofFreeCover(leafBalls, 1);
-    } else if (counts.front() == leafBalls) {
+        const std::vector<int64_t> usual{kFewBalls, 8, 1}; // nobody knows
+        estimate.seconds = 2 * work.ofFreeCover(leafBalls, 1) + work.ofSearches(usual.front())
+            + work.fromBottom(usual);
+    } else if (allLeaves) {
         estimate.seconds = work.fromBottom(counts);
-        estimate.bytes += bytesOfLeafRegions(coarse, guess, leafNodes);
     } else {
         estimate.seconds = work.ofCounts(leafBalls, counts, options.quality);
         for (std::size_t level = 0; level < guess.level; ++level) {
             estimate.seconds += LevelWork(maker, leafNodesOf(level)).ofCarrying(counts);
         }
         estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(0));
+    }
+    if (makesLeafRegions(options, allLeaves)) {
+        estimate.bytes += bytesOfLeafRegions(coarse, guess, leafNodes);
     }
     return estimate;
 }

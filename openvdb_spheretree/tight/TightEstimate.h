@@ -20,7 +20,7 @@ struct TightEstimate {
 };
 
 /// @param voxels  flat objects are flat along z
-/// @note Cost: the pyramid, and leaf balls of some coarse levels.
+/// @note Cost: the pyramid, and the leaf balls of coarse levels of up to some million voxels.
 TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
 

@@ -27,7 +27,6 @@
 
 #include <openvdb/Exceptions.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -57,15 +56,14 @@ std::unique_ptr<MergeModel> modelFor(
         regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter);
 }
 
-/// @param allLeaves  whether they are a level of the tree
 /// @throw openvdb::ValueError if making levels from the leaf balls needs more memory than there may be
-void requireRoom(const CoarseObject& coarse, bool allLeaves, int64_t memory)
+void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory)
 {
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
     needed.addSamples(leafNodes).addMerging(leafBalls.size());
-    if (allLeaves) needed.addRegions(leafBalls, leafNodes);
+    if (withRegions) needed.addRegions(leafBalls, leafNodes);
     needed.require(memory,
         "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");
 }
@@ -186,18 +184,23 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
     const openvdb::BoolGrid& object = source.object;
     const LeafBalls& leaves = source.leaves;
     const LevelMaker& maker = source.maker;
+    const LevelWork work(maker);
     const auto leafCount = int64_t(leaves.balls.size());
+    // With how few balls a search for a bound ends, nobody knows.
+    const bool hasBound = tree.settings.tight().budget.hasBound();
+    if (hasBound) maker.interrupter->expect(2 * work.ofFreeCover(leafCount, 1));
     const auto levelOf = [&](int64_t count) -> TightLevel {
         if (count == leafCount) return {leaves.balls, {}, leaves.digital};
         return {free.cover(count), {}, {}};
     };
     std::optional<detail::LevelMeter> meter;
-    if (tree.settings.tight().budget.hasBound()) meter.emplace(object, tree.settings.dist());
+    if (hasBound) meter.emplace(object, tree.settings.dist());
     counts = levelCounts(tree.settings, leafCount, tree.voxelSize(), [&](int64_t count) {
         return errorOf({levelOf(count)}, tree, *meter, source.maker.interrupter);
     });
     const TightLevel level = levelOf(counts.front());
-    if (counts.front() == leafCount) return level;
+    maker.interrupter->expect(work.ofSearches(counts.front()) + work.fromBottom(counts));
+    if (counts.front() == leafCount || !maker.searchesLevelOf(level.balls.size())) return level;
     // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
     const TightLevel searched{freeBalls(free, counts.front(), maker), {}, {}};
     return keepsBounds(searched, tree, object, maker.interrupter) ? searched : level;
@@ -207,16 +210,9 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
 std::vector<TightLevel> levelsOnFinest(const SphereTree& tree, const TightSource& source)
 {
     const LevelMaker& maker = source.maker;
-    const auto leafBalls = int64_t(source.leaves.balls.size());
-    const LevelWork work(maker);
-    // With how few balls a search for a bound ends, nobody knows.
-    if (tree.settings.tight().budget.hasBound()) {
-        maker.interrupter->expect(2 * work.ofFreeCover(leafBalls, 1));
-    }
     FreeCovers free(source.leaves.balls, !source.leaves.digital.empty(), maker);
     std::vector<int64_t> counts;
     const TightLevel finest = finestLevel(tree, source, free, counts);
-    maker.interrupter->expect(work.fromBottom(counts));
     return bottomUpLevels(finest, counts, maker);
 }
 
@@ -243,7 +239,9 @@ std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCover
     const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
     if (counts.front() > kFewBalls) return fromBottom();
     if (areFromTopAlone(counts, quality)) return fromTop();
-    return betterOf(fromTop(), fromBottom(), maker);
+    const std::vector<TightLevel> top = fromTop(),
+                                  bottom = fromBottom(); // in this order: both use `free`
+    return betterOf(top, bottom, maker);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
@@ -263,7 +261,8 @@ std::vector<TightLevel> levelsOfCounts(
     LevelWork work(maker);
     double cost = work.ofCounts(int64_t(leafBalls.size()), counts, options.quality);
     for (std::size_t step = 0; step < coarse.steps.size(); ++step) {
-        cost += LevelWork(maker, coarse.levels[step]->leafCount()).ofCarrying(counts);
+        cost += LevelWork(maker, std::size_t(detail::leafNodesOf(*coarse.levels[step])))
+                    .ofCarrying(counts);
     }
     maker.interrupter->expect(cost);
     auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
@@ -305,7 +304,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     const auto leafCount = int64_t(leaves.balls.size());
     const bool allLeaves = onObject && !options.budget.hasBound()
         && options.budget.counts(leafCount).front() == leafCount;
-    requireRoom(coarse, allLeaves, settings.memory);
+    requireRoom(coarse, makesLeafRegions(options, allLeaves), settings.memory);
     const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
         detail::StepProgress progress(interrupter);
         const LevelMaker maker =

@@ -385,9 +385,9 @@ Setting memoryRow()
         [](SphereTreeSettings& settings, const std::string& text) {
             settings.memory = memoryFromString(text);
         },
-        "what the labels of voxels may take while they are computed: bytes such as 4GiB or "
-        "500MB, or a share of the machine's; more are compressed, and go to a temporary file "
-        "in $TMPDIR where they must; the tree is the same");
+        "what the labels of voxels may take while they are computed, then the levels of a tight "
+        "tree: bytes such as 4GiB or 500MB, or a share of the machine's; more labels are "
+        "compressed, and go to a temporary file in $TMPDIR where they must; the tree is the same");
 }
 
 Setting cutsRow()

@@ -117,11 +117,7 @@ LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 
 void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
-    int64_t count = int64_t(level.leafCount()); // and the leaves that tiles stand for
-    detail::forEachTile(level, [&](const openvdb::CoordBBox& tile) {
-        const int64_t leaves = detail::sidesOf(tile)[0] / kLeafDim;
-        count += leaves * leaves * leaves;
-    });
+    const int64_t count = detail::leafNodesOf(level);
     requireRoom(count);
     std::vector<const detail::LeafNode*> nodes;
     nodes.reserve(level.leafCount());

@@ -9,6 +9,8 @@
 
 #include "MaskTree.h"
 
+#include <cstdint>
+
 namespace openvdb_spheretree::detail {
 
 using MaskRoot = openvdb::MaskTree::RootNodeType;
@@ -45,6 +47,17 @@ template <typename TreeType, typename F>
 void forEachTile(const TreeType& tree, const F& f)
 {
     forEachTileOf(tree.root(), f);
+}
+
+/// @return how many leaf nodes a tree has, those among them that its tiles stand for.
+inline int64_t leafNodesOf(const openvdb::MaskTree& tree)
+{
+    auto count = int64_t(tree.leafCount());
+    forEachTile(tree, [&](const openvdb::CoordBBox& tile) {
+        const int64_t side = (int64_t(tile.max()[0]) - tile.min()[0] + 1) / LeafNode::DIM;
+        count += side * side * side;
+    });
+    return count;
 }
 
 } // namespace openvdb_spheretree::detail

@@ -3,6 +3,7 @@
 
 #include "LevelWork.h"
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverPart.h>
 
@@ -56,6 +57,7 @@ public:
     /// @return whether any move was made.
     bool round()
     {
+        const detail::Stage loops("", mMaker.interrupter, nullptr); // each is a detail
         mBelow = regionsBelow(mRegions, mFiner.parent, mCover.size(), mMaker.interrupter);
         std::vector<Tried> moves = nextMoves();
         detail::parallelFor(moves.size(), mMaker.interrupter, [&](std::size_t i) {
@@ -135,7 +137,7 @@ private:
         const ExactSphere grown = ballAround(mCover[move.to].ball, child);
         if (!part.box.contains(FineBox(grown))) return noChange(move);
         fit.refit(part, part.indexOf(move.from));
-        if (!(part.change < 0)) return noChange(move); // the other one can only grow
+        if (!(part.change < 0)) return noChange(move); // the other one grows, nearly always
         fit.replace(part, to, grown);
         fit.refit(part, to);
         CoverChange change = fit.changeOf(part);
@@ -184,7 +186,10 @@ void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const detail::Step step(
         maker.interrupter, LevelWork(maker).ofMoves(int64_t(finer.balls.size())));
     Moves moves(eachInItsGroup(balls), finer, regions, maker);
-    for (int round = 0; round < kMostRounds && moves.round(); ++round) {}
+    for (int round = 0; round < kMostRounds; ++round) {
+        detail::checkInterrupt(maker.interrupter, 100 * round / kMostRounds);
+        if (!moves.round()) break;
+    }
     balls = moves.balls();
 }
 

@@ -2,7 +2,7 @@
 /// @file ChildMoves.h
 /// @brief Children of a level move to other parents, as long as that lowers the cost.
 ///
-/// In a trial, the new parent grows around the child. Then both parents and their neighbours are placed
+/// In a trial, the old parent is placed anew without the child, the new one grows around it and is placed
 /// anew. Each must hold those voxels of its children's regions that no other parent holds for children
 /// of its own. A round tries every child with the parents next to it, all from the same state and in
 /// parallel. Then it makes the best moves whose surroundings do not meet.

@@ -8,14 +8,6 @@
 
 namespace openvdb_spheretree::tight {
 
-namespace {
-
-/// Of the balls of the start, each holds little: they are merged at once to about what is asked for, or
-/// to so many.
-constexpr int64_t kFirst = 512;
-
-} // namespace
-
 FreeCovers::FreeCovers(
     const std::vector<ExactSphere>& start, bool areInside, const LevelMaker& maker)
     : mMaker(maker), mAreInside(areInside), mStart(int64_t(start.size()))
@@ -30,12 +22,21 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto& [many, balls] = *mCovers.lower_bound(count);
         if (many == count) return mCovers[count];
         const bool isStart = many == mStart;
-        const int64_t first = std::max(mMaker.placesStart ? 2 * count : count, kFirst);
-        const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
-        const bool isPlaced = mMaker.placesStart || !isStart || next <= kFirst;
-        const auto cover = merged(balls, isStart && mAreInside, next);
-        mCovers[next] = isPlaced ? placed(cover) : cover;
+        const Next found = next(many, count, isStart, mMaker);
+        const auto cover = merged(balls, isStart && mAreInside, found.count);
+        mCovers[found.count] = found.isPlaced ? placed(cover) : cover;
     }
+}
+
+FreeCovers::Next FreeCovers::next(
+    int64_t many, int64_t count, bool isStart, const LevelMaker& maker)
+{
+    // Of the balls of the start, each holds little: they are merged at once to about what is asked for,
+    // or to so many.
+    constexpr int64_t kFirst = 512;
+    const int64_t first = std::max(maker.placesStart ? 2 * count : count, kFirst);
+    const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
+    return {next, maker.placesStart || !isStart || next <= kFirst};
 }
 
 std::vector<ExactSphere> FreeCovers::merged(

@@ -34,6 +34,15 @@ public:
     /// on the way to one. It stays valid.
     const std::vector<ExactSphere>& cover(int64_t count);
 
+    /// The next cover on the way.
+    struct Next {
+        int64_t count; ///< of its balls, at most
+        bool isPlaced; ///< whether they are placed anew
+    };
+    /// @param many     balls of the cover that is there, more than @a count
+    /// @param isStart  whether that is the start
+    static Next next(int64_t many, int64_t count, bool isStart, const LevelMaker& maker);
+
 private:
     /// Each ball has to hold its power cell.
     std::vector<ExactSphere> merged(

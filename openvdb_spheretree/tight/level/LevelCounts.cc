@@ -32,8 +32,9 @@ public:
 
     bool isWithin(int64_t count)
     {
-        // Without padding, all leaf balls are the object itself, without any error.
-        if (mBudget.bounds == BoundOf::Unpadded && count == mLeafBalls) return true;
+        // Without padding, all leaf balls are the object itself, without any error; given ones need not be.
+        const bool areObject = mSettings.tight().leaves != Leaves::Given;
+        if (mBudget.bounds == BoundOf::Unpadded && count == mLeafBalls && areObject) return true;
         return tight::isWithin(mBudget, mVoxelSize, errorOf(count));
     }
 

@@ -137,7 +137,7 @@ LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject
     LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
     maker.merging.samples = int(samples);
     maker.memory = settings.memory;
-    maker.searchedUpTo = kFewBalls;
+    maker.searchedUpTo = kFewBalls + kFewBalls / 8; // as many more as a coarse object gets
     if (quality == Quality::Best) {
         maker.searchedUpTo = INT64_MAX;
         maker.searches = 6;

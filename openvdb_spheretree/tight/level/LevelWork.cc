@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelWork.h"
 
+#include "FreeCovers.h"
 #include "TopDownLevels.h"
 
 #include <algorithm>
@@ -41,8 +42,11 @@ double LevelWork::ofMoves(int64_t children) const
 double LevelWork::ofFreeCover(int64_t start, int64_t count) const
 {
     double work = ofMerging(start, count);
-    const int64_t first = mMaker.placesStart ? 2 * count : 0;
-    for (int64_t many = std::min(start, first); many >= count; many /= 2) work += ofPlacing(many);
+    for (int64_t many = start; many > count;) {
+        const FreeCovers::Next next = FreeCovers::next(many, count, many == start, mMaker);
+        if (next.isPlaced) work += ofPlacing(next.count);
+        many = next.count;
+    }
     return work;
 }
 

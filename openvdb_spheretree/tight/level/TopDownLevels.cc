@@ -177,8 +177,10 @@ private:
             mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
         const SearchEffort effort{
             mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations, mMaker.sweeps};
-        const auto spare =
-            trialsPerBall > 0 ? smallerThan(int64_t(balls.size())) : std::vector<CoverBall>();
+        const auto spare = detail::timed("", mMaker.interrupter, nullptr, [&] {
+            return trialsPerBall > 0 ? smallerThan(int64_t(balls.size()))
+                                     : std::vector<CoverBall>();
+        });
         return withCost(withoutEmpty(
             improveCover(balls, spare, mMaker.object, goal, effort, mMaker.interrupter).balls));
     }

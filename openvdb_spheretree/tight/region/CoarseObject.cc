@@ -68,6 +68,12 @@ CoarseSize sizeFor(const TightOptions& options)
     return {leastLeafBalls(count, options.quality), enoughVoxels(count)};
 }
 
+bool makesLeafRegions(const TightOptions& options, bool allLeaves)
+{
+    if (options.cover == Cover::Balls) return false;
+    return options.cuts ? options.quality != Quality::Fast : allLeaves;
+}
+
 CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, const CoarseSize& size,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)

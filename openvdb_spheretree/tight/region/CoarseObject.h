@@ -39,6 +39,10 @@ struct CoarseSize {
 /// @return the size that levels of named counts need; for all others, that of no coarse level.
 CoarseSize sizeFor(const TightOptions& options);
 
+/// @param allLeaves  whether the leaf balls are a level of the tree
+/// @return whether the voxels of each leaf ball are needed all at once.
+bool makesLeafRegions(const TightOptions& options, bool allLeaves);
+
 /// @param voxels     of the object
 /// @param size       that is enough; if no coarse level has it, the object itself is taken
 /// @param seconds    must not be null

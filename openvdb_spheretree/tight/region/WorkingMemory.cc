@@ -44,7 +44,7 @@ void WorkingMemory::require(int64_t memory, const std::string& what) const
     const char* const remedy =
         "use a larger voxel, ask for fewer spheres (spheres=), or use tree=extended";
     if (memory <= 0) {
-        detail::requireMemory(bytes / 2, what, remedy);
+        detail::requireMemory(bytes, what, remedy);
     } else if (bytes > double(memory)) {
         OPENVDB_THROW(openvdb::ValueError,
             what << " need about " << detail::asText(bytes) << ", and memory= allows "

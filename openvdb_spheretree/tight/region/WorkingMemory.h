@@ -24,8 +24,7 @@ struct WorkingMemory {
     /// of so many leaf nodes.
     WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 
-    /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has, and as estimates are
-    ///                from above, half of them
+    /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
     /// @throw openvdb::ValueError if it is more
     void require(int64_t memory, const std::string& what) const;
 };

@@ -53,6 +53,18 @@ TEST(LevelCounts, AreThoseOfTheBudgetWhereThereIsNoBound)
     EXPECT_EQ(neverAsked(budget, 100), (Counts{100, 7, 3}));
 }
 
+/// Spheres that are given may reach out of the object.
+TEST(LevelCounts, OfGivenLeavesKeepTheBoundToo)
+{
+    SphereBudget budget;
+    budget.error = 5;
+    SphereTreeSettings settings = settingsOf(budget);
+    settings.tight().leaves = Leaves::Given;
+    EXPECT_EQ(levelCounts(settings, 3, 1, errorsOf({30, 20, 4})).front(), 3);
+    const auto tooMuch = errorsOf({30, 20, 10});
+    EXPECT_THROW(levelCounts(settings, 3, 1, tooMuch), openvdb::ValueError);
+}
+
 TEST(LevelCounts, OfOneLeafAreOne)
 {
     SphereBudget budget;
