@@ -161,31 +161,19 @@ TEST(SphereSet, DropsWhatIsWorthLeast)
 /// What two spheres hold is worth nothing until one of them goes.
 TEST(SphereSet, DropsByWhatSpheresAreWorthAfterOthersWent)
 {
-    Random random(23);
-    for (int turn = 0; turn < 20; ++turn) {
-        const Stage stage(shapes::box(Coord(24, 24, 24)), 3);
-        std::vector<ExactSphere> spheres; // inside: the fewer there are, the more each is worth
-        for (int i = 0; i < 7; ++i) {
-            ExactSphere& sphere = spheres.emplace_back();
-            for (int a = 0; a < 3; ++a) sphere.center[a] = 16 * random.between(9, 14);
-            sphere.radiusSq = random.between(30, 140) * int64_t(random.between(30, 140));
-        }
-        std::vector<ExactSphere> left = spheres;
-        while (left.size() > 2) {
-            std::vector<ExactSphere> best;
-            for (std::size_t i = 0; i < left.size(); ++i) {
-                std::vector<ExactSphere> others = left;
-                others.erase(others.begin() + std::ptrdiff_t(i));
-                const int64_t wrong = naiveWrong(stage.voxels, others, false);
-                if (best.empty() || wrong < naiveWrong(stage.voxels, best, false)) best = others;
-            }
-            left = best;
-        }
-        SphereSet set(stage.samples, false, spheres, nullptr);
-        set.dropLeast(2);
-        EXPECT_EQ(
-            naiveWrong(stage.voxels, set.spheres(), false), naiveWrong(stage.voxels, left, false));
-    }
+    Voxels voxels = shapes::ball(50);
+    for (const Coord& v : shapes::ball(5)) voxels.push_back(v.offsetBy(30, 0, 0));
+    const Stage stage(voxels, 3);
+    const std::vector<ExactSphere> twice{{{0, 0, 0}, 256 * 50}, {{4, 0, 0}, 256 * 50}};
+    const ExactSphere small{{480, 0, 0}, 256 * 5};
+    SphereSet set(stage.samples, false, {twice[0], twice[1], small}, nullptr);
+    set.dropLeast(2);
+    EXPECT_EQ(set.spheres().back(), small);
+    set.dropLeast(1);
+    EXPECT_FALSE(set.spheres().back() == small);
+    SphereSet atOnce(stage.samples, false, {twice[0], twice[1], small}, nullptr);
+    atOnce.dropLeast(1);
+    EXPECT_EQ(atOnce.spheres(), set.spheres());
 }
 
 TEST(SphereSet, ASphereThatIsAddedIsVisited)
