@@ -38,18 +38,18 @@ plt.rcParams.update({
 })
 
 
-def levels_of(folder, kind):
-    points = []
-    for path in folder.glob(f"{kind}.*.json"):
-        levels = json.loads(path.read_text(encoding="utf-8"))["levels"]
-        points += [(level["spheres"], level["hamming_percent"]) for level in levels]
+def statistics_of(folder, kind):
+    return [json.loads(path.read_text(encoding="utf-8")) for path in folder.glob(f"{kind}.*.json")]
+
+
+def levels_of(trees):
+    points = [(level["spheres"], level["hamming_percent"])
+              for tree in trees for level in tree["levels"]]
     return sorted(((n, error) for n, error in points if error and n > 1), reverse=True)
 
 
-def seconds_of(folder, kind):
-    times = [json.loads(path.read_text(encoding="utf-8"))["seconds"]
-             for path in folder.glob(f"{kind}.*.json")]
-    return sum(seconds for time in times for stage, seconds in time.items()
+def seconds_of(trees):
+    return sum(seconds for tree in trees for stage, seconds in tree["seconds"].items()
                if stage not in ("read", "error", "write", "total"))
 
 
@@ -97,7 +97,8 @@ def draw(name, curves, times):
 def main(*arguments):
     with_times = arguments[0] == "--times"
     name, output, folder, *kinds = arguments[with_times:]
-    curves = {kind: levels_of(Path(folder), kind) for kind in kinds}
+    trees = {kind: statistics_of(Path(folder), kind) for kind in kinds}
+    curves = {kind: levels_of(trees[kind]) for kind in kinds}
     curves = {kind: points for kind, points in curves.items() if points}
     if not curves:
         sys.exit("curve.py: no tree has a level that can be drawn")
@@ -105,7 +106,7 @@ def main(*arguments):
     Path(output + ".csv").write_text("tree,spheres,hamming_percent\n" + "".join(rows))
     # Of trees with the same numbers of spheres: else means say nothing.
     timed = [kind for kind in curves if with_times and STYLES[kind][0].startswith("tight")]
-    times = {kind: seconds_of(Path(folder), kind) for kind in timed}
+    times = {kind: seconds_of(trees[kind]) for kind in timed}
     figure = draw(name, curves, times)
     # No dates and no versions: the same numbers give the same files.
     figure.savefig(output + ".svg", metadata={"Date": None, "Creator": None})

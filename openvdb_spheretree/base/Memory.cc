@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Memory.h"
+#include "TextStream.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
@@ -51,7 +51,7 @@ std::string asText(double bytes, bool up)
     constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
     const double unit = bytes < kGiB ? kMiB : kGiB;
     const double tenths = bytes / unit * 10;
-    std::ostringstream text;
+    detail::TextStream text;
     text << (up ? std::ceil(tenths) : std::floor(tenths)) / 10 << (unit == kMiB ? " MiB" : " GiB");
     return text.str();
 }
@@ -73,6 +73,16 @@ void requireMemory(double bytes, const std::string& what, const std::string& rem
     OPENVDB_THROW(openvdb::ValueError,
         what << " need about " << asText(bytes) << ", more than the " << asText(there, false)
              << " of this machine: " << remedy);
+}
+
+void requireAllowed(
+    double bytes, int64_t memory, const std::string& what, const std::string& remedy)
+{
+    if (memory <= 0) return requireMemory(bytes, what, remedy);
+    if (bytes <= double(memory)) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        what << " need about " << asText(bytes) << ", and memory= allows "
+             << asText(double(memory), false) << ": allow more, " << remedy);
 }
 
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf)

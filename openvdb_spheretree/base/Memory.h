@@ -34,4 +34,9 @@ void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
 /// @param remedy  what one can do
 void requireMemory(double bytes, const std::string& what, const std::string& remedy);
 
+/// @brief The same within what the settings allow.
+/// @param memory  bytes; 0: as much as this machine has
+void requireAllowed(
+    double bytes, int64_t memory, const std::string& what, const std::string& remedy);
+
 } // namespace openvdb_spheretree::detail

@@ -2,6 +2,7 @@
 #include "MemoryPlan.h"
 
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/paper/TreeLevels.h>
 #include <openvdb_spheretree/slab/LabelStream.h>
@@ -11,9 +12,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace openvdb_spheretree {
+
+namespace {
+
+/// @return the number with two digits that count.
+std::string roughly(double number)
+{
+    const double unit = number > 0 ? std::pow(10.0, std::floor(std::log10(number)) - 1) : 1;
+    detail::TextStream text;
+    text << std::round(number / unit) * unit;
+    return text.str();
+}
+
+} // namespace
 
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
@@ -50,23 +63,10 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     return plan;
 }
 
-namespace {
-
-/// @return the number with two digits that count.
-std::string roughly(double number)
-{
-    const double unit = number > 0 ? std::pow(10.0, std::floor(std::log10(number)) - 1) : 1;
-    std::ostringstream text;
-    text << std::round(number / unit) * unit;
-    return text.str();
-}
-
-} // namespace
-
 std::string toString(const MemoryPlan& plan)
 {
     const auto gib = [](int64_t bytes) { return detail::asText(double(bytes)); };
-    std::ostringstream text;
+    detail::TextStream text;
     text << "memory: " << gib(plan.allowed) << " allowed for power labels, at most "
          << gib(plan.needed) << " needed: " << plan.slabsAtATime << " of " << plan.slabs
          << " slabs at a time";

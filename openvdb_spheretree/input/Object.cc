@@ -13,6 +13,7 @@
 #include "TrilinearCover.h"
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/NodeBytes.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
@@ -27,7 +28,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -328,7 +328,7 @@ MaskTree::Ptr centersIn(
 {
     const auto masked = [&](const auto& inside) {
         if (grid.getGridClass() != openvdb::GRID_LEVEL_SET && inside.contains(grid.background())) {
-            std::ostringstream background;
+            detail::TextStream background;
             background << grid.background();
             throwUnbounded(grid, background.str(), wanted.text,
                 wanted.below ? "choose values without it" : "choose a threshold above it");

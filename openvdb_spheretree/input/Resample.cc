@@ -12,6 +12,7 @@
 #include "DelayedValues.h"
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
@@ -28,7 +29,6 @@
 #include <iomanip>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <type_traits>
 #include <vector>
 
@@ -107,7 +107,7 @@ std::vector<CoordBBox> boxesOf(const TreeT& tree)
 /// @param bytes  of a voxel of the result
 void requireRoom(const openvdb::GridBase& grid, double voxels, double bytes, double voxelSize)
 {
-    std::ostringstream what;
+    detail::TextStream what;
     what << std::setprecision(3) << detail::describe(grid) << " has " << voxels
          << " voxels of size " << voxelSize << ", which";
     detail::requireMemory(voxels * bytes, what.str(), "choose a larger voxel");

@@ -37,14 +37,13 @@ struct Level {
 /// Searches levels, each once.
 class LevelSearch {
 public:
-    /// @param inner  the inner spheres, in their order
-    /// @param progress  the object's interrupter: each search is a step that costs kSearch
+    /// @param inner     the inner spheres, in their order
+    /// @param progress  the object's interrupter: each search is a step that costs 1: few spheres are
+    ///                  tried more often, many take longer
     LevelSearch(const NearestObject& object, std::vector<ExactSphere> inner, double voxelSize,
         detail::StepProgress& progress)
         : mObject(object), mInner(std::move(inner)), mVoxelSize(voxelSize), mProgress(progress)
     {}
-
-    static constexpr double kSearch = 1; ///< few spheres are tried more often, many take longer
 
     int64_t most() const { return int64_t(mInner.size()); }
 
@@ -101,7 +100,7 @@ private:
 
     Level searched(std::vector<ExactSphere> start) const
     {
-        const detail::Step step(&mProgress, kSearch);
+        const detail::Step step(&mProgress, 1);
         Level level;
         for (const ExactSphere& sphere : nearestFrom(mObject, std::move(start)).spheres) {
             level.stored.push_back(storedSphere(sphere, mVoxelSize));
@@ -262,7 +261,7 @@ void appendNearestTree(SphereTree& tree, const openvdb::MaskTree& object, StageS
     const SphereBudget& budget = settings.budgeted().budget;
     constexpr double kUsual = 15; // searches for the fewest spheres within a bound
     const double searches = budget.error ? kUsual : double(budget.counts(search.most()).size());
-    progress.expect(LevelSearch::kSearch * searches);
+    progress.expect(searches);
     const std::vector<int64_t> counts = countsOf(budget, search);
     tree.subdivision = int(tight::kFine);
     tree.levels.resize(counts.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Camera.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <openvdb/math/Math.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace openvdb_spheretree {
@@ -22,7 +22,7 @@ using openvdb::Vec3d;
 /// @return the numbers as the command takes them.
 std::string listed(const Vec3d& v)
 {
-    std::ostringstream text;
+    detail::TextStream text;
     text << v[0] << "," << v[1] << "," << v[2];
     return text.str();
 }

@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
 #include <openvdb_spheretree/solid/WindingNumber.h>
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 
 namespace openvdb_spheretree {
 
@@ -39,7 +39,7 @@ void requireRoomForSurface(const TriangleMesh& mesh, double voxelSize)
     const double leaves = std::min(std::max(areaOf(mesh) / (leaf * leaf), longestEdge(mesh) / leaf),
         sides[0] * sides[1] * sides[2]);
     const Vec3d voxels = boxOf(mesh).extents() / voxelSize + Vec3d(1);
-    std::ostringstream what;
+    detail::TextStream what;
     what << "the voxels at the surface of mesh '" << mesh.name << "', in a box of "
          << std::setprecision(2) << voxels[0] * voxels[1] * voxels[2] << " voxels,";
     detail::requireMemory(leaves * kBytes, what.str(), "use a larger voxel");

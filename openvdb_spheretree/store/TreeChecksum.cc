@@ -4,11 +4,11 @@
 #include "SphereTreePoints.h"
 #include "TreeMetadata.h"
 #include <openvdb_spheretree/base/Checksum.h>
+#include <openvdb_spheretree/base/TextStream.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <sstream>
 
 namespace openvdb_spheretree {
 
@@ -48,7 +48,7 @@ std::vector<PartChecksum> sphereChecksums(const Spheres& nodes, NullInterrupter*
 /// Of key, type and value of all metadata that is ours, by keys.
 PartChecksum metadataChecksum(const GridBase& grid)
 {
-    std::ostringstream bytes;
+    detail::TextStream bytes;
     for (auto meta = grid.beginMeta(); meta != grid.endMeta(); ++meta) {
         const std::string& key = meta->first;
         if (key.rfind(kOwnKeys, 0) != 0) continue;
@@ -64,7 +64,7 @@ PartChecksum metadataChecksum(const GridBase& grid)
 /// readers use them.
 PartChecksum transformChecksum(const GridBase& grid)
 {
-    std::ostringstream bytes;
+    detail::TextStream bytes;
     grid.transform().write(bytes);
     const std::string all = bytes.str();
     return {"transform", detail::extendedCrc32(0, all.data(), all.size())};
@@ -90,7 +90,7 @@ std::string textOf(const std::vector<PartChecksum>& sums)
 std::vector<std::string> missingFrom(
     const GridBase& grid, const char* key, const std::vector<PartChecksum>& sums)
 {
-    std::istringstream text(detail::getMeta<std::string>(grid, key));
+    detail::TextStream text(detail::getMeta<std::string>(grid, key));
     std::vector<std::string> words;
     for (std::string word; text >> word;) words.push_back(word);
     if (words.empty() || words.front() != kAlgorithm) {

@@ -94,10 +94,8 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     } else if (allLeaves) {
         estimate.seconds = work.fromBottom(counts);
     } else {
-        estimate.seconds = work.ofCounts(leafBalls, counts, options.quality);
-        for (std::size_t level = 0; level < guess.level; ++level) {
-            estimate.seconds += LevelWork(maker, leafNodesOf(level)).ofCarrying(counts);
-        }
+        estimate.seconds =
+            work.ofCounts(leafBalls, counts, options.quality, coarse.leafNodesBelow(guess.level));
         estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(0));
     }
     if (makesLeafRegions(options, allLeaves)) {

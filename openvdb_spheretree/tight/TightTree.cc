@@ -23,7 +23,6 @@
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
-#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -239,8 +238,8 @@ std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCover
     const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
     if (counts.front() > kFewBalls) return fromBottom();
     if (areFromTopAlone(counts, quality)) return fromTop();
-    const std::vector<TightLevel> top = fromTop(),
-                                  bottom = fromBottom(); // in this order: both use `free`
+    const std::vector<TightLevel> top = fromTop(); // first: both take covers from `free`
+    const std::vector<TightLevel> bottom = fromBottom();
     return betterOf(top, bottom, maker);
 }
 
@@ -258,13 +257,8 @@ std::vector<TightLevel> levelsOfCounts(
     const int64_t most = counts.front();
     // Some are not needed on the fine object.
     if (!onObject) counts.front() += counts.front() / 8;
-    LevelWork work(maker);
-    double cost = work.ofCounts(int64_t(leafBalls.size()), counts, options.quality);
-    for (std::size_t step = 0; step < coarse.steps.size(); ++step) {
-        cost += LevelWork(maker, std::size_t(detail::leafNodesOf(*coarse.levels[step])))
-                    .ofCarrying(counts);
-    }
-    maker.interrupter->expect(cost);
+    maker.interrupter->expect(LevelWork(maker).ofCounts(int64_t(leafBalls.size()), counts,
+        options.quality, coarse.leafNodesBelow(coarse.steps.size())));
     auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
         const SampledObject finer(LeafLayout(*coarse.levels[step]));

@@ -56,9 +56,9 @@ enum class RadiusScale {
 
 /// How much work goes into a tight tree.
 enum class Quality {
-    Fast, ///< merge the cheapest pair of neighbours, each ball around its own cells
-    Normal, ///< each ball placed anew for what no other ball covers; levels of up to 64 balls searched
-    Best    ///< the same with all levels searched, and for longer
+    Fast,   ///< balls merged and placed anew by turns, with little effort
+    Normal, ///< with more effort, and levels of up to 64 balls searched
+    Best    ///< all levels searched, and for longer
 };
 
 /// What a sphere contains for certain.
@@ -159,8 +159,9 @@ struct SphereTreeSettings {
     /// Name of the tree, and of the grid it is stored in.
     std::string name = "spheretree";
     /// Bytes that the labels of a level and what they are made from may take while they are
-    /// computed, and after that the levels of a tight tree while they are made; 0 for three quarters of the machine's memory. Where they need more, they are
-    /// compressed, and then go to a temporary file (docs/algorithm.md, "Less memory than that").
+    /// computed, and after that the levels of a tight tree while they are made; 0 for three
+    /// quarters of the machine's memory. Labels that need more are compressed, and then go to a
+    /// temporary file (docs/algorithm.md, "Less memory than that"); levels that do are refused.
     /// The tree is the same whatever it is, so no file records it.
     int64_t memory = 0;
 

@@ -10,10 +10,10 @@
 #pragma once
 
 #include "SphereTree.h"
+#include <openvdb_spheretree/base/TextStream.h>
 
 #include <cstdint>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ namespace openvdb_spheretree::detail {
 template <typename... Parts>
 std::string sentence(const Parts&... parts)
 {
-    std::ostringstream text;
+    detail::TextStream text;
     (text << ... << parts);
     return text.str();
 }

@@ -8,8 +8,9 @@
 #include "line/Actions.h"
 #include "session/Session.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <iostream>
-#include <sstream>
 
 namespace command {
 
@@ -21,7 +22,7 @@ constexpr size_t kIndent = 17;
 /// Prints words until a line is full, then goes on in the next one, indented.
 void printWrapped(std::ostream& out, const std::string& text, size_t indent)
 {
-    std::istringstream words(text);
+    openvdb_spheretree::detail::TextStream words(text);
     std::string word;
     size_t column = indent;
     while (words >> word) {
@@ -94,7 +95,7 @@ void checkHelp(const ActionCall& call, Plan&)
 
 void runHelp(const ActionCall& call, Session& session)
 {
-    std::ostringstream out;
+    openvdb_spheretree::detail::TextStream out;
     const std::vector<std::string> names = call.list("actions");
     const auto print = call.flag("brief") ? printBrief : printAction;
     if (names.empty()) {

@@ -12,12 +12,12 @@
 #include "report/StatsReport.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -110,7 +110,7 @@ void runStats(const ActionCall& call, Session& session)
 /// One number of cubes, else three.
 std::string voxelText(const openvdb::Vec3d& size)
 {
-    std::ostringstream out;
+    openvdb_spheretree::detail::TextStream out;
     out << size[0];
     if (size.eq(openvdb::Vec3d(size[0]), 1e-6 * size[0])) return out.str();
     out << " x " << size[1] << " x " << size[2] << " (-resample makes cubes)";
@@ -144,7 +144,7 @@ void printItem(std::ostream& out, const StackItem& item)
 
 void runPrint(const ActionCall&, Session& session)
 {
-    std::ostringstream out;
+    openvdb_spheretree::detail::TextStream out;
     const auto& items = session.stack.items();
     if (items.empty()) out << "the stack is empty\n";
     int age = 0, meshAge = 0;

@@ -6,8 +6,6 @@
 
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
-#include <algorithm>
-
 namespace command {
 
 namespace spheretree = openvdb_spheretree;

@@ -14,6 +14,7 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/picture/Picture.h>
 #include <openvdb_spheretree/store/SphereTreeCsv.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -23,7 +24,6 @@
 #include <filesystem>
 #include <functional>
 #include <set>
-#include <sstream>
 
 #include <unistd.h>
 
@@ -138,7 +138,7 @@ void requireDistinctTrees(const std::vector<StackItem*>& items)
 void writeGridsToStdout(
     const std::string& path, const openvdb::GridCPtrVec& grids, uint32_t compression)
 {
-    std::stringstream buffer(std::ios::in | std::ios::out | std::ios::binary);
+    openvdb_spheretree::detail::TextStream buffer;
     writeVdb(buffer, grids, compression, /*seekable=*/false);
     buffer.seekg(0);
     writeToFd(STDOUT_FILENO, *buffer.rdbuf(), path);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Terminal.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <sstream>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -53,7 +54,7 @@ size_t columnsOf(const std::string& text)
 std::string brokenAt(const std::string& text, size_t columns)
 {
     if (columns == 0) return text;
-    std::istringstream lines(text);
+    openvdb_spheretree::detail::TextStream lines(text);
     std::string result, line;
     while (std::getline(lines, line)) {
         while (columnsOf(line) > columns) {

@@ -7,9 +7,10 @@
 #include "files/InputFile.h"
 #include "Plan.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 
 namespace command {
 
@@ -91,7 +92,7 @@ std::vector<ConfigLine> readConfigFile(const std::string& path, size_t& bytesInA
     if (text.compare(0, byteOrderMark.size(), byteOrderMark) == 0) {
         text.erase(0, byteOrderMark.size());
     }
-    std::istringstream in(text);
+    openvdb_spheretree::detail::TextStream in(text);
     std::vector<ConfigLine> lines;
     ConfigLine whole{1, {}};
     std::string line;

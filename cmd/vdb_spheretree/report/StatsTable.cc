@@ -3,13 +3,13 @@
 
 #include "base/Terminal.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <sstream>
 
 #include <sys/resource.h>
 
@@ -273,7 +273,7 @@ std::vector<std::pair<const char*, double>> stageSeconds(const Session& session)
 
 std::string statsTable(const SphereTree& tree, const Session& session)
 {
-    std::ostringstream out;
+    openvdb_spheretree::detail::TextStream out;
     const auto& object = tree.object;
     const openvdb::Coord size = object.bbox.dim();
     const bool alone = tree.settings.isGiven() && object.voxels == 0;

@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/TextStream.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -56,7 +56,7 @@ void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfW
     const Vec3d sides = boxOf(mesh).extents() / voxelSize + Vec3d(2 * halfWidth);
     const double band = 2 * halfWidth * areaOf(mesh) / (voxelSize * voxelSize);
     const double bytes = std::min(kBytes * band, kBytesOfDense * sides[0] * sides[1] * sides[2]);
-    std::ostringstream what;
+    detail::TextStream what;
     what << "the up to " << std::setprecision(2) << band << " voxels at the surface of mesh '"
          << mesh.name << "'";
     detail::requireMemory(bytes, what.str(), "use a larger voxel");

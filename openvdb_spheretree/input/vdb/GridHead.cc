@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GridHead.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <openvdb/Grid.h>
 #include <openvdb/Metadata.h>
 #include <openvdb/MetaMap.h>
@@ -11,7 +13,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -90,7 +91,7 @@ void takeLinearMap(ByteWindow& window, const std::string& type)
     if (!MapRegistry::isRegistered(type) || type == NonlinearFrustumMap::mapType()) {
         window.fail("its transform is of no type that there is");
     }
-    std::ostringstream written;
+    detail::TextStream written;
     MapRegistry::createMap(type)->write(written);
     window.take(written.str().size());
 }
@@ -117,7 +118,7 @@ std::string withoutSuffix(const std::string& gridType)
 /// What metadata says once OpenVDB has read it. All its lengths must have been looked at before.
 bool savesHalf(const char* metadata, size_t bytes)
 {
-    std::istringstream in(std::string(metadata, bytes));
+    detail::TextStream in(std::string(metadata, bytes));
     openvdb::MetaMap map;
     map.readMeta(in);
     const auto entry = map[openvdb::GridBase::META_SAVE_HALF_FLOAT];

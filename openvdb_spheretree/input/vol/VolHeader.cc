@@ -2,13 +2,13 @@
 #include "VolHeader.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/base/TextStream.h>
 
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <vector>
 
 namespace openvdb_spheretree::detail {
@@ -83,7 +83,7 @@ int versionOf(const std::string& text)
 /// One number, or three with blanks between.
 std::array<double, 3> voxelSizeOf(const std::string& text)
 {
-    std::istringstream words(text);
+    detail::TextStream words(text);
     std::vector<double> sizes;
     for (std::string word; words >> word;) {
         const auto size = parseNumber<double>(word);

@@ -50,6 +50,12 @@ inline double gapBetween(const ExactSphere& a, const ExactSphere& b)
     return centerDistance(a, b) - a.radius() - b.radius();
 }
 
+/// @return how far a ball reaches out of another one, 1/16 voxel; negative if it lies inside.
+inline double protrusion(const ExactSphere& ball, const ExactSphere& other)
+{
+    return centerDistance(ball, other) + ball.radius() - other.radius();
+}
+
 /// A box in 1/16 voxel, inclusive; empty where lo > hi.
 struct FineBox {
     int64_t lo[3] = {INT64_MAX, INT64_MAX, INT64_MAX}, hi[3] = {INT64_MIN, INT64_MIN, INT64_MIN};

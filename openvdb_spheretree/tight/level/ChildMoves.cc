@@ -25,11 +25,6 @@ struct Move {
     }
 };
 
-bool isInside(const ExactSphere& ball, const ExactSphere& other)
-{
-    return centerDistance(ball, other) + ball.radius() < other.radius();
-}
-
 /// @return a ball around both.
 ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
 {
@@ -101,8 +96,9 @@ private:
         std::size_t before = 0; // of mTried, which is ordered by children
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
-            if (mCover[from].empty()) continue;                         // no voxel needs it
-            if (isInside(mFiner.balls[c], mCover[from].ball)) continue; // it keeps no ball large
+            if (mCover[from].empty()) continue; // no voxel needs it
+            if (protrusion(mFiner.balls[c], mCover[from].ball) < 0)
+                continue; // it keeps no ball large
             while (before < mTried.size() && mTried[before].move.child < int32_t(c)) ++before;
             for (const int32_t to : mCover.grid().nearest(kNewBall, mFiner.balls[c], kParents)) {
                 if (to == from) continue;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LevelCounts.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace openvdb_spheretree::tight {
 
@@ -14,7 +15,7 @@ namespace {
 /// "error=10 and distance=2vox".
 std::string boundsText(const SphereBudget& budget)
 {
-    std::ostringstream text;
+    detail::TextStream text;
     if (budget.error) text << "error=" << *budget.error;
     if (budget.error && budget.distance) text << " and ";
     if (budget.distance) text << "distance=" << distanceBoundToString(budget);
@@ -73,7 +74,7 @@ private:
     std::string figures(int64_t count)
     {
         const BoundedError& error = errorOf(count);
-        std::ostringstream text;
+        detail::TextStream text;
         text << count << (count == 1 ? " sphere" : " spheres");
         if (!error.unknown.empty()) return text.str() + " have an error that is not known";
         if (mBudget.error) text << " have an error of " << error.hammingPercent << "%";
@@ -108,7 +109,7 @@ void CutErrors::throwUnreachable()
         }
         return best;
     };
-    std::ostringstream what;
+    detail::TextStream what;
     if (mBudget.error) {
         const auto best = least(&BoundedError::hammingPercent);
         what << "; the least error found is " << best->second.hammingPercent << "%, with "

@@ -70,20 +70,20 @@ double LevelWork::fromTop(int64_t count, Quality quality) const
     return 0.3 + 0.012 * double(count);
 }
 
-double LevelWork::ofCounts(
-    int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality) const
+double LevelWork::ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality,
+    const std::vector<int64_t>& finer) const
 {
-    double work = ofFreeCover(leafBalls, counts.front());
     const bool few = counts.front() <= kFewBalls;
+    double work = ofFreeCover(leafBalls, counts.front());
     for (const int64_t count : counts) work += few ? fromTop(count, quality) : 0;
-    if (few && areFromTopAlone(counts, quality)) return work;
-    return work + ofSearches(counts.front()) + fromBottom(counts);
-}
-
-double LevelWork::ofCarrying(const std::vector<int64_t>& counts) const
-{
-    double work = 0;
-    for (const int64_t count : counts) work += ofPlacing(count);
+    if (!few || !areFromTopAlone(counts, quality)) {
+        work += ofSearches(counts.front()) + fromBottom(counts);
+    }
+    for (const int64_t leaves : finer) {
+        for (const int64_t count : counts) {
+            work += LevelWork(mMaker, std::size_t(leaves)).ofPlacing(count);
+        }
+    }
     return work;
 }
 

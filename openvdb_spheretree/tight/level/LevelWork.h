@@ -40,10 +40,10 @@ public:
     double fromBottom(const std::vector<int64_t>& counts) const;
     /// @return that for one level of few balls (TopDownLevels.h).
     double fromTop(int64_t count, Quality quality) const;
-    /// @return that for levels of named counts, on the object that they are made on.
-    double ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality) const;
-    /// @return that for taking levels to an object of twice as many voxels along each axis (CarriedLevels.h).
-    double ofCarrying(const std::vector<int64_t>& counts) const;
+    /// @return that for levels of named counts.
+    /// @param finer  leaf nodes of each level of the pyramid that they are carried to (CarriedLevels.h)
+    double ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality,
+        const std::vector<int64_t>& finer) const;
 
 private:
     const LevelMaker& mMaker;

@@ -139,10 +139,9 @@ int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>&
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < level.size(); ++i) {
         if (level[i].empty()) continue;
-        const double protrusion =
-            centerDistance(ball, level[i]) + ball.radius() - level[i].radius();
-        if (protrusion >= least) continue;
-        least = protrusion;
+        const double reach = protrusion(ball, level[i]);
+        if (reach >= least) continue;
+        least = reach;
         best = i;
     }
     return int32_t(best);

@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/medial/MedialLevel.h>
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <algorithm>
 #include <utility>
@@ -60,6 +61,13 @@ bool needsLeafBalls(const TightOptions& options)
 }
 
 } // namespace
+
+std::vector<int64_t> CoarseObject::leafNodesBelow(std::size_t level) const
+{
+    std::vector<int64_t> nodes;
+    for (std::size_t k = 0; k < level; ++k) nodes.push_back(detail::leafNodesOf(*levels[k]));
+    return nodes;
+}
 
 CoarseSize sizeFor(const TightOptions& options)
 {

@@ -28,6 +28,9 @@ struct CoarseObject {
     std::vector<PyramidStep> steps; ///< from each level to the next
     SampledObject samples;          ///< of the last level
     LeafBalls leaves;               ///< of the last level
+
+    /// @return how many leaf nodes each level below @a level has, tiles included; finest first.
+    std::vector<int64_t> leafNodesBelow(std::size_t level) const;
 };
 
 /// How large a level of the pyramid has to be: as many leaf balls, or as many voxels, as of an object like a

@@ -6,7 +6,6 @@
 #include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <algorithm>
-#include <string>
 
 namespace openvdb_spheretree::tight {
 

@@ -4,8 +4,6 @@
 #include "VoxelRegion.h"
 #include <openvdb_spheretree/base/Memory.h>
 
-#include <openvdb/Exceptions.h>
-
 #include <algorithm>
 
 namespace openvdb_spheretree::tight {
@@ -41,15 +39,8 @@ WorkingMemory& WorkingMemory::addRegions(
 
 void WorkingMemory::require(int64_t memory, const std::string& what) const
 {
-    const char* const remedy =
-        "use a larger voxel, ask for fewer spheres (spheres=), or use tree=extended";
-    if (memory <= 0) {
-        detail::requireMemory(bytes, what, remedy);
-    } else if (bytes > double(memory)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            what << " need about " << detail::asText(bytes) << ", and memory= allows "
-                 << detail::asText(double(memory), false) << ": allow more, " << remedy);
-    }
+    detail::requireAllowed(bytes, memory, what,
+        "use a larger voxel, ask for fewer spheres (spheres=), or use tree=extended");
 }
 
 } // namespace openvdb_spheretree::tight

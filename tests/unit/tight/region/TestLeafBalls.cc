@@ -8,6 +8,7 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -62,72 +63,86 @@ std::string refusalOf(const WorldSpheres& spheres, const Voxels& voxels)
     return "";
 }
 
+/// @return the voxels that no sphere holds, not even if it were larger by @a margin.
+Voxels bareVoxels(const WorldSpheres& spheres, const Voxels& voxels, double margin)
+{
+    Voxels bare;
+    for (const Coord& v : voxels) {
+        bool held = false;
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            held = held || holdsVoxel(spheres.center[i], spheres.radius[i] + margin, v);
+        }
+        if (!held) bare.push_back(v);
+    }
+    return bare;
+}
+
+/// Adds one around all voxels.
+void addSphereAround(const Voxels& voxels, WorldSpheres& spheres)
+{
+    const openvdb::CoordBBox box = boxOf(voxels);
+    spheres.center.push_back(box.getCenter());
+    spheres.radius.push_back(0.51 * box.extents().asVec3d().length() + 1);
+}
+
+/// In voxels.
+Vec3d centerOf(const ExactSphere& ball)
+{
+    return Vec3d(double(ball.center[0]), double(ball.center[1]), double(ball.center[2]))
+        / double(kFine);
+}
+
+bool holdsAny(const Vec3d& center, double radius, const Voxels& voxels)
+{
+    return std::any_of(voxels.begin(), voxels.end(),
+        [&](const Coord& v) { return holdsVoxel(center, radius, v); });
+}
+
+/// Each leaf ball is a sphere that was given, in their order, grown by what its center moved.
+/// @return how many spheres were left out; they hold no voxel.
+int expectLeavesOf(const WorldSpheres& spheres, const Voxels& voxels)
+{
+    const LeafBalls leaves = leavesOf(spheres, voxels);
+    EXPECT_TRUE(leaves.digital.empty());
+    int leftOut = 0;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const double given = spheres.radius[i];
+        const bool here = next < leaves.balls.size()
+            && (centerOf(leaves.balls[next]) - spheres.center[i]).length() < 0.056;
+        leftOut += !here;
+        EXPECT_TRUE(here || !holdsAny(spheres.center[i], given, voxels)) << "sphere " << i;
+        if (!here) continue;
+        const ExactSphere& ball = leaves.balls[next++];
+        const double moved = (centerOf(ball) - spheres.center[i]).lengthSqr();
+        const double radius = ball.radius() / double(kFine);
+        EXPECT_GE(radius, given + std::sqrt(moved)) << "it contains what was given";
+        EXPECT_LE(radius, given + std::sqrt(moved) + 0.06);
+    }
+    EXPECT_EQ(next, leaves.balls.size());
+    return leftOut;
+}
+
 TEST(LeafBalls, OfGivenSpheresContainThemAndAreNoLarger)
 {
     Random random(1);
     int covered = 0, refused = 0, leftOut = 0;
     for (uint32_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
         const Voxels voxels = randomObject(seed).voxels;
         WorldSpheres spheres = someSpheres(voxels, random);
-        Voxels bare;
-        for (const Coord& v : voxels) {
-            bool held = false;
-            for (std::size_t i = 0; i < spheres.size(); ++i) {
-                held = held || holdsVoxel(spheres.center[i], spheres.radius[i], v);
-            }
-            if (!held) bare.push_back(v);
-        }
-        if (!bare.empty()) {
+        const std::size_t bare = bareVoxels(spheres, voxels, 0).size();
+        // A ball moves and grows by 0.055 voxel at most: what is held in that rim does not count.
+        const std::size_t surely = bareVoxels(spheres, voxels, 0.112).size();
+        if (bare > 0 && surely == bare) {
+            const std::string number = ": " + std::to_string(surely) + " voxel";
             const std::string why = refusalOf(spheres, voxels);
-            // A ball moves and grows by 0.055 voxel at most: what is held in that rim does not count.
-            int surely = 0;
-            for (const Coord& v : bare) {
-                bool rim = false;
-                for (std::size_t i = 0; i < spheres.size(); ++i) {
-                    rim = rim || holdsVoxel(spheres.center[i], spheres.radius[i] + 0.112, v);
-                }
-                surely += !rim;
-            }
-            if (surely == int(bare.size())) {
-                const std::string number = ": " + std::to_string(surely) + " voxel";
-                ASSERT_NE(why.find(number), std::string::npos) << why;
-                ++refused;
-            }
-            // With one more around all of it, they cover.
-            const openvdb::CoordBBox box = boxOf(voxels);
-            spheres.center.push_back(box.getCenter());
-            spheres.radius.push_back(0.51 * box.extents().asVec3d().length() + 1);
+            ASSERT_NE(why.find(number), std::string::npos) << why;
+            ++refused;
         }
-        const LeafBalls leaves = leavesOf(spheres, voxels);
-        ASSERT_TRUE(leaves.digital.empty());
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < spheres.size(); ++i) {
-            bool any = false;
-            for (const Coord& v : voxels) {
-                any = any || holdsVoxel(spheres.center[i], spheres.radius[i], v);
-            }
-            const bool here = next < leaves.balls.size()
-                && (Vec3d(double(leaves.balls[next].center[0]),
-                        double(leaves.balls[next].center[1]), double(leaves.balls[next].center[2]))
-                           / double(kFine)
-                       - spheres.center[i])
-                        .length()
-                    < 0.056;
-            leftOut += !here;
-            ASSERT_TRUE(here || !any) << "sphere " << i << " of seed " << seed;
-            if (!here) continue;
-            const ExactSphere& ball = leaves.balls[next++];
-            double moved = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                const double d =
-                    double(ball.center[axis]) / double(kFine) - spheres.center[i][axis];
-                moved += d * d;
-            }
-            const double radius = ball.radius() / double(kFine);
-            ASSERT_GE(radius, spheres.radius[i] + std::sqrt(moved)) << "it contains what was given";
-            ASSERT_LE(radius, spheres.radius[i] + std::sqrt(moved) + 0.06);
-        }
-        ASSERT_EQ(next, leaves.balls.size());
+        if (bare > 0) addSphereAround(voxels, spheres); // then they cover
+        leftOut += expectLeavesOf(spheres, voxels);
+        ASSERT_FALSE(testing::Test::HasFailure());
         ++covered;
     }
     EXPECT_EQ(covered, 60);
