@@ -21,7 +21,7 @@ std::vector<T> takeArray(ByteWindow& window, uint32_t count, uint32_t packedByte
     if (packedBytes == 0) {
         const char* values = window.take(bytes);
         std::vector<T> array(count);
-        std::memcpy(array.data(), values, bytes);
+        if (bytes > 0) std::memcpy(array.data(), values, bytes); // an empty array has no address
         return array;
     }
     const char* packed = window.take(packedBytes);

@@ -97,6 +97,8 @@ TEST_F(GuardedVdb, FindsSizesForDelayedLoadingThatAreMissingOrWrong)
     expectSaid(notPacked.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
     none.sizes.storedBytes.clear();
     expectSaid(none.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
+    none.sizes.selections.clear(); // arrays of nothing have no address
+    expectSaid(none.bytes(), "sizes of leaves are missing", DelayedMetadata::Keep);
     ++longer.sizes.storedBytes.back();
     expectSaid(longer.bytes(), "a leaf is longer or shorter", DelayedMetadata::Keep);
     --shorter.sizes.storedBytes.front();
