@@ -90,7 +90,8 @@ std::optional<MassProperties> propertiesOf(
     result.center = transform.indexToWorld(body.center);
     for (int a = 0; a < 3; ++a) {
         for (int b = a + 1; b < 3; ++b) {
-            result.inertia(a, b) = result.inertia(b, a) = -0.5 * (spread(a, b) + spread(b, a));
+            const double both = spread(a, b) + spread(b, a);
+            result.inertia(a, b) = result.inertia(b, a) = 0 - 0.5 * both; // never -0
         }
         result.inertia(a, a) = spread((a + 1) % 3, (a + 1) % 3) + spread((a + 2) % 3, (a + 2) % 3);
     }
