@@ -31,7 +31,7 @@ printf '%s\n' "$help" | awk '
         sub(/^[^ ]+ */, ""); if ($0 != "") print roff($0)
         next
     }
-    /^    [a-z_]+=/ {
+    /^    ([a-z_]+=|\.[a-z])/ {
         split($0, words, " ")
         print ".TP"; print ".B " roff(words[1])
         sub(/^ *[^ ]+ */, ""); if ($0 != "") print roff($0)
