@@ -27,6 +27,7 @@ protected:
     {
         CommandTest::SetUp();
         writeBlock("a.vol");
+        writeVol("one.vol", {1, 1, 1}, "\x01");
         const Result made = run("-read a.vol -spheretree spheres=6,1 -write tree.vdb");
         ASSERT_EQ(made.exitCode, 0) << made.err;
     }
@@ -97,7 +98,7 @@ TEST_F(CommandExport, WhatAFormatCannotHoldLeavesTheOldFile)
     } cases[] = {
         {"-read a.vol -spheretree tree=reversible dist=l1 -write t.ply", "t.ply",
             "those of a norm"},
-        {"-read a.vol -spheretree padding=0 tree=extended -write t.urdf", "t.urdf", "radius 0"},
+        {"-read one.vol -spheretree padding=0 -write t.urdf", "t.urdf", "radius 0"},
         {"-read a.vol -spheretree spheres=6,2 -write t.sph", "t.sph", "begins with one sphere"},
         {"-read tree.vdb -write t.usda level=7", "t.usda", "level 7"},
         {"-read a.vol -write t.ply", "t.ply", "put -spheretree before"},

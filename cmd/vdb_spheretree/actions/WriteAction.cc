@@ -240,7 +240,11 @@ private:
     {
         const StackItem& item = onlyGrid(mItems, path);
         const openvdb::BoolGrid::ConstPtr object = objectOf(item, {}, mSession);
-        openvdb_spheretree::writeVolFile(*object, out, &mSession.progress);
+        try {
+            openvdb_spheretree::writeVolFile(*object, out, &mSession.progress);
+        } catch (const openvdb::ValueError&) { // empty, or too large a box
+            rethrowNamed(path, kInput);
+        }
         const openvdb::Coord first = object->evalActiveVoxelBoundingBox().min();
         if (first != openvdb::Coord(0)) {
             mSession.note(path

@@ -3,6 +3,7 @@
 
 #include "line/Length.h"
 
+#include <openvdb/Exceptions.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/export/ExportTree.h>
 #include <openvdb_spheretree/tree/SphereBudget.h>
@@ -181,9 +182,11 @@ void writeExport(const ActionCall& call, const std::string& path,
         session.note(path + ": " + std::to_string(trees.size())
             + " sphere-trees are samples over time, from " + call.text("start") + " on");
     }
-    for (const std::string& note :
-        exportTrees(trees, format, settingsOf(call), out, &session.progress)) {
-        session.note(path + ": " + note);
+    try {
+        const auto notes = exportTrees(trees, format, settingsOf(call), out, &session.progress);
+        for (const std::string& note : notes) session.note(path + ": " + note);
+    } catch (const openvdb::ValueError&) { // of what the format cannot hold
+        rethrowNamed(path, kInput);
     }
 }
 
