@@ -60,6 +60,7 @@
 #include "check/MeshCheck.h"
 #include "check/TreeCheck.h"
 #include "measure/LevelErrors.h"
+#include "measure/MassProperties.h"
 #include "sphere/ExactSphere.h"
 #include "sphere/SphereUnion.h"
 #include "tree/LevelSpheres.h"

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file openvdb_spheretree_extras.h
 /// @brief The public headers of the library openvdb_spheretree_extras: grids from files of
-/// strangers, objects from meshes, volume files and formulas, and pictures of objects and trees.
+/// strangers, objects from meshes, volume files and formulas, pictures of objects and trees, and trees for the files of other tools.
 
 #pragma once
 
+#include "export/ExportFormat.h"
+#include "export/ExportTree.h"
+#include "export/VolWriter.h"
 #include "input/mesh/MeshFile.h"
 #include "input/mesh/MeshLevelSet.h"
 #include "input/shapes/GeneratedObject.h"

@@ -68,4 +68,14 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     return result;
 }
 
+SphereTree keepSpheres(const SphereTree& tree, int64_t spheres)
+{
+    if (!tree.cuts.empty()) return cutTree(tree, spheres);
+    for (const SphereTreeLevel& range : tree.levels) {
+        if (range.size() <= spheres) return keepLevel(tree, range.level);
+    }
+    OPENVDB_THROW(openvdb::ValueError,
+        "no level has at most " << spheres << " spheres: the coarsest has " << tree.root().size());
+}
+
 } // namespace openvdb_spheretree

@@ -131,4 +131,9 @@ struct SphereTree {
 /// @throw openvdb::ValueError if @a tree has no such level.
 SphereTree keepLevel(const SphereTree& tree, int level);
 
+/// @return a tree of one level: the cut of at most so many spheres if the tree has cuts, else the finest level
+///         that has no more.
+/// @throw openvdb::ValueError if every level has more, or @a spheres is less than 1
+SphereTree keepSpheres(const SphereTree& tree, int64_t spheres);
+
 } // namespace openvdb_spheretree

@@ -42,10 +42,33 @@ expect "-read apple.vdb -spheretree quality=f" "fast"
 expect "-read apple.vdb -spheretree side=i" "inner"
 expect "-read app" "apple.vdb"
 expect "-write fov" "fov="
+expect "-write a.ply format=ply" "ply ply-ascii"
 expect "-help spheretr" "spheretree"
 expect "-read apple.vdb -spheretree padding=" "apple.vdb" # no choices: anything
 actions=$("$program" -help brief=1 | grep -o '^-[a-z0-9]*')
 [ "$(offered "-" | tr ' ' '\n')" = "$actions" ] || fail "not all actions are offered"
+
+# The same questions to zsh, whose own functions for offering words are replaced by ones that print them.
+if command -v zsh > /dev/null; then
+    in_zsh() {
+        zsh -fc 'compadd() { [ "$1" != -S ] || shift 2; [ "$1" != -- ] || shift; print -rn -- "$* " }
+            compset() { : }; _files() { print -rn -- FILES }
+            program=$1 line=$2; shift 2
+            words=("$program" ${(s: :)line}); [[ $line == *" " ]] && words+=("")
+            CURRENT=$#words PREFIX=${words[-1]}
+            source '"$share/vdb_spheretree.zsh"'' zsh "$program" "$1"
+    }
+    expect_in_zsh() {
+        local got
+        got=" $(in_zsh "$1") "
+        [[ $got == *" $2 "* ]] || fail "zsh, after '$1': '$got' lacks '$2'"
+    }
+    expect_in_zsh "-sphe" "-spheretree"
+    expect_in_zsh "-read apple.vdb -spheretree qual" "quality="
+    expect_in_zsh "-read apple.vdb -spheretree quality=" "normal fast best"
+    expect_in_zsh "-read app" "FILES"
+    expect_in_zsh "-help sph" "spheretree"
+fi
 
 page=$("$share/make_man.sh" "$program")
 for action in $actions; do

@@ -70,6 +70,10 @@ void printAction(std::ostream& out, const ActionSpec& action)
         out << "    " << padded(option.name + "=", kIndent - 4);
         printWrapped(out, docOf(action, option), kIndent);
     }
+    for (const auto& [term, doc] : action.more) {
+        out << "    " << padded(term, kIndent - 4);
+        printWrapped(out, doc, kIndent);
+    }
     out << "\n";
 }
 

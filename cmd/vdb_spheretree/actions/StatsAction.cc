@@ -85,16 +85,16 @@ void runStats(const ActionCall& call, Session& session)
     session.noteIfUnverified(item);
     placeInObject(item, session);
     const auto& levels = item.tree->levels;
-    if (std::any_of(levels.begin(), levels.end(), lacksErrors)) {
-        if (!item.object) findObject(item, session);
-        if (item.object) computeErrors(item, session);
-    }
+    const bool lacking = std::any_of(levels.begin(), levels.end(), lacksErrors);
+    if (!item.object && (lacking || call.flag("mass"))) findObject(item, session);
+    if (item.object && lacking) computeErrors(item, session);
+    const StatsMass mass = massOf(item, call.flag("mass"), session);
     const auto outputs = filesOf(call);
-    if (outputs.empty()) return session.print(statsTable(*item.tree, session));
+    if (outputs.empty()) return session.print(statsTable(*item.tree, mass, session));
     std::vector<std::unique_ptr<AtomicFile>> files;
     for (const auto& [path, form] : outputs) {
         const std::string text =
-            form == "csv" ? statsCsv(*item.tree) : statsJson(*item.tree, session);
+            form == "csv" ? statsCsv(*item.tree, mass) : statsJson(*item.tree, mass, session);
         if (isStdout(path)) {
             session.print(text, standardOutput());
             continue;
@@ -168,6 +168,10 @@ ActionSpec statsAction()
             "in place of a table, .json files of the same, or .csv files with a line a level"),
         text("json", "", "the same as JSON to this file, or to stdout (-)"),
         text("csv", "", "the levels as a CSV to this file, or to stdout (-)"),
+        flag("mass", false,
+            "volume, center of mass and inertia of each level's spheres as well, of density 1; "
+            "those "
+            "of the object are always there"),
         vdbOption("the tree")};
     action.givesOut = true;
     action.check = checkStats;

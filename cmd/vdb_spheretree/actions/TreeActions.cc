@@ -162,23 +162,12 @@ void checkLevel(const ActionCall& call, Plan&)
     if (!byLevel && !bySpheres) throwUsage("names no level: level= or spheres= is missing");
 }
 
-/// The finest level that has no more spheres than asked for.
-int levelOfAtMost(const SphereTree& tree, int64_t spheres)
-{
-    for (const auto& level : tree.levels) {
-        if (level.size() <= spheres) return level.level;
-    }
-    throwInput("no level has at most " + std::to_string(spheres) + " spheres: the coarsest has "
-        + std::to_string(tree.root().size()));
-}
-
 /// The spheres that were asked for, as a tree of one level.
 SphereTree levelOf(const SphereTree& tree, const ActionCall& call, Session& session)
 {
     if (call.given("level")) return spheretree::keepLevel(tree, int(call.integer("level")));
     const int64_t spheres = call.integer("spheres");
-    SphereTree level = tree.cuts.empty() ? spheretree::keepLevel(tree, levelOfAtMost(tree, spheres))
-                                         : spheretree::cutTree(tree, spheres);
+    SphereTree level = spheretree::keepSpheres(tree, spheres);
     const bool finest = !tree.cuts.empty() || level.levels.front().level == 0;
     if (finest) {
         noteIfAll(spheres, level.size(), session);

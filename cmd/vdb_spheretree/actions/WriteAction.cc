@@ -8,13 +8,16 @@
 #include "files/FdBuffer.h"
 #include "files/VdbStream.h"
 #include "line/Actions.h"
+#include "ObjectChoice.h"
 #include "session/Session.h"
+#include "WriteExport.h"
 #include "WritePicture.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
+#include <openvdb_spheretree/export/VolWriter.h>
 #include <openvdb_spheretree/picture/Picture.h>
 #include <openvdb_spheretree/store/SphereTreeCsv.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -57,19 +60,22 @@ void check(const ActionCall& call, Plan& plan)
     if (!call.given("files")) throwUsage("names no file");
     compressionOf(call);
     for (const std::string& path : call.list("files")) {
+        if (exportFormatOf(call, path)) {
+            plan.addOutput(path);
+            continue;
+        }
         const FileKind kind = fileKind(path);
         const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
-        if (kind == FileKind::Vol || kind == FileKind::Mesh || kind == FileKind::Unknown) {
+        if ((kind == FileKind::Vol && extension != ".vol") || kind == FileKind::Mesh
+            || kind == FileKind::Unknown) {
             throwUsage(path + ": "
                 + (extension.empty() ? "a name without an extension says not what "
                                        "to write"
                                      : extension + " files are not written")
-                + "; it writes .vdb (grids and sphere-trees), .csv and .json (a sphere-tree) and "
-                  ".png and .jpg (a picture)"
-                + (kind == FileKind::Mesh
-                        ? "; for a mesh: -spheres2ls -write x.vdb, and vdb_tool's "
-                          "-ls2mesh"
-                        : ""));
+                + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
+                  "sphere-tree), "
+                  ".png and .jpg (a picture), and files of other tools such as .urdf, .usda, .ply "
+                  "and .obj (-help write lists them)");
         }
         if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
             throwUsage(path + ": this build has no libjpeg, so it writes pictures as .png only");
@@ -78,6 +84,7 @@ void check(const ActionCall& call, Plan& plan)
         if (kind == FileKind::Csv && !isStdout(path)) plan.addOutput(dagPath(path));
     }
     checkPictureOptions(call);
+    checkExportOptions(call);
 }
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
@@ -113,6 +120,22 @@ const openvdb_spheretree::SphereTree& onlyTree(
     }
     if (!tree) throwInput(path + " holds a sphere-tree, and there is none: put -spheretree before");
     return *tree->tree;
+}
+
+const StackItem& onlyGrid(const std::vector<StackItem*>& items, const std::string& path)
+{
+    const StackItem* grid = nullptr;
+    for (const StackItem* item : items) {
+        if (!item->grid) continue;
+        if (grid) throwInput(path + " holds one object, and there are more: choose with vdb=");
+        grid = item;
+    }
+    if (!grid) {
+        throwInput(path
+            + " holds the voxels of an object, and there is none: -spheres2mask makes those of a "
+              "level of a tree");
+    }
+    return *grid;
 }
 
 /// Who reads the file could not tell apart two trees of one name, or a tree from the edges or cuts
@@ -156,9 +179,13 @@ public:
             mToStdout = path;
             return;
         }
+        if (exportFormatOf(mCall, path)) {
+            return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
+        }
         switch (fileKind(path)) {
         case FileKind::Csv: return writeTables(path);
         case FileKind::Json:
+        case FileKind::Vol:
         case FileKind::Png:
         case FileKind::Jpeg:
             return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
@@ -197,11 +224,33 @@ private:
     void writeContent(const std::string& path, std::ostream& out)
     {
         namespace st = openvdb_spheretree;
+        if (exportFormatOf(mCall, path)) {
+            return writeExport(mCall, path, mItems, mSession, out);
+        }
         switch (fileKind(path)) {
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
+        case FileKind::Vol: return writeVoxels(path, out);
         case FileKind::Jpeg: return st::writeJpeg(pictureOf(mCall, path, mItems, mSession), out);
         default: st::writePng(pictureOf(mCall, path, mItems, mSession), out);
+        }
+    }
+
+    void writeVoxels(const std::string& path, std::ostream& out)
+    {
+        const StackItem& item = onlyGrid(mItems, path);
+        const openvdb::BoolGrid::ConstPtr object = objectOf(item, {}, mSession);
+        try {
+            openvdb_spheretree::writeVolFile(*object, out, &mSession.progress);
+        } catch (const openvdb::ValueError&) { // empty, or too large a box
+            rethrowNamed(path, kInput);
+        }
+        const openvdb::Coord first = object->evalActiveVoxelBoundingBox().min();
+        if (first != openvdb::Coord(0)) {
+            mSession.note(path
+                + " has no room for where the object is: its first voxel is that of index "
+                + std::to_string(first.x()) + "," + std::to_string(first.y()) + ","
+                + std::to_string(first.z()));
         }
     }
 
@@ -209,8 +258,10 @@ private:
     void writeToStdout(const std::string& path)
     {
         const FileKind kind = fileKind(path);
+        const bool isExport = exportFormatOf(mCall, path) != nullptr;
         if (kind == FileKind::Vdb) return writeGridsToStdout(path, grids(), mCompression);
-        if (kind == FileKind::Csv && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
+        if (kind == FileKind::Csv && !isExport
+            && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
             mSession.note(path
                 + " holds the spheres; the edges of dag=1 are a table of their own, "
                   "which only a file has room for beside it");
@@ -295,14 +346,18 @@ void run(const ActionCall& call, Session& session)
 ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
-        "write grids and sphere-trees (.vdb), one sphere-tree as tables (.csv) or JSON "
-        "(.json), or a picture of a level of it or of an object (.png, .jpg)"};
+        "write grids and sphere-trees (.vdb), an object (.vol), one sphere-tree as tables (.csv) "
+        "or JSON "
+        "(.json), a picture of a level of it or of an object (.png, .jpg), or spheres for other "
+        "tools"};
     action.options = {
         list("files", "", "files to write, or stdout.vdb, .csv, .json; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
+    for (const OptionSpec& option : exportOptions()) action.options.push_back(option);
+    action.more = exportFormatDocs();
     action.givesOut = true;
     action.failure = kOutput;
     action.check = check;

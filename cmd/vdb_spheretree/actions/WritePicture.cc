@@ -3,6 +3,7 @@
 
 #include "GivenSpheres.h"
 #include "ObjectChoice.h"
+#include "WriteExport.h"
 
 #include <openvdb_spheretree/picture/Camera.h>
 #include <openvdb_spheretree/picture/SpherePicture.h>
@@ -138,7 +139,7 @@ std::vector<OptionSpec> pictureOptions()
             "pictures: where the camera stands, x,y,z in world units (by default it sees all of "
             "the object, the same for every level)"),
         vector("lookat", "", "pictures: the point in the middle (by default the object's)"),
-        vector("up", "0,1,0", "pictures: the direction that is upright"),
+        vector("up", "0,1,0", "the direction that is upright; z is short for 0,0,1"),
         real("fov", "30", 0, Camera::kMaxFov,
             "pictures: vertical angle of view in degrees; 0 for an orthographic camera, which is "
             "the "
@@ -146,7 +147,9 @@ std::vector<OptionSpec> pictureOptions()
         integer("width", "1280", 1, kMaxSide, "pictures: pixels, at most 16384"),
         integer("height", "960", 1, kMaxSide, "pictures: pixels, at most 16384"),
         integer("level", "0", 0, 1000,
-            "pictures: the level that is drawn; by default the finest there is"),
+            "the level that is drawn, or written for another tool; by default the finest there is, "
+            "or "
+            "all where the file holds them"),
         text("color", "parent",
             "pictures: parent (siblings share a colour; without parents as id), level, id, or "
             "red,green,blue of 0 to 1")};
@@ -157,8 +160,11 @@ void checkPictureOptions(const ActionCall& call)
     const std::vector<std::string> files = call.list("files");
     const bool picture = std::any_of(files.begin(), files.end(),
         [](const std::string& path) { return isPicture(fileKind(path)); });
+    const bool isExport = std::any_of(files.begin(), files.end(),
+        [&](const std::string& path) { return exportFormatOf(call, path) != nullptr; });
     for (const OptionSpec& option : pictureOptions()) {
         if (picture || !call.given(option.name)) continue;
+        if (isExport && (option.name == "level" || option.name == "up")) continue;
         throwUsage("option " + option.name + " is for pictures, and none is written (.png, .jpg)");
     }
     settingsOf(call);

@@ -239,6 +239,9 @@ std::array<double, 3> ActionCall::vector(const std::string& option) const
 
 std::optional<std::array<double, 3>> parseVector(const std::string& typed)
 {
+    if (typed == "x") return std::array<double, 3>{1, 0, 0};
+    if (typed == "y") return std::array<double, 3>{0, 1, 0};
+    if (typed == "z") return std::array<double, 3>{0, 0, 1};
     const bool enclosed = typed.size() > 1 && typed.front() == '(' && typed.back() == ')';
     const std::string text = enclosed ? typed.substr(1, typed.size() - 2) : typed;
     std::array<double, 3> numbers;

@@ -17,6 +17,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace command {
@@ -76,6 +77,8 @@ struct ActionSpec {
     std::string mainOption; ///< takes tokens without `=`; may be empty
     std::string doc;
     std::vector<OptionSpec> options = {};
+    /// What else its help lists: terms, and what each is.
+    std::vector<std::pair<std::string, std::string>> more = {};
     std::string numberOption = {}; ///< what a number is likely meant for that mainOption refuses
 
     bool once = false;         ///< may stand on the line only once
@@ -134,7 +137,8 @@ private:
     std::map<std::string, std::vector<std::string>> mValues; ///< one value, or those of a list
 };
 
-/// @return the three numbers of a text such as `1,0.5,-2` or `(1,0.5,-2)`, or nothing if it is none.
+/// @return the three numbers of a text such as `1,0.5,-2` or `(1,0.5,-2)`, or the unit vector of an axis of
+/// that name (`z`); nothing if it is neither.
 std::optional<std::array<double, 3>> parseVector(const std::string& typed);
 
 /// @brief Check one value against its option.

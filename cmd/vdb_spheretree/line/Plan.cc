@@ -7,6 +7,7 @@
 #include "Length.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/export/ExportFormat.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
@@ -48,6 +49,16 @@ bool isArray(const std::string& path)
             ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".png"});
 }
 
+/// @return whether files of another tool have this extension.
+bool isExported(const std::string& extension)
+{
+    const auto& formats = openvdb_spheretree::exportFormats();
+    return std::any_of(formats.begin(), formats.end(), [&](const auto& format) {
+        const auto& known = format.extensions;
+        return std::find(known.begin(), known.end(), extension) != known.end();
+    });
+}
+
 [[noreturn]] void refuseToRead(const std::string& path)
 {
     const std::string kinds =
@@ -76,7 +87,8 @@ bool isStdout(const std::string& path)
 {
     return path == "-"
         || (path.rfind("stdout.", 0) == 0
-            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png", ".jpg"}));
+            && (isOneOf(extensionOf(path), {".vdb", ".vol", ".csv", ".json", ".png", ".jpg"})
+                || isExported(extensionOf(path))));
 }
 
 void Plan::addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }

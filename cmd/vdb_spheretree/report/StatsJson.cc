@@ -13,10 +13,39 @@ using openvdb_spheretree::SphereTreeLevel;
 
 namespace {
 
-void writeLevels(JsonWriter& json, const SphereTree& tree)
+void writeVec(JsonWriter& json, const std::string& key, const openvdb::Vec3d& vec)
+{
+    json.beginArray(key, /*onOneLine=*/true);
+    for (int axis = 0; axis < 3; ++axis) json.value("", vec[axis]);
+    json.endArray();
+}
+
+/// Rows of three.
+void writeMat(JsonWriter& json, const std::string& key, const openvdb::Mat3d& matrix)
+{
+    json.beginArray(key);
+    for (int row = 0; row < 3; ++row) writeVec(json, "", matrix.row(row));
+    json.endArray();
+}
+
+void writeMass(
+    JsonWriter& json, const std::optional<openvdb_spheretree::MassProperties>& properties)
+{
+    if (!properties) return json.null("mass");
+    json.beginObject("mass");
+    json.value("volume", properties->volume);
+    writeVec(json, "center", properties->center);
+    writeMat(json, "inertia", properties->inertia);
+    writeVec(json, "principal_moments", properties->principalMoments);
+    writeMat(json, "principal_axes", properties->principalAxes);
+    json.endObject();
+}
+
+void writeLevels(JsonWriter& json, const SphereTree& tree, const StatsMass& mass)
 {
     json.beginArray("levels");
-    for (const SphereTreeLevel& level : tree.levels) {
+    for (std::size_t i = 0; i < tree.levels.size(); ++i) {
+        const SphereTreeLevel& level = tree.levels[i];
         const LevelRadii radii = radiiOf(tree, level);
         json.beginObject();
         json.value("level", level.level);
@@ -31,6 +60,10 @@ void writeLevels(JsonWriter& json, const SphereTree& tree)
         if (tree.settings.isInner()) {
             if (level.error) json.value("covered_percent", coveredPercent(tree, level));
             else json.null("covered_percent");
+        }
+        if (!mass.levels.empty()) {
+            writeMass(json, mass.levels[i].mass);
+            if (!mass.levels[i].mass) json.value("mass_unknown", mass.levels[i].unknown);
         }
         json.endObject();
     }
@@ -72,17 +105,18 @@ void writeDag(JsonWriter& json, const SphereTree& tree)
 
 } // namespace
 
-std::string statsJson(const SphereTree& tree, const Session& session)
+std::string statsJson(const SphereTree& tree, const StatsMass& mass, const Session& session)
 {
     JsonWriter json;
     json.beginObject();
     json.value("format", "vdb_spheretree.stats.1");
     writeObject(json, tree);
+    writeMass(json, mass.object);
     json.beginObject("settings");
     writeSettings(json, tree);
     json.value("memory", openvdb_spheretree::memoryToString(tree.settings.memory));
     json.endObject();
-    writeLevels(json, tree);
+    writeLevels(json, tree, mass);
     writeDag(json, tree);
     json.beginObject("seconds");
     for (const auto& [name, seconds] : stageSeconds(session)) json.value(name, seconds);

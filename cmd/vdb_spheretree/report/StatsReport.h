@@ -5,6 +5,7 @@
 #pragma once
 
 #include "session/Session.h"
+#include "StatsMass.h"
 
 #include <string>
 #include <utility>
@@ -36,13 +37,15 @@ int64_t peakBytes();
 
 /// @return the table, several lines; where it goes to a terminal, in several parts if it is wider
 ///         than that.
-std::string statsTable(const openvdb_spheretree::SphereTree& tree, const Session& session);
+std::string statsTable(
+    const openvdb_spheretree::SphereTree& tree, const StatsMass& mass, const Session& session);
 
 /// @return the levels as a CSV, a line each, in columns of the names that the JSON has for them. A cell
 /// is empty where the JSON has null.
-std::string statsCsv(const openvdb_spheretree::SphereTree& tree);
+std::string statsCsv(const openvdb_spheretree::SphereTree& tree, const StatsMass& mass);
 
 /// @return a JSON object of format `vdb_spheretree.stats.1`.
-std::string statsJson(const openvdb_spheretree::SphereTree& tree, const Session& session);
+std::string statsJson(
+    const openvdb_spheretree::SphereTree& tree, const StatsMass& mass, const Session& session);
 
 } // namespace command

@@ -2,6 +2,7 @@
 #include "StatsReport.h"
 
 #include "base/Terminal.h"
+#include "TextTable.h"
 
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include <sys/resource.h>
 
@@ -19,8 +19,6 @@ using openvdb_spheretree::SphereTree;
 using openvdb_spheretree::SphereTreeLevel;
 
 namespace {
-
-using Row = std::vector<std::string>;
 
 constexpr std::size_t kFirstOfErrors = 8; // columns before it are of spheres and topology
 
@@ -32,13 +30,6 @@ Row headerOf(const SphereTree& tree)
     if (tree.settings.isInner()) row.push_back("covered %");
     if (tree.settings.isFit()) row.push_back("dice");
     return row;
-}
-
-std::string fixed(double number, int digits)
-{
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.*f", digits, number);
-    return text;
 }
 
 /// Of a length in world units, whose size nobody knows. Rounded up: it is a bound.
@@ -77,49 +68,6 @@ Row rowOf(const SphereTree& tree, const SphereTreeLevel& level)
     if (tree.settings.isInner()) row.push_back(fixed(coveredPercent(tree, level), 2));
     if (tree.settings.isFit()) row.push_back(fixed(diceOf(tree, level), 4));
     return row;
-}
-
-using Columns = std::vector<std::size_t>;
-
-/// @return the columns of tables below one another, each with the first one, that are no wider than
-///         @a limit as far as that is possible; all in one if there is no limit (0).
-/// @param second  the column that the second table begins with, where there are more than one
-std::vector<Columns> tablesOf(
-    const std::vector<std::size_t>& width, std::size_t second, std::size_t limit)
-{
-    constexpr std::size_t kGap = 2;
-    const std::size_t all = std::accumulate(width.begin(), width.end(), kGap * (width.size() - 1));
-    const bool split = limit > 0 && all > limit;
-    std::vector<Columns> tables(1);
-    std::size_t used = 0;
-    for (std::size_t i = 0; i < width.size(); ++i) {
-        const bool full = tables.back().size() > 1 && used + kGap + width[i] > limit;
-        if (split && i > 0 && (full || i == second)) {
-            tables.push_back({0});
-            used = width[0];
-        }
-        used += width[i] + (i > 0 ? kGap : 0);
-        tables.back().push_back(i);
-    }
-    return tables;
-}
-
-/// @param second, limit  as for tablesOf()
-void printRows(
-    std::ostream& out, const std::vector<Row>& rows, std::size_t second, std::size_t limit)
-{
-    std::vector<std::size_t> width(rows.front().size(), 0);
-    for (const Row& row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-    }
-    for (const Columns& columns : tablesOf(width, second, limit)) {
-        for (const Row& row : rows) {
-            for (const std::size_t i : columns) {
-                out << (i ? "  " : "") << std::string(width[i] - row[i].size(), ' ') << row[i];
-            }
-            out << "\n";
-        }
-    }
 }
 
 /// Most numbers are those of spheres without padding, and files have larger ones.
@@ -271,7 +219,7 @@ std::vector<std::pair<const char*, double>> stageSeconds(const Session& session)
         {"write", s.write}};
 }
 
-std::string statsTable(const SphereTree& tree, const Session& session)
+std::string statsTable(const SphereTree& tree, const StatsMass& mass, const Session& session)
 {
     openvdb_spheretree::detail::TextStream out;
     const auto& object = tree.object;
@@ -287,6 +235,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
         << "': " << kindOf(tree.settings) << ", " << counted(tree.size(), "sphere")
         << "; radii and distances in voxels of level 0\n";
     const std::size_t limit = terminalColumns(session.textOut());
+    printMass(out, mass);
     std::vector<Row> rows = {headerOf(tree)};
     for (const SphereTreeLevel& level : tree.levels) rows.push_back(rowOf(tree, level));
     printRows(out, rows, kFirstOfErrors, limit);
@@ -294,6 +243,7 @@ std::string statsTable(const SphereTree& tree, const Session& session)
     printReasons(out, tree);
     printStoredReasons(out, tree);
     printTopologyReason(out, tree);
+    printLevelMass(out, tree, mass, limit);
     printDag(out, tree, limit);
     printSeconds(out, session);
     return brokenAt(out.str(), limit);

@@ -9,6 +9,7 @@ examples=$("$1" -examples)
 # options indented by four, and what goes on indented by more.
 cat << EOF
 .TH VDB_SPHERETREE 1 "" "$(echo "$version" | cut -d' ' -f1,2)" "User commands"
+.ad l
 .SH NAME
 vdb_spheretree \- sphere-trees of OpenVDB grids
 .SH SYNOPSIS
@@ -20,6 +21,7 @@ printf '%s\n' "$help" | awk '
     function roff(text) {
         gsub(/\\/, "\\e", text); gsub(/-/, "\\-", text)
         if (text ~ /^[.'"'"']/) text = "\\&" text
+        gsub(/\|/, "|\\:", text) # lines may break there
         return text
     }
     NR <= 2 { next }
@@ -31,7 +33,7 @@ printf '%s\n' "$help" | awk '
         sub(/^[^ ]+ */, ""); if ($0 != "") print roff($0)
         next
     }
-    /^    [a-z_]+=/ {
+    /^    ([a-z_]+=|\.[a-z])/ {
         split($0, words, " ")
         print ".TP"; print ".B " roff(words[1])
         sub(/^ *[^ ]+ */, ""); if ($0 != "") print roff($0)

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WriteExport.h"
+
+#include "line/Length.h"
+
+#include <openvdb/Exceptions.h>
+#include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/export/ExportTree.h>
+#include <openvdb_spheretree/tree/SphereBudget.h>
+
+#include <algorithm>
+
+namespace command {
+
+namespace {
+
+namespace spheretree = openvdb_spheretree;
+using spheretree::ExportFormat;
+using spheretree::ExportFrame;
+using spheretree::ExportSettings;
+
+std::string joined(const std::vector<std::string>& words, const char* separator)
+{
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+    return text;
+}
+
+/// @return the names of all formats, each once.
+std::vector<std::string> formatNames()
+{
+    std::vector<std::string> names;
+    for (const ExportFormat& format : spheretree::exportFormats()) {
+        if (std::find(names.begin(), names.end(), format.name) == names.end()) {
+            names.push_back(format.name);
+        }
+    }
+    return names;
+}
+
+/// @return the extensions of the format of that name.
+std::string extensionsOf(const std::string& name)
+{
+    std::vector<std::string> all;
+    for (const ExportFormat& format : spheretree::exportFormats()) {
+        if (format.name == name) {
+            all.insert(all.end(), format.extensions.begin(), format.extensions.end());
+        }
+    }
+    return joined(all, ", ");
+}
+
+ExportFrame frameOf(const std::string& frame)
+{
+    if (frame == "centroid") return ExportFrame::Centroid;
+    return frame == "principal" ? ExportFrame::Principal : ExportFrame::World;
+}
+
+/// Stages know two axes that may be up; pictures any direction.
+spheretree::UpAxis upOf(const ActionCall& call)
+{
+    const std::array<double, 3> up = call.vector("up");
+    if (up == std::array<double, 3>{0, 0, 1}) return spheretree::UpAxis::Z;
+    if (up == std::array<double, 3>{0, 1, 0}) return spheretree::UpAxis::Y;
+    throwUsage("up=" + call.text("up") + ": in files of other tools y or z is up (0,1,0 or 0,0,1)");
+}
+
+ExportSettings settingsOf(const ActionCall& call)
+{
+    ExportSettings settings;
+    if (call.given("level")) settings.level = int(call.integer("level"));
+    if (call.given("spheres")) settings.spheres = call.integer("spheres");
+    settings.frame = frameOf(call.text("frame"));
+    settings.metersPerUnit = metresOfUnit(call.text("units")).value();
+    settings.scale = call.real("scale") / settings.metersPerUnit;
+    settings.up = upOf(call);
+    settings.density = call.real("density");
+    settings.link = call.text("link");
+    if (call.given("name")) settings.name = call.text("name");
+    settings.firstSample = call.real("start");
+    return settings;
+}
+
+std::vector<const spheretree::SphereTree*> treesOf(
+    const std::vector<StackItem*>& items, const ExportFormat& format, const std::string& path)
+{
+    std::vector<const spheretree::SphereTree*> trees;
+    for (const StackItem* item : items) {
+        if (item->tree) trees.push_back(item->tree.get());
+    }
+    if (trees.empty()) {
+        throwInput(path + " holds spheres of a tree, and there is none: put -spheretree before");
+    }
+    if (trees.size() > 1 && !format.samples) {
+        throwInput(path + " holds one sphere-tree, and there are " + std::to_string(trees.size())
+            + ": choose with vdb=");
+    }
+    return trees;
+}
+
+} // namespace
+
+std::vector<OptionSpec> exportOptions()
+{
+    std::vector<std::string> units;
+    for (const auto& unit : unitsOfLength()) units.push_back(unit.first);
+    // The first choice is the default: none.
+    OptionSpec format = choice("format", formatNames(),
+        "files of other tools: which one, where the extension means several; below");
+    format.fallback.clear();
+    OptionSpec unit = choice(
+        "units", units, "files of other tools: the unit of their numbers, of metres in the tree");
+    unit.fallback = "m";
+    return {format,
+        integer("spheres", "", 1, spheretree::SphereBudget::kMaxSpheres,
+            "files of other tools: write the finest level with at most so many spheres, or the cut "
+            "of a tree with cuts=1"),
+        unit, real("scale", "1", 1e-30, 1e30, "files of other tools: make everything larger"),
+        choice("frame", {"world", "centroid", "principal"},
+            "files of other tools: where their origin is: that of the tree, the center of mass of "
+            "the spheres, or that with the principal axes for axes"),
+        text("link", "object", "files of robots: the link that the spheres belong to"),
+        text("name", "",
+            "files of other tools: the name of the robot, model or prim (by default "
+            "that of the tree)"),
+        real("density", "1000", 1e-30, 1e30,
+            "files with a mass: that of a cubed unit of the file; water has 1000 in metres"),
+        real("start", "1", -1e9, 1e9,
+            ".usda of several trees, which are samples over time: the time of the first")};
+}
+
+std::vector<std::pair<std::string, std::string>> exportFormatDocs()
+{
+    std::vector<std::pair<std::string, std::string>> docs;
+    for (const ExportFormat& format : spheretree::exportFormats()) {
+        docs.emplace_back(joined(format.extensions, " "),
+            (format.byExtension ? "" : "format=" + format.name + ": ") + format.readers + ": "
+                + format.keeps);
+    }
+    return docs;
+}
+
+const ExportFormat* exportFormatOf(const ActionCall& call, const std::string& path)
+{
+    const std::string extension = spheretree::detail::lowerExtension(path);
+    if (call.given("format")) {
+        if (const auto* named = spheretree::findExportFormat(extension, call.text("format"))) {
+            return named;
+        }
+    }
+    return spheretree::findExportFormat(extension);
+}
+
+void checkExportOptions(const ActionCall& call)
+{
+    bool any = false, isNamed = false;
+    for (const std::string& path : call.list("files")) {
+        const ExportFormat* const format = exportFormatOf(call, path);
+        any |= format != nullptr;
+        isNamed |= format && format->name == call.text("format");
+    }
+    for (const OptionSpec& option : exportOptions()) {
+        if (any || !call.given(option.name) || option.name == "format") continue;
+        throwUsage("option " + option.name
+            + " is for files of other tools, and none is written (-help write lists them)");
+    }
+    if (call.given("format") && !isNamed) {
+        throwUsage("format=" + call.text("format") + " is for files that end in "
+            + extensionsOf(call.text("format")) + ", and none is written");
+    }
+    if (call.given("level") && call.given("spheres"))
+        throwUsage("level and spheres exclude each other");
+    if (any) settingsOf(call);
+}
+
+void writeExport(const ActionCall& call, const std::string& path,
+    const std::vector<StackItem*>& items, Session& session, std::ostream& out)
+{
+    const ExportFormat& format = *exportFormatOf(call, path);
+    const auto trees = treesOf(items, format, path);
+    if (trees.size() > 1) {
+        session.note(path + ": " + std::to_string(trees.size())
+            + " sphere-trees are samples over time, from " + call.text("start") + " on");
+    }
+    try {
+        const auto notes = exportTrees(trees, format, settingsOf(call), out, &session.progress);
+        for (const std::string& note : notes) session.note(path + ": " + note);
+    } catch (const openvdb::ValueError&) { // of what the format cannot hold
+        rethrowNamed(path, kInput);
+    }
+}
+
+} // namespace command

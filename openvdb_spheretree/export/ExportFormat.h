@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ExportFormat.h
+/// @brief The formats that other tools read: which extension means which, and what each keeps of a tree.
+
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+namespace detail {
+struct ExportScene;
+}
+
+/// What the numbers of a format are. Spheres are rounded to them before they are written.
+enum class ExportNumbers {
+    Decimal, ///< text, with as many decimals as a millionth of the smallest radius has
+    Float,   ///< 4 bytes
+    Double   ///< 8 bytes
+};
+
+struct ExportFormat {
+    std::string name;                    ///< as it is asked for by name
+    std::vector<std::string> extensions; ///< with their dots, in lower case
+    bool byExtension = true;             ///< whether its extensions mean it when no name is given
+    std::string readers;                 ///< tools that read it
+    std::string keeps;                   ///< of a tree
+    ExportNumbers numbers = ExportNumbers::Decimal;
+    bool allLevels = false;     ///< holds more than one level
+    bool samples = false;       ///< holds several trees, as samples over time
+    bool mass = false;          ///< has a mass and inertia
+    bool positiveRadii = false; ///< its readers refuse a radius of 0
+    void (*write)(const std::vector<detail::ExportScene>& samples, std::ostream& out) = nullptr;
+};
+
+/// @return all of them, in the order in which they are listed.
+const std::vector<ExportFormat>& exportFormats();
+
+/// @param extension  with its dot, in lower case
+/// @param name       of the format; if empty, the one that the extension means
+/// @return null if there is none: no format of that name has this extension
+const ExportFormat* findExportFormat(const std::string& extension, const std::string& name = {});
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExportScene.h"
+
+#include "ExportFrame.h"
+#include "ExportRounding.h"
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Text.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace openvdb_spheretree::detail {
+
+namespace {
+
+/// A file of spheres would say of other balls what is not so.
+void requireSpheres(const SphereTree& tree)
+{
+    tree.validate();
+    if (tree.settings.dist().isEuclidean()) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the balls of this tree are those of a norm, and no spheres: only .vdb, .csv and .json "
+        "hold them");
+}
+
+KeepSphere keepOf(const SphereTreeSettings& settings)
+{
+    if (settings.isInner()) return KeepSphere::Inside;
+    return settings.isFit() || settings.isGiven() ? KeepSphere::Nearest : KeepSphere::Covered;
+}
+
+std::string spheresOf(const SphereTreeLevel& level)
+{
+    return std::to_string(level.size()) + (level.size() == 1 ? " sphere" : " spheres");
+}
+
+/// @return the tree of what is to be written, if that is not all of it.
+std::optional<SphereTree> chosenPart(const SphereTree& tree, const ExportFormat& format,
+    const ExportSettings& settings, std::vector<std::string>& notes)
+{
+    if (settings.level) return keepLevel(tree, *settings.level);
+    if (settings.spheres) return keepSpheres(tree, *settings.spheres);
+    if (format.allLevels || tree.levels.size() == 1) return std::nullopt;
+    const SphereTreeLevel& finest = tree.levels.front();
+    notes.push_back(format.name + " holds one level, and gets the finest: level "
+        + std::to_string(finest.level) + " of " + spheresOf(finest)
+        + "; level= or spheres= chooses another");
+    return keepLevel(tree, finest.level);
+}
+
+void noteWhatIsLost(
+    const SphereTree& tree, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    if (!tree.dag.empty())
+        notes.push_back(format.name + " has no room for the edges of the Sphere-DAG");
+    if (!tree.cuts.empty())
+        notes.push_back(format.name + " has no room for the cuts: spheres= writes one of them");
+}
+
+/// @return the spheres of a level in the file's frame, not yet rounded.
+ExportLevel placed(const SphereTree& tree, const SphereTreeLevel& level, const FileFrame& frame,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    ExportLevel result;
+    result.number = level.level;
+    const auto count = std::size_t(level.size());
+    result.centers.resize(count);
+    result.radii.resize(count);
+    result.ids.resize(count);
+    result.parents.resize(count);
+    const bool isTop = level.begin == tree.root().begin;
+    parallelFor(count, interrupter, [&](std::size_t i) {
+        const int32_t id = level.begin + int32_t(i);
+        result.ids[i] = id;
+        result.parents[i] = isTop ? -1 : tree.spheres.parent[std::size_t(id)];
+        result.centers[i] = frame.toFile(tree.centerWorld(id));
+        result.radii[i] = double(tree.spheres.radiusWorld[std::size_t(id)]) * frame.scale();
+    });
+    return result;
+}
+
+struct LengthRange {
+    double smallestRadius = std::numeric_limits<double>::infinity(); ///< of those that are not 0
+    double largestNumber = 0;
+};
+
+LengthRange rangeOf(const std::vector<ExportLevel>& levels)
+{
+    LengthRange range;
+    for (const ExportLevel& level : levels) {
+        for (std::size_t i = 0; i < level.size(); ++i) {
+            const double radius = level.radii[i];
+            if (radius > 0) range.smallestRadius = std::min(range.smallestRadius, radius);
+            range.largestNumber = std::max(range.largestNumber, radius);
+            for (int axis = 0; axis < 3; ++axis) {
+                range.largestNumber =
+                    std::max(range.largestNumber, std::abs(level.centers[i][axis]));
+            }
+        }
+    }
+    return range;
+}
+
+/// @return by how much of its radius a sphere has grown or shrunk at most.
+double roundLevel(const SphereTree& tree, const FileFrame& frame, const SphereRounding& round,
+    openvdb::util::NullInterrupter* interrupter, ExportLevel& level)
+{
+    const std::vector<double> before = level.radii;
+    parallelFor(level.size(), interrupter, [&](std::size_t i) {
+        const double slack = frame.slack(tree.centerWorld(level.ids[i]));
+        const RoundedSphere sphere = round(level.centers[i], level.radii[i], slack);
+        level.centers[i] = sphere.center;
+        level.radii[i] = sphere.radius;
+    });
+    double worst = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] > 0)
+            worst = std::max(worst, std::abs(level.radii[i] - before[i]) / before[i]);
+    }
+    return worst;
+}
+
+void noteGrowth(double worst, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    constexpr double kWorthSaying = 0.01;
+    if (worst <= kWorthSaying) return;
+    notes.push_back("the numbers of " + format.name
+        + " are coarse so far from the origin: radii give way by up to " + shortNumber(100 * worst)
+        + " %; frame=centroid puts the spheres around the origin");
+}
+
+/// Of the finest level.
+MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
+{
+    const auto mass = massProperties(tree, tree.levels.front(), interrupter);
+    if (mass) return *mass;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the spheres hold no voxel center, so their mass and its center are unknown: build the "
+        "tree in finer "
+        "voxels");
+}
+
+void requirePositive(const ExportScene& scene, const ExportFormat& format)
+{
+    int64_t zero = 0;
+    for (const ExportLevel& level : scene.levels) {
+        zero += std::count(level.radii.begin(), level.radii.end(), 0.0);
+    }
+    if (zero == 0) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        zero << " of the spheres have the radius 0, which readers of " << format.name
+             << " refuse: build the tree with a padding, or choose a coarser level");
+}
+
+} // namespace
+
+std::size_t ExportScene::sphereCount() const
+{
+    std::size_t count = 0;
+    for (const ExportLevel& level : levels) count += level.size();
+    return count;
+}
+
+openvdb::BBoxd ExportScene::boxOf(const ExportLevel& level)
+{
+    openvdb::BBoxd box;
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        const openvdb::Vec3d reach(level.radii[i]);
+        box.expand(level.centers[i] - reach);
+        box.expand(level.centers[i] + reach);
+    }
+    return box;
+}
+
+ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
+    const ExportSettings& settings, std::vector<std::string>& notes,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    requireSpheres(whole);
+    const std::optional<SphereTree> part = chosenPart(whole, format, settings, notes);
+    const SphereTree& tree = part ? *part : whole;
+    noteWhatIsLost(tree, format, notes);
+
+    MassProperties mass;
+    if (format.mass || settings.frame != ExportFrame::World) {
+        mass = massOf(tree, interrupter);
+    }
+    const FileFrame frame(settings, mass);
+
+    ExportScene scene;
+    scene.name = settings.name.empty() ? tree.settings.name : settings.name;
+    scene.link = settings.link;
+    scene.metersPerUnit = settings.metersPerUnit;
+    scene.up = settings.up;
+    scene.density = settings.density;
+    if (format.mass) scene.mass = frame.toFile(mass, settings.density);
+    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
+        scene.levels.push_back(placed(tree, *level, frame, interrupter));
+    }
+    const LengthRange range = rangeOf(scene.levels);
+    scene.decimals = decimalsFor(range.smallestRadius, range.largestNumber);
+    const SphereRounding round(format.numbers, scene.decimals, keepOf(tree.settings));
+    double worst = 0;
+    for (ExportLevel& level : scene.levels) {
+        worst = std::max(worst, roundLevel(tree, frame, round, interrupter, level));
+    }
+    noteGrowth(worst, format, notes);
+    if (format.positiveRadii) requirePositive(scene, format);
+    return scene;
+}
+
+} // namespace openvdb_spheretree::detail

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ExportScene.h
+/// @brief What is written of a tree, in the frame and the units of the file, and rounded to its numbers.
+
+#pragma once
+
+#include "ExportTree.h"
+#include <openvdb_spheretree/measure/MassProperties.h>
+
+#include <openvdb/Types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree::detail {
+
+/// One entry a sphere.
+struct ExportLevel {
+    int number = 0; ///< 0 is the finest of the tree
+    std::vector<openvdb::Vec3d> centers;
+    std::vector<double> radii;
+    std::vector<int32_t> ids;     ///< of the tree
+    std::vector<int32_t> parents; ///< ids; -1 where the parent is not in the file
+
+    std::size_t size() const { return centers.size(); }
+};
+
+struct ExportScene {
+    std::string name, link;
+    std::vector<ExportLevel> levels; ///< the coarsest first; at least one
+    int decimals = 0; ///< of ExportNumbers::Decimal: all lengths are multiples of 10^-decimals
+    double metersPerUnit = 1;
+    UpAxis up = UpAxis::Y;
+    double density = 1; ///< mass of a cubed unit
+    double sample = 1;  ///< its time
+    MassProperties
+        mass; ///< of the union of the finest level's spheres; zero in formats without a mass
+
+    const ExportLevel& finest() const { return levels.back(); }
+    std::size_t sphereCount() const;
+    /// @return the smallest box that holds all of a level's spheres.
+    static openvdb::BBoxd boxOf(const ExportLevel& level);
+};
+
+/// @param notes  receives what of the tree is not in the scene
+/// @throw openvdb::ValueError if the format cannot hold it
+ExportScene makeScene(const SphereTree& tree, const ExportFormat& format,
+    const ExportSettings& settings, std::vector<std::string>& notes,
+    openvdb::util::NullInterrupter* interrupter);
+
+} // namespace openvdb_spheretree::detail

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExportText.h"
+
+#include <openvdb_spheretree/store/JsonWriter.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+namespace openvdb_spheretree::detail {
+
+namespace {
+
+constexpr std::size_t kFlushBytes = std::size_t(1) << 16;
+
+bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+} // namespace
+
+ExportText::ExportText(std::ostream& out, int decimals)
+    : mOut(out), mDecimals(decimals), mUnits(std::pow(10.0, decimals))
+{}
+
+ExportText& ExportText::writeWhole(int64_t number)
+{
+    std::array<char, 24> digits;
+    mText.append(
+        digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+    return *this;
+}
+
+ExportText& ExportText::operator<<(double length)
+{
+    const double units = std::nearbyint(length * mUnits);
+    std::array<char, 24> digits;
+    const auto whole = uint64_t(std::abs(units)); // at most 2^53: decimalsFor()
+    const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), whole).ptr;
+    const auto count = int(end - digits.data());
+    if (units < 0) mText += '-';
+    const int beforePoint = count - mDecimals;
+    if (beforePoint <= 0) {
+        mText += "0.";
+        mText.append(std::size_t(-beforePoint), '0');
+        mText.append(digits.data(), std::size_t(count));
+    } else {
+        mText.append(digits.data(), std::size_t(beforePoint));
+        mText += '.';
+        mText.append(digits.data() + beforePoint, std::size_t(mDecimals));
+    }
+    while (mText.back() == '0') mText.pop_back();
+    if (mText.back() == '.') mText += '0';
+    return *this;
+}
+
+ExportText& ExportText::lengths(const openvdb::Vec3d& vector, std::string_view separator)
+{
+    *this << vector[0] << separator << vector[1] << separator << vector[2];
+    return *this;
+}
+
+ExportText& ExportText::asFloat(double number)
+{
+    std::array<char, 32> digits;
+    mText.append(digits.data(),
+        std::to_chars(digits.data(), digits.data() + digits.size(), float(number)).ptr);
+    return *this;
+}
+
+ExportText& ExportText::floats(const openvdb::Vec3d& vector, std::string_view separator)
+{
+    asFloat(vector[0]) << separator;
+    asFloat(vector[1]) << separator;
+    return asFloat(vector[2]);
+}
+
+ExportText& ExportText::real(double number)
+{
+    std::array<char, 32> digits;
+    mText.append(
+        digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+    return *this;
+}
+
+ExportText& ExportText::flushedIfLong()
+{
+    if (mText.size() >= kFlushBytes) flush();
+    return *this;
+}
+
+void ExportText::flush()
+{
+    mOut.write(mText.data(), std::streamsize(mText.size()));
+    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
+    mText.clear();
+}
+
+void ExportText::finish()
+{
+    flush();
+    mOut.flush();
+    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
+}
+
+std::string xmlText(std::string_view text)
+{
+    std::string escaped;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        switch (c) {
+        case '&': escaped += "&amp;"; break;
+        case '<': escaped += "&lt;"; break;
+        case '>': escaped += "&gt;"; break;
+        case '"': escaped += "&quot;"; break;
+        default: escaped += byte < 32 || byte >= 127 ? '?' : c;
+        }
+    }
+    return escaped;
+}
+
+std::string jsonString(const std::string& text)
+{
+    JsonWriter json;
+    json.beginArray({}, /*onOneLine=*/true);
+    json.value({}, text);
+    return json.text().substr(1);
+}
+
+std::string identifier(std::string_view text)
+{
+    std::string word;
+    for (const char c : text) word += isWordLetter(c) ? c : '_';
+    if (word.empty() || std::isdigit(static_cast<unsigned char>(word.front())) != 0)
+        word.insert(0, "_");
+    return word;
+}
+
+std::string oneWord(std::string_view text)
+{
+    std::string word;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        word += byte <= 32 || byte >= 127 ? '_' : c;
+    }
+    return word.empty() ? "_" : word;
+}
+
+} // namespace openvdb_spheretree::detail

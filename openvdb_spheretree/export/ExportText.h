@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file ExportText.h
+/// @brief Writes text with numbers to a stream, in pieces and in no locale.
+
+#pragma once
+
+#include <openvdb/Types.h>
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace openvdb_spheretree::detail {
+
+class ExportText {
+public:
+    /// @param decimals  at most so many of a length; all lengths must be multiples of 10^-decimals (ExportScene)
+    ExportText(std::ostream& out, int decimals);
+
+    ExportText& operator<<(std::string_view text)
+    {
+        mText += text;
+        return flushedIfLong();
+    }
+    ExportText& operator<<(char c)
+    {
+        mText += c;
+        return *this;
+    }
+    template <typename Number, typename = std::enable_if_t<std::is_integral_v<Number>>>
+    ExportText& operator<<(Number number)
+    {
+        return writeWhole(int64_t(number));
+    }
+    /// A length with one decimal at least, and never with an exponent: YAML takes `1` for no float, and
+    /// `5e-05` for no number.
+    ExportText& operator<<(double length);
+    /// Three lengths with @a separator between.
+    ExportText& lengths(const openvdb::Vec3d& vector, std::string_view separator);
+    /// A number that is a float: the shortest text that reads back to the same float.
+    ExportText& asFloat(double number);
+    ExportText& floats(const openvdb::Vec3d& vector, std::string_view separator);
+    /// Any other number: the shortest text that reads back to the same double.
+    ExportText& real(double number);
+
+    /// @throw openvdb::IoError if the stream fails, as from any of the above
+    void finish();
+
+private:
+    ExportText& writeWhole(int64_t number);
+    ExportText& flushedIfLong();
+    void flush();
+
+    std::ostream& mOut;
+    std::string mText;
+    int mDecimals;
+    double mUnits;
+};
+
+/// @name Names as formats take them
+/// @{
+std::string xmlText(std::string_view text); ///< with entities; what XML cannot hold becomes `?`
+std::string jsonString(const std::string& text); ///< in double quotes; YAML reads it as well
+std::string identifier(std::string_view text);   ///< letters, digits and `_`, and no digit first
+std::string oneWord(std::string_view text);      ///< on one line, without spaces
+/// @}
+
+} // namespace openvdb_spheretree::detail

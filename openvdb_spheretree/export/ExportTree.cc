@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExportTree.h"
+
+#include "ExportScene.h"
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace openvdb_spheretree {
+
+namespace {
+
+void requireSettings(const ExportFormat& format, const ExportSettings& settings, std::size_t trees)
+{
+    if (trees == 0) OPENVDB_THROW(openvdb::ValueError, "there is no sphere-tree to write");
+    if (trees > 1 && !format.samples) {
+        OPENVDB_THROW(
+            openvdb::ValueError, format.name << " holds one sphere-tree, and there are " << trees);
+    }
+    if (settings.level && settings.spheres) {
+        OPENVDB_THROW(openvdb::ValueError, "level and spheres exclude each other");
+    }
+    for (const auto& [name, value] : {std::pair("scale", settings.scale),
+             std::pair("density", settings.density), std::pair("units", settings.metersPerUnit)}) {
+        if (std::isfinite(value) && value > 0) continue;
+        OPENVDB_THROW(
+            openvdb::ValueError, name << "=" << value << " is out of range: it is positive");
+    }
+    if (settings.link.empty()) OPENVDB_THROW(openvdb::ValueError, "link= names no link");
+}
+
+} // namespace
+
+std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& format,
+    const ExportSettings& settings, std::ostream& out, openvdb::util::NullInterrupter* interrupter)
+{
+    return exportTrees({&tree}, format, settings, out, interrupter);
+}
+
+std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees,
+    const ExportFormat& format, const ExportSettings& settings, std::ostream& out,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    requireSettings(format, settings, trees.size());
+    std::vector<std::string> notes;
+    std::vector<detail::ExportScene> samples;
+    for (const SphereTree* tree : trees) {
+        std::vector<std::string> more;
+        samples.push_back(detail::makeScene(*tree, format, settings, more, interrupter));
+        samples.back().sample = settings.firstSample + double(samples.size() - 1);
+        for (const std::string& note : more) {
+            if (!std::count(notes.begin(), notes.end(), note)) notes.push_back(note);
+        }
+    }
+    format.write(samples, out);
+    return notes;
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// -write of files for other tools: which one it is, what it says of them, and nothing half-written.
+
+#include "CommandRunner.h"
+
+#include "support/Messages.h"
+
+#include <cstdio>
+
+namespace {
+
+using command_test::CommandTest;
+using command_test::readText;
+using command_test::Result;
+using command_test::writeText;
+using spheretree_test::mentions;
+
+testing::AssertionResult beginsWith(const std::string& text, const std::string& start)
+{
+    if (text.rfind(start, 0) == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "begins with " << text.substr(0, 60);
+}
+
+class CommandExport : public CommandTest {
+protected:
+    void SetUp() override
+    {
+        CommandTest::SetUp();
+        writeBlock("a.vol");
+        writeVol("one.vol", {1, 1, 1}, "\x01");
+        const Result made = run("-read a.vol -spheretree spheres=6,1 -write tree.vdb");
+        ASSERT_EQ(made.exitCode, 0) << made.err;
+    }
+
+    std::string written(const std::string& name, const std::string& options = "") const
+    {
+        const Result result = run("-read tree.vdb -write " + name + " " + options);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return readText(path(name));
+    }
+};
+
+TEST_F(CommandExport, TheExtensionSaysWhichAndFormatWhereThereAreSeveral)
+{
+    EXPECT_TRUE(mentions(written("t.urdf"), "<link name=\"object\">"));
+    EXPECT_TRUE(beginsWith(written("t.usda"), "#usda 1.0"));
+    EXPECT_TRUE(beginsWith(written("t.yml"), "robot_cfg:"));
+    EXPECT_TRUE(beginsWith(written("l.yml", "format=lula"), "api_version:"));
+    EXPECT_TRUE(mentions(written("t.json"), "\"vdb_spheretree.tree.1\""));
+    EXPECT_TRUE(beginsWith(written("f.json", "format=foam"), "[{\"mean\""));
+    EXPECT_TRUE(beginsWith(written("t.csv"), "level,id,parent"));
+    EXPECT_TRUE(beginsWith(written("x.csv", "format=multisphere"), "x,y,z,radius\n"));
+    EXPECT_TRUE(beginsWith(written("T.PLY"), "ply\nformat binary_little_endian"));
+}
+
+TEST_F(CommandExport, OneFormatAmongFilesOfOthers)
+{
+    const Result result = run("-read tree.vdb -write a.urdf b.csv format=deme link=arm");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(mentions(readText(path("a.urdf")), "\"arm\""));
+    EXPECT_TRUE(beginsWith(readText(path("b.csv")), "x,y,z,r\n"));
+}
+
+TEST_F(CommandExport, ToStdout)
+{
+    const Result result = run("-quiet -read tree.vdb -write stdout.srdf link=arm");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out, written("t.srdf", "link=arm"));
+}
+
+TEST_F(CommandExport, UnitsAndUp)
+{
+    EXPECT_TRUE(
+        mentions(written("t.usda", "units=mm up=z"), "metersPerUnit = 0.001\n    upAxis = \"Z\""));
+    const std::string metres = written("m.xyz", "level=1"),
+                      millimetres = written("mm.xyz", "level=1 units=mm");
+    double m = 0, mm = 0;
+    ASSERT_EQ(std::sscanf(metres.c_str(), "1\n%*[^\n]\nH %lf", &m), 1);
+    ASSERT_EQ(std::sscanf(millimetres.c_str(), "1\n%*[^\n]\nH %lf", &mm), 1);
+    EXPECT_NEAR(mm, 1000 * m, 1e-2);
+}
+
+TEST_F(CommandExport, WhatThereIsNoRoomForIsSaid)
+{
+    const Result result = run("-read tree.vdb -write t.urdf");
+    EXPECT_TRUE(mentions(result.err, "t.urdf: urdf holds one level"));
+    EXPECT_FALSE(mentions(run("-read tree.vdb -write t.urdf level=1").err, "holds one level"));
+    EXPECT_TRUE(mentions(run("-read a.vol -spheretree tree=extended dag=1 -write t.ply").err,
+        "no room for the edges of the Sphere-DAG"));
+}
+
+TEST_F(CommandExport, WhatAFormatCannotHoldLeavesTheOldFile)
+{
+    const struct {
+        const char* line;
+        const char* file;
+        const char* why;
+    } cases[] = {
+        {"-read a.vol -spheretree tree=reversible dist=l1 -write t.ply", "t.ply",
+            "those of a norm"},
+        {"-read one.vol -spheretree padding=0 -write t.urdf", "t.urdf", "radius 0"},
+        {"-read a.vol -spheretree spheres=6,2 -write t.sph", "t.sph", "begins with one sphere"},
+        {"-read tree.vdb -write t.usda level=7", "t.usda", "level 7"},
+        {"-read a.vol -write t.ply", "t.ply", "put -spheretree before"},
+        {"-read tree.vdb -read tree.vdb -write t.ply", "t.ply", "choose with vdb="},
+        {"-read tree.vdb -write t.vol", "t.vol", "-spheres2mask"},
+    };
+    for (const auto& bad : cases) {
+        writeText(path(bad.file), "precious");
+        const Result result = run(bad.line);
+        EXPECT_EQ(result.exitCode, 3) << bad.line << "\n" << result.err;
+        EXPECT_TRUE(mentions(result.err, bad.why)) << bad.line;
+        EXPECT_EQ(readText(path(bad.file)), "precious") << bad.line;
+    }
+}
+
+TEST_F(CommandExport, SeveralTreesAreSamplesOfOneStage)
+{
+    const Result result = run("-read tree.vdb -read tree.vdb -write t.usda start=25");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(mentions(result.err, "2 sphere-trees are samples over time, from 25 on"));
+    EXPECT_TRUE(mentions(readText(path("t.usda")), "endTimeCode = 26"));
+}
+
+TEST_F(CommandExport, AnObjectAsVol)
+{
+    const Result result = run("-read a.vol -write b.vol -read b.vol -write c.vol");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(readText(path("b.vol")), readText(path("c.vol")));
+    EXPECT_TRUE(mentions(readText(path("b.vol")), "X: 8\nY: 6\nZ: 5\n"));
+    const Result moved = run("-read tree.vdb -spheres2mask level=1 -write d.vol");
+    EXPECT_TRUE(mentions(moved.err, "its first voxel is that of index"));
+}
+
+TEST_F(CommandExport, HelpListsAllFormats)
+{
+    const std::string help = run("-help write").out;
+    for (const char* line :
+        {".urdf", ".usda", "format=lammps: LAMMPS", "a level: centers, radii"}) {
+        EXPECT_TRUE(mentions(help, line));
+    }
+}
+
+} // namespace

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Readers that are programs or libraries of the tools themselves: MuJoCo, urdfdom, VTK, LAMMPS, YADE."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from spheres import Sphere, require_covered, require_near
+
+
+class Missing(Exception):
+    """What a test needs and is not here."""
+
+
+def need(program):
+    path = shutil.which(program)
+    if path is None:
+        raise Missing(program)
+    return path
+
+
+def output_of(*words, cwd):
+    result = subprocess.run([*map(str, words)], cwd=cwd, capture_output=True, text=True, timeout=300)
+    if result.returncode != 0:
+        raise AssertionError(f"{words[0]}: exit code {result.returncode}\n{result.stdout}{result.stderr}")
+    return result.stdout + result.stderr
+
+
+def mass_of(trees):
+    """Of the finest level, as -stats has it: volume, center, moments of inertia."""
+    import json
+
+    trees.run("-read", "turned.vdb", "-stats", "mass.json", "mass=1")
+    level = json.load(open(trees.folder / "mass.json"))["levels"][0]
+    return level["mass"]
+
+
+def read_mujoco(trees):
+    program = os.environ.get("SPHERETREE_READ_MUJOCO")
+    if not program:
+        raise Missing("MuJoCo (Debian: libmujoco-dev)")
+    for name in ("robot.mjcf", "robot.urdf"):
+        path = trees.write("turned.vdb", name, "link=gripper", "density=1000")
+        lines = [line.split() for line in output_of(program, path, cwd=trees.folder).splitlines()]
+        found = [Sphere(*map(float, line[1:])) for line in lines if line[0] == "sphere"]
+        require_covered(found, trees.finest("turned.vdb"))
+        if name.endswith(".urdf"):
+            continue  # MuJoCo makes its only link part of the world, without a mass
+        mass = mass_of(trees)
+        total, *moments = (float(word) for word in next(l for l in lines if l[0] == "mass")[1:])
+        require_near(total, 1000 * mass["volume"], 1e-9, "mass")
+        for moment, expected in zip(sorted(moments), sorted(mass["principal_moments"])):
+            require_near(moment, 1000 * expected, 1e-6, "moment of inertia")
+
+
+def read_urdfdom(trees):
+    need("check_urdf")
+    text = output_of("check_urdf", trees.write("turned.vdb", "robot.urdf", "name=arm"), cwd=trees.folder)
+    assert "robot name is: arm" in text and "Error" not in text, text
+
+
+def points_of(polydata):
+    data = polydata.GetPointData()
+    arrays = [data.GetArray(name) for name in ("radius", "level", "id", "parent")]
+    return [Sphere(*polydata.GetPoint(i), arrays[0].GetValue(i), *(int(a.GetValue(i)) for a in arrays[1:]))
+            for i in range(polydata.GetNumberOfPoints())]
+
+
+def read_vtk(trees):
+    from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    for reader, name in ((vtkXMLPolyDataReader(), "tree.vtp"), (vtkPolyDataReader(), "tree.vtk")):
+        reader.SetFileName(str(trees.write("turned.vdb", name)))
+        reader.Update()
+        polydata = reader.GetOutput()
+        assert polydata.GetNumberOfVerts() == polydata.GetNumberOfPoints()
+        require_covered(points_of(polydata), trees.spheres("turned.vdb"))
+
+
+def read_mesh(trees):
+    """Corners lie on the spheres; each sphere is closed, and as large as a polyhedron in it can be."""
+    from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkPolyDataConnectivityFilter
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+
+    spheres = trees.finest("turned.vdb")
+    for reader, name in ((vtkOBJReader(), "mesh.obj"), (vtkSTLReader(), "mesh.stl")):
+        reader.SetFileName(str(trees.write("turned.vdb", name)))
+        reader.Update()
+        polydata = reader.GetOutput()
+        assert polydata.GetNumberOfPolys() == 320 * len(spheres)
+        mass = vtkMassProperties()
+        mass.SetInputData(polydata)
+        mass.Update()
+        volume = sum(4 / 3 * 3.141592653589793 * s.radius ** 3 for s in spheres)
+        assert 0.95 * volume < mass.GetVolume() < volume, (mass.GetVolume(), volume)
+    names = [line.split()[1] for line in open(trees.write("turned.vdb", "u.obj", "format=unreal", "name=arm"))
+             if line.startswith("o ")]
+    assert names == [f"USP_arm_{i + 1:02}" for i in range(len(spheres))], names
+
+
+def read_lammps(trees):
+    need("lmp")
+    trees.write("turned.vdb", "clump.mol", "format=lammps", "frame=centroid", "density=2500")
+    (trees.folder / "in.clump").write_text(
+        "atom_style hybrid sphere molecular\nregion box block -9 9 -9 9 -9 9\ncreate_box 1 box\ncomm_modify cutoff 9\n"
+        "molecule clump clump.mol\ncreate_atoms 0 single 0 0 0 mol clump 1234 rotate 0 0 0 1\n"
+        "dump all all custom 1 out.dump id x y z radius\ndump_modify all sort id format float %.17g\n"
+        "thermo_style custom step\nfix move all rigid/small molecule mol clump\nrun 0\n")
+    text = output_of("lmp", "-in", "in.clump", cwd=trees.folder)
+    assert "ERROR" not in text, text
+    rows = (trees.folder / "out.dump").read_text().split("radius\n")[1].splitlines()
+    found = [Sphere(*map(float, row.split()[1:])) for row in rows]
+    expected = trees.finest("turned.vdb")
+    assert len(found) == len(expected)
+    shift = [a - b for a, b in zip(found[0][:3], expected[0][:3])]  # it puts the molecule where it likes
+    for a, b in zip(found, expected):
+        for axis in range(3):
+            assert abs(a[axis] - (b[axis] + shift[axis])) < 1e-6, (a, b)
+        assert b.radius <= a.radius < b.radius * 1.001
+
+
+def read_yade(trees):
+    need("yade")
+    trees.write("turned.vdb", "clump.txt", "format=yade")
+    script = ("from yade import ymport\nids = ymport.textClumps('clump.txt')\n"
+              "for b in O.bodies:\n"
+              "    if b.isClumpMember: print('sphere', *map(repr, [*b.state.pos, b.shape.radius]))\n")
+    (trees.folder / "clump.py").write_text(script)
+    text = output_of("yade", "-n", "-x", "clump.py", cwd=trees.folder)
+    found = [Sphere(*map(float, line.split()[1:])) for line in text.splitlines()
+             if line.startswith("sphere")]
+    expected = trees.finest("turned.vdb")
+    assert len(found) == len(expected), text
+    for a, b in zip(found, expected):
+        assert all(abs(a[i] - b[i]) <= 1e-6 for i in range(4)), (a, b)
+
+
+READERS = {name[5:]: function for name, function in list(globals().items())
+           if name.startswith("read_")}

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Readers of the web: tinyusdz, three.js and the validator of glTF, by node."""
+
+import json
+import os
+import struct
+from pathlib import Path
+
+from read_programs import Missing, need, output_of
+from spheres import Sphere, require_covered
+
+HERE = Path(__file__).resolve().parent
+
+
+def node(trees, script, *arguments):
+    """Runs a module with the packages of package.json, which are installed once."""
+    need("node")
+    need("npm")
+    modules = Path(os.environ.get("SPHERETREE_NODE_MODULES", trees.folder))
+    if not (modules / "node_modules" / "three").exists():
+        modules.mkdir(parents=True, exist_ok=True)
+        (modules / "package.json").write_text((HERE / "web" / "package.json").read_text())
+        output_of("npm", "install", "--no-audit", "--no-fund", "--loglevel=error", cwd=modules)
+    # Modules find packages from where they are.
+    copy = modules / script
+    copy.write_text((HERE / "web" / script).read_text())
+    return json.loads(output_of("node", copy, *arguments, cwd=modules))
+
+
+def as_float(number):
+    return struct.unpack("f", struct.pack("f", number))[0]
+
+
+def read_usd(trees):
+    path = trees.write("turned.vdb", "tree.usda", "up=z", "name=a tree")
+    for script in ("tinyusdz.mjs", "three_usd.mjs"):
+        stage = node(trees, script, path)
+        assert stage["upAxis"] == "Z" and stage["metersPerUnit"] == 1, stage
+        assert stage["defaultPrim"] == "a_tree"
+        for level in stage["levels"]:  # of text: the floats are those nearest to it
+            level["points"] = [[as_float(v) for v in point] for point in level["points"]]
+            level["extent"] = [[as_float(v) for v in point] for point in level["extent"]]
+            level["widths"] = [as_float(v) for v in level["widths"]]
+        found = [Sphere(*point, width / 2, level["level"], id, parent)
+                 for level in reversed(stage["levels"])
+                 for point, width, id, parent in
+                 zip(level["points"], level["widths"], level["ids"], level["parents"])]
+        require_covered(found, trees.spheres("turned.vdb"))
+        for level in stage["levels"]:
+            for point, width in zip(level["points"], level["widths"]):
+                for axis in range(3):
+                    low, high = (corner[axis] for corner in level["extent"])
+                    assert low <= point[axis] - width / 2 and point[axis] + width / 2 <= high
+
+
+def read_gltf(trees):
+    for options, triangles in ((("up=z",), None), (("format=mesh", "up=z"), 320)):
+        path = trees.write("turned.vdb", "tree.glb", *options)
+        report = node(trees, "validate.mjs", path)
+        assert report["errors"] == 0 and report["warnings"] == 0, report
+        scene = node(trees, "three_gltf.mjs", path)
+        finest = trees.finest("turned.vdb")
+        if triangles:
+            assert scene["triangles"] == triangles * len(finest)
+            continue
+        found = [Sphere(*sphere) for sphere in scene["spheres"]]
+        # What is up along z in the tree is so along y in glTF.
+        turned = [sphere._replace(y=sphere.z, z=-sphere.y) for sphere in finest]
+        assert len(found) == len(turned)
+        for a, b in zip(found, turned):
+            assert all(abs(a[i] - b[i]) < 1e-5 for i in range(4)), (a, b)
+        assert scene["ids"] == [sphere.id for sphere in finest]
+
+
+READERS = {name[5:]: function for name, function in list(globals().items())
+           if name.startswith("read_")}

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Makes a Debian package of a build, installs it into a root of its own, runs what it installs, and removes it:
+# test_deb.sh BUILD FOLDER. Exit code 77: no dpkg here.
+set -euo pipefail
+build="$(realpath "$1")"
+folder="$2"
+if ! command -v dpkg >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
+    echo "no dpkg-dev here (Debian: apt-get install dpkg-dev)"
+    exit 77
+fi
+rm -rf "$folder"
+mkdir -p "$folder/root/var/lib/dpkg"/{info,updates,triggers}
+cd "$folder"
+touch root/var/lib/dpkg/{status,available}
+
+fail() { echo "$*" >&2; exit 1; }
+package() { dpkg --root="$PWD/root" --force-not-root,depends --log=/dev/null "$@" >dpkg.txt 2>&1 || { cat dpkg.txt >&2; exit 1; }; }
+
+cpack --config "$build/CPackConfig.cmake" -G DEB -B "$PWD" >cpack.txt 2>&1 || { cat cpack.txt >&2; exit 1; }
+deb=$(ls ./*.deb)
+dpkg-deb --field "$deb" Depends | grep -q libopenvdb || fail "the package does not ask for OpenVDB"
+package --install "$deb"
+for file in bin/vdb_spheretree share/man/man1/vdb_spheretree.1 \
+    share/bash-completion/completions/vdb_spheretree share/zsh/vendor-completions/_vdb_spheretree \
+    include/openvdb_spheretree/openvdb_spheretree.h; do
+    [ -s "root/usr/$file" ] || fail "the package lacks /usr/$file"
+done
+root/usr/bin/vdb_spheretree -quiet -generate ball voxels=2000 -spheretree spheres=8 -write tree.vdb tree.urdf
+if [ ! -s tree.vdb ] || [ ! -s tree.urdf ]; then fail "the installed program does not work"; fi
+package --remove vdb-spheretree
+left=$(find root/usr -type f | head -3)
+[ -z "$left" ] || fail "removing the package leaves: $left"

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all formats have in common. What each holds is seen by readers of others (tests/readers).
+
+#include <openvdb_spheretree/export/ExportTree.h>
+
+#include "support/Messages.h"
+#include "support/SampleTrees.h"
+
+#include <openvdb/math/Transform.h>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <locale>
+#include <set>
+#include <sstream>
+#include <streambuf>
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+
+namespace {
+
+SphereTree someTree(int32_t leaves = 300)
+{
+    SphereTree tree = randomTree(leaves, 11);
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.25);
+    return tree;
+}
+
+std::string written(
+    const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings = {})
+{
+    std::ostringstream out;
+    exportTree(tree, format, settings, out);
+    return out.str();
+}
+
+/// All but those whose files would be too large for a tree of this shape.
+std::vector<ExportFormat> formats()
+{
+    std::vector<ExportFormat> all;
+    for (const ExportFormat& format : exportFormats()) {
+        if (format.name != "sph") all.push_back(format);
+    }
+    return all;
+}
+
+struct GermanNumbers : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+class FullDisk : public std::streambuf {
+public:
+    explicit FullDisk(std::streamsize room) : mRoom(room) {}
+
+protected:
+    int_type overflow(int_type c) override { return mRoom-- > 0 ? c : traits_type::eof(); }
+
+private:
+    std::streamsize mRoom;
+};
+
+TEST(ExportFormats, EachIsFoundByItsNameAndOneByItsExtension)
+{
+    std::set<std::string> byExtension;
+    for (const ExportFormat& format : exportFormats()) {
+        ASSERT_NE(format.write, nullptr) << format.name;
+        EXPECT_FALSE(format.readers.empty() || format.keeps.empty()) << format.name;
+        for (const std::string& extension : format.extensions) {
+            EXPECT_EQ(findExportFormat(extension, format.name), &format) << format.name;
+            if (!format.byExtension) continue;
+            EXPECT_TRUE(byExtension.insert(extension).second) << extension << " means two formats";
+            EXPECT_EQ(findExportFormat(extension), &format);
+        }
+    }
+    EXPECT_EQ(findExportFormat(".urdf", "usd"), nullptr);
+    EXPECT_EQ(findExportFormat(".csv"), nullptr) << "it is a table of ours";
+    EXPECT_EQ(findExportFormat(""), nullptr);
+}
+
+TEST(ExportFormats, BytesDoNotDependOnThreadsOrLocales)
+{
+    const SphereTree tree = someTree(5000);
+    for (const ExportFormat& format : formats()) {
+        const std::string bytes = written(tree, format);
+        EXPECT_FALSE(bytes.empty());
+        for (const std::size_t threads : {1, 3}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            EXPECT_TRUE(written(tree, format) == bytes)
+                << format.name << ", " << threads << " threads";
+        }
+        std::ostringstream german;
+        german.imbue(std::locale(std::locale::classic(), new GermanNumbers));
+        exportTree(tree, format, {}, german);
+        EXPECT_TRUE(german.str() == bytes) << format.name;
+    }
+}
+
+TEST(ExportFormats, AFullDiskIsAnError)
+{
+    const SphereTree tree = someTree();
+    for (const ExportFormat& format : formats()) {
+        const auto size = std::streamsize(written(tree, format).size());
+        for (const std::streamsize room : {std::streamsize(0), size / 2, size - 1}) {
+            FullDisk disk(room);
+            std::ostream out(&disk);
+            EXPECT_THROW(exportTree(tree, format, {}, out), openvdb::IoError) << format.name;
+        }
+    }
+}
+
+TEST(ExportFormats, NamesCannotBreakOutOfTheirPlace)
+{
+    const std::string evil = "a\"'<&>\n]}) # b\x01";
+    ExportSettings settings;
+    settings.name = evil;
+    settings.link = evil;
+    const SphereTree tree = someTree(3);
+    for (const ExportFormat& format : formats()) {
+        const std::string text = written(tree, format, settings);
+        EXPECT_EQ(text.find(evil), std::string::npos) << format.name;
+        EXPECT_EQ(text.find("<&>\n"), std::string::npos) << format.name;
+    }
+}
+
+TEST(ExportFormats, SettingsOutOfRangeAreRefused)
+{
+    const SphereTree tree = someTree();
+    const auto why = [&](const ExportSettings& settings) {
+        return messageOf<openvdb::ValueError>(
+            [&] { written(tree, *findExportFormat(".urdf"), settings); });
+    };
+    ExportSettings settings;
+    settings.scale = 0;
+    EXPECT_TRUE(mentions(why(settings), "scale=0"));
+    settings = {};
+    settings.density = -1;
+    EXPECT_TRUE(mentions(why(settings), "density=-1"));
+    settings = {};
+    settings.link = "";
+    EXPECT_TRUE(mentions(why(settings), "link="));
+    settings = {};
+    settings.level = 0;
+    settings.spheres = 5;
+    EXPECT_TRUE(mentions(why(settings), "exclude each other"));
+    settings = {};
+    settings.level = 99;
+    EXPECT_TRUE(mentions(why(settings), "level 99"));
+}
+
+TEST(ExportFormats, SeveralTreesAreSamplesOverTimeWhereThereIsTime)
+{
+    const SphereTree a = someTree(30), b = someTree(40);
+    ExportSettings settings;
+    settings.firstSample = 101;
+    std::ostringstream out;
+    exportTrees({&a, &b}, *findExportFormat(".usda"), settings, out);
+    const std::string text = out.str();
+    EXPECT_TRUE(mentions(text, "startTimeCode = 101\n"));
+    EXPECT_TRUE(mentions(text, "endTimeCode = 102\n"));
+    EXPECT_TRUE(mentions(text, "point3f[] points.timeSamples = {\n            101: [("));
+    std::ostringstream none;
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] {
+        exportTrees({&a, &b}, *findExportFormat(".ply"), {}, none);
+    }),
+        "ply holds one sphere-tree, and there are 2"));
+    EXPECT_TRUE(none.str().empty());
+    EXPECT_THROW(exportTrees({}, *findExportFormat(".usda"), {}, none), openvdb::ValueError);
+}
+
+TEST(ExportFormats, ACompleteTreeThatWouldExplodeIsRefused)
+{
+    const ExportFormat& sph = *findExportFormat(".sph");
+    const SphereTree tree = someTree();
+    EXPECT_EQ(tree.root().size(), 1);
+    EXPECT_FALSE(written(someTree(3), sph).empty());
+    // One sphere has all children below it, so that each has a place for as many.
+    SphereTree wide = someTree(10000);
+    const SphereTreeLevel& finest = wide.levels[0];
+    for (int32_t id = finest.begin; id < finest.end; ++id) {
+        wide.spheres.parent[std::size_t(id)] = wide.levels[1].begin;
+    }
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { written(wide, sph); }), "places"));
+    ExportSettings settings;
+    settings.level = 0;
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { written(tree, sph, settings); }),
+        "begins with one sphere"));
+}
+
+} // namespace

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a tree goes into a file: levels, frame, units, and what is said of the rest.
+
+#include <openvdb_spheretree/export/ExportScene.h>
+#include <openvdb_spheretree/measure/MassProperties.h>
+
+#include "support/Messages.h"
+#include "support/SampleTrees.h"
+
+#include <openvdb/math/Transform.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using detail::ExportLevel;
+using detail::ExportScene;
+using openvdb::Vec3d;
+
+namespace {
+
+ExportFormat format(bool allLevels, ExportNumbers numbers = ExportNumbers::Double)
+{
+    ExportFormat result = *findExportFormat(".vtp");
+    result.name = "test";
+    result.allLevels = allLevels;
+    result.numbers = numbers;
+    return result;
+}
+
+struct Exported {
+    ExportScene scene;
+    std::vector<std::string> notes;
+};
+
+Exported sceneOf(
+    const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings = {})
+{
+    Exported result;
+    result.scene = detail::makeScene(tree, format, settings, result.notes, nullptr);
+    return result;
+}
+
+/// A turn, a mirror, a scale and a shift of index space.
+openvdb::math::Transform::Ptr turned()
+{
+    const openvdb::Mat4R toWorld(-0.4, 0.0, 0.3, 0.0, //
+        0.18, 0.4, 0.24, 0.0,                         //
+        -0.24, 0.3, -0.32, 0.0,                       //
+        31.0, -22.0, 7.0, 1.0);
+    return openvdb::math::Transform::createLinearTransform(toWorld);
+}
+
+/// A tree whose stored radii are those of its transform.
+SphereTree turnedTree()
+{
+    SphereTree tree = randomTree(200, 3);
+    tree.transform = turned();
+    return tree;
+}
+
+TEST(ExportScene, AllLevelsFromTheTopWithIdsAndParents)
+{
+    const SphereTree tree = turnedTree();
+    const auto [scene, notes] = sceneOf(tree, format(true));
+    EXPECT_TRUE(notes.empty());
+    ASSERT_EQ(scene.levels.size(), tree.levels.size());
+    EXPECT_EQ(scene.sphereCount(), std::size_t(tree.size()));
+    int32_t id = 0;
+    for (const ExportLevel& level : scene.levels) {
+        for (std::size_t i = 0; i < level.size(); ++i, ++id) {
+            EXPECT_EQ(level.ids[i], id);
+            EXPECT_EQ(level.parents[i], tree.spheres.parent[std::size_t(id)]);
+            EXPECT_EQ(level.centers[i], tree.centerWorld(id));
+            EXPECT_EQ(level.radii[i], double(tree.spheres.radiusWorld[std::size_t(id)]));
+        }
+    }
+}
+
+TEST(ExportScene, OneLevelWhereThereIsRoomForOne)
+{
+    const SphereTree tree = turnedTree();
+    const auto [scene, notes] = sceneOf(tree, format(false));
+    EXPECT_EQ(scene.sphereCount(), std::size_t(tree.levels.front().size()));
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(mentions(notes.front(), "test holds one level"));
+    EXPECT_TRUE(mentions(notes.front(), "level 0 of 200 spheres"));
+}
+
+TEST(ExportScene, TheLevelThatIsAskedFor)
+{
+    const SphereTree tree = turnedTree();
+    ExportSettings settings;
+    settings.level = 1;
+    EXPECT_EQ(sceneOf(tree, format(true), settings).scene.sphereCount(), 20u);
+    settings = {};
+    settings.spheres = 199;
+    const auto [scene, notes] = sceneOf(tree, format(false), settings);
+    EXPECT_EQ(scene.sphereCount(), 20u);
+    EXPECT_EQ(scene.finest().number, 1);
+    EXPECT_TRUE(notes.empty());
+    for (const int32_t parent : scene.finest().parents) EXPECT_EQ(parent, -1);
+    settings.spheres = 0;
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { sceneOf(tree, format(true), settings); }),
+            "no level has at most 0"));
+}
+
+TEST(ExportScene, TheCutThatIsAskedFor)
+{
+    const SphereTree tree = tightSampleTree();
+    ASSERT_FALSE(tree.cuts.empty());
+    ExportSettings settings;
+    settings.spheres = 2;
+    EXPECT_EQ(sceneOf(tree, format(true), settings).scene.sphereCount(), 2u);
+    const auto notes = sceneOf(tree, format(true)).notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(mentions(notes.front(), "no room for the cuts"));
+}
+
+TEST(ExportScene, UnitsScaleCentersAndRadii)
+{
+    const SphereTree tree = turnedTree();
+    ExportSettings settings;
+    settings.scale = 1000;
+    const auto scene = sceneOf(tree, format(true), settings).scene;
+    const ExportLevel& root = scene.levels.front();
+    EXPECT_EQ(root.centers[0], tree.centerWorld(0) * 1000);
+    const double radius = double(tree.spheres.radiusWorld[0]) * 1000;
+    EXPECT_GE(root.radii[0], radius);
+    EXPECT_LE(root.radii[0], radius * (1 + 1e-12));
+}
+
+/// A body is what it is in any frame: distances stay, and the mass is where the frame says.
+TEST(ExportScene, FramesOfTheBody)
+{
+    const SphereTree tree = turnedTree();
+    const auto world = sceneOf(tree, format(true)).scene;
+    const auto mass = *massProperties(tree, tree.levels.front());
+    ExportFormat massive = format(true);
+    massive.mass = true;
+    for (const ExportFrame frame : {ExportFrame::Centroid, ExportFrame::Principal}) {
+        ExportSettings settings;
+        settings.frame = frame;
+        settings.scale = 10;
+        settings.density = 2;
+        const auto scene = sceneOf(tree, massive, settings).scene;
+        EXPECT_NEAR(scene.mass.center.length(), 0, 1e-12);
+        EXPECT_NEAR(scene.mass.volume / (1000 * mass.volume), 1, 1e-12);
+        const ExportLevel& here = scene.finest();
+        const ExportLevel& there = world.finest();
+        for (std::size_t i = 1; i < here.size(); ++i) {
+            const double apart = (here.centers[i] - here.centers[i - 1]).length();
+            EXPECT_NEAR(apart, 10 * (there.centers[i] - there.centers[i - 1]).length(), 1e-9);
+            const Vec3d a = here.centers[i - 1], b = here.centers[i], c = here.centers[0];
+            const Vec3d p = there.centers[i - 1], q = there.centers[i], r = there.centers[0];
+            EXPECT_NEAR(
+                a.cross(b - a).dot(c - a), 1000 * (p - mass.center).cross(q - p).dot(r - p), 1e-4)
+                << "it is not mirrored";
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (frame == ExportFrame::Centroid) break;
+            const double moment = 2 * 1e5 * mass.principalMoments[axis];
+            EXPECT_NEAR(scene.mass.inertia(axis, axis) / moment, 1, 1e-9);
+            EXPECT_NEAR(scene.mass.inertia(axis, (axis + 1) % 3) / moment, 0, 1e-9);
+        }
+    }
+}
+
+TEST(ExportScene, FarFromTheOriginFloatsAreSaidToBeCoarse)
+{
+    SphereTree tree = turnedTree();
+    EXPECT_TRUE(sceneOf(tree, format(true, ExportNumbers::Float)).notes.empty());
+    tree.transform->postTranslate(Vec3d(1e7, 0, 0));
+    const auto [scene, notes] = sceneOf(tree, format(true, ExportNumbers::Float));
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(mentions(notes.front(), "coarse so far from the origin"));
+    for (std::size_t i = 0; i < scene.finest().size(); ++i) {
+        const int32_t id = scene.finest().ids[i];
+        const double moved = (scene.finest().centers[i] - tree.centerWorld(id)).length();
+        EXPECT_GE(scene.finest().radii[i],
+            double(tree.spheres.radiusWorld[std::size_t(id)]) + moved * 0.999);
+    }
+}
+
+TEST(ExportScene, SpheresOfNoSizeAreRefusedWhereReadersRefuseThem)
+{
+    SphereTree tree = turnedTree();
+    tree.spheres.radiusWorld.back() = 0;
+    ExportFormat strict = format(true);
+    EXPECT_EQ(sceneOf(tree, strict).scene.finest().radii.back(), 0);
+    strict.positiveRadii = true;
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { sceneOf(tree, strict); }),
+        "1 of the spheres have the radius 0"));
+}
+
+TEST(ExportScene, BallsOfNormsAreNoSpheres)
+{
+    SphereTree tree = turnedTree();
+    ReversibleOptions options;
+    options.dist = Distance::l1();
+    tree.settings = options;
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { sceneOf(tree, format(true)); }), "those of a norm"));
+}
+
+} // namespace
