@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Packages by CPack: cmake --build build/release && cpack --config build/release/CPackConfig.cmake -G DEB
+# Packages by CPack: once the preset release is built, cpack -G DEB in its folder.
 
 set(CPACK_PACKAGE_NAME vdb-spheretree)
 set(CPACK_PACKAGE_VENDOR "${PROJECT_NAME}")
