@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Holds what pages and comments refer to against what there is: scripts/check_docs.py
 
-In README.md, CONTRIBUTING.md and docs/*.md: links and their anchors; names between backticks that are files, folders
+In README.md, CONTRIBUTING.md, docs/*.md and docs/tasks/*.md: links and their anchors; names between backticks that are files, folders
 (also below openvdb_spheretree/, cmd/vdb_spheretree/ and tests/), or of the code's own (`UpperCamel`, `call()`). In the
 comments of code and scripts: names of headers and of other files of the project, and `docs/page.md, "Section"`. That
 docs/formats.md has every key and attribute that is written. And that the picture of the floors is that of today.
@@ -139,7 +139,7 @@ class Checker:
 
 def main():
     checker = Checker()
-    pages = [f for f in checker.files if f in ("README.md", "CONTRIBUTING.md") or re.fullmatch(r"docs/[\w-]+\.md", f)]
+    pages = [f for f in checker.files if f in ("README.md", "CONTRIBUTING.md") or re.fullmatch(r"docs/(tasks/)?[\w-]+\.md", f)]
     for page in pages:
         checker.check_page(page)
     for path in checker.texts:
