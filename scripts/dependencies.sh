@@ -10,7 +10,9 @@ build_packages=(
     libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
     zlib1g-dev libdeflate-dev libpng-dev libhwy-dev libassimp-dev libjpeg-dev
     nlohmann-json3-dev)
-test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib)
+python_packages=(pybind11-dev python3-dev python3-numpy) # the Python module, beside build_packages
+test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib
+    "${python_packages[@]}" python3-pytest python3-scipy python3-openvdb python3-pip python3-venv mypy)
 clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report
 
 say() { printf '%s\n' "== $*" >&2; }

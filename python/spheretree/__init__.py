@@ -4,12 +4,12 @@
 >>> import numpy, spheretree
 >>> x, y, z = numpy.mgrid[-20:21, -20:21, -20:21]
 >>> torus = (numpy.hypot(x, y) - 13) ** 2 + z**2 < 25
->>> tree = spheretree.build(torus, spheres=[64, 16, 4], anisotropy=0.1, quality="fast")
+>>> tree = spheretree.build(torus, spheres=[32, 8], anisotropy=0.1, quality="fast")
 >>> tree
-<spheretree.Tree 'spheretree': 64, 16, 4 spheres on 3 levels>
+<spheretree.Tree 'spheretree': 32, 8 spheres on 2 levels>
 >>> finest = tree.levels[0]
 >>> finest.centers.shape, finest.radii.shape, finest.errors["missing"]
-((64, 3), (64,), 0)
+((32, 3), (32,), 0)
 >>> tree.save("torus.vdb")
 
 Volumes are arrays of numpy, which are read where they lie, files, or grids of pyopenvdb: see `volume()`. Errors are
