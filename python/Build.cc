@@ -144,15 +144,16 @@ TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::o
     });
 }
 
-std::vector<std::pair<std::string, std::string>> check(
-    const Tree& tree, const Volume& volume, const CallSettings& call)
+py::list check(const Tree& tree, const Volume& volume, const CallSettings& call)
 {
     const auto faults = resultOfCall(call, [&](Interrupter* interrupter) {
         return spheretree::checkSphereTree(tree.get(), *volume.object, interrupter);
     });
-    std::vector<std::pair<std::string, std::string>> texts;
-    for (const auto& fault : faults) texts.emplace_back(toString(fault.kind), fault.sentence);
-    return texts;
+    py::list pairs;
+    for (const auto& fault : faults) {
+        pairs.append(py::make_tuple(textOf(toString(fault.kind)), textOf(fault.sentence)));
+    }
+    return pairs;
 }
 
 /// The table, for whoever holds the keywords of build() against it.

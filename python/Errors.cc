@@ -27,7 +27,10 @@ std::string clipped(const std::exception& error)
     return std::string(openvdb_spheretree::detail::withoutType(what));
 }
 
-void raise(PyObject* kind, const std::string& message) { PyErr_SetString(kind, message.c_str()); }
+void raise(PyObject* kind, const std::string& message)
+{
+    PyErr_SetObject(kind, textOf(message).ptr());
+}
 
 bool endsWith(const std::string& text, const std::string& end)
 {
@@ -66,6 +69,13 @@ void translate(std::exception_ptr error)
 }
 
 } // namespace
+
+py::str textOf(const std::string& text)
+{
+    PyObject* const decoded = PyUnicode_DecodeUTF8(text.data(), Py_ssize_t(text.size()), "replace");
+    if (!decoded) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(decoded);
+}
 
 void bindErrors(py::module_& module)
 {

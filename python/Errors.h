@@ -15,6 +15,7 @@
 #include <pybind11/pybind11.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace binding {
 
@@ -23,6 +24,9 @@ class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// @return text for Python; what is no UTF-8, as in names of a damaged file, is replaced.
+pybind11::str textOf(const std::string& text);
 
 void bindErrors(pybind11::module_& module);
 

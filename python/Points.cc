@@ -9,6 +9,9 @@
 
 #include "files/VdbStream.h"
 
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Text.h>
+
 #include <openvdb/points/AttributeArrayString.h>
 #include <openvdb/points/AttributeGroup.h>
 #include <openvdb/points/PointDataGrid.h>
@@ -25,25 +28,51 @@ namespace py = pybind11;
 namespace binding {
 
 namespace points = openvdb::points;
+namespace spheretree = openvdb_spheretree::detail;
 using points::PointDataGrid;
 
 namespace {
 
 using Leaf = points::PointDataTree::LeafNodeType;
 
-/// The leaves of a grid, and where the points of each begin.
+/// The leaves of a grid, and where the points of each begin. All of them have the same attributes, of as
+/// many values as the leaf has points.
 struct PointLeaves {
     std::vector<const Leaf*> leaves;
     std::vector<std::size_t> begin;
 
+    /// @throw openvdb::Exception if leaves contradict themselves or each other: handles of OpenVDB would
+    ///        read behind their arrays
     explicit PointLeaves(const PointDataGrid& grid) : begin(1, 0)
     {
         for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+            leaf->validateOffsets();
             leaves.push_back(&*leaf);
             begin.push_back(begin.back() + std::size_t(leaf->getLastValue()));
+            requireLikeFirst(*leaf);
         }
+        // A file may say in a few bytes that many points have one value.
+        openvdb_spheretree::detail::requireMemory(
+            24.0 * double(size()), "the positions of its points", "split the grid");
     }
     py::ssize_t size() const { return py::ssize_t(begin.back()); }
+
+private:
+    void requireLikeFirst(const Leaf& leaf) const
+    {
+        const auto &own = leaf.attributeSet(), &first = leaves.front()->attributeSet();
+        bool isLike = own.descriptor() == first.descriptor() && own.size() == first.size();
+        for (std::size_t i = 0; isLike && i < own.size(); ++i) {
+            const auto &array = *own.getConst(i), &other = *first.getConst(i);
+            isLike = array.hasConstantStride() && other.hasConstantStride()
+                && array.stride() == other.stride();
+        }
+        if (isLike) return;
+        OPENVDB_THROW(openvdb::IoError,
+            "its points have attributes, or numbers of values, that differ from leaf to leaf, "
+            "which "
+            "is not read");
+    }
 };
 
 /// What a value of an attribute is in an array: numbers of one type, `kCount` of them.
@@ -114,11 +143,12 @@ py::array positionsOf(const PointDataGrid& grid, const PointLeaves& all)
     double* to = array.mutable_data();
     for (const Leaf* leaf : all.leaves) {
         const points::AttributeHandle<openvdb::Vec3f> handle(leaf->constAttributeArray("P"));
-        for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel) {
-            const openvdb::Vec3d center = voxel.getCoord().asVec3d();
-            for (auto point = leaf->beginIndexVoxel(voxel.getCoord()); point; ++point) {
+        openvdb::Index point = 0;
+        for (openvdb::Index n = 0; n < Leaf::SIZE; ++n) { // inactive ones too
+            const openvdb::Vec3d center = leaf->offsetToGlobalCoord(n).asVec3d();
+            for (const auto end = openvdb::Index(leaf->getValue(n)); point < end; ++point) {
                 const openvdb::Vec3d world =
-                    grid.transform().indexToWorld(center + openvdb::Vec3d(handle.get(*point)));
+                    grid.transform().indexToWorld(center + openvdb::Vec3d(handle.get(point)));
                 to = std::copy_n(world.asPointer(), 3, to);
             }
         }
@@ -133,7 +163,7 @@ py::list stringsOf(const PointLeaves& all, std::size_t attribute)
         const points::StringAttributeHandle handle(all.leaves[i]->constAttributeArray(attribute),
             all.leaves[i]->attributeSet().descriptor().getMetadata());
         const auto count = openvdb::Index(all.begin[i + 1] - all.begin[i]);
-        for (openvdb::Index n = 0; n < count; ++n) strings.append(py::str(handle.get(n)));
+        for (openvdb::Index n = 0; n < count; ++n) strings.append(textOf(handle.get(n)));
     }
     return strings;
 }
@@ -177,41 +207,25 @@ py::object arrayOf(
     return py::none();
 }
 
-/// Leaves may have sets of attributes of their own; those of one grid are alike in all files that we know.
-void requireLikeLeaves(const PointLeaves& all, const std::string& name)
-{
-    for (const Leaf* leaf : all.leaves) {
-        if (leaf->attributeSet().descriptor() == all.leaves.front()->attributeSet().descriptor())
-            continue;
-        OPENVDB_THROW(openvdb::IoError,
-            "grid '" << name << "' has leaves of different attributes, which are not read");
-    }
-}
-
 py::dict attributesOf(const PointDataGrid& grid)
 {
     const PointLeaves all(grid);
     py::dict arrays;
     if (all.leaves.empty()) return arrays;
-    requireLikeLeaves(all, grid.getName());
     const auto& set = all.leaves.front()->attributeSet();
     for (const auto& [name, position] : set.descriptor().map()) {
         const points::AttributeArray& array = *set.getConst(position);
         const std::string type = array.valueType();
         if (points::isGroup(array)) continue; // eight groups in one
         if (name == "P") arrays["P"] = positionsOf(grid, all);
-        else if (points::isString(array)) arrays[py::str(name)] = stringsOf(all, position);
-        else if (!array.hasConstantStride()) {
-            OPENVDB_THROW(openvdb::IoError,
-                "attribute '" << name << "' of grid '" << grid.getName()
-                              << "' has a number of values that differs from point to point");
-        } else {
+        else if (points::isString(array)) arrays[textOf(name)] = stringsOf(all, position);
+        else {
             const py::object values = arrayOf(all, position, type, array.stride());
-            if (!values.is_none()) arrays[py::str(name)] = values;
+            if (!values.is_none()) arrays[textOf(name)] = values;
         }
     }
     for (const auto& [name, index] : set.descriptor().groupMap()) {
-        arrays[py::str("group:" + name)] = groupOf(all, name);
+        arrays[textOf("group:" + name)] = groupOf(all, name);
     }
     return arrays;
 }
@@ -223,7 +237,14 @@ py::dict readPoints(const std::string& path, const py::object& progress)
     py::dict result;
     for (const auto& grid : grids) {
         const auto pointGrid = openvdb::gridPtrCast<PointDataGrid>(grid);
-        if (pointGrid) result[py::str(grid->getName())] = attributesOf(*pointGrid);
+        if (!pointGrid) continue;
+        try {
+            result[textOf(grid->getName())] = attributesOf(*pointGrid);
+        } catch (const openvdb::Exception& error) { // the file's fault
+            OPENVDB_THROW(openvdb::IoError,
+                path << ": points " << spheretree::inQuotes(grid->getName()) << ": "
+                     << spheretree::messageOf(error));
+        }
     }
     return result;
 }

@@ -320,11 +320,16 @@ void bindVolume(py::module_& module)
         .def_property_readonly("start", startOf)
         .def_property_readonly("matrix", matrixOf)
         .def_property_readonly(
-            "name", [](const Volume& volume) { return volume.object->getName(); })
+            "name", [](const Volume& volume) { return textOf(volume.object->getName()); })
         .def_property_readonly(
             "voxel_size", [](const Volume& volume) { return volume.object->voxelSize()[0]; })
         .def_readonly("flat", &Volume::flat)
-        .def_readonly("warnings", &Volume::warnings)
+        .def_property_readonly("warnings",
+            [](const Volume& volume) {
+                py::list texts;
+                for (const std::string& text : volume.warnings) texts.append(textOf(text));
+                return texts;
+            })
         .def("to_array", toArray)
         .def("coordinates", coordinatesOf);
     module.def("volume_of_array",

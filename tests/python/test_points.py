@@ -60,3 +60,28 @@ def test_a_file_without_points_gives_none(bone, tmp_path):
     grid.copyFromArray(bone)
     vdb.write(str(tmp_path / "bone.vdb"), grids=[grid])
     assert spheretree.read_points(tmp_path / "bone.vdb") == {}
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_damaged_points_are_refused_or_read_and_never_more(bone, tmp_path, seed):
+    random = np.random.default_rng(seed)
+    path = tmp_path / "points.vdb"
+    maker = os.environ.get("SPHERETREE_POINT_SAMPLE")
+    if seed % 2 and maker:
+        subprocess.run([maker, path], check=True)
+    else:
+        spheretree.build(bone, [32, 4]).save(path)
+    sound = path.read_bytes()
+    refused = 0
+    for _ in range(60):
+        stored = bytearray(sound)
+        for place in random.integers(0, len(stored), 1 + random.integers(3)):
+            stored[place] ^= 1 << random.integers(8)
+        path.write_bytes(stored[:random.integers(len(stored))] if random.random() < 0.1 else stored)
+        try:
+            for arrays in spheretree.read_points(path).values():
+                assert len({len(values) for values in arrays.values()}) <= 1
+        except OSError as error:
+            assert "points.vdb" in str(error)
+            refused += 1
+    assert refused
