@@ -2,8 +2,8 @@
 #include "LastWords.h"
 
 #include "Errors.h"
+#include "RememberedFiles.h"
 
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstring>
@@ -18,13 +18,10 @@ namespace {
 
 constexpr unsigned kPatience = 1; // seconds
 
-std::array<std::atomic<const char*>, 64> sFiles{};
 std::atomic<int> sUninterrupted{0};
 std::atomic<bool> sAllIsDone{false};
 std::atomic<bool> sMemoryWasRefused{false}; // once, to any thread
-static_assert(
-    std::atomic<const char*>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
-    "signal handlers read them");
+static_assert(std::atomic<int>::is_always_lock_free, "signal handlers read it");
 
 /// Plain system calls: streams may not be there yet, and a signal handler may call nothing else.
 [[noreturn]] void endWith(ExitCode code, const char* words)
@@ -37,9 +34,7 @@ static_assert(
     if (code != kInterrupted) say("error: ");
     say(words);
     say("\n");
-    for (const auto& file : sFiles) {
-        if (const char* const path = file.load()) unlink(path);
-    }
+    removeRememberedFiles();
     _exit(code);
 }
 
@@ -123,22 +118,6 @@ void startCountdown() noexcept { alarm(kPatience); }
 
 Uninterrupted::Uninterrupted() { ++sUninterrupted; }
 Uninterrupted::~Uninterrupted() { --sUninterrupted; }
-
-void rememberFile(const char* path) noexcept
-{
-    for (auto& file : sFiles) {
-        const char* none = nullptr;
-        if (file.compare_exchange_strong(none, path)) return;
-    }
-}
-
-void forgetFile(const char* path) noexcept
-{
-    for (auto& file : sFiles) {
-        const char* same = path;
-        if (file.compare_exchange_strong(same, nullptr)) return;
-    }
-}
 
 #ifdef __linux__
 // Run by the dynamic linker before the constructors of any library, which a function of this program

@@ -4,7 +4,7 @@
 /// can catch, an input file that was cut short after it had been mapped into memory, and a stop that
 /// was asked for and is overdue.
 ///
-/// It ends without unwinding, so temporary files that have a name are remembered here, and removed.
+/// It ends without unwinding, and then removes temporary files that have a name (RememberedFiles.h).
 
 #pragma once
 
@@ -34,13 +34,5 @@ public:
     Uninterrupted& operator=(const Uninterrupted&) = delete;
     ~Uninterrupted();
 };
-
-/// @name Files that are removed if the program ends so
-/// @{
-/// @param path  must stay where it is in memory until it is forgotten. There is room for 64; of more,
-///              the last are not remembered.
-void rememberFile(const char* path) noexcept;
-void forgetFile(const char* path) noexcept;
-/// @}
 
 } // namespace command

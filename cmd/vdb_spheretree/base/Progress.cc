@@ -4,8 +4,6 @@
 #include "LastWords.h"
 #include "Terminal.h"
 
-#include <openvdb_spheretree/base/Interrupted.h>
-
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -14,17 +12,12 @@ namespace command {
 
 namespace {
 
-// Read by all threads, so an atomic rather than a sig_atomic_t; one without a lock may be stored to
-// in a signal handler just as well.
-std::atomic<bool> sStop{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
 constexpr double kSoonest = 3; // seconds; before that nobody can say how long it will take
 
-void requestStop(int)
+void stopBySignal(int)
 {
     // By the first signal alone: more of them would put the end off.
-    if (!sStop.exchange(true)) startCountdown();
+    if (requestStop()) startCountdown();
 }
 
 int64_t ticks(std::chrono::steady_clock::time_point time)
@@ -51,7 +44,7 @@ std::string howFar(const ProgressState& state)
 void catchSignals()
 {
     struct sigaction action = {};
-    action.sa_handler = requestStop; // without SA_RESTART: a read that waits is to come back
+    action.sa_handler = stopBySignal; // without SA_RESTART: a read that waits is to come back
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
@@ -61,13 +54,6 @@ void catchSignals()
     endOverdueStops();
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
-}
-
-bool stopRequested() { return sStop.load(std::memory_order_relaxed); }
-
-void throwIfStopped()
-{
-    if (stopRequested()) throw openvdb_spheretree::Interrupted();
 }
 
 ProgressStyle ProgressStyle::ofStderr()

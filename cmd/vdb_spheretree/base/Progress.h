@@ -6,6 +6,7 @@
 #pragma once
 
 #include "ProgressShare.h"
+#include "Stop.h"
 
 #include <openvdb/util/NullInterrupter.h>
 
@@ -20,12 +21,6 @@ namespace command {
 /// end the program a second later if it has not stopped by then. A closed pipe and a full file become
 /// errors that are reported, not signals that kill.
 void catchSignals();
-
-/// @return whether a stop has been requested.
-bool stopRequested();
-
-/// @throw openvdb_spheretree::Interrupted if a stop has been requested
-void throwIfStopped();
 
 /// How progress is shown.
 struct ProgressStyle {

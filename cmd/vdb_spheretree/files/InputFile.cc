@@ -2,7 +2,7 @@
 #include "InputFile.h"
 
 #include "base/Errors.h"
-#include "base/Progress.h"
+#include "base/Stop.h"
 
 #include <cerrno>
 

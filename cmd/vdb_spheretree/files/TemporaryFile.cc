@@ -2,7 +2,7 @@
 #include "TemporaryFile.h"
 
 #include "base/Errors.h"
-#include "base/LastWords.h"
+#include "base/RememberedFiles.h"
 
 #include <cerrno>
 #include <cstdio>

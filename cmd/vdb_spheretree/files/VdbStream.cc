@@ -2,7 +2,7 @@
 #include "VdbStream.h"
 
 #include "base/Errors.h"
-#include "base/Progress.h"
+#include "base/Stop.h"
 #include "FdBuffer.h"
 #include "InputFile.h"
 #include "SpooledInput.h"

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file VolumeFile.cc
+/// @brief Files to volumes, by the steps that the command takes: -read, -mesh2ls, -resample, -mask.
+
+#include "Errors.h"
+#include "Volume.h"
+
+#include "files/VdbStream.h"
+#include "line/Plan.h"
+
+#include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/input/mesh/MeshFile.h>
+#include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
+#include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/solid/MeshSolid.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/topology/ObjectParts.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
+
+#include <openvdb/points/PointDataGrid.h>
+
+#include <algorithm>
+
+namespace binding {
+
+namespace spheretree = openvdb_spheretree;
+using openvdb::GridBase;
+using openvdb_spheretree::Coverage;
+using openvdb_spheretree::detail::inQuotes;
+using openvdb_spheretree::detail::shortNumber;
+
+namespace {
+
+bool asksFor(const ObjectRequest& request, const char* name)
+{
+    return std::count(request.given.begin(), request.given.end(), name) > 0;
+}
+
+/// A keyword that says nothing about this kind of grid would be passed over in silence.
+void requireRelevant(const ObjectRequest& request, const GridBase& grid)
+{
+    const bool levelSet = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+    const bool hasNumbers = !grid.isType<openvdb::BoolGrid>() && !grid.isType<openvdb::MaskGrid>()
+        && !grid.isType<openvdb::points::PointDataGrid>();
+    const std::string which = ", and " + inQuotes(grid.getName()) + " is none";
+    if (asksFor(request, "iso") && !levelSet) {
+        throw InputError("iso is for level sets" + which + (hasNumbers ? ": use threshold" : ""));
+    }
+    for (const char* name : {"threshold", "above", "below", "label"}) {
+        if (!asksFor(request, name) || (hasNumbers && !levelSet)) continue;
+        throw InputError(std::string(name) + " is for volumes of numbers that are no level sets"
+            + which + (levelSet ? ": use iso" : ""));
+    }
+    if (asksFor(request, "coverage") && !hasNumbers) {
+        throw InputError("coverage is for volumes of numbers and level sets" + which);
+    }
+}
+
+bool hasCubes(const GridBase& grid)
+{
+    try {
+        spheretree::requireUniformVoxels(grid);
+        return true;
+    } catch (const openvdb::ValueError&) {
+        return false;
+    }
+}
+
+GridBase::ConstPtr withCubes(const GridBase::ConstPtr& grid, const ObjectRequest& request,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    if (hasCubes(*grid) || !spheretree::isObjectGrid(*grid)) return grid;
+    const bool nearest = !request.settings.labels.empty();
+    return spheretree::resampled(*grid, spheretree::shortestVoxelEdge(*grid),
+        nearest ? spheretree::Sampling::Nearest : spheretree::Sampling::Linear, interrupter);
+}
+
+/// Grids of a sphere-tree are points, and so might be taken for an object.
+bool isOfTree(const GridBase& grid)
+{
+    if (spheretree::isSphereTree(grid)) return true;
+    const std::string name = grid.getName();
+    const auto stem = [&](const char* suffix) { return name.substr(0, name.rfind(suffix)); };
+    return spheretree::isDagOf(grid, stem("_dag")) || spheretree::isCutsOf(grid, stem("_cuts"));
+}
+
+std::string namesOf(const openvdb::GridPtrVec& grids)
+{
+    std::string names;
+    for (const auto& grid : grids) names += (names.empty() ? "" : ", ") + inQuotes(grid->getName());
+    return names;
+}
+
+GridBase::Ptr chosenGrid(
+    const openvdb::GridPtrVec& grids, const std::string& path, const std::string& name)
+{
+    openvdb::GridPtrVec suitable;
+    for (const auto& grid : grids) {
+        if (!name.empty() && grid->getName() != name) continue;
+        if (spheretree::isObjectGrid(*grid) && !isOfTree(*grid)) suitable.push_back(grid);
+    }
+    if (suitable.size() == 1) return suitable.front();
+    if (suitable.size() > 1) {
+        throw InputError(path + " holds several grids" + (name.empty() ? "" : " of that name")
+            + ": choose one of " + namesOf(grids) + " with grid=");
+    }
+    const bool isTree = std::any_of(grids.begin(), grids.end(),
+        [](const auto& grid) { return spheretree::isSphereTree(*grid); });
+    throw InputError(path + " holds no grid "
+        + (name.empty() ? "" : "named " + inQuotes(name) + " ") + "that bounds an object, but "
+        + namesOf(grids) + (isTree ? "; spheretree.load() reads sphere-trees" : ""));
+}
+
+void warnOfMesh(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& object,
+    Volume& volume, openvdb::util::NullInterrupter* interrupter)
+{
+    const std::string name = "mesh " + inQuotes(mesh.name);
+    const int64_t open = spheretree::openEdges(mesh, interrupter);
+    if (open > 0) {
+        volume.warnings.push_back(name + " is not closed (" + std::to_string(open)
+            + " open edges): where it is open by more than a voxel it has no inside; gap= closes "
+              "holes");
+    }
+    const auto missed = spheretree::missedSurface(mesh, object, interrupter);
+    if (missed.voxels == 0) return;
+    volume.warnings.push_back("the object of " + name + " lacks thin parts, by up to "
+        + shortNumber(missed.distance)
+        + " (world units): coverage=\"cubes\" takes every voxel that the mesh meets");
+}
+
+Volume volumeOfMesh(const std::string& path, const FileRequest& file, const ObjectRequest& request,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
+    const double voxel =
+        file.voxel ? *file.voxel : spheretree::voxelSizeForDim(mesh, file.resolution);
+    const Coverage coverage = request.settings.coverage;
+    Volume volume;
+    ObjectRequest rest = request; // of an object that is there
+    rest.settings = {};
+    if (file.gap || coverage != Coverage::Centers) {
+        for (const char* name : {"iso", "threshold", "above", "below", "label"}) {
+            if (asksFor(request, name))
+                throw InputError(std::string(name) + " is for volumes, not for meshes");
+        }
+        rest.given.clear();
+        spheretree::MeshSolidSettings settings;
+        settings.coverage = coverage == Coverage::Whole ? Coverage::Whole : Coverage::Cubes;
+        settings.gap = file.gap.value_or(0);
+        volume.object = objectOfGrid(
+            spheretree::meshToObject(mesh, voxel, settings, interrupter), rest, interrupter);
+    } else {
+        rest.settings.iso = request.settings.iso;
+        const auto levelSet = spheretree::meshToLevelSet(mesh, voxel, 3, interrupter);
+        levelSet->setName(mesh.name);
+        volume.object = objectOfGrid(levelSet, rest, interrupter);
+        warnOfMesh(mesh, *volume.object, volume, interrupter);
+    }
+    return volume;
+}
+
+} // namespace
+
+openvdb::BoolGrid::Ptr objectOfGrid(const GridBase::ConstPtr& grid, const ObjectRequest& request,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    requireRelevant(request, *grid);
+    auto object =
+        spheretree::objectOf(*withCubes(grid, request, interrupter), request.settings, interrupter);
+    if (request.largest) object = spheretree::largestPart(*object, interrupter);
+    if (request.fill) object = spheretree::filledCavities(*object, interrupter);
+    return object;
+}
+
+Volume volumeOfFile(const std::string& path, const FileRequest& file, const ObjectRequest& request,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const command::FileKind kind = command::fileKind(path);
+    Volume volume;
+    if (kind == command::FileKind::Vdb) {
+        volume.object =
+            objectOfGrid(chosenGrid(command::readVdb(path), path, file.grid), request, interrupter);
+    } else if (kind == command::FileKind::Vol) {
+        volume.object =
+            objectOfGrid(spheretree::readVolFile(path, interrupter), request, interrupter);
+    } else if (kind == command::FileKind::Mesh) {
+        volume = volumeOfMesh(path, file, request, interrupter);
+    } else {
+        throw InputError(path
+            + ": volumes are read from .vdb, .vol, .longvol and mesh files (.obj, .ply, .stl, .off "
+              "...); other formats as arrays");
+    }
+    volume.box = volume.object->evalActiveVoxelBoundingBox();
+    return volume;
+}
+
+} // namespace binding

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sphere-trees of volumes: ever fewer spheres that cover every voxel of an object.
+
+>>> import numpy, spheretree
+>>> x, y, z = numpy.mgrid[-20:21, -20:21, -20:21]
+>>> torus = (numpy.hypot(x, y) - 13) ** 2 + z**2 < 25
+>>> tree = spheretree.build(torus, spheres=[32, 8], anisotropy=0.1, quality="fast")
+>>> tree
+<spheretree.Tree 'spheretree': 32, 8 spheres on 2 levels>
+>>> finest = tree.levels[0]
+>>> finest.centers.shape, finest.radii.shape, finest.errors["missing"]
+((32, 3), (32,), 0)
+>>> tree.save("torus.vdb")
+
+Volumes are arrays of numpy, which are read where they lie, files, or grids of pyopenvdb: see `volume()`. Errors are
+exceptions: `InputError`, which is a ValueError, for arguments; OSError for files; MemoryError.
+"""
+
+from ._build import build
+from ._spheretree import InputError
+from ._spheretree import version as __version__
+from ._transforms import distance_transform, medial_axis, pyramid
+from ._tree import Fault, Level, Tree, check, load, read_points
+from ._volume import Volume, volume
+
+__all__ = [
+    "Fault", "InputError", "Level", "Tree", "Volume", "build", "check", "distance_transform", "load", "medial_axis",
+    "pyramid", "read_points", "volume", "__version__",
+]
+for _name in __all__:
+    if isinstance(globals()[_name], type) and issubclass(globals()[_name], (Tree, Volume, Level, Fault)):
+        globals()[_name].__module__ = __name__

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tests of the Python module share."""
+import os
+import pathlib
+import subprocess
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+
+def ball(radius, scale=(1, 1, 1)):
+    """A ball, or an ellipsoid, as an array of bool with a rim of one voxel."""
+    grid = np.mgrid[tuple(slice(-radius - 1, radius + 2) for _ in scale)]
+    return sum((axis * s) ** 2 for axis, s in zip(grid, scale)) < radius**2
+
+
+@pytest.fixture
+def bone():
+    """An object without any symmetry, of a shape that has three different sides."""
+    x, y, z = np.mgrid[:40, :24, :18]
+    shaft = (y - 9) ** 2 + (z - 8) ** 2 < 20 + 0.05 * (x - 18) ** 2
+    return shaft & (x > 3) & (x < 37) & (x + 2 * y + z > 18)
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Runs the command vdb_spheretree in a folder of the test's own."""
+    program = os.environ.get("VDB_SPHERETREE")
+    if not program:
+        pytest.skip("VDB_SPHERETREE does not name the command")
+
+    def run(*arguments):
+        subprocess.run([program, "-quiet", *map(str, arguments)], check=True, cwd=tmp_path)
+
+    return run
+
+
+def write_vol(path, values):
+    """An array of uint8 of shape (x, y, z) as a .vol file."""
+    x, y, z = values.shape
+    header = f"X: {x}\nY: {y}\nZ: {z}\nVoxel-Size: 1\nInt-Endian: 0123\nVersion: 2\n.\n"
+    path.write_bytes(header.encode() + values.astype(np.uint8).tobytes(order="F"))

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Long work: progress, Ctrl-C, other threads of Python."""
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+import spheretree
+from conftest import ball
+
+LONG = "import numpy, spheretree; v = numpy.indices((90,) * 3).sum(axis=0) % 7 < 4;"
+
+
+def test_progress_never_falls_and_ends_at_one():
+    seen = []
+    threads = set()
+
+    def progress(done, stage):
+        seen.append((done, stage))
+        threads.add(threading.get_ident())
+
+    spheretree.build(ball(40), [256, 64, 8], progress=progress)
+    fractions = [done for done, _ in seen]
+    assert fractions == sorted(fractions) and fractions[-1] == 1 and 0 <= fractions[0]
+    assert threads == {threading.get_ident()}
+    assert all(isinstance(stage, str) for _, stage in seen)
+
+
+def test_an_exception_of_progress_stops_the_work_and_comes_out():
+    class Enough(Exception):
+        pass
+
+    def progress(done, stage):
+        raise Enough(stage)
+
+    with pytest.raises(Enough):
+        spheretree.build(ball(60), [512, 64, 8], quality="best", progress=progress)
+    assert spheretree.build(ball(5), [1], progress=None)  # and all goes on
+
+
+@pytest.mark.parametrize("work", [
+    "spheretree.build(v, [4096, 512], quality='best')",
+    "spheretree.build(v, tree='extended', model='closing:20')",
+    "spheretree.build(v, [100], side='fit')",
+])
+def test_ctrl_c_is_a_keyboard_interrupt(work):
+    program = LONG + f"""
+print("begins", flush=True)
+try:
+    {work}
+except KeyboardInterrupt:
+    print("interrupted", spheretree.build(v[:9, :9, :9], [1]) is not None)
+"""
+    run = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert run.stdout.readline() == "begins\n"
+    time.sleep(0.3)
+    run.send_signal(signal.SIGINT)
+    assert run.communicate(timeout=60)[0] == "interrupted True\n" and run.returncode == 0
+
+
+def test_other_threads_of_python_go_on_meanwhile():
+    ticks = []
+    done = threading.Event()
+
+    def tick():
+        while not done.wait(0.005):
+            ticks.append(None)
+
+    other = threading.Thread(target=tick)
+    other.start()
+    begin = time.perf_counter()
+    spheretree.build(ball(40), [256, 64, 8])
+    seconds = time.perf_counter() - begin
+    done.set()
+    other.join()
+    assert len(ticks) > seconds / 0.5  # two a second: of 200, on a machine that is busy
+
+
+def test_several_threads_of_python_build_at_once(bone):
+    expected = spheretree.build(bone, [32, 4]).centers
+    results = [None] * 4
+
+    def work(i):
+        results[i] = spheretree.build(bone, [32, 4], progress=lambda done, stage: None).centers
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(len(results))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(result, expected) for result in results)
+
+
+def test_too_little_memory_is_said_and_python_lives_on(bone):
+    with pytest.raises(spheretree.InputError, match="memory"):
+        spheretree.build(np.ones((200, 200, 200), bool), [1000], memory="1MB")
+    assert spheretree.build(bone, [4])
