@@ -19,6 +19,7 @@ PYBIND11_MODULE(_spheretree, module)
     binding::bindVolume(module);
     binding::bindTree(module);
     binding::bindTreeFiles(module);
+    binding::bindTreeExport(module);
     binding::bindBuild(module);
     binding::bindTransforms(module);
     binding::bindPoints(module);

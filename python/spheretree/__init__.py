@@ -17,6 +17,7 @@ exceptions: `InputError`, which is a ValueError, for arguments; OSError for file
 """
 
 from ._build import build
+from ._export import ExportFormat, export, export_formats
 from ._spheretree import InputError
 from ._spheretree import version as __version__
 from ._transforms import distance_transform, medial_axis, pyramid
@@ -24,9 +25,9 @@ from ._tree import Fault, Level, Tree, check, load, read_points
 from ._volume import Volume, volume
 
 __all__ = [
-    "Fault", "InputError", "Level", "Tree", "Volume", "build", "check", "distance_transform", "load", "medial_axis",
-    "pyramid", "read_points", "volume", "__version__",
+    "ExportFormat", "Fault", "InputError", "Level", "Tree", "Volume", "build", "check", "distance_transform", "export",
+    "export_formats", "load", "medial_axis", "pyramid", "read_points", "volume", "__version__",
 ]
 for _name in __all__:
-    if isinstance(globals()[_name], type) and issubclass(globals()[_name], (Tree, Volume, Level, Fault)):
+    if isinstance(globals()[_name], type) and issubclass(globals()[_name], (Tree, Volume, Level, Fault, ExportFormat)):
         globals()[_name].__module__ = __name__

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TreeExport.cc
+/// @brief Sphere-trees to the files of other tools: the same bytes as the command writes.
+
+#include "Call.h"
+#include "Errors.h"
+#include "Tree.h"
+
+#include "files/AtomicFile.h"
+#include "line/Length.h"
+
+#include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/export/ExportTree.h>
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace binding {
+
+namespace spheretree = openvdb_spheretree;
+using spheretree::ExportFormat;
+using spheretree::ExportSettings;
+
+namespace {
+
+const ExportFormat& formatOf(const std::string& path, const std::string& name)
+{
+    const std::string extension = spheretree::detail::lowerExtension(path);
+    if (const ExportFormat* format = spheretree::findExportFormat(extension, name)) return *format;
+    std::string known;
+    for (const ExportFormat& format : spheretree::exportFormats()) {
+        for (const std::string& its : format.extensions) {
+            known += (known.empty() ? "" : ", ") + its
+                + (format.byExtension ? "" : " (format=\"" + format.name + "\")");
+        }
+    }
+    throw InputError(path + ": no file of another tool "
+        + (name.empty() ? "ends so" : "of format=\"" + name + "\" ends so") + "; those are "
+        + known);
+}
+
+template <typename Value>
+Value oneOf(const char* keyword, const std::string& word,
+    std::initializer_list<std::pair<const char*, Value>> choices)
+{
+    std::string known;
+    for (const auto& [name, value] : choices) {
+        if (word == name) return value;
+        known += (known.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    }
+    throw InputError(std::string(keyword) + "=\"" + word + "\" is none of " + known);
+}
+
+ExportSettings settingsOf(const py::dict& words)
+{
+    using Frame = spheretree::ExportFrame;
+    using Up = spheretree::UpAxis;
+    ExportSettings settings;
+    settings.level = words["level"].cast<std::optional<int>>();
+    settings.spheres = words["spheres"].cast<std::optional<int64_t>>();
+    settings.frame = oneOf<Frame>("frame", words["frame"].cast<std::string>(),
+        {{"world", Frame::World}, {"centroid", Frame::Centroid}, {"principal", Frame::Principal}});
+    settings.up = oneOf<Up>("up", words["up"].cast<std::string>(), {{"y", Up::Y}, {"z", Up::Z}});
+    const auto units = words["units"].cast<std::string>();
+    const auto metres = command::metresOfUnit(units);
+    if (!metres) throw InputError("units=\"" + units + "\" is no unit of length");
+    settings.metersPerUnit = *metres;
+    settings.scale = words["scale"].cast<double>() / *metres;
+    settings.density = words["density"].cast<double>();
+    settings.link = words["link"].cast<std::string>();
+    settings.name = words["name"].cast<std::string>();
+    settings.firstSample = words["start"].cast<double>();
+    return settings;
+}
+
+} // namespace
+
+void bindTreeExport(py::module_& module)
+{
+    module.def("export",
+        [](const std::vector<TreePtr>& trees, const std::string& path,
+            const std::string& formatName, const py::dict& words, const py::object& progress) {
+            const ExportFormat& format = formatOf(path, formatName);
+            const ExportSettings settings = settingsOf(words);
+            return resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
+                std::vector<const spheretree::SphereTree*> all;
+                for (const TreePtr& tree : trees) all.push_back(&tree->get());
+                std::vector<std::string> notes;
+                command::AtomicFile::checkTarget(path);
+                command::AtomicFile file(path);
+                file.write([&](std::iostream& out) {
+                    notes = spheretree::exportTrees(all, format, settings, out, interrupter);
+                });
+                if (!interrupter->wasInterrupted()) file.commit();
+                return notes;
+            });
+        });
+    module.def("export_formats", [] {
+        py::list rows;
+        for (const ExportFormat& format : spheretree::exportFormats()) {
+            rows.append(py::make_tuple(
+                format.name, format.extensions, format.byExtension, format.readers, format.keeps));
+        }
+        return rows;
+    });
+}
+
+} // namespace binding

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sphere-trees as files of other tools."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Optional
+
+from . import _spheretree
+from ._volume import Progress
+
+if TYPE_CHECKING:
+    from ._tree import Tree
+
+
+class ExportFormat(NamedTuple):
+    """A format that trees are exported to."""
+
+    name: str
+    """What `format` takes."""
+    extensions: list[str]
+    by_extension: bool
+    """Whether its extensions mean it without `format`."""
+    readers: str
+    """Tools that read it."""
+    keeps: str
+    """What of a tree it has room for."""
+
+
+def export_formats() -> list[ExportFormat]:
+    """All formats of `export()`.
+
+    >>> import spheretree
+    >>> [f.name for f in spheretree.export_formats() if ".urdf" in f.extensions]
+    ['urdf']
+    """
+    return [ExportFormat(*row) for row in _spheretree.export_formats()]
+
+
+def export(
+    trees: Tree | Sequence[Tree],
+    path: str | os.PathLike[str],
+    *,
+    format: str = "",
+    level: Optional[int] = None,
+    spheres: Optional[int] = None,
+    units: str = "m",
+    scale: float = 1.0,
+    frame: str = "world",
+    up: str = "y",
+    link: str = "object",
+    name: str = "",
+    density: float = 1000.0,
+    start: float = 1.0,
+    progress: Progress = None,
+) -> None:
+    """Write a tree as a file of another tool, with the same bytes as the command's -write.
+
+    What the format has no room for is a warning. The file is there whole or as it was before.
+
+    Parameters
+    ----------
+    trees
+        A tree; of USD also several, which are samples over time.
+    path
+        The extension says which format: `export_formats()` lists them.
+    format
+        Its name, where several have the extension.
+    level, spheres
+        The level to write, or the finest with at most so many spheres (of a tree with cuts, so many). Without
+        them: all levels, or the finest where there is room for one.
+    units
+        Of the numbers of the file, such as "mm"; the tree is in metres.
+    scale
+        Makes all larger.
+    frame
+        "world"; "centroid": around the center of mass of the spheres; "principal": turned to their principal
+        axes, too.
+    up
+        "y" or "z": which axis of the tree is up, for USD and glTF.
+    link, name
+        The link of a robot that the spheres belong to; the name of the robot, model or prim, by default that of
+        the tree.
+    density
+        Mass of a cubed unit of the file, for formats with a mass.
+    start
+        The time of the first of several trees.
+    progress
+        As for `build()`.
+
+    Raises
+    ------
+    InputError
+        The format cannot hold what is asked for.
+    OSError
+        The file cannot be written.
+
+    >>> import numpy, spheretree
+    >>> tree = spheretree.build(numpy.ones((9, 9, 9), bool), spheres=[8, 1], quality="fast")
+    >>> spheretree.export(tree, "cube.urdf", level=0, link="cube")
+    """
+    words = {
+        "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "up": up,
+        "link": link, "name": name, "density": float(density), "start": float(start),
+    }
+    several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
+    handles = [tree._handle for tree in several]
+    for note in _spheretree.export(handles, os.fsencode(path), format, words, progress):
+        warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
