@@ -107,6 +107,7 @@ const openvdb_spheretree::SphereTree& onlyTree(
 {
     const StackItem* tree = nullptr;
     for (const StackItem* item : items) {
+        if (item->emptyTree) return *item->emptyTree;
         if (!item->tree) continue;
         if (tree) throwInput(path + " holds one sphere-tree, and there are more: choose with vdb=");
         tree = item;
@@ -304,6 +305,7 @@ ActionSpec writeAction()
         flag("keep", false, "leave on the stack what is written")};
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
     action.givesOut = true;
+    action.writesEmpty = true;
     action.failure = kOutput;
     action.check = check;
     action.run = run;
