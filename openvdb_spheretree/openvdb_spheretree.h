@@ -7,8 +7,10 @@
 
 #pragma once
 
-// What long calls throw when they are interrupted, the time that stages take, and lists by row.
+// What long calls throw when they are interrupted, and what empty objects are refused by; the time that stages take,
+// and lists by row.
 #include "base/CompressedRows.h"
+#include "base/EmptyObject.h"
 #include "base/Interrupted.h"
 #include "base/StageSeconds.h"
 

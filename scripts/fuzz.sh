@@ -3,7 +3,7 @@
 # Builds the fuzz targets (clang, address and undefined-behaviour sanitizers) and runs them in turn.
 #
 #   scripts/fuzz.sh MINUTES [TARGET...]    minutes for each target; all of them, or those named:
-#                                          vdb vol longvol obj off ply stl csv json config line settings text
+#                                          vdb vol longvol obj off ply stl csv json config line settings text expression
 #
 # Inputs that found something new are kept in build/fuzz/corpus/TARGET, findings in
 # build/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
@@ -11,7 +11,7 @@
 set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
-all_targets=(vdb vol longvol obj off ply stl csv json config line settings text)
+all_targets=(vdb vol longvol obj off ply stl csv json config line settings text expression)
 most_findings=10 # of one target in one run: they are alike, as a rule
 
 usage() {
@@ -55,7 +55,7 @@ run_target() {
         if [ "$number" -ge "$most_findings" ]; then break; fi
     done
     local spent=$((SECONDS - start))
-    printf '%-9s %10d inputs in %5d s, %7d a second, %d findings\n' "$target" "$inputs" "$spent" \
+    printf '%-10s %10d inputs in %5d s, %7d a second, %d findings\n' "$target" "$inputs" "$spent" \
         $((inputs / (spent > 0 ? spent : 1))) "$number"
     if [ "$number" -gt 0 ]; then
         echo "  findings: $folder/findings/$target   reports: $folder/logs/$target.*.log"

@@ -27,8 +27,8 @@ int main(int argc, char* argv[])
         catchLostPages();
         openvdb::initialize();
         const std::vector<ActionCall> line = parseLine({argv + 1, argv + argc});
-        const Plan plan = checkLine(line);
-        Session(plan).run(line);
+        const Script script = scriptOf(line);
+        Session(script.plan).run(script);
         return kOk;
     } catch (...) {
         return reportError(std::current_exception());

@@ -4,6 +4,7 @@
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
+#include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
@@ -116,7 +117,7 @@ void requireRoomAround(
 Coord requireValidObject(const ObjectInfo& object, const SphereTreeSettings& settings)
 {
     if (object.voxels == 0) {
-        OPENVDB_THROW(openvdb::ValueError, "the object '" << object.name << "' has no voxels");
+        OPENVDB_THROW(EmptyObject, "the object '" << object.name << "' has no voxels");
     }
     Coord origin = pyramidOrigin(object.bbox); // refuses boxes that are too wide
     if (settings.dim == 2) requireFlat(object);

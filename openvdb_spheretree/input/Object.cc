@@ -11,6 +11,7 @@
 #include "LeafValues.h"
 #include "MeanOrder.h"
 #include "TrilinearCover.h"
+#include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/TextStream.h>
@@ -462,8 +463,8 @@ openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSetti
     grid.apply<ObjectGridTypes>(op);
     openvdb::tools::pruneInactive(*op.mask);
     if (op.mask->empty()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            detail::describe(grid) << " holds no object: it has " << op.criterion);
+        OPENVDB_THROW(
+            EmptyObject, detail::describe(grid) << " holds no object: it has " << op.criterion);
     }
 
     openvdb::BoolGrid::Ptr object =

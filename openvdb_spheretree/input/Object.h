@@ -48,7 +48,8 @@ struct ObjectSettings {
 /// mask all the same.
 /// Comparisons are exact, those of interpolated values too.
 /// @throw openvdb::TypeError if the grid is of a kind that bounds no object (vector, string grids)
-/// @throw openvdb::ValueError if the object is empty or unbounded, or voxels are not uniform, or
+/// @throw openvdb::ValueError (EmptyObject) if the object is empty
+/// @throw openvdb::ValueError if it is unbounded, or voxels are not uniform, or
 ///        settings contradict each other or the grid; the message names the grid
 /// @throw openvdb::IoError, openvdb::RuntimeError if values are left in a file that is damaged or
 ///        has changed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MeshSolid.h"
 
+#include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/TextStream.h>
@@ -105,7 +106,7 @@ openvdb::BoolGrid::Ptr meshToObject(const TriangleMesh& mesh, double voxelSize,
     if (isWhole) solid->topologyDifference(*surface);
     openvdb::tools::prune(*solid);
     if (solid->empty()) {
-        OPENVDB_THROW(openvdb::ValueError,
+        OPENVDB_THROW(EmptyObject,
             "no voxel of " << voxelSize << " lies wholly inside mesh '" << mesh.name
                            << "': use a smaller voxel");
     }

@@ -45,7 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size)
     if (!isThere || text.find_first_of(std::string("\0/", 2)) != text.npos) return 0;
     try {
         const auto line = command::parseLine(wordsOf(text));
-        command::checkLine(line);
+        command::scriptOf(line);
         for (const command::ActionCall& call : line) call.typed();
     } catch (const command::CommandError& error) {
         spheretree_test::require(error.code() == command::kUsage || error.code() == command::kInput

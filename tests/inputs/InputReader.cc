@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/input/vol/VolFile.h>
 
 #include <base/Errors.h>
+#include <expression/Expression.h>
 #include <line/ActionParser.h>
 #include <session/Session.h>
 
@@ -44,13 +45,27 @@ void readAsSpheres(const openvdb::GridBase& grid)
 
 } // namespace
 
+bool InputReader::evaluates(const std::string& text)
+{
+    command::Variables variables;
+    variables.set("i", "7");
+    try {
+        command::evaluate(text, variables, nullptr);
+    } catch (const command::NeedsStack&) { // which is not there
+    } catch (const command::CommandError& error) {
+        if (error.code() == command::kUsage) return false;
+        throw;
+    }
+    return true;
+}
+
 void InputReader::readVdb(bool delayed) const
 {
     const auto line =
         command::parseLine({"-quiet", "-read", mFile.path(), delayed ? "delayed=1" : "delayed=0"});
-    const command::Plan plan = command::checkLine(line);
-    command::Session session(plan);
-    session.run(line);
+    const command::Script script = command::scriptOf(line);
+    command::Session session(script.plan);
+    session.run(script);
     for (const auto& item : session.stack.items()) {
         if (!item->grid) continue;
         try {
@@ -64,6 +79,7 @@ void InputReader::readVdb(bool delayed) const
 
 bool InputReader::read(const std::string& bytes, bool delayed)
 {
+    if (mExtension == ".expression") return evaluates(bytes);
     mFile.set(bytes);
     const std::string& path = mFile.path();
     const bool isConfig = mExtension == ".cfg";

@@ -13,7 +13,8 @@ namespace spheretree_test {
 
 class InputReader {
 public:
-    /// @param extension  `.vdb`, `.vol`, `.longvol`, a mesh's, `.csv`, `.json`, or `.cfg` for a file of -config
+    /// @param extension  `.vdb`, `.vol`, `.longvol`, a mesh's, `.csv`, `.json`, `.cfg` for a file of -config, or
+    ///                   `.expression` for the value of an option, which is in no file
     explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}
 
     /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, and all values of
@@ -25,6 +26,7 @@ public:
     bool read(const std::string& bytes, bool delayed = false);
 
 private:
+    static bool evaluates(const std::string& text);
     void readVdb(bool delayed) const;
 
     std::string mExtension;

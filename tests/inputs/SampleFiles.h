@@ -11,8 +11,9 @@
 namespace spheretree_test {
 
 struct SampleFile {
-    std::string name;      ///< such as `tight_blosc`; no other sample has it
-    std::string extension; ///< with its dot; `.cfg` is a file of -config
+    std::string name; ///< such as `tight_blosc`; no other sample has it
+    std::string
+        extension; ///< with its dot; `.cfg` is a file of -config, `.expression` the value of an option
     /// Whether a part of the file is never a sound file: true of formats that say how much they hold.
     bool saysItsLength = true;
     std::string bytes;

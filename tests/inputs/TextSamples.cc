@@ -183,6 +183,12 @@ std::string config()
            "stats json=-\nwrite out.vdb codec=zip\n";
 }
 
+std::string expression()
+{
+    return "tree_{$i:4:pad0}_{1:@a:$a:2:+:3.5:*:sqrt:to_int}_{a b: :tokenize:swap:squash:upper}_"
+           "{$i:7:==:if(0:if(x?y)?z)}_{2:switch(1:p?2:q)}_{/d/f_012.vdb:base}_{1:G:set:G:get}";
+}
+
 } // namespace
 
 const std::vector<SampleMaker>& textSamples()
@@ -203,6 +209,7 @@ const std::vector<SampleMaker>& textSamples()
         {"spheres_json", ".json", spheresJson, false},
         {"spheres_rows", ".json", spheresRows, false},
         {"config", ".cfg", config, false},
+        {"expression", ".expression", expression, false},
     };
     return samples;
 }

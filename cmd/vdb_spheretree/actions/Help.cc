@@ -4,7 +4,7 @@
 
 #include "Help.h"
 
-#include "line/ActionParser.h"
+#include "base/DidYouMean.h"
 #include "line/Actions.h"
 #include "session/Session.h"
 
@@ -52,15 +52,14 @@ std::string docOf(const ActionSpec& action, const OptionSpec& option)
         doc += (i ? "|" : " [") + option.choices[i] + (i + 1 == option.choices.size() ? "]" : "");
     }
     if (!option.fallback.empty()) doc += " (default " + option.fallback + ")";
-    if (option.name == action.mainOption) doc += "; the name may be left out";
+    if (option.name == action.mainOption && !action.anyName) doc += "; the name may be left out";
     return doc;
 }
 
 void printBrief(std::ostream& out, const ActionSpec& action)
 {
     const std::string alias = action.alias.empty() ? "" : ",-" + action.alias;
-    out << padded("-" + action.name + alias, kIndent);
-    printWrapped(out, action.doc, kIndent);
+    printEntry(out, "-" + action.name + alias, action.doc);
 }
 
 void printAction(std::ostream& out, const ActionSpec& action)
@@ -83,8 +82,9 @@ void printGrammar(std::ostream& out)
            "Usage: vdb_spheretree -action [option=value ...] [-action ...]\n\n"
            "Actions run from left to right on a stack of grids, sphere-trees and meshes. An\n"
            "option may be shortened as long as that is unambiguous. Inputs are consumed\n"
-           "unless keep=1. Exit codes: 0 done, 2 usage, 3 input, 4 output, 5 interrupted,\n"
-           "6 a check failed.\n\n";
+           "unless keep=1. '{...}' in a value is an expression (-eval help='*' lists what\n"
+           "there is), and #### or %04d in a name is the number of the frame. Exit codes:\n"
+           "0 done, 2 usage, 3 input, 4 output, 5 interrupted, 6 a check failed.\n\n";
 }
 
 void checkHelp(const ActionCall& call, Plan&)
@@ -112,6 +112,12 @@ void runHelp(const ActionCall& call, Session& session)
 
 } // namespace
 
+void printEntry(std::ostream& out, const std::string& name, const std::string& doc)
+{
+    out << padded(name, kIndent);
+    printWrapped(out, doc, kIndent);
+}
+
 void printUsage(std::ostream& out)
 {
     out << "Usage: vdb_spheretree -action [option=value ...] [-action ...]\n"
@@ -123,6 +129,7 @@ ActionSpec helpAction()
 {
     ActionSpec action = smallAction("help", "explain all actions, or those that are named");
     action.alias = "h";
+    action.isLiteral = true;
     action.once = true;
     action.mainOption = "actions";
     action.options = {list("actions", "", "names of actions, without a dash"),
@@ -165,6 +172,12 @@ ActionSpec examplesAction()
             "A picture of level 1, and one of the object from the same place:\n"
             "  vdb_spheretree -read tree.vdb -write level1.png level=1\n"
             "  vdb_spheretree -read object.vdb -write object.png\n"
+            "Of each frame of a sequence, and of those whose numbers are named:\n"
+            "  vdb_spheretree -read smoke_####.vdb -spheretree -write tree_####.vdb\n"
+            "  vdb_spheretree -read smoke_####.vdb frames=1-25x2 -spheretree -write tree_####.vdb\n"
+            "Of each file of a folder, named after it:\n"
+            "  vdb_spheretree -files scans ext=vol -read '{$file}' -spheretree \\\n"
+            "      -write '{$file:name}.csv' -end\n"
             "Verify a stored tree against its object:\n"
             "  vdb_spheretree -read object.vdb -read tree.vdb -check\n"
             "Errors and timings for a program:\n"

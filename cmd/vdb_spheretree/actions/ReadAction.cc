@@ -332,6 +332,12 @@ ActionSpec readAction()
                           ".json; the extension says what they "
                           "are"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
+        text("frames", "",
+            "of a sequence, whose files have #### or %04d in their names: which frames, such as "
+            "1-25, "
+            "1-25x2 or 1,5,9-12; by default those that are there. All that follows is done for "
+            "each of "
+            "them"),
         flag("spheres", false,
             "take points of a .vdb with P and pscale (or radius) as spheres, not as an object"),
         integer("level", "", 0, 1000,

@@ -18,6 +18,7 @@
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -151,6 +152,27 @@ void runSpheretree(const ActionCall& call, Session& session)
         noteOnBudget(options->budget, *result.tree, session);
     }
     if (call.flag("errors")) computeErrors(result, session);
+    session.stack.beginBatch(call.label());
+    session.stack.push(result);
+}
+
+/// The tree of no object is a grid of points that has none, in the place of the newest grid.
+void runEmptySpheretree(const ActionCall& call, Session& session)
+{
+    const auto& items = session.stack.items();
+    const auto input = std::find_if(
+        items.rbegin(), items.rend(), [](const auto& item) { return bool(item->grid); });
+    auto tree = std::make_shared<SphereTree>();
+    tree->settings = settingsOf(call);
+    tree->transform = input == items.rend() ? openvdb::math::Transform::createLinearTransform()
+                                            : (*input)->grid->transform().copy();
+    const auto points = openvdb::points::PointDataGrid::create();
+    points->setName(tree->settings.name);
+    points->setTransform(tree->transform->copy());
+    StackItem result;
+    result.grid = points;
+    result.emptyTree = tree;
+    if (input != items.rend() && !call.flag("keep")) session.stack.drop(input->get());
     session.stack.beginBatch(call.label());
     session.stack.push(result);
 }
@@ -300,6 +322,7 @@ ActionSpec spheretreeAction()
     action.check = checkTreeOptions;
     action.work = longWorkOf;
     action.run = runSpheretree;
+    action.runEmpty = runEmptySpheretree;
     return action;
 }
 

@@ -82,6 +82,10 @@ std::vector<OptionSpec> spheretreeOptions()
         if (setting.name == "name") {
             options.push_back(
                 flag("errors", true, "count the exact error of every level, and store it"));
+            options.push_back(choice("empty", {"fail", "skip", "write"},
+                "where there is no voxel to make a tree of: an error; or what follows is not done; "
+                "or it "
+                "writes files without spheres"));
             options.push_back(vdbOption("the grid"));
             options.push_back(keepOption());
         }

@@ -114,6 +114,7 @@ const openvdb_spheretree::SphereTree& onlyTree(
 {
     const StackItem* tree = nullptr;
     for (const StackItem* item : items) {
+        if (item->emptyTree) return *item->emptyTree;
         if (!item->tree) continue;
         if (tree) throwInput(path + " holds one sphere-tree, and there are more: choose with vdb=");
         tree = item;
@@ -359,6 +360,7 @@ ActionSpec writeAction()
     for (const OptionSpec& option : exportOptions()) action.options.push_back(option);
     action.more = exportFormatDocs();
     action.givesOut = true;
+    action.writesEmpty = true;
     action.failure = kOutput;
     action.check = check;
     action.run = run;

@@ -90,10 +90,25 @@ Camera cameraOf(const ActionCall& call, const openvdb::CoordBBox& object,
     return cameraOf(call, spheretree::viewOf(object, transform, vectorOf(call, "up"), fov, aspect));
 }
 
+/// The background alone: a camera that turns its back on the only voxel.
+Picture pictureOfNothing(const ActionCall& call, Session& session)
+{
+    const auto object = openvdb::BoolGrid::create();
+    object->tree().setValueOn(openvdb::Coord(0), true);
+    Camera camera;
+    camera.eye = {0, 0, 10};
+    camera.lookAt = {0, 0, 20};
+    PictureSettings settings = settingsOf(call);
+    settings.color = PictureColor::Fixed;
+    return spheretree::renderObject(*object, camera, settings, &session.progress);
+}
+
 StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& path)
 {
     std::vector<StackItem*> trees, grids;
-    for (StackItem* item : items) (item->tree ? trees : grids).push_back(item);
+    for (StackItem* item : items) {
+        (item->tree || item->emptyTree ? trees : grids).push_back(item);
+    }
     const std::vector<StackItem*>& found = trees.empty() ? grids : trees;
     if (found.size() == 1) return *found.front();
     throwInput(path + " is a picture of one sphere-tree or object, and there are "
@@ -182,6 +197,7 @@ Picture pictureOf(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session)
 {
     StackItem& item = itemToDraw(items, path);
+    if (item.emptyTree) return pictureOfNothing(call, session);
     placeInObject(item, session); // so that it shares its view with the object's picture
     return item.tree ? pictureOfTree(call, *item.tree, session)
                      : pictureOfObject(call, item, session);

@@ -4,6 +4,7 @@
 #include "Terminal.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/base/Text.h>
 
@@ -50,10 +51,14 @@ void rethrowNamed(const std::string& where, ExitCode fallback)
 {
     try {
         throw;
+    } catch (const EmptyError& error) {
+        throw EmptyError(joined(where, error.what()));
     } catch (const CommandError& error) {
         throw CommandError(error.code(), joined(where, error.what()));
     } catch (const Interrupted&) {
         throw;
+    } catch (const openvdb_spheretree::EmptyObject& error) {
+        throw EmptyError(joined(where, openvdb_spheretree::detail::messageOf(error)));
     } catch (const openvdb::Exception& error) {
         // Clipped first: copying the whole of it could need gigabytes.
         const std::string what(error.what(), strnlen(error.what(), 1000));

@@ -33,6 +33,12 @@ private:
     ExitCode mCode;
 };
 
+/// There is no voxel to make anything of, which a frame of a sequence may well be: code kInput.
+class EmptyError : public CommandError {
+public:
+    explicit EmptyError(const std::string& message) : CommandError(kInput, message) {}
+};
+
 [[noreturn]] void throwUsage(const std::string& message);
 [[noreturn]] void throwInput(const std::string& message);
 [[noreturn]] void throwOutput(const std::string& message);

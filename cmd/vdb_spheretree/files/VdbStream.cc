@@ -160,7 +160,7 @@ openvdb::GridPtrVec readVdb(const std::string& path, Loading loading)
     openvdb::GridPtrVec grids;
     if (worthDelaying(path, loading)) grids = readDelayed(path);
     if (grids.empty()) grids = readWhole(path);
-    if (grids.empty()) throwInput(path + ": the file holds no grid");
+    if (grids.empty()) throw EmptyError(path + ": the file holds no grid");
     for (const auto& grid : grids) {
         throwIfStopped();
         checkVoxelCount(*grid, path);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Action.h"
 
+#include "expression/Expression.h"
+#include "expression/FrameName.h"
 #include "Length.h"
 
 #include <openvdb_spheretree/base/Text.h>
@@ -102,6 +104,11 @@ OptionSpec list(const std::string& name, const std::string& fallback, const std:
     return {name, OptionKind::List, fallback, doc};
 }
 
+OptionSpec words(const std::string& name, const std::string& doc)
+{
+    return {name, OptionKind::Words, "", doc};
+}
+
 OptionSpec flag(const std::string& name, bool fallback, const std::string& doc)
 {
     return {name, OptionKind::Flag, fallback ? "1" : "0", doc};
@@ -155,7 +162,7 @@ OptionSpec nameOption(const std::string& fallback, const std::string& doc)
 
 bool OptionSpec::isMeantBy(const std::string& prefix) const
 {
-    const size_t least = name == "name" ? 2 : 1;
+    const size_t least = name == "name" || name == "frames" ? 2 : 1;
     return prefix.size() >= least && name.compare(0, prefix.size(), prefix) == 0;
 }
 
@@ -180,17 +187,54 @@ std::string ActionCall::typed() const
     std::string line = label();
     for (const OptionSpec& option : mSpec->options) {
         if (!given(option.name)) continue;
-        const bool isMain = option.name == mSpec->mainOption;
+        const bool isMain = option.name == mSpec->mainOption || mSpec->anyName;
         line += " " + (isMain ? "" : option.name + "=") + text(option.name);
     }
     return oneLine(line, 120);
 }
 
-void ActionCall::appendToList(const std::string& option, const std::string& value)
+bool isOpen(const ActionSpec& action, const OptionSpec& option, const std::string& typed)
 {
-    std::vector<std::string>& items = mValues[option];
+    const bool isName = option.kind == OptionKind::Text || option.kind == OptionKind::List;
+    if (action.isLiteral || !(hasExpression(typed) || (isName && hasFrame(typed)))) return false;
     std::error_code ignored;
-    if (std::filesystem::exists(value, ignored)) {
+    return !isName || !std::filesystem::exists(typed, ignored);
+}
+
+void ActionCall::give(const OptionSpec& option, const std::string& typed)
+{
+    const bool open = command::isOpen(*mSpec, option, typed);
+    mGiven.push_back({&option, typed, open});
+    if (open) {
+        mIsOpen = true;
+        mValues[option.name].push_back(typed);
+        return;
+    }
+    try {
+        setValue(option, typed);
+    } catch (...) {
+        rethrowNamed(label(), kUsage);
+    }
+}
+
+ActionCall ActionCall::evaluated(const Evaluate& evaluate) const
+{
+    ActionCall call(*mSpec);
+    call.mOrigin = mOrigin;
+    for (const Given& one : mGiven) {
+        call.setValue(*one.option, one.isOpen ? evaluate(*one.option, one.typed) : one.typed);
+    }
+    return call;
+}
+
+/// Splits that of a list at its commas, unless it names a file that exists.
+void ActionCall::setValue(const OptionSpec& option, const std::string& value)
+{
+    checkValue(option, value);
+    std::vector<std::string>& items = mValues[option.name];
+    std::error_code ignored;
+    const bool isOne = option.kind != OptionKind::List || std::filesystem::exists(value, ignored);
+    if (isOne) {
         items.push_back(value);
         return;
     }
@@ -258,22 +302,21 @@ std::optional<std::array<double, 3>> parseVector(const std::string& typed)
     return numbers;
 }
 
-void checkValue(const ActionSpec& action, const OptionSpec& option, const std::string& value)
+void checkValue(const OptionSpec& option, const std::string& value)
 {
-    const std::string where = "-" + action.name + ": ";
-    if (value.empty()) throwUsage(where + "option " + option.name + " has no value");
+    if (option.kind == OptionKind::Words) return;
+    if (value.empty()) throwUsage("option " + option.name + " has no value");
     const bool emptyItem =
         value.front() == ',' || value.back() == ',' || value.find(",,") != std::string::npos;
     if (option.kind == OptionKind::List && emptyItem) {
-        throwUsage(where + "an item of " + option.name + "=" + value + " is empty");
+        throwUsage("an item of " + option.name + "=" + value + " is empty");
     }
     if (option.kind == OptionKind::Choice && !isAllowed(option, value)) {
-        throwUsage(
-            where + option.name + "=" + value + " is unknown: it takes " + allowedText(option));
+        throwUsage(option.name + "=" + value + " is unknown: it takes " + allowedText(option));
     }
     if (!isAllowed(option, value)) {
-        throwUsage(where + option.name + "=" + value
-            + " is out of range or not understood: " + "it takes " + allowedText(option));
+        throwUsage(option.name + "=" + value + " is out of range or not understood: " + "it takes "
+            + allowedText(option));
     }
 }
 

@@ -1,38 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ActionParser.h"
 
+#include "base/DidYouMean.h"
 #include "ConfigFile.h"
+#include "Defaults.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 
 namespace command {
 
 namespace {
-
-/// Number of characters to insert, delete or replace to turn one word into the other (Levenshtein,
-/// one row of the table at a time).
-size_t editDistance(const std::string& a, const std::string& b)
-{
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t(0));
-    for (size_t i = 1; i <= a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); ++j) {
-            const size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-bool startsWith(const std::string& text, const std::string& prefix)
-{
-    return text.compare(0, prefix.size(), prefix) == 0;
-}
 
 std::string joined(const std::vector<std::string>& words)
 {
@@ -110,9 +88,7 @@ void addOption(ActionCall& call, const std::string& token, size_t equals)
     if (call.given(option.name)) {
         throwUsage(call.label() + ": option " + option.name + " is given more than once");
     }
-    checkValue(call.spec(), option, value);
-    if (option.kind == OptionKind::List) call.appendToList(option.name, value);
-    else call.set(option.name, value);
+    call.give(option, value);
 }
 
 void addMain(ActionCall& call, const std::string& token)
@@ -124,6 +100,7 @@ void addMain(ActionCall& call, const std::string& token)
             + (spec.options.empty() ? "no options" : "only options of the form name=value"));
     }
     const OptionSpec& option = *spec.option(spec.mainOption);
+    if (isOpen(spec, option, token) && !call.given(option.name)) return call.give(option, token);
     const bool isNumber = token.find_first_not_of("0123456789,") == std::string::npos;
     if (isNumber && option.kind == OptionKind::Choice && !spec.numberOption.empty()) {
         throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
@@ -133,16 +110,12 @@ void addMain(ActionCall& call, const std::string& token)
         throwUsage(
             call.label() + ": '" + token + "' is an option: give it a value, " + token + "=...");
     }
-    checkValue(spec, option, token);
-    if (option.kind == OptionKind::List) {
-        call.appendToList(option.name, token);
-        return;
-    }
-    if (call.given(option.name)) {
+    const bool takesMany = option.kind == OptionKind::List || option.kind == OptionKind::Words;
+    if (!takesMany && call.given(option.name)) {
         throwUsage(
             call.label() + ": '" + token + "' gives option " + option.name + " more than once");
     }
-    call.set(option.name, token);
+    call.give(option, token);
 }
 
 /// Checks the order of the actions.
@@ -188,6 +161,20 @@ const ActionSpec& actionOfFirstWord(const std::string& word)
                   : "to read a file: -read " + word));
 }
 
+void addToken(ActionCall& call, const std::string& token)
+{
+    const ActionSpec& spec = call.spec();
+    const size_t equals = token.find_first_of("={"); // an expression may hold ==
+    const bool isNamed = equals != std::string::npos && token[equals] == '=';
+    if (isNamed && spec.anyName) {
+        call.give(spec.options.front(), token);
+    } else if (!isNamed || isFileNotOption(spec, token, equals)) {
+        addMain(call, token);
+    } else {
+        addOption(call, token, equals);
+    }
+}
+
 std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
 {
     std::vector<ActionCall> calls;
@@ -201,12 +188,7 @@ std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
             calls.emplace_back(actionOfFirstWord(token));
             continue;
         }
-        const size_t equals = token.find('=');
-        if (equals == std::string::npos || isFileNotOption(calls.back().spec(), token, equals)) {
-            addMain(calls.back(), token);
-        } else {
-            addOption(calls.back(), token, equals);
-        }
+        addToken(calls.back(), token);
     }
     return calls;
 }
@@ -222,7 +204,7 @@ std::vector<ActionCall> callsOfFile(const std::string& path, int depth, size_t& 
         const std::string where = "-config " + path + ", line " + std::to_string(line.number);
         try {
             std::vector<ActionCall> own = callsOf(line.words);
-            for (ActionCall& call : own) call.setOrigin(where + ": ");
+            for (ActionCall& call : own) call.addOrigin(where + ": ");
             const auto inner = withConfigFiles(own, depth + 1, bytesInAll);
             calls.insert(calls.end(), inner.begin(), inner.end());
         } catch (...) {
@@ -255,21 +237,10 @@ std::vector<ActionCall> withConfigFiles(
 
 } // namespace
 
-std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates)
-{
-    std::vector<std::string> near;
-    const size_t enough = std::max<size_t>(1, word.size() / 3);
-    for (const std::string& candidate : candidates) {
-        const bool continues = word.size() > 2 && startsWith(candidate, word);
-        if (continues || editDistance(word, candidate) <= enough) near.push_back(candidate);
-    }
-    return near.empty() ? "" : " (did you mean " + joined(near) + "?)";
-}
-
 std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
 {
     size_t bytesInConfigFiles = 0;
-    const auto calls = withConfigFiles(callsOf(tokens), 0, bytesInConfigFiles);
+    const auto calls = withDefaults(withConfigFiles(callsOf(tokens), 0, bytesInConfigFiles));
     checkOrder(calls);
     return calls;
 }

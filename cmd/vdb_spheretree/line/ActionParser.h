@@ -22,7 +22,4 @@ namespace command {
 /// @throw CommandError (usage; or input, where a file of -config cannot be read)
 std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens);
 
-/// @return " (did you mean ...?)" with the candidates similar to @a word; empty if there are none.
-std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
-
 } // namespace command

@@ -10,8 +10,10 @@ const std::vector<ActionSpec>& actionTable()
     static const std::vector<ActionSpec> table = {readAction(), generateAction(), mesh2lsAction(),
         resampleAction(), maskAction(), spheretreeAction(), statsAction(), checkAction(),
         levelAction(), spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(),
-        configAction(), clearAction(), threadsAction(), quietAction(), verboseAction(),
-        debugAction(), helpAction(), versionAction(), examplesAction()};
+        forAction(), eachAction(), filesAction(), ifAction(), endAction(), onerrorAction(),
+        evalAction(), defaultAction(), configAction(), clearAction(), threadsAction(),
+        quietAction(), verboseAction(), debugAction(), helpAction(), versionAction(),
+        examplesAction()};
     return table;
 }
 

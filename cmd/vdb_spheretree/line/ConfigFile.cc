@@ -114,6 +114,7 @@ ActionSpec configAction()
     ActionSpec action = smallAction(
         "config", "run the actions in a file, one a line, dashes left out or not, # for comments");
     action.alias = "c";
+    action.isLiteral = true;
     action.mainOption = "files";
     action.options = {list("files", "", "files of actions")};
     return action; // the parser puts the actions of the files in its place

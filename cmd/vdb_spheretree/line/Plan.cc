@@ -141,7 +141,11 @@ void Plan::addInput(const std::string& path)
     }
     const std::string target = absolute(AtomicFile::targetOf(path));
     const bool willBeWritten = mOutputs.count(target) > 0;
-    if (!willBeWritten) checkReadable(path);
+    std::error_code ignored;
+    const bool isMissing = !willBeWritten && !std::filesystem::exists(path, ignored);
+    if (!mFrame.empty()) ++mFrameInputs;
+    if (!mFrame.empty() && isMissing) mMissing.push_back(path);
+    else if (!willBeWritten) checkReadable(path);
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:
@@ -165,8 +169,30 @@ void Plan::addOutput(const std::string& path)
         return;
     }
     const std::string target = absolute(AtomicFile::targetOf(path));
-    if (!mOutputs.insert(target).second) throwUsage(path + " is written more than once");
+    const auto [output, isNew] = mOutputs.emplace(target, mFrame);
+    if (!isNew && output->second != mFrame && !mFrame.empty()) {
+        const std::string other = output->second.empty() ? "an action before" : output->second;
+        throwUsage(path + " would be written by " + other + " and by " + mFrame
+            + ": put what tells them apart into its name, such as tree_####.vdb or 'tree_{$i}.vdb' "
+              "(in single quotes)");
+    }
+    if (!isNew) throwUsage(path + " is written more than once");
     AtomicFile::checkTarget(path);
+}
+
+void Plan::requireInputs() const
+{
+    if (mMissing.empty()) return;
+    constexpr size_t kNamed = 12;
+    std::string names;
+    for (size_t i = 0; i < std::min(kNamed, mMissing.size()); ++i) {
+        names += (i ? ", " : "") + mMissing[i];
+    }
+    if (mMissing.size() > kNamed) {
+        names += " and " + std::to_string(mMissing.size() - kNamed) + " more";
+    }
+    throwInput(std::to_string(mMissing.size()) + " of the " + std::to_string(mFrameInputs)
+        + " files that loops read are not there: " + names);
 }
 
 } // namespace command

@@ -5,9 +5,12 @@
 
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace command {
 
@@ -33,6 +36,12 @@ public:
     /// @throw CommandError (output or usage)
     void addOutput(const std::string& path);
 
+    /// @brief What is added from now on belongs to a frame of a loop; or to none, if @a frame is empty. Inputs of
+    /// frames that are not there are kept until requireInputs(): all of them are worth knowing.
+    void setFrame(const std::string& frame) { mFrame = frame; }
+    /// @throw CommandError (input) that names those that are not there
+    void requireInputs() const;
+
     /// @param metres  whether what comes from a source is in metres: said by units= of -read
     void addWorldUnit(bool metres);
     /// @param typed  a length, as the value of @a option
@@ -46,7 +55,14 @@ public:
     bool replacesInput(const std::string& path) const;
 
 private:
-    std::set<std::string> mInputs, mOutputs; ///< absolute paths, as far as they can be resolved
+    /// @name Absolute paths, as far as they can be resolved
+    /// @{
+    std::set<std::string> mInputs;
+    std::map<std::string, std::string> mOutputs; ///< and the frame of each
+    /// @}
+    std::string mFrame;
+    std::vector<std::string> mMissing; ///< inputs of frames
+    size_t mFrameInputs = 0;
     bool mStdinTaken = false, mStdoutTaken = false;
     std::optional<bool> mAllMetres; ///< nothing before the first source
 };

@@ -3,6 +3,7 @@
 
 #include "base/LastWords.h"
 #include "base/Terminal.h"
+#include "ScriptRunner.h"
 
 #include <tbb/global_control.h>
 
@@ -10,60 +11,33 @@
 #include <cerrno>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace command {
 
-Plan checkLine(const std::vector<ActionCall>& line)
+void Session::run(const Script& script)
 {
-    Plan plan;
-    for (const ActionCall& call : line) {
-        try {
-            for (const OptionSpec& option : call.spec().options) {
-                if (option.kind != OptionKind::Length || !call.given(option.name)) continue;
-                plan.requireKnownUnit(option.name, call.text(option.name));
-            }
-            if (call.spec().check) call.spec().check(call, plan);
-        } catch (...) {
-            rethrowNamed(call.where(), kUsage);
-        }
-    }
-    return plan;
-}
-
-namespace {
-
-/// @param call  one of @a line
-bool isGivenOut(const ActionCall& call, const std::vector<ActionCall>& line)
-{
-    const ActionCall* const end = line.data() + line.size();
-    return std::any_of(&call, end, [](const ActionCall& later) { return later.spec().givesOut; });
-}
-
-} // namespace
-
-void Session::run(const std::vector<ActionCall>& line)
-{
-    for (const ActionCall& call : line) {
-        throwIfStopped();
-        mIsLast = &call == &line.back();
-        if (call.spec().isForLater && !isGivenOut(call, line)) {
-            note("nothing of " + call.label()
-                + " will be kept: no -write, -stats, -check or -print " + "comes after it");
-        }
-        runOne(call);
-    }
+    ScriptRunner(*this).run(script.steps);
     noteAllIsDone();
+}
+
+Session::InFrame::InFrame(Session& session, const std::string& label)
+    : mSession(session), mBefore(std::exchange(session.mFrame, label))
+{
+    session.seconds = {};
+    session.total = {};
 }
 
 void Session::runOne(const ActionCall& call)
 {
     const Stopwatch watch;
     const bool silent = call.spec().quiet || verbosity == Verbosity::Quiet;
+    const std::string typed = inFrame(call.typed());
     const auto finish = [&](bool complete) {
         if (!silent) progress.endAction(complete);
     };
     if (!silent) {
-        progress.beginAction(call.typed(), call.spec().work ? call.spec().work(call) : LongWork());
+        progress.beginAction(typed, call.spec().work ? call.spec().work(call) : LongWork());
     }
     try {
         call.spec().run(call, *this);
@@ -73,9 +47,8 @@ void Session::runOne(const ActionCall& call)
         rethrowNamed(call.where(), call.spec().failure);
     }
     finish(true);
-    if (silent) return;
-    std::cerr << call.typed() << " ... completed in " << prettySeconds(watch.seconds())
-              << std::endl;
+    if (silent || (!mFrame.empty() && verbosity < Verbosity::Verbose)) return; // a line a frame
+    std::cerr << typed << " ... completed in " << prettySeconds(watch.seconds()) << std::endl;
 }
 
 void Session::noteIfUnverified(const StackItem& item)
@@ -113,10 +86,16 @@ void Session::print(const std::string& text, std::ostream& out)
     mReaderIsGone = true;
 }
 
+void Session::tellInterrupted(const std::string& frame, const std::string& done)
+{
+    if (std::exchange(mToldInterrupted, true)) return;
+    say(Verbosity::Quiet, "vdb_spheretree: ", frame + " is interrupted, and " + done);
+}
+
 void Session::warn(const std::string& line)
 {
     say(Verbosity::Quiet, "vdb_spheretree: " + coloured(std::cerr, Colour::Yellow, "warning: "),
-        line);
+        inFrame(line));
 }
 
 void Session::say(Verbosity least, const std::string& start, const std::string& line)

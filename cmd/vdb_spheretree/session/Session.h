@@ -8,6 +8,7 @@
 #include "files/InputStamp.h"
 #include "line/Action.h"
 #include "line/Plan.h"
+#include "script/Script.h"
 #include "Stack.h"
 
 #include <openvdb_spheretree/base/StageSeconds.h>
@@ -32,12 +33,28 @@ enum class Verbosity { Quiet, Normal, Verbose, Debug };
 struct Session {
     explicit Session(const Plan& linePlan) : plan(linePlan) {}
 
-    /// @throw CommandError, Interrupted: by the first action that fails
-    void run(const std::vector<ActionCall>& line);
+    /// @throw CommandError, Interrupted
+    void run(const Script& script);
+    /// @throw CommandError that names the action, Interrupted
+    void runOne(const ActionCall& call);
 
     /// @return whether the running action is the last of the line, so that nothing will need the
     ///         stack after it.
     bool isLastAction() const { return mIsLast; }
+    void setIsLast(bool isLast) { mIsLast = isLast; }
+
+    /// While a frame runs: actions are shown with its name, and times count from its begin.
+    class InFrame {
+    public:
+        InFrame(Session& session, const std::string& label);
+        ~InFrame() { mSession.mFrame = mBefore; }
+        InFrame(const InFrame&) = delete;
+        InFrame& operator=(const InFrame&) = delete;
+
+    private:
+        Session& mSession;
+        std::string mBefore;
+    };
 
     /// Has parallel work take so many threads at most, until the program ends.
     void limitThreads(size_t count);
@@ -55,31 +72,39 @@ struct Session {
     /// Prints a line on stderr if -verbose or -debug has been given.
     void remark(const std::string& line) { say(Verbosity::Verbose, "    ", line); }
     /// Prints a line on stderr unless -quiet has been given.
-    void note(const std::string& line) { say(Verbosity::Normal, "vdb_spheretree: note: ", line); }
+    void tell(const std::string& line) { say(Verbosity::Normal, "", line); }
+    /// The same as a note.
+    void note(const std::string& line)
+    {
+        say(Verbosity::Normal, "vdb_spheretree: note: ", inFrame(line));
+    }
     /// Notes that nobody can tell whether a tree is whole, if that is so.
     void noteIfUnverified(const StackItem& item);
+    /// Says once in which frame Ctrl-C came, with -quiet too.
+    void tellInterrupted(const std::string& frame, const std::string& done);
     /// As a note, for what may be a mistake; with -quiet, too.
     void warn(const std::string& line);
 
-    const Plan& plan;
+    Plan plan;
     Stack stack;
     Progress progress;
     Verbosity verbosity = Verbosity::Normal;
+    bool stopsAtErrors = false; ///< of frames (-onerror)
     /// Files whose values may not all be in memory yet.
     std::vector<InputStamp> inputs;
     Stopwatch total;
     StageSeconds seconds;
 
 private:
-    void runOne(const ActionCall& call);
+    std::string inFrame(const std::string& line) const
+    {
+        return mFrame.empty() ? line : mFrame + ": " + line;
+    }
     /// @param least  the verbosity from which on the line is printed
     void say(Verbosity least, const std::string& start, const std::string& line);
 
-    bool mReaderIsGone = false, mIsLast = false;
+    bool mReaderIsGone = false, mIsLast = false, mToldInterrupted = false;
+    std::string mFrame; ///< empty outside of loops
 };
-
-/// @brief Check everything that can be checked before any work.
-/// @throw CommandError
-Plan checkLine(const std::vector<ActionCall>& line);
 
 } // namespace command

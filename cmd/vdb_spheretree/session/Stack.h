@@ -33,6 +33,8 @@ struct StackItem {
     /// That a tree was built from; null if not known.
     openvdb::SharedPtr<const openvdb::BoolGrid> object = {};
     std::string source = {}; ///< the file or action that it comes from
+    /// The tree of no object: without levels, and `grid` is its points, of which there are none.
+    std::shared_ptr<openvdb_spheretree::SphereTree> emptyTree = {};
     bool unverified = false; ///< a tree of a file without a checksum
     int batch = 0;           ///< the same number for all items of one action
     bool written = false;    ///< to be dropped when the next item arrives

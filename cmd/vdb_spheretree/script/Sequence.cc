@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Sequence.h"
+
+#include "base/Errors.h"
+#include "expression/Expression.h"
+#include "expression/FrameName.h"
+
+#include <algorithm>
+
+namespace command {
+
+namespace {
+
+/// @return the first of several names, commas between, that has a place for a number.
+std::optional<std::string> firstWithFrame(const std::string& names)
+{
+    for (size_t begin = 0; begin < names.size();) {
+        const size_t end = std::min(names.find(',', begin), names.size());
+        const std::string name = names.substr(begin, end - begin);
+        if (hasFrame(name)) return name;
+        begin = end + 1;
+    }
+    return {};
+}
+
+std::string gapsIn(const std::vector<int64_t>& frames, const std::string& name)
+{
+    const auto there = int64_t(frames.size());
+    const int64_t missing = frames.back() - frames.front() + 1 - there;
+    if (missing == 0) return "";
+    return "of " + oneLine(name, 200) + " there are the frames " + oneLine(rangeOfFrames(frames))
+        + "; " + std::to_string(missing) + " in between " + (missing == 1 ? "is" : "are")
+        + " not there";
+}
+
+} // namespace
+
+std::optional<std::string> sequenceName(const ActionCall& call, const Variables& variables)
+{
+    if (!call.spec().isSource || !call.isOpen()) return {};
+    for (const auto& one : call.given()) {
+        if (!one.isOpen || one.option->name != "files") continue;
+        Variables own = variables; // nothing is stored yet
+        try {
+            const auto name = firstWithFrame(evaluate(one.typed, own, nullptr));
+            if (name) return name;
+        } catch (const NeedsStack&) { // a name that will come from the stack
+        }
+    }
+    return {};
+}
+
+SequenceFrames framesOfSequence(
+    const ActionCall& call, const std::string& name, const Variables& variables)
+{
+    for (const auto& one : call.given()) {
+        if (one.option->name != "frames") continue;
+        Variables own = variables;
+        return {framesOfRange(evaluate(one.typed, own, nullptr)), ""};
+    }
+    const auto frames = framesOnDisk(name);
+    if (frames.empty()) {
+        throwInput("no file is named like " + oneLine(name, 200) + ", with a number for its frame");
+    }
+    return {frames, gapsIn(frames, name)};
+}
+
+} // namespace command

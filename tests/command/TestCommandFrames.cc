@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequences: a frame after the other, what is there of one that fails or has no object, and what is found
+// before any work.
+
+#include "CommandRunner.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
+
+#include <algorithm>
+
+#include <sys/stat.h>
+
+namespace {
+
+using command_test::CommandTest;
+using command_test::readText;
+using command_test::Result;
+
+class CommandFrames : public CommandTest {
+protected:
+    /// Balls of radius @a frame, and an empty grid where the frame is @a empty.
+    void writeFrames(const std::vector<int>& frames, int empty = -1) const
+    {
+        for (const int frame : frames) {
+            auto grid = sphereGrid("density", float(frame));
+            if (frame == empty) grid->clear();
+            writeGrids(nameOf("smoke", frame, "vdb"), {grid});
+        }
+    }
+
+    static std::string nameOf(const std::string& name, int frame, const std::string& extension)
+    {
+        const std::string digits = std::to_string(frame);
+        return name + "_" + std::string(4 - digits.size(), '0') + digits + "." + extension;
+    }
+
+    bool existAll(const std::string& name, const std::vector<int>& frames,
+        const std::string& extension = "vdb") const
+    {
+        return std::all_of(frames.begin(), frames.end(),
+            [&](int frame) { return exists(nameOf(name, frame, extension)); });
+    }
+};
+
+bool holds(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+TEST_F(CommandFrames, ASequenceIsDoneFrameByFrameWithoutALoop)
+{
+    writeFrames({8, 9, 10});
+    const Result result =
+        run("-read smoke_####.vdb -spheretree spheres=8 -write tree_####.vdb tree_%04d.csv");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(existAll("tree", {8, 9, 10}));
+    EXPECT_TRUE(existAll("tree", {8, 9, 10}, "csv"));
+    EXPECT_TRUE(holds(result.err, "frame=9 (2 of 3): tree of ")) << result.err;
+}
+
+TEST_F(CommandFrames, FramesGiveTheBytesThatTheyGiveAlone)
+{
+    writeFrames({8, 10});
+    ASSERT_EQ(run("-read smoke_####.vdb -spheretree spheres=8 -write tree_####.csv").exitCode, 0);
+    ASSERT_EQ(run("-read smoke_0010.vdb -spheretree spheres=8 -write alone.csv").exitCode, 0);
+    EXPECT_EQ(readText(path("tree_0010.csv")), readText(path("alone.csv")));
+    EXPECT_NE(readText(path("tree_0008.csv")), readText(path("alone.csv")));
+}
+
+TEST_F(CommandFrames, ALoopHasTheNumberOfItsFrameInNames)
+{
+    writeFrames({8, 9, 10});
+    const Result result = run("-for n=8,11,2 -read smoke_%04d.vdb -spheretree spheres=8 "
+                              "-write {$n:2:pad0}_####.csv -end");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(exists("08_0008.csv"));
+    EXPECT_TRUE(exists("10_0010.csv"));
+    EXPECT_FALSE(exists("09_0009.csv"));
+}
+
+TEST_F(CommandFrames, TheInnermostNumberCounts)
+{
+    const Result result =
+        run("-for n=1,3 -each s=a,b -generate ball voxels=1e4 -write {$s}_##.vdb -end -end");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(
+        exists("a_01.vdb") && exists("b_01.vdb") && exists("a_02.vdb") && exists("b_02.vdb"));
+}
+
+TEST_F(CommandFrames, FramesMayBeChosen)
+{
+    writeFrames({8, 9, 10, 11});
+    const Result result =
+        run("-read smoke_####.vdb frames=8-10x2,11 -spheretree spheres=1 -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(existAll("tree", {8, 10, 11}));
+    EXPECT_FALSE(exists("tree_0009.vdb"));
+}
+
+TEST_F(CommandFrames, AGapIsNoted)
+{
+    writeFrames({8, 9, 12});
+    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_TRUE(holds(result.err, "the frames 8, 9, 12; 2 in between are not there")) << result.err;
+}
+
+TEST_F(CommandFrames, AllMissingFramesAreNamedBeforeAnyWork)
+{
+    writeFrames({8, 9});
+    for (const char* line : {"-read smoke_####.vdb frames=7-11 -spheretree -write tree_####.vdb",
+             "-for i=7,12 -read smoke_####.vdb -spheretree -write tree_####.vdb -end"}) {
+        const Result result = run(line);
+        EXPECT_EQ(result.exitCode, 3) << line;
+        EXPECT_TRUE(holds(result.err,
+            "3 of the 5 files that loops read are not there: smoke_0007.vdb, "
+            "smoke_0010.vdb, smoke_0011.vdb"))
+            << result.err;
+        EXPECT_FALSE(existAll("tree", {8})) << line;
+    }
+}
+
+TEST_F(CommandFrames, AFileThatAnEarlierFrameWritesIsNotMissing)
+{
+    const Result result = run("-generate ball voxels=1e4 -write f_00.vdb "
+                              "-for i=0,3 -read f_##.vdb -write f_{$i:1:+:2:pad0}.vdb -end");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(exists("f_03.vdb"));
+}
+
+TEST_F(CommandFrames, TwoFramesToOneFileAreRefusedBeforeAnyWork)
+{
+    writeFrames({8, 9});
+    const Result result = run("-read smoke_####.vdb -spheretree -write tree.vdb");
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(holds(result.err, "tree.vdb would be written by frame=8 and by frame=9"))
+        << result.err;
+    EXPECT_FALSE(exists("tree.vdb"));
+}
+
+TEST_F(CommandFrames, AFrameThatFailsIsNamedAndTheOthersAreThere)
+{
+    writeFrames({8, 9, 10});
+    command_test::writeText(path("smoke_0009.vdb"), "no grid");
+    const std::string line = "-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb";
+    const Result result = run(line);
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(existAll("tree", {8, 10}));
+    EXPECT_FALSE(exists("tree_0009.vdb"));
+    EXPECT_TRUE(
+        holds(result.err, "1 of 3 frames failed, 2 are done: frame=9: -read: smoke_0009.vdb"))
+        << result.err;
+}
+
+TEST_F(CommandFrames, AFailureMayEndTheLoop)
+{
+    writeFrames({8, 9, 10});
+    command_test::writeText(path("smoke_0009.vdb"), "no grid");
+    const Result result =
+        run("-onerror stop -read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(existAll("tree", {8}));
+    EXPECT_FALSE(exists("tree_0010.vdb"));
+    EXPECT_TRUE(holds(result.err, "(of 3 frames 1 is done)")) << result.err;
+}
+
+TEST_F(CommandFrames, NothingAfterALoopIsDoneIfAFrameHasFailed)
+{
+    writeFrames({8, 9});
+    command_test::writeText(path("smoke_0009.vdb"), "no grid");
+    const Result result = run("-for i=8,10 -read smoke_####.vdb -end -write all.vdb");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_FALSE(exists("all.vdb"));
+}
+
+TEST_F(CommandFrames, ACheckThatFailsIsAFailureOfItsFrame)
+{
+    writeFrames({8, 9, 10});
+    ASSERT_EQ(run("-read smoke_0009.vdb -spheretree spheres=4 -write other.csv").exitCode, 0);
+    const Result result =
+        run("-for i=8,11 -read smoke_####.vdb other.csv -check -write ok_####.vdb -end");
+    EXPECT_EQ(result.exitCode, 6) << result.err;
+    EXPECT_TRUE(exists("ok_0009.vdb"));
+    EXPECT_FALSE(exists("ok_0010.vdb"));
+}
+
+TEST_F(CommandFrames, AnEmptyFrameFailsOrIsSkippedOrWritten)
+{
+    writeFrames({8, 9, 10}, 9);
+    const std::string line = "-read smoke_####.vdb -spheretree spheres=4 empty=";
+    const Result fail = run(line + "fail -write fail_####.vdb");
+    EXPECT_EQ(fail.exitCode, 3);
+    EXPECT_TRUE(holds(fail.err, "1 of 3 frames failed")) << fail.err;
+
+    const Result skip = run(line + "skip -write skip_####.vdb");
+    EXPECT_EQ(skip.exitCode, 0) << skip.err;
+    EXPECT_TRUE(existAll("skip", {8, 10}));
+    EXPECT_FALSE(exists("skip_0009.vdb"));
+    EXPECT_TRUE(holds(skip.err, "frame=9 (2 of 3): skipped: ")) << skip.err;
+
+    const Result write = run(line
+        + "write -stats json={$frame}.json -write e_####.vdb e_####.csv e_####.json e_####.png "
+          "width=32");
+    EXPECT_EQ(write.exitCode, 0) << write.err;
+    EXPECT_TRUE(existAll("e", {8, 9, 10}) && existAll("e", {8, 9, 10}, "png"));
+    const std::string table = readText(path("e_0009.csv"));
+    EXPECT_EQ(table.find("level,id,parent"), 0u);
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1);
+    EXPECT_TRUE(holds(readText(path("e_0009.json")), "\"levels\": []"));
+    EXPECT_FALSE(exists("9.json")); // there is nothing to tell
+    const command_test::Grids grids = readGrids("e_0009.vdb");
+    ASSERT_EQ(grids.size(), 1u);
+    EXPECT_TRUE(grids[0]->isType<openvdb::points::PointDataGrid>());
+    EXPECT_EQ(grids[0]->getName(), "spheretree");
+    EXPECT_EQ(grids[0]->activeVoxelCount(), 0u);
+    EXPECT_EQ(grids[0]->voxelSize(), readGrids("smoke_0009.vdb")[0]->voxelSize());
+}
+
+TEST_F(CommandFrames, WhatIsFoundEmptyBeforeTheTreeIsEmptyToo)
+{
+    writeFrames({8, 9}, 9);
+    for (const char* before : {"-mask", "-mask cover=1"}) {
+        const Result result = run("-read smoke_####.vdb " + std::string(before)
+            + " -spheretree spheres=4 empty=write -write e_####.csv");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_TRUE(existAll("e", {8, 9}, "csv")) << before;
+    }
+}
+
+TEST_F(CommandFrames, AFileWithoutAnyGridIsAnEmptyFrame)
+{
+    writeFrames({8});
+    writeGrids("smoke_0009.vdb", {});
+    for (const char* read : {"-read smoke_####.vdb", "-read smoke_####.vdb grids=density"}) {
+        const Result result =
+            run(std::string(read) + " -spheretree spheres=4 empty=write -write e_####.csv");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_TRUE(existAll("e", {8, 9}, "csv")) << read;
+    }
+}
+
+TEST_F(CommandFrames, AnEmptyObjectWithoutALoopMayBeSkipped)
+{
+    writeFrames({9}, 9);
+    const Result result = run("-read smoke_0009.vdb -spheretree empty=skip -write tree.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(holds(result.err, "nothing more is done (empty=skip)")) << result.err;
+    EXPECT_FALSE(exists("tree.vdb"));
+}
+
+TEST_F(CommandFrames, OtherVoxelsAreWarnedOf)
+{
+    writeFrames({8, 9});
+    auto grid = sphereGrid("density", 10);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+    writeGrids("smoke_0010.vdb", {grid});
+    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_TRUE(holds(result.err, "warning: frame=10 (3 of 3): voxels are of 0.25")) << result.err;
+    EXPECT_FALSE(holds(result.err, "frame=9 (2 of 3): voxels")) << result.err;
+}
+
+TEST_F(CommandFrames, QuietSaysNothingOfFrames)
+{
+    writeFrames({8, 12, 13}, 12);
+    const Result result =
+        run("-quiet -read smoke_####.vdb -spheretree spheres=1 empty=skip -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out, "");
+}
+
+TEST_F(CommandFrames, VerboseHasALineForEachAction)
+{
+    writeFrames({8});
+    const std::string line = "-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb";
+    EXPECT_FALSE(holds(run(line).err, "completed"));
+    EXPECT_TRUE(holds(
+        run("-verbose " + line).err, "frame=8 (1 of 1): -spheretree spheres=1 ... completed"));
+}
+
+TEST_F(CommandFrames, CtrlCLeavesTheFramesThatAreDone)
+{
+    writeFrames({8});
+    const std::string fifo = path("smoke_0009.vdb");
+    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0); // nobody writes: the frame waits
+    auto running = start(
+        command_test::split("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb"));
+    ASSERT_TRUE(running.waitForError("frame=8 (1 of 2): "));
+    running.send(SIGINT);
+    const Result result = running.wait();
+    EXPECT_EQ(result.exitCode, 5);
+    EXPECT_TRUE(holds(result.err, "frame=9 (2 of 2) is interrupted, and 1 is done")) << result.err;
+    EXPECT_TRUE(exists("tree_0008.vdb"));
+    EXPECT_FALSE(exists("tree_0009.vdb"));
+}
+
+TEST_F(CommandFrames, AFullDiskEndsTheLoop)
+{
+    writeFrames({8, 9});
+    std::filesystem::create_directory(path("tree_0008.csv"));
+    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.csv");
+    EXPECT_EQ(result.exitCode, 4);
+    EXPECT_FALSE(exists("tree_0009.csv")); // and before any work, where that is known
+}
+
+TEST_F(CommandFrames, AnInputOfAFrameThatIsDoneMayChange)
+{
+    writeFrames({8, 9});
+    const Result result =
+        run("-for i=8,10 -read smoke_####.vdb delayed=1 -write smoke_0008.vdb keep=1 -clear -end");
+    EXPECT_EQ(result.exitCode, 2) << result.err; // two frames to one file
+    const Result other = run("-read smoke_####.vdb delayed=1 -spheretree spheres=1 "
+                             "-write smoke_####.vdb");
+    EXPECT_EQ(other.exitCode, 0) << other.err;
+}
+
+TEST_F(CommandFrames, TimesOfStatsCountFromTheBeginOfTheFrame)
+{
+    writeFrames({8, 9});
+    const Result result =
+        run("-read smoke_####.vdb -spheretree spheres=1 -stats json=s_{$frame}.json "
+            "-write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(exists("s_8.json") && exists("s_9.json"));
+}
+
+struct BadFrames {
+    const char* name;
+    const char* line;
+    int exitCode;
+    const char* message;
+};
+
+void PrintTo(const BadFrames& bad, std::ostream* out) { *out << bad.line; }
+
+class CommandBadFrames : public CommandFrames, public testing::WithParamInterface<BadFrames> {};
+
+TEST_P(CommandBadFrames, AreRefusedBeforeAnyWork)
+{
+    writeFrames({8, 9});
+    const auto before = files();
+    const Result result = run(GetParam().line);
+    EXPECT_EQ(result.exitCode, GetParam().exitCode) << result.err;
+    EXPECT_TRUE(holds(result.err, GetParam().message)) << result.err;
+    EXPECT_EQ(files(), before);
+}
+
+const BadFrames kBadFrames[] = {
+    {"NoSuchSequence", "-read fog_####.vdb -spheretree -write t_####.vdb", 3,
+        "no file is named like fog_####.vdb"},
+    {"FramesWithoutAPlace", "-read smoke_0008.vdb frames=1-3 -spheretree -write t.vdb", 2,
+        "frames= is for a sequence"},
+    {"FramesInALoop", "-for i=8,9 -read smoke_####.vdb frames=8 -write t.vdb -end", 2,
+        "frames= is for a sequence"},
+    {"ARangeThatIsNone", "-read smoke_####.vdb frames=8..9 -write t_####.vdb", 2,
+        "frames=8..9 is not understood: it takes ranges such as 1-25"},
+    {"ARangeBackwards", "-read smoke_####.vdb frames=9-8 -write t_####.vdb", 2, "not understood"},
+    {"AFrameTwice", "-read smoke_####.vdb frames=8,8-9 -write t_####.vdb", 2,
+        "names a frame twice"},
+    {"TooManyFrames", "-read smoke_####.vdb frames=1-1e9 -write t_####.vdb", 2, "not understood"},
+    {"FarTooManyFrames", "-read smoke_####.vdb frames=1-1000000000 -write t_####.vdb", 2,
+        "has more than 100000 frames"},
+    {"FramesThatNobodyKnowsYet", "-read smoke_####.vdb frames={gridCount} -write t_####.vdb", 2,
+        "frames= must be known before any work"},
+    {"ANameWithoutAFrame", "-read smoke_0008.vdb -spheretree -write t_####.vdb", 2,
+        "t_####.vdb has a place for a frame number, and there is none"},
+    {"NoIntegerInTheLoop", "-each s=a,b -read smoke_0008.vdb -write {$s}_##.vdb -end", 2,
+        "there is none"},
+    {"ALoopWithoutEnd", "-for i=8,10 -read smoke_####.vdb -write t_####.vdb", 2,
+        "-for has no -end"},
+    {"StdoutForEachFrame", "-read smoke_####.vdb -spheretree -write stdout.csv", 2,
+        "two outputs go to stdout"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Frames, CommandBadFrames, testing::ValuesIn(kBadFrames),
+    [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
