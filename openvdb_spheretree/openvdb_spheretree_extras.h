@@ -5,11 +5,13 @@
 
 #pragma once
 
+#include "input/array/NumberType.h"
 #include "input/mesh/MeshFile.h"
 #include "input/mesh/MeshLevelSet.h"
 #include "input/shapes/GeneratedObject.h"
 #include "input/vdb/VdbGrids.h"
 #include "input/vol/VolFile.h"
+#include "input/volume/VolumeFile.h"
 #include "picture/Camera.h"
 #include "picture/Picture.h"
 #include "picture/SpherePicture.h"

@@ -13,7 +13,7 @@ namespace spheretree_test {
 
 class InputReader {
 public:
-    /// @param extension  `.vdb`, `.vol`, `.longvol`, a mesh's, `.csv`, `.json`, or `.cfg` for a file of -config
+    /// @param extension  `.vdb`, `.vol`, `.longvol`, another volume's, a mesh's, `.csv`, `.json`, or `.cfg` for a file of -config
     explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}
 
     /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, and all values of

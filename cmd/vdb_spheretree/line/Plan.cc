@@ -9,6 +9,7 @@
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,6 +20,10 @@
 #include <unistd.h>
 
 namespace command {
+
+using openvdb_spheretree::isStackName;
+using openvdb_spheretree::isVolumeFileName;
+using openvdb_spheretree::stackFiles;
 
 namespace {
 
@@ -39,25 +44,26 @@ bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Pictures, and arrays of bytes that do not say their size: assimp would take some of them for
-/// meshes, and find none.
+/// Pictures and volumes that are not read: assimp would take some of them for meshes, and find none.
 bool isArray(const std::string& path)
 {
     return isOneOf(extensionOf(path),
-        {".raw", ".bin", ".dat", ".npy", ".npz", ".nii", ".gz", ".nrrd", ".mha", ".mhd", ".dcm",
-            ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".png"});
+        {".bin", ".dat", ".npz", ".gz", ".mha", ".mhd", ".dcm", ".hdr", ".img", ".tif", ".tiff",
+            ".jpg", ".jpeg", ".bmp", ".ppm", ".pbm", ".gif"});
 }
 
 [[noreturn]] void refuseToRead(const std::string& path)
 {
     const std::string kinds =
-        "it reads .vdb, .vol, .longvol and meshes (.obj, .ply, .stl, .off ...) and "
-        "spheres (.csv, .json), by their extension";
+        "it reads .vdb, volumes (.vol, .longvol, .npy, .raw, .nrrd, .nii, .nii.gz), gray pictures "
+        "(.png, .pgm), meshes (.obj, .ply, .stl, .off ...) and spheres (.csv, .json), by their "
+        "extension";
     if (isArray(path)) {
-        throwInput("cannot read " + path + ": pictures and plain arrays of values are not read; "
-            + "make a .vdb of it first (pyopenvdb does so with an array), or a .vol, which is a "
-              "few "
-              "lines of text before the bytes; "
+        throwInput("cannot read " + path
+            + ": pictures and arrays of this kind are not read; make a "
+              ".png or .pgm of pictures first (ImageMagick's convert does), and a .nrrd, .nii or "
+              ".npy "
+              "of volumes, or read bytes that you know as a .raw with shape= and type=; "
             + kinds);
     }
     throwInput("cannot read " + path + ": files of this kind are not read; " + kinds);
@@ -68,8 +74,9 @@ bool isArray(const std::string& path)
 bool isStdin(const std::string& path)
 {
     return path.rfind("stdin.", 0) == 0
-        && isOneOf(extensionOf(path),
-            {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl", ".csv", ".json"});
+        && (isVolumeFileName(path)
+            || isOneOf(extensionOf(path),
+                {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl", ".csv", ".json"}));
 }
 
 bool isStdout(const std::string& path)
@@ -114,6 +121,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
+    if (isVolumeFileName(path)) return FileKind::Volume;
     if (isArray(path)) return FileKind::Unknown;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
     return FileKind::Unknown;
@@ -127,9 +135,23 @@ void Plan::addInput(const std::string& path)
         mStdinTaken = true;
         return;
     }
+    if (!isStackName(path)) return addFile(path);
+    try {
+        for (const std::string& slice : stackFiles(path)) addFile(slice);
+    } catch (const openvdb::IoError& error) {
+        throwInput(openvdb_spheretree::detail::messageOf(error));
+    }
+}
+
+void Plan::addFile(const std::string& path)
+{
     const std::string target = absolute(AtomicFile::targetOf(path));
     const bool willBeWritten = mOutputs.count(target) > 0;
     if (!willBeWritten) checkReadable(path);
+    if (isVolumeFileName(path)) {
+        mInputs.insert(target);
+        return;
+    }
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:

@@ -11,12 +11,12 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Jpeg, Unknown };
+enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);
 
-/// By the extension, in upper or lower case.
+/// By the extension, in upper or lower case. (A .png may be read, too: as a volume.)
 FileKind fileKind(const std::string& path);
 inline bool isPicture(FileKind kind) { return kind == FileKind::Png || kind == FileKind::Jpeg; }
 
@@ -46,6 +46,8 @@ public:
     bool replacesInput(const std::string& path) const;
 
 private:
+    void addFile(const std::string& path);
+
     std::set<std::string> mInputs, mOutputs; ///< absolute paths, as far as they can be resolved
     bool mStdinTaken = false, mStdoutTaken = false;
     std::optional<bool> mAllMetres; ///< nothing before the first source
