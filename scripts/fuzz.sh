@@ -3,7 +3,8 @@
 # Builds the fuzz targets (clang, address and undefined-behaviour sanitizers) and runs them in turn.
 #
 #   scripts/fuzz.sh MINUTES [TARGET...]    minutes for each target; all of them, or those named:
-#                                          vdb vol longvol obj off ply stl csv json config line settings text expression
+#                                          vdb vol longvol npy nrrd nii png pgm obj off ply stl csv json
+#                                          config line settings text expression
 #
 # Inputs that found something new are kept in build/fuzz/corpus/TARGET, findings in
 # build/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
@@ -11,11 +12,11 @@
 set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
-all_targets=(vdb vol longvol obj off ply stl csv json config line settings text expression)
+all_targets=(vdb vol longvol npy nrrd nii png pgm obj off ply stl csv json config line settings text expression)
 most_findings=10 # of one target in one run: they are alike, as a rule
 
 usage() {
-    sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit "$1"
 }
 

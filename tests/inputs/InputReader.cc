@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 
 #include <base/Errors.h>
 #include <expression/Expression.h>
@@ -20,9 +21,11 @@ namespace spheretree_test {
 
 using openvdb_spheretree::isSphereFileName;
 using openvdb_spheretree::isVolFileName;
+using openvdb_spheretree::isVolumeFileName;
 using openvdb_spheretree::readMeshFile;
 using openvdb_spheretree::readSphereFile;
 using openvdb_spheretree::readVolFile;
+using openvdb_spheretree::readVolumeFile;
 
 namespace {
 
@@ -41,6 +44,15 @@ void readAsSpheres(const openvdb::GridBase& grid)
     try {
         openvdb_spheretree::spheresOfPoints(grid);
     } catch (const openvdb::ValueError&) {}
+}
+
+/// Of a .raw, which says nothing of its numbers, those of the sample.
+openvdb_spheretree::VolumeSettings volumeSettings()
+{
+    openvdb_spheretree::VolumeSettings settings;
+    settings.shape = {9, 5, 10};
+    settings.type = openvdb_spheretree::NumberType::UInt16;
+    return settings;
 }
 
 } // namespace
@@ -87,6 +99,7 @@ bool InputReader::read(const std::string& bytes, bool delayed)
         if (mExtension == ".vdb") readVdb(delayed);
         else if (isConfig) command::parseLine({"-config", path});
         else if (isVolFileName(path)) readVolFile(path);
+        else if (isVolumeFileName(path)) readVolumeFile(path, volumeSettings());
         else if (isSphereFileName(path)) readSphereFile(path);
         else readMeshFile(path);
         return true;

@@ -10,7 +10,7 @@ namespace {
 std::vector<SampleMaker> allSamples()
 {
     std::vector<SampleMaker> all;
-    for (const auto* part : {&textSamples(), &treeSamples(), &gridSamples()}) {
+    for (const auto* part : {&textSamples(), &volumeSamples(), &treeSamples(), &gridSamples()}) {
         all.insert(all.end(), part->begin(), part->end());
     }
     return all;

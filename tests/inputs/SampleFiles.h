@@ -34,9 +34,10 @@ struct SampleMaker {
 
 /// @name Parts of the list
 /// @{
-const std::vector<SampleMaker>& textSamples(); ///< volumes, meshes, config files
-const std::vector<SampleMaker>& treeSamples(); ///< sphere-trees, as `.vdb`
-const std::vector<SampleMaker>& gridSamples(); ///< other grids, as `.vdb`
+const std::vector<SampleMaker>& textSamples();   ///< .vol, meshes, spheres, config files
+const std::vector<SampleMaker>& volumeSamples(); ///< other volumes, and pictures
+const std::vector<SampleMaker>& treeSamples();   ///< sphere-trees, as `.vdb`
+const std::vector<SampleMaker>& gridSamples();   ///< other grids, as `.vdb`
 /// @}
 
 } // namespace spheretree_test

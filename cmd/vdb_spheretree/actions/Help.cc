@@ -11,6 +11,8 @@
 #include <openvdb_spheretree/base/TextStream.h>
 
 #include <iostream>
+#include <string>
+#include <vector>
 
 namespace command {
 
@@ -19,13 +21,27 @@ namespace {
 constexpr size_t kColumns = 80;
 constexpr size_t kIndent = 17;
 
+/// @return the words of a text. A list of choices that is longer than a line is cut behind a `|`.
+std::vector<std::string> wordsOf(const std::string& text, size_t width)
+{
+    std::vector<std::string> words;
+    openvdb_spheretree::detail::TextStream in(text);
+    for (std::string word; in >> word;) {
+        for (size_t bar = 0; word.size() > width; word.erase(0, bar + 1)) {
+            bar = word.rfind('|', width - 1);
+            if (bar == word.npos) break;
+            words.push_back(word.substr(0, bar + 1));
+        }
+        words.push_back(word);
+    }
+    return words;
+}
+
 /// Prints words until a line is full, then goes on in the next one, indented.
 void printWrapped(std::ostream& out, const std::string& text, size_t indent)
 {
-    openvdb_spheretree::detail::TextStream words(text);
-    std::string word;
     size_t column = indent;
-    while (words >> word) {
+    for (const std::string& word : wordsOf(text, kColumns - indent)) {
         if (column > indent && column + 1 + word.size() > kColumns) {
             out << "\n" << std::string(indent, ' ');
             column = indent;

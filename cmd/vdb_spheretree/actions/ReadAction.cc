@@ -8,10 +8,13 @@
 #include "line/Actions.h"
 #include "line/Length.h"
 #include "session/Session.h"
+#include "VolumeOptions.h"
 
 #include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/input/array/ArrayFile.h>
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/tree/GivenTree.h>
 
@@ -180,6 +183,7 @@ struct Reading {
     NameFilter filter;
     bool pointsAreSpheres = false;
     std::optional<int> level = {}; ///< of files of spheres
+    openvdb_spheretree::VolumeSettings volume = {};
 };
 
 Loading loadingOf(const ActionCall& call)
@@ -244,6 +248,19 @@ StackItem readSpheres(
     }
 }
 
+/// @param file  where the content of @a path is
+GridBase::Ptr readVolume(
+    const std::string& file, const std::string& path, const Reading& reading, Session& session)
+{
+    if (fileKind(path) != FileKind::Vol) {
+        return openvdb_spheretree::readVolumeFile(file, reading.volume, &session.progress, path);
+    }
+    const GridBase::Ptr grid = openvdb_spheretree::readVolFile(file, &session.progress, path);
+    const auto& spacing = reading.volume.spacing;
+    if (spacing) grid->setTransform(openvdb_spheretree::detail::transformOf(*spacing));
+    return grid;
+}
+
 void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
@@ -261,7 +278,7 @@ void readContent(const std::string& path, Reading& reading, Session& session)
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
             openvdb_spheretree::readMeshFile(file, path));
     } else {
-        item.grid = openvdb_spheretree::readVolFile(file, &session.progress, path);
+        item.grid = readVolume(file, path, reading, session);
         if (!reading.filter.accepts(item.grid->getName())) return;
     }
     scaleItem(item, reading.scale);
@@ -271,10 +288,19 @@ void readContent(const std::string& path, Reading& reading, Session& session)
 void readFile(const std::string& path, Reading& reading, Session& session)
 {
     session.stack.setSource(path);
-    const InputStamp stamp(path);
+    std::vector<InputStamp> stamps;
+    if (openvdb_spheretree::isStackName(path)) {
+        for (const std::string& slice : openvdb_spheretree::stackFiles(path)) {
+            stamps.emplace_back(slice);
+        }
+    } else {
+        stamps.emplace_back(path);
+    }
     readContent(path, reading, session);
-    stamp.requireUnchanged();
-    if (reading.loading != Loading::Whole) session.inputs.push_back(stamp);
+    for (const InputStamp& stamp : stamps) {
+        stamp.requireUnchanged();
+        if (reading.loading != Loading::Whole) session.inputs.push_back(stamp);
+    }
 }
 
 void check(const ActionCall& call, Plan& plan)
@@ -296,6 +322,7 @@ void check(const ActionCall& call, Plan& plan)
     if (call.given("spheres") && !isOf({FileKind::Vdb})) {
         throwUsage("spheres=1 is for points of a .vdb, and none is read");
     }
+    checkVolumeOptions(call);
 }
 
 void run(const ActionCall& call, Session& session)
@@ -304,6 +331,7 @@ void run(const ActionCall& call, Session& session)
     Reading reading{loadingOf(call), scaleOf(call), NameFilter(call.list("grids"))};
     reading.pointsAreSpheres = call.flag("spheres");
     if (call.given("level")) reading.level = int(call.integer("level"));
+    reading.volume = volumeSettings(call);
     session.stack.beginBatch("");
     for (const std::string& path : call.list("files")) readFile(path, reading, session);
     reading.filter.requireAllFound();
@@ -325,12 +353,13 @@ OptionSpec unitsOption()
 ActionSpec readAction()
 {
     ActionSpec action{"read", "i", "files",
-        "read grids and sphere-trees (.vdb), volumes (.vol, .longvol), meshes (.obj, .ply, .stl, "
-        ".off ...) and spheres of other tools (.csv, .json)"};
+        "read grids and sphere-trees (.vdb), volumes (.vol, .longvol, .npy, .raw, .nrrd, .nii, "
+        ".nii.gz), gray pictures (.png, .pgm) and stacks of them (slice_%04d.png), meshes (.obj, "
+        ".ply, .stl, .off ...) and spheres of other tools (.csv, .json)"};
     action.options = {list("files", "",
-                          "files to read, or stdin.vdb, .vol, .obj, .off, .ply, .stl, .csv, "
-                          ".json; the extension says what they "
-                          "are"),
+                          "files to read, or stdin.vdb, .vol, .npy, .obj, .csv ...; the extension "
+                          "says what they are. With %04d or #### in its name, a picture is all "
+                          "slices of that name, one behind the other along z"),
         list("grids", "*", "names of the grids and sphere-trees to take"),
         text("frames", "",
             "of a sequence, whose files have #### or %04d in their names: which frames, such as "
@@ -348,6 +377,7 @@ ActionSpec readAction()
         real("scale", "", 1e-30, 1e30,
             "make meshes, grids and volumes larger by this factor, in world space"),
         unitsOption()};
+    addVolumeOptions(action);
     action.isSource = true;
     action.check = check;
     action.run = run;

@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/export/ExportFormat.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +21,10 @@
 #include <unistd.h>
 
 namespace command {
+
+using openvdb_spheretree::isStackName;
+using openvdb_spheretree::isVolumeFileName;
+using openvdb_spheretree::stackFiles;
 
 namespace {
 
@@ -40,13 +45,12 @@ bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Pictures, and arrays of bytes that do not say their size: assimp would take some of them for
-/// meshes, and find none.
+/// Pictures and volumes that are not read: assimp would take some of them for meshes, and find none.
 bool isArray(const std::string& path)
 {
     return isOneOf(extensionOf(path),
-        {".raw", ".bin", ".dat", ".npy", ".npz", ".nii", ".gz", ".nrrd", ".mha", ".mhd", ".dcm",
-            ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".png"});
+        {".bin", ".dat", ".npz", ".gz", ".mha", ".mhd", ".dcm", ".hdr", ".img", ".tif", ".tiff",
+            ".jpg", ".jpeg", ".bmp", ".ppm", ".pbm", ".gif"});
 }
 
 /// @return whether files of another tool have this extension.
@@ -62,13 +66,15 @@ bool isExported(const std::string& extension)
 [[noreturn]] void refuseToRead(const std::string& path)
 {
     const std::string kinds =
-        "it reads .vdb, .vol, .longvol and meshes (.obj, .ply, .stl, .off ...) and "
-        "spheres (.csv, .json), by their extension";
+        "it reads .vdb, volumes (.vol, .longvol, .npy, .raw, .nrrd, .nii, .nii.gz), gray pictures "
+        "(.png, .pgm), meshes (.obj, .ply, .stl, .off ...) and spheres (.csv, .json), by their "
+        "extension";
     if (isArray(path)) {
-        throwInput("cannot read " + path + ": pictures and plain arrays of values are not read; "
-            + "make a .vdb of it first (pyopenvdb does so with an array), or a .vol, which is a "
-              "few "
-              "lines of text before the bytes; "
+        throwInput("cannot read " + path
+            + ": pictures and arrays of this kind are not read; make a "
+              ".png or .pgm of pictures first (ImageMagick's convert does), and a .nrrd, .nii or "
+              ".npy "
+              "of volumes, or read bytes that you know as a .raw with shape= and type=; "
             + kinds);
     }
     throwInput("cannot read " + path + ": files of this kind are not read; " + kinds);
@@ -79,8 +85,9 @@ bool isExported(const std::string& extension)
 bool isStdin(const std::string& path)
 {
     return path.rfind("stdin.", 0) == 0
-        && isOneOf(extensionOf(path),
-            {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl", ".csv", ".json"});
+        && (isVolumeFileName(path)
+            || isOneOf(extensionOf(path),
+                {".vdb", ".vol", ".longvol", ".obj", ".off", ".ply", ".stl", ".csv", ".json"}));
 }
 
 bool isStdout(const std::string& path)
@@ -126,6 +133,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
+    if (isVolumeFileName(path)) return FileKind::Volume;
     if (isArray(path)) return FileKind::Unknown;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
     return FileKind::Unknown;
@@ -139,6 +147,16 @@ void Plan::addInput(const std::string& path)
         mStdinTaken = true;
         return;
     }
+    if (!isStackName(path)) return addFile(path);
+    try {
+        for (const std::string& slice : stackFiles(path)) addFile(slice);
+    } catch (const openvdb::IoError& error) {
+        throwInput(openvdb_spheretree::detail::messageOf(error));
+    }
+}
+
+void Plan::addFile(const std::string& path)
+{
     const std::string target = absolute(AtomicFile::targetOf(path));
     const bool willBeWritten = mOutputs.count(target) > 0;
     std::error_code ignored;
@@ -146,6 +164,10 @@ void Plan::addInput(const std::string& path)
     if (!mFrame.empty()) ++mFrameInputs;
     if (!mFrame.empty() && isMissing) mMissing.push_back(path);
     else if (!willBeWritten) checkReadable(path);
+    if (isVolumeFileName(path)) {
+        mInputs.insert(target);
+        return;
+    }
     switch (fileKind(path)) {
     case FileKind::Vdb:
     case FileKind::Vol:

@@ -14,12 +14,12 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Mesh, Csv, Json, Png, Jpeg, Unknown };
+enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);
 
-/// By the extension, in upper or lower case.
+/// By the extension, in upper or lower case. (A .png may be read, too: as a volume.)
 FileKind fileKind(const std::string& path);
 inline bool isPicture(FileKind kind) { return kind == FileKind::Png || kind == FileKind::Jpeg; }
 
@@ -55,6 +55,8 @@ public:
     bool replacesInput(const std::string& path) const;
 
 private:
+    void addFile(const std::string& path);
+
     /// @name Absolute paths, as far as they can be resolved
     /// @{
     std::set<std::string> mInputs;

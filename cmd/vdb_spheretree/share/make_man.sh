@@ -21,7 +21,8 @@ printf '%s\n' "$help" | awk '
     function roff(text) {
         gsub(/\\/, "\\e", text); gsub(/-/, "\\-", text)
         if (text ~ /^[.'"'"']/) text = "\\&" text
-        gsub(/\|/, "|\\:", text) # lines may break there
+        gsub(/\|/, "|\\:", text)       # a list of choices may be cut behind a bar,
+        sub(/\|\\:$/, "|\\:\\c", text) # and goes on in the next line where -help has cut it
         return text
     }
     NR <= 2 { next }

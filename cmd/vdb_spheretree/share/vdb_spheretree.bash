@@ -17,7 +17,7 @@ _vdb_spheretree_words() {
 # Prints the choices of option $2 of the action $1 of the command $3.
 _vdb_spheretree_choices() {
     "$3" -help "$1" 2> /dev/null | tr '\n' ' ' | tr -s ' ' |
-        sed -n "s/.* $2= \([^=]*\)\[\([a-z0-9|-]*\)\].*/\2/p" | tr '|' '\n'
+        sed -n "s/| /|/g; s/.* $2= \([^=]*\)\[\([a-z0-9|-]*\)\].*/\2/p" | tr '|' '\n'
 }
 
 _vdb_spheretree() {

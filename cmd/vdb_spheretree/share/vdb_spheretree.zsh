@@ -16,7 +16,7 @@ case $PREFIX in
     name=${PREFIX%%=*}
     local -a choices
     choices=(${(s:|:)"$($program -help $action 2> /dev/null | tr '\n' ' ' | tr -s ' ' |
-        sed -n "s/.* $name= \([^=]*\)\[\([a-z0-9|-]*\)\].*/\2/p")"})
+        sed -n "s/| /|/g; s/.* $name= \([^=]*\)\[\([a-z0-9|-]*\)\].*/\2/p")"})
     compset -P '*='
     if (( $#choices )); then compadd -- $choices; else _files; fi
     ;;

@@ -124,18 +124,14 @@ VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint6
     text.resize(static_cast<std::size_t>(file.gcount()));
 
     VolHeader header;
-    try {
-        HeaderFields fields = splitHeader(text, header.dataOffset);
-        fields.insert({{"Version", "2"}, {"Voxel-Size", "1"}}); // where they are not given
-        header.dim = {sideOf(fields, "X"), sideOf(fields, "Y"), sideOf(fields, "Z")};
-        header.version = versionOf(fields["Version"]);
-        header.voxelSize = voxelSizeOf(fields["Voxel-Size"]);
-        header.bytesPerValue = lowerExtension(path) == ".longvol" ? 8 : 1;
-        header.dataBytes = fileBytes - header.dataOffset;
-        checkSize(header);
-    } catch (const IoError& error) {
-        throw IoError(path + ": " + messageOf(error));
-    }
+    HeaderFields fields = splitHeader(text, header.dataOffset);
+    fields.insert({{"Version", "2"}, {"Voxel-Size", "1"}}); // where they are not given
+    header.dim = {sideOf(fields, "X"), sideOf(fields, "Y"), sideOf(fields, "Z")};
+    header.version = versionOf(fields["Version"]);
+    header.voxelSize = voxelSizeOf(fields["Voxel-Size"]);
+    header.bytesPerValue = lowerExtension(path) == ".longvol" ? 8 : 1;
+    header.dataBytes = fileBytes - header.dataOffset;
+    checkSize(header);
     file.clear(); // reading a short file to its end has set eofbit
     file.seekg(static_cast<std::streamoff>(header.dataOffset));
     return header;

@@ -27,7 +27,8 @@ struct VolHeader {
 };
 
 /// @brief Read the header, and leave @a file where the values start.
-/// @throw openvdb::IoError naming the file and the key
+/// @param path  whose extension says the format
+/// @throw openvdb::IoError naming the key, not the file
 /// @throw std::ios_base::failure if reading fails and @a file throws it
 VolHeader readVolHeader(const std::string& path, std::ifstream& file, std::uint64_t fileBytes);
 

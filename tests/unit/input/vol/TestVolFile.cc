@@ -240,7 +240,7 @@ TEST(VolFile, RejectsAWholeStreamOfTooFewValues)
     for (const std::size_t missing : {std::size_t(1), bytes.size() / 2, bytes.size()}) {
         const std::string some = bytes.substr(0, bytes.size() - missing);
         EXPECT_TRUE(mentions(errorOf("few.vol", headerOf(volume.dim, 3) + zipped(some)),
-            "ends before the X*Y*Z values"))
+            "ends before the values of the header"))
             << missing;
     }
 }
