@@ -94,16 +94,15 @@ private:
         Built built;
         for (int i = 0; i < 3; ++i) built.origin[mLayout.order[i]] = int(at[i]);
         Values values;
-        bool isWhole = true;
         std::array<uint64_t, 3> count;
         for (int i = 0; i < 3; ++i) {
             count[i] = std::min(kSide, mLayout.dim[mLayout.order[i]] - at[i]);
-            isWhole = isWhole && count[i] == kSide;
         }
         gather(slab, at, count, values);
         if (!values.any) return built;
-        built.value = values.of[0];
-        built.isTile = mTiles && isWhole
+        built.value =
+            values.of[0]; // beyond the array it is the background, so no tile reaches there
+        built.isTile = mTiles
             && std::all_of(values.of.begin(), values.of.end(),
                 [&](const Value& value) { return value == built.value; });
         if (!built.isTile) built.leaf = leafOf(built.origin, values);

@@ -126,6 +126,21 @@ private:
     png_infop mInfo = nullptr;
 };
 
+/// libpng takes memory for as many bytes as a chunk says that it has: there must be so many.
+void requireChunks(const std::vector<uint8_t>& file)
+{
+    constexpr std::size_t kSignature = 8, kAround = 12; // length, name and checksum of a chunk
+    for (std::size_t at = kSignature; at + kAround <= file.size();) {
+        const auto length = std::size_t(png_get_uint_32(&file[at]));
+        if (length > file.size() - at - kAround) {
+            throw IoError("is no sound .png: a chunk of " + std::to_string(length)
+                + " bytes does not end in the file");
+        }
+        if (std::memcmp(&file[at + 4], "IEND", 4) == 0) return;
+        at += kAround + length;
+    }
+}
+
 /// Deflate makes no more of the file than this: what claims more is refused before memory is taken.
 void requireHeld(const PngHead& head, std::size_t fileBytes)
 {
@@ -161,6 +176,7 @@ void takeGray(const std::vector<uint8_t>& rows, const PngHead& head, GrayImage& 
 
 GrayImage readPng(const std::vector<uint8_t>& file)
 {
+    requireChunks(file);
     PngReader reader(file);
     const PngHead head = reader.head();
     requireHeld(head, file.size());

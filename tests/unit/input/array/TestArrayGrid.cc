@@ -122,6 +122,8 @@ TEST(ArrayGrid, ScaledNumbersAreFloats)
     EXPECT_EQ(valueAt<openvdb::FloatGrid>(grid, Coord(0)), -1);
     EXPECT_EQ(valueAt<openvdb::FloatGrid>(grid, Coord(2, 0, 0)), 1.5);
     EXPECT_EQ(grid->activeVoxelCount(), 2u); // -1, 0 (the background), 1.5
+    const GridBase::Ptr zeros = gridOfBytes(std::string(3, '\0'), layout);
+    EXPECT_EQ(zeros->activeVoxelCount(), 3u); // all of them -1
 }
 
 TEST(ArrayGrid, BoolsMayHaveAnyByteForTrue)

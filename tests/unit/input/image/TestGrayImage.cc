@@ -59,6 +59,7 @@ TEST(GrayImage, PgmThatIsNoneIsRefused)
     has(pgm(""), "P2 or P5");
     has(pgm("P5 0 1 255\n"), "its width");
     has(pgm("P5 1 -1 255\n"), "its height");
+    has(pgm("P5 1 1 255xA"), "largest value");
     has(pgm("P5 1 1 65536\n  "), "largest value");
     has(pgm("P5 99999999999999999999 1 255\n"), "its width");
     has(pgm("P5 1048576 1048576 255\n"), "ends before its pixels do");
@@ -128,6 +129,9 @@ TEST(GrayImage, PngThatIsNoneIsRefused)
         has(png(damaged), "is no sound .png");
     }
     has(png(pngOf(1 << 20, 1 << 20, 16, 6, "x")), "cannot be in a file that small");
+    const std::string longer = chunk("tEXt", "a text");
+    const std::string tooLong = big(0x7c000025) + longer.substr(4); // no memory is taken for it
+    has(png(pngOf(1, 1, 8, 0, std::string("\0\5", 2), tooLong)), "does not end in the file");
     has(png(pngOf((1 << 20) + 1, 1, 8, 0, "x")), "is no sound .png");
 }
 

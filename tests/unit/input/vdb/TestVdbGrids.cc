@@ -262,7 +262,7 @@ TEST_F(VdbGrids, OfTheFilesOfEarlierVersions)
     for (const auto& entry : std::filesystem::recursive_directory_iterator(dataPath(""))) {
         const std::string name =
             std::filesystem::relative(entry.path(), dataPath("")).replace_extension();
-        if (entry.path().extension() != ".gz") continue;
+        if (entry.path().extension() != ".gz" || name.find(".vdb") == std::string::npos) continue;
         SCOPED_TRACE(name);
         const std::string bytes = unpackedData(name);
         expectSame(readGuarded(bytes), readByOpenVdb(bytes));
