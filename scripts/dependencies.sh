@@ -11,6 +11,7 @@ build_packages=(
     zlib1g-dev libdeflate-dev libpng-dev libhwy-dev libassimp-dev libjpeg-dev
     nlohmann-json3-dev)
 test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib)
+browser_packages=(chromium) # for tests of pages, which are left out without
 clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report
 
 say() { printf '%s\n' "== $*" >&2; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WriteAction.cc
-/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are
+/// @brief -write: grids, sphere-trees, pictures and pages of them to files. All files of one -write are
 /// complete before the first takes its place.
 
 #include "base/LastWords.h"
@@ -9,6 +9,7 @@
 #include "files/VdbStream.h"
 #include "line/Actions.h"
 #include "session/Session.h"
+#include "WritePage.h"
 #include "WritePicture.h"
 
 #include <openvdb/io/Archive.h>
@@ -64,8 +65,8 @@ void check(const ActionCall& call, Plan& plan)
                 + (extension.empty() ? "a name without an extension says not what "
                                        "to write"
                                      : extension + " files are not written")
-                + "; it writes .vdb (grids and sphere-trees), .csv and .json (a sphere-tree) and "
-                  ".png and .jpg (a picture)"
+                + "; it writes .vdb (grids and sphere-trees), .csv and .json (a sphere-tree), "
+                  ".png and .jpg (a picture) and .html (a page that shows a sphere-tree)"
                 + (kind == FileKind::Mesh
                         ? "; for a mesh: -spheres2ls -write x.vdb, and vdb_tool's "
                           "-ls2mesh"
@@ -78,6 +79,7 @@ void check(const ActionCall& call, Plan& plan)
         if (kind == FileKind::Csv && !isStdout(path)) plan.addOutput(dagPath(path));
     }
     checkPictureOptions(call);
+    checkPageOptions(call);
 }
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
@@ -161,6 +163,7 @@ public:
         case FileKind::Json:
         case FileKind::Png:
         case FileKind::Jpeg:
+        case FileKind::Html:
             return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         default:
             writeFile(path, [&](std::iostream& out) {
@@ -201,6 +204,7 @@ private:
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
         case FileKind::Jpeg: return st::writeJpeg(pictureOf(mCall, path, mItems, mSession), out);
+        case FileKind::Html: return writePage(mCall, path, mItems, mSession, out);
         default: st::writePng(pictureOf(mCall, path, mItems, mSession), out);
         }
     }
@@ -222,7 +226,7 @@ private:
             writeContent(path, out);
             sink.pubsync();
         } catch (const ClosedPipe&) {
-            if (kind == FileKind::Png) throw;
+            if (kind != FileKind::Csv && kind != FileKind::Json) throw; // it is of no use in part
         }
     }
 
@@ -296,13 +300,16 @@ ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb), one sphere-tree as tables (.csv) or JSON "
-        "(.json), or a picture of a level of it or of an object (.png, .jpg)"};
+        "(.json), a page that shows it in a browser (.html), or a picture of a level of it or of "
+        "an object (.png, .jpg)"};
     action.options = {
-        list("files", "", "files to write, or stdout.vdb, .csv, .json; the extension says how"),
+        list("files", "",
+            "files to write, or stdout.vdb, .csv, .json, .html; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
+    for (const OptionSpec& option : pageOptions()) action.options.push_back(option);
     action.givesOut = true;
     action.failure = kOutput;
     action.check = check;

@@ -76,7 +76,7 @@ bool isStdout(const std::string& path)
 {
     return path == "-"
         || (path.rfind("stdout.", 0) == 0
-            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png", ".jpg"}));
+            && isOneOf(extensionOf(path), {".vdb", ".csv", ".json", ".png", ".jpg", ".html"}));
 }
 
 void Plan::addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }
@@ -113,6 +113,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".png") return FileKind::Png;
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
+    if (extension == ".html" || extension == ".htm") return FileKind::Html;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
     if (isArray(path)) return FileKind::Unknown;
     if (openvdb_spheretree::isMeshFileName(path)) return FileKind::Mesh;
