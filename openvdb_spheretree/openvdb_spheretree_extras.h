@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file openvdb_spheretree_extras.h
 /// @brief The public headers of the library openvdb_spheretree_extras: grids from files of
-/// strangers, objects from meshes, volume files and formulas, pictures of objects and trees, and trees for the files of other tools.
+/// strangers, objects from meshes, volume files and formulas, pictures of objects and trees, pages of
+/// trees, and trees for the files of other tools.
 
 #pragma once
 
@@ -18,3 +19,4 @@
 #include "picture/Camera.h"
 #include "picture/Picture.h"
 #include "picture/SpherePicture.h"
+#include "viewer/TreeViewer.h"

@@ -11,7 +11,7 @@ fi
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/dependencies.sh"
 
-install_packages "${build_packages[@]}" "${test_packages[@]}" "${reader_packages[@]}"
+install_packages "${build_packages[@]}" "${test_packages[@]}" "${reader_packages[@]}" "${browser_packages[@]}"
 build_preset release vdb_spheretree
 build_preset test
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file WriteAction.cc
-/// @brief -write: grids, sphere-trees and pictures of them to files. All files of one -write are
+/// @brief -write: grids, sphere-trees, pictures and pages of them to files. All files of one -write are
 /// complete before the first takes its place.
 
 #include "base/LastWords.h"
@@ -11,6 +11,7 @@
 #include "ObjectChoice.h"
 #include "session/Session.h"
 #include "WriteExport.h"
+#include "WritePage.h"
 #include "WritePicture.h"
 
 #include <openvdb/io/Archive.h>
@@ -73,9 +74,9 @@ void check(const ActionCall& call, Plan& plan)
                                        "to write"
                                      : extension + " files are not written")
                 + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
-                  "sphere-tree), "
-                  ".png and .jpg (a picture), and files of other tools such as .urdf, .usda, .ply "
-                  "and .obj (-help write lists them)");
+                  "sphere-tree), .png and .jpg (a picture), .html (a page that shows a "
+                  "sphere-tree), and files of other tools such as .urdf, .usda, .ply and .obj "
+                  "(-help write lists them)");
         }
         if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
             throwUsage(path + ": this build has no libjpeg, so it writes pictures as .png only");
@@ -85,6 +86,7 @@ void check(const ActionCall& call, Plan& plan)
     }
     checkPictureOptions(call);
     checkExportOptions(call);
+    checkPageOptions(call);
 }
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
@@ -189,6 +191,7 @@ public:
         case FileKind::Vol:
         case FileKind::Png:
         case FileKind::Jpeg:
+        case FileKind::Html:
             return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         default:
             writeFile(path, [&](std::iostream& out) {
@@ -233,6 +236,7 @@ private:
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
         case FileKind::Vol: return writeVoxels(path, out);
         case FileKind::Jpeg: return st::writeJpeg(pictureOf(mCall, path, mItems, mSession), out);
+        case FileKind::Html: return writePage(mCall, path, mItems, mSession, out);
         default: st::writePng(pictureOf(mCall, path, mItems, mSession), out);
         }
     }
@@ -274,7 +278,7 @@ private:
             writeContent(path, out);
             sink.pubsync();
         } catch (const ClosedPipe&) {
-            if (kind == FileKind::Png) throw;
+            if (kind != FileKind::Csv && kind != FileKind::Json) throw; // it is of no use in part
         }
     }
 
@@ -348,16 +352,17 @@ ActionSpec writeAction()
 {
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb), an object (.vol), one sphere-tree as tables (.csv) "
-        "or JSON "
-        "(.json), a picture of a level of it or of an object (.png, .jpg), or spheres for other "
-        "tools"};
+        "or JSON (.json), a page that shows it in a browser (.html), a picture of a level of it or "
+        "of an object (.png, .jpg), or spheres for other tools"};
     action.options = {
-        list("files", "", "files to write, or stdout.vdb, .csv, .json; the extension says how"),
+        list("files", "",
+            "files to write, or stdout.vdb, .csv, .json, .html; the extension says how"),
         list("vdb", "*", "what to write, by ages on the stack (0 is the newest) or names"),
         choice("codec", {"blosc", "zip", "active", "none"}, "compression of a .vdb"),
         flag("keep", false, "leave on the stack what is written")};
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
     for (const OptionSpec& option : exportOptions()) action.options.push_back(option);
+    for (const OptionSpec& option : pageOptions()) action.options.push_back(option);
     action.more = exportFormatDocs();
     action.givesOut = true;
     action.writesEmpty = true;

@@ -94,7 +94,8 @@ bool isStdout(const std::string& path)
 {
     return path == "-"
         || (path.rfind("stdout.", 0) == 0
-            && (isOneOf(extensionOf(path), {".vdb", ".vol", ".csv", ".json", ".png", ".jpg"})
+            && (isOneOf(extensionOf(path),
+                    {".vdb", ".vol", ".csv", ".json", ".png", ".jpg", ".html"})
                 || isExported(extensionOf(path))));
 }
 
@@ -132,6 +133,7 @@ FileKind fileKind(const std::string& path)
     if (extension == ".png") return FileKind::Png;
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::Jpeg;
     if (extension == ".json") return FileKind::Json;
+    if (extension == ".html" || extension == ".htm") return FileKind::Html;
     if (openvdb_spheretree::isVolFileName(path)) return FileKind::Vol;
     if (isVolumeFileName(path)) return FileKind::Volume;
     if (isArray(path)) return FileKind::Unknown;

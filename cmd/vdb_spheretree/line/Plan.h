@@ -14,7 +14,7 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Unknown };
+enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Html, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);
