@@ -9,6 +9,8 @@
 #include <openvdb/tree/ValueAccessor.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <utility>
 
 namespace openvdb_spheretree::detail {
@@ -123,6 +125,16 @@ int64_t openFaces(const FloatTree& blocks)
     return faces;
 }
 
+/// @return the voxels of blocks that are at least half full.
+double voxelsIn(const FloatTree& blocks, int shift)
+{
+    double filled = 0;
+    for (auto on = blocks.cbeginValueOn(); on; ++on) {
+        if (*on >= kHalf) filled += double(on.getVoxelCount());
+    }
+    return filled * std::pow(8.0, shift);
+}
+
 /// @return a surface whose points are in blocks from the base.
 ObjectSurface meshOf(FloatTree::Ptr blocks, int shift)
 {
@@ -168,8 +180,10 @@ std::optional<ObjectSurface> objectSurface(
         checkInterrupt(interrupter);
         const FloatTree::Ptr blocks = blocksOf(object.tree(), base, shift, interrupter);
         fillThinParts(*blocks);
+        const double voxels = voxelsIn(*blocks, shift);
         ObjectSurface surface = meshOf(blocks, shift);
         if (2 * int64_t(surface.quads.size()) > triangles) continue;
+        surface.growth = voxels / double(object.activeVoxelCount());
         placeInWorld(surface, object, box, base);
         return surface;
     }

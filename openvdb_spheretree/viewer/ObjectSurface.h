@@ -4,7 +4,8 @@
 ///
 /// 1. *Blocks*: voxels become cubes of `factor` voxels a side, each with the share of its voxels that
 ///    are the object's. What is thinner than half a block would vanish; so a block with voxels counts
-///    as full where neither it nor a block around it is half full.
+///    as full where neither it nor a block around it is half full. Such a surface is larger than
+///    the object: `growth` says how much.
 /// 2. *Mesh*: where the share is one half, by OpenVDB's tools::volumeToMesh().
 ///
 /// The factor is the smallest power of two whose mesh is small enough. Which one to try first is
@@ -25,8 +26,9 @@
 namespace openvdb_spheretree::detail {
 
 struct ObjectSurface {
-    int factor = 1;                     ///< voxels along a side of a block
-    openvdb::Vec3d originWorld{0.0};    ///< what points are relative to
+    int factor = 1;                  ///< voxels along a side of a block
+    openvdb::Vec3d originWorld{0.0}; ///< what points are relative to
+    double growth = 1; ///< volume of the blocks over that of the object: large where parts are thin
     std::vector<openvdb::Vec3s> points; ///< world units
     std::vector<openvdb::Vec4I> quads;  ///< of points; seen from outside they turn left
 };

@@ -79,6 +79,7 @@ void writeSurface(JsonWriter& json, const ObjectSurface* surface, const std::str
     }
     json.beginObject("surface");
     json.value("factor", surface->factor);
+    json.value("growth", surface->growth);
     json.value("triangles", 2 * int64_t(surface->quads.size()));
     writeVec(json, "origin", surface->originWorld);
     json.endObject();

@@ -28,6 +28,7 @@ const Output kOutputs[] = {
     {"Tree", "-read tree.vdb -write out.vdb codec=none", {"out.vdb"}},
     {"Table", "-read tree.vdb -write out.csv", {"out.csv", "out_dag.csv"}},
     {"Json", "-read tree.vdb -write out.json", {"out.json"}},
+    {"Page", "-read tree.vdb -write out.html", {"out.html"}},
     {"Picture", "-read tree.vdb -write out.png width=300 height=200", {"out.png"}},
     {"LevelSet", "-read tree.vdb -spheres2ls -write out.vdb codec=none", {"out.vdb"}},
     {"Mask", "-read a.vol -mask -write out.vdb codec=none", {"out.vdb"}},

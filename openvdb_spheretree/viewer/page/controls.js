@@ -215,5 +215,7 @@ function surfaceSentence(surface) {
     const triangles = plural(surface.triangles, 'triangle', 'triangles');
     if (surface.factor === 1) return `The object's surface has ${triangles}.`;
     const blocks = `blocks of ${surface.factor} voxels a side`;
-    return `The object's surface is simplified to ${triangles}: ${blocks}.`;
+    const growth =
+        surface.growth > 1.5 ? ` They hold ${short(surface.growth, 2)} times its volume.` : '';
+    return `The object's surface is simplified to ${triangles}: ${blocks}.${growth}`;
 }

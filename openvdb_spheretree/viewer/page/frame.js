@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// From world space to the space that is drawn in. There the box of the finest spheres has its
-// middle at the origin and half its diagonal is 1, so that floats are good for any object, however
+// From world space to the space that is drawn in. There the box of the finest spheres and of the
+// object has its middle at the origin and half its diagonal is 1, so that floats are good for any object, however
 // large, small or far away.
 
 class Frame {
-    /** @param spheres SphereArrays; those of `level` make the box */
-    constructor(spheres, level) {
+    /**
+     * @param spheres SphereArrays; those of `level` make the box, and
+     * @param surface the object's, if it is there
+     */
+    constructor(spheres, level, surface) {
         const low = [Infinity, Infinity, Infinity],
             high = [-Infinity, -Infinity, -Infinity];
         for (let id = level.begin; id < level.end; ++id) {
@@ -15,6 +18,11 @@ class Frame {
                 low[axis] = Math.min(low[axis], at - radius);
                 high[axis] = Math.max(high[axis], at + radius);
             }
+        }
+        for (let i = 0; i < (surface?.points.length ?? 0); ++i) {
+            const at = surface.origin[i % 3] + surface.points[i];
+            low[i % 3] = Math.min(low[i % 3], at);
+            high[i % 3] = Math.max(high[i % 3], at);
         }
         this.low = low;
         this.high = high;

@@ -8,8 +8,9 @@ class State {
         this.selected = -1;
         this.color = 'parent';
         const isInside = tree.settings.side === 'inner' || tree.settings.side === 'fit';
-        this.sphereOpacity = tree.surface && !isInside ? 0.55 : 1;
-        this.surfaceOpacity = isInside ? 0.35 : 1;
+        const isSwollen = tree.surface?.growth > 1.5; // it would hide what is to be seen
+        this.sphereOpacity = tree.surface && !isInside && !isSwollen ? 0.55 : 1;
+        this.surfaceOpacity = isSwollen ? 0 : isInside ? 0.35 : 1;
         this.clip = { axis: '', at: 0.5, flip: false };
         this.drawBy = null; // 'triangles' or 'tiles'; else by the machine
         this.view = null; // yaw and pitch in degrees, and size

@@ -6,7 +6,7 @@ class Viewer {
         this.tree = tree;
         this.state = new State(tree);
         this.state.read(location.hash.slice(1), tree);
-        this.frame = new Frame(tree.nodes, tree.levels[0]);
+        this.frame = new Frame(tree.nodes, tree.levels[0], tree.surface);
         this.camera = new Camera(tree.flat_axis, this.frame.halfBox());
         const chooseLevel = (level) => this.show({ level, count: null });
         this.table = new LevelTable(byId('levels'), tree.levels, chooseLevel);

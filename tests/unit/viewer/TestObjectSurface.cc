@@ -64,6 +64,7 @@ TEST(ObjectSurface, LiesWhereTheVoxelsEnd)
     const auto surface = objectSurface(*ballOf(20), kPlenty);
     ASSERT_TRUE(surface);
     EXPECT_EQ(surface->factor, 1);
+    EXPECT_EQ(surface->growth, 1);
     EXPECT_LE(farthestFrom(*surface, 20), 1.0);
     EXPECT_NEAR(volumeOf(*surface), 4.0 / 3.0 * 3.14159265 * 8000, 0.03 * 33510)
         << "and it is seen from outside";
@@ -91,7 +92,8 @@ TEST(ObjectSurface, ASheetOfOneVoxelIsNotLost)
         voxelsWhere(CoordBBox(Coord(0), Coord(99, 99, 0)), [](auto&) { return true; });
     const auto surface = objectSurface(*sheet, 3000);
     ASSERT_TRUE(surface);
-    EXPECT_GT(surface->factor, 2);
+    EXPECT_EQ(surface->factor, 4);
+    EXPECT_EQ(surface->growth, 4);
     openvdb::BBoxd box;
     for (const auto& point : surface->points) box.expand(Vec3d(point));
     EXPECT_GT(box.extents()[0], 90);
