@@ -79,8 +79,7 @@ command::ActionCall callOf(const Texts& settings)
         const command::OptionSpec* option = buildSpec().option(name);
         if (!option) throw InputError("there is no setting '" + name + "'");
         requireNoUnit(name, text);
-        command::checkValue(buildSpec(), *option, text);
-        call.set(name, text);
+        call.give(*option, text);
     }
     command::Plan plan;
     command::checkTreeOptions(call, plan);
