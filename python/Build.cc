@@ -45,6 +45,7 @@ const command::ActionSpec& buildSpec()
     static const command::ActionSpec kSpec = [] {
         command::ActionSpec spec{"build", "", "", ""};
         spec.options = command::spheretreeOptions();
+        spec.isLiteral = true;
         return spec;
     }();
     return kSpec;
