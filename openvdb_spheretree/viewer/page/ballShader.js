@@ -10,7 +10,7 @@ uniform sampler2D colors;
 uniform mat4 view, projection;
 uniform float near;
 uniform float pixel;        // how large one is at distance 1
-uniform bool isKnown;       // that every ray meets the spheres it is tried with
+uniform bool isKnown;       // that every ray meets the ball that it is tried with
 uniform int selected;       // -1: none
 uniform vec3 accent;
 uniform vec4 clip;          // kept is where dot(clip.xyz, p) + clip.w >= 0
@@ -105,7 +105,7 @@ bool meets(vec4 ball, vec3 ray, inout Hit best)
     else if (speed < 0.0) span.y = min(span.y, cut);
     vec3 hit = span.x * ray;
     float distance = -hit.z;
-    if (span.x > span.y || distance < near) return false;
+    if (!isKnown && (span.x > span.y || distance < near)) return false;
     // Of faces in one plane, in front is the ball that a point is deepest in, and the smallest
     // disc.
     if (isCut) distance += kFront * (dot(hit - ball.xyz, hit - ball.xyz) / ball.w - ball.w);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From world space to the space that is drawn in. There the box of the finest spheres and of the
-// object has its middle at the origin and half its diagonal is 1, so that floats are good for any object, however
-// large, small or far away.
+// object has its middle at the origin and half its diagonal is 1, so that floats are good for any
+// object, however large, small or far away.
 
 class Frame {
     /**

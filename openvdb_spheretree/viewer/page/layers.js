@@ -71,17 +71,17 @@ function fillTable(gl, texture, values, count, internalFormat, type) {
     gl.texImage2D(gl.TEXTURE_2D, 0, internalFormat, kTextureWidth, rows, 0, gl.RGBA, type, padded);
 }
 
-/** Fills rows of `width` texels with pairs of integers; there are whole rows of them. */
-function fillPairs(gl, texture, values, width) {
+/** Fills rows of `width` texels with a number each. */
+function fillNumbers(gl, texture, values, width, height) {
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texImage2D(
         gl.TEXTURE_2D,
         0,
-        gl.RG32UI,
+        gl.R32UI,
         width,
-        values.length / 2 / width,
+        height,
         0,
-        gl.RG_INTEGER,
+        gl.RED_INTEGER,
         gl.UNSIGNED_INT,
         values,
     );

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sphere a ray meets first, by the same rules as the shader.
+// Which ball a ray meets first, by the same rules as ballShader.js.
 
 /** The part of a ray inside a ball, as two distances; null if there is none. */
 function insideBall(ray, shapes, i, look) {
-    const apart = minus(ray.origin, [shapes[4 * i], shapes[4 * i + 1], shapes[4 * i + 2]]);
+    const apart = minus(ray.origin, shapes.subarray(4 * i, 4 * i + 3));
     const radius = shapes[4 * i + 3];
     const along = dot(apart, ray.direction);
     const outer = radius * look.reach;
@@ -37,25 +37,33 @@ function keptBy(plane, ray) {
     return speed > 0 ? [-height / speed, Infinity] : [-Infinity, -height / speed];
 }
 
-/** The place among `shapes` of the ball that the ray meets first; -1 if it meets none. Where the
- *  clip plane cuts several open, it is the one that the ray is deepest in. */
+/** How near a ball is that a ray shows; of balls that the clip plane cuts, the one that the ray is
+ *  deepest in is nearest, and of discs the smallest one. Infinite if the ray does not meet it. */
+function orderOf(ray, kept, view, shapes, i, look) {
+    const inside = insideBall(ray, shapes, i, look);
+    if (!inside) return Infinity;
+    const begin = Math.max(inside[0], kept[0]),
+        end = Math.min(inside[1], kept[1]);
+    const forward = -dot(ray.direction, view.z);
+    if (begin > end || begin * forward < view.near) return Infinity;
+    const radius = shapes[4 * i + 3];
+    if (look.flatNormal) return begin * forward + Number(kFront) * radius;
+    if (begin === inside[0]) return begin * forward;
+    const hit = plus(ray.origin, scaled(ray.direction, begin));
+    const apart = minus(hit, shapes.subarray(4 * i, 4 * i + 3));
+    return begin * forward + Number(kFront) * (dot(apart, apart) / radius - radius);
+}
+
+/** The place among `shapes` of the ball that the ray shows; -1 if it meets none. */
 function pick(ray, view, shapes, look) {
     const kept = keptBy(look.clip, ray);
     let found = -1,
-        first = Infinity,
-        power = Infinity;
+        least = Infinity;
     for (let i = 0; 4 * i < shapes.length; ++i) {
-        const inside = insideBall(ray, shapes, i, look);
-        if (!inside) continue;
-        const begin = Math.max(inside[0], kept[0]),
-            end = Math.min(inside[1], kept[1]);
-        if (begin > end || begin < view.near || begin > first) continue;
-        const hit = plus(ray.origin, scaled(ray.direction, begin));
-        const radius = shapes[4 * i + 3];
-        const apart = minus(hit, [shapes[4 * i], shapes[4 * i + 1], shapes[4 * i + 2]]);
-        const own = look.flatNormal ? radius : (dot(apart, apart) / (radius * radius) - 1) * radius;
-        if (begin === first && own >= power) continue;
-        [found, first, power] = [i, begin, own];
+        const order = orderOf(ray, kept, view, shapes, i, look);
+        if (order >= least) continue;
+        least = order;
+        found = i;
     }
     return found;
 }

@@ -21,8 +21,7 @@ class Renderer {
         this.shapeTable = makeTexture(gl);
         this.colorTable = makeTexture(gl);
         this.tiles = new Tiles();
-        this.tileTable = makeTexture(gl);
-        this.entryTable = makeTexture(gl);
+        this.seenTable = makeTexture(gl);
         this.noAttributes = gl.createVertexArray();
         this.sphereCount = 0;
         this.triangleCount = 0;
@@ -98,8 +97,7 @@ class Renderer {
                 : [0, 0, -9, 0],
             spheres: 0,
             colors: 1,
-            tiles: 2,
-            entries: 3,
+            seen: 2,
             sphereColor: 0,
             sphereDepth: 1,
             surfaceColor: 2,
@@ -122,11 +120,10 @@ class Renderer {
 
     #drawTiles(view, look, uniforms) {
         const { gl, tiles } = this;
-        tiles.sort(this.shapes, look, view, ...uniforms.size);
-        fillPairs(gl, this.tileTable, tiles.ranges, tiles.across);
-        fillPairs(gl, this.entryTable, tiles.entries, kTextureWidth);
-        this.sphereProgram.use({ ...uniforms, isKnown: tiles.areSpheres });
-        this.#bind([this.shapeTable, this.colorTable, this.tileTable, this.entryTable]);
+        tiles.find(this.shapes, look, view, ...uniforms.size);
+        fillNumbers(gl, this.seenTable, tiles.seen, ...uniforms.size);
+        this.sphereProgram.use({ ...uniforms, isKnown: true });
+        this.#bind([this.shapeTable, this.colorTable, this.seenTable]);
         gl.bindVertexArray(this.noAttributes);
         gl.depthFunc(gl.ALWAYS);
         gl.drawArrays(gl.TRIANGLES, 0, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which balls may be seen in which tile of the view.
+// Which ball is seen in each pixel of the view.
 //
 // A tile is a bundle of rays around one in its middle. Rays meet a ball the later the more they
 // pass beside its center. That bounds from below where rays of a tile meet a ball and, if all of
@@ -9,8 +9,7 @@
 
 /** From where to where a ball is seen along one axis of the view, which is -1 to 1. */
 function seenSpan(center, distance, radius, halfSize) {
-    // Lines from the eye that touch a circle. Where it reaches the plane of the eye, it is
-    // everywhere.
+    // Lines from the eye that touch a circle; one that reaches the plane of the eye is everywhere.
     const room = distance * distance - radius * radius;
     if (distance <= radius || room <= 1e-6 * distance * distance) return [-1, 1];
     const root = radius * Math.sqrt(center * center + room);
@@ -20,120 +19,104 @@ function seenSpan(center, distance, radius, halfSize) {
     ];
 }
 
-/** Arrays of the same length that grow together. */
-class GrowingLists {
-    constructor(...types) {
-        this.lists = types.map((Type) => new Type(1 << 12));
-        this.room = 1 << 12;
+/** Balls that may be seen in a tile, and from where rays of the tile may meet each. */
+class TileList {
+    constructor() {
+        this.balls = new Uint32Array(1 << 12);
+        this.nearest = new Float64Array(1 << 12);
     }
 
-    /** Makes room for so many. */
-    reserve(count) {
-        if (count <= this.room) return;
-        while (this.room < count) this.room *= 2;
-        this.lists = this.lists.map((list) => {
-            const larger = new list.constructor(this.room);
-            larger.set(list);
-            return larger;
-        });
+    /** Takes over the first `count` balls. */
+    take(balls, count) {
+        if (this.balls.length < count) {
+            const room = 2 ** Math.ceil(Math.log2(count));
+            this.balls = new Uint32Array(room);
+            this.nearest = new Float64Array(room);
+        }
+        this.balls.set(balls.length === count ? balls : balls.subarray(0, count));
     }
 }
 
 class Tiles {
     static kLevels = 7; // of sizes: tiles have 64 pixels a side, then 32, and so on to one
-    static kBall = 8; // values of a ball: unit vector to its center, distance, outer and inner
-    // radius, cosine and sine of the angle that it is seen by
+    // Values of a ball: unit vector to its center, distance, outer and inner radius, cosine, sine
+    // of the angle that it is seen by.
+    static kBall = 8;
 
     constructor() {
         this.balls = new Float64Array(0);
-        this.output = new GrowingLists(Uint32Array, Float32Array); // balls; where they are met
-        this.levels = Array.from(
-            { length: Tiles.kLevels },
-            () => new GrowingLists(Uint32Array, Float64Array),
-        );
+        this.levels = Array.from({ length: Tiles.kLevels }, () => new TileList());
     }
 
     /**
-     * Finds the balls of each pixel, `across` to a row of the view: those of pixel (x, y) are
-     * `entries` from `ranges[2 * (y * across + x)]` to the number after it. An entry is a ball and,
-     * as bits of a float, the distance from the eye from which on rays of the pixel may meet it.
-     * Spheres that no plane cuts leave one entry: what is seen.
+     * Finds `seen`: for each pixel, by rows from below, the ball that is seen there plus one, or 0.
      * @param shapes four floats a ball: see Frame
      * @param look what of it decides about outlines: `reach`, `faces`, `flatNormal` and `clip`
      */
-    sort(shapes, look, view, width, height) {
-        Object.assign(this, { view, width, height, count: 0 });
+    find(shapes, look, view, width, height) {
+        Object.assign(this, { shapes, look, view, width, height });
         const high = (2 * view.halfHeight) / height,
             wide = (2 * view.halfHeight * view.aspect) / width;
         this.pixel = { wide, high }; // at distance 1
-        this.front = look.clip ? Number(kFront) : 0;
         this.angles = this.levels.map((_, level) => {
             // Rays straight ahead are farthest apart.
             const angle = Math.atan(1.0001 * Math.hypot(wide, high) * 2 ** (level - 1));
             return { cosine: Math.cos(angle), sine: Math.sin(angle) };
         });
-        const largest = 1 << (Tiles.kLevels - 1);
-        const across = Math.ceil(width / largest),
-            down = Math.ceil(height / largest);
-        this.across = across << (Tiles.kLevels - 1);
-        this.down = down << (Tiles.kLevels - 1);
-        this.ranges = new Uint32Array(2 * this.across * this.down);
-        const lists = this.#largeTiles(shapes, look, across, down);
-        lists.forEach((list, tile) => {
-            const top = this.levels[Tiles.kLevels - 1];
-            top.reserve(list.length);
-            top.lists[0].set(list);
+        // The clip plane in the coordinates of balls: to the right, upwards and ahead.
+        this.plane = look.clip && seenPlane(view, look.clip);
+        if (this.plane) this.plane[2] *= -1;
+        this.areSpheres = look.faces.length === 0 && !look.flatNormal;
+        this.seen = new Uint32Array(width * height);
+        const largest = 1 << (Tiles.kLevels - 1),
+            across = Math.ceil(width / largest);
+        this.#largeTiles(across, Math.ceil(height / largest)).forEach((list, tile) => {
+            this.levels[Tiles.kLevels - 1].take(list, list.length);
             this.#cut(Tiles.kLevels - 1, tile % across, Math.floor(tile / across), list.length);
         });
-        this.#pack();
+    }
+
+    /** How large a sphere a ball of radius 1 holds: none, if it is a disc. */
+    #innerRadius() {
+        if (this.look.flatNormal) return 0;
+        return this.look.faces.reduce((least, face) => Math.min(least, 1 / Math.hypot(...face)), 1);
     }
 
     /** Places the balls around the eye.
      *  @returns for each of the largest tiles, those that may be in it */
-    #largeTiles(shapes, look, across, down) {
+    #largeTiles(across, down) {
         const { eye, x, y, z, halfHeight, aspect, near } = this.view;
         const { kBall } = Tiles,
-            count = shapes.length / 4;
+            count = this.shapes.length / 4;
         if (this.balls.length < kBall * count) this.balls = new Float64Array(kBall * count);
         const lists = Array.from({ length: across * down }, () => []);
-        const least = (1.5 * halfHeight) / this.height;
-        const areSpheres = look.faces.length === 0 && !look.flatNormal;
-        this.areSpheres = areSpheres && !look.clip;
+        const least = (1.5 * halfHeight) / this.height,
+            innerRadius = this.#innerRadius();
         const large = 1 << (Tiles.kLevels - 1);
         const tileAt = (share, pixels, most) =>
             clamp(Math.floor((((share + 1) / 2) * pixels) / large), 0, most - 1);
         for (let i = 0; i < count; ++i) {
-            const center = [shapes[4 * i], shapes[4 * i + 1], shapes[4 * i + 2]];
-            const radius = shapes[4 * i + 3],
-                apart = minus(center, eye);
+            const radius = this.shapes[4 * i + 3],
+                apart = minus(this.shapes.subarray(4 * i, 4 * i + 3), eye);
             const right = dot(apart, x),
                 above = dot(apart, y),
                 ahead = -dot(apart, z);
-            const outer = 1.0001 * look.reach * Math.max(radius, least * ahead);
+            const outer = 1.0001 * this.look.reach * Math.max(radius, least * ahead);
             if (ahead + outer < near) continue;
             const wide = seenSpan(right, ahead, outer, halfHeight * aspect);
             const high = seenSpan(above, ahead, outer, halfHeight);
             if (wide[1] < -1 || wide[0] > 1 || high[1] < -1 || high[0] > 1) continue;
-            const length = Math.hypot(right, above, ahead) || 1e-30;
-            // Only what is whole hides what is behind.
-            const isWhole =
-                areSpheres &&
-                ahead - radius > near &&
-                (!look.clip || dot(look.clip.normal, center) + look.clip.offset >= radius);
-            const sine = Math.min(1, outer / length);
-            this.balls.set(
-                [
-                    right / length,
-                    above / length,
-                    ahead / length,
-                    length,
-                    outer,
-                    isWhole ? 0.9999 * radius : 0,
-                    Math.sqrt(1 - sine * sine),
-                    sine,
-                ],
-                kBall * i,
-            );
+            const length = Math.hypot(right, above, ahead) || 1e-30,
+                sine = Math.min(1, outer / length);
+            const at = kBall * i;
+            this.balls[at] = right / length;
+            this.balls[at + 1] = above / length;
+            this.balls[at + 2] = ahead / length;
+            this.balls[at + 3] = length;
+            this.balls[at + 4] = outer;
+            this.balls[at + 5] = ahead - radius > near ? 0.9999 * innerRadius * radius : 0;
+            this.balls[at + 6] = Math.sqrt(1 - sine * sine);
+            this.balls[at + 7] = sine;
             const last = tileAt(wide[1], this.width, across),
                 top = tileAt(high[1], this.height, down);
             for (let row = tileAt(high[0], this.height, down); row <= top; ++row) {
@@ -149,19 +132,16 @@ class Tiles {
      *  on with the quarters of the tile. */
     #cut(level, column, row, count) {
         if (count === 0 || column << level >= this.width || row << level >= this.height) return;
-        if (level === 0 && this.areSpheres) {
-            this.#addNearest(column, row, count);
+        if (level === 0) {
+            const found = this.areSpheres
+                ? this.#nearestSphere(column, row, count)
+                : this.#nearestShape(column, row, count);
+            this.seen[row * this.width + column] = found + 1;
             return;
         }
         const kept = this.#keep(level, column, row, count);
-        if (level === 0) {
-            this.#add(column, row, kept);
-            return;
-        }
-        const below = this.levels[level - 1];
-        below.reserve(kept);
         for (let quarter = 0; quarter < 4; ++quarter) {
-            below.lists[0].set(this.levels[level].lists[0].subarray(0, kept));
+            this.levels[level - 1].take(this.levels[level].balls, kept);
             this.#cut(level - 1, 2 * column + (quarter & 1), 2 * row + (quarter >> 1), kept);
         }
     }
@@ -176,13 +156,37 @@ class Tiles {
         ]);
     }
 
+    /** Where rays of a tile come into the half-space that is kept, at least and at most, and where
+     *  they leave it at least. */
+    #keptSpan(level, ray) {
+        if (!this.plane) return { enterMin: -Infinity, enterMax: -Infinity, leaveMin: Infinity };
+        const { cosine, sine } = this.angles[level];
+        const speed = dot(this.plane, ray),
+            height = this.plane[3];
+        const beside = Math.sqrt(Math.max(0, 1 - speed * speed)) * sine;
+        const low = speed * cosine - beside,
+            high = Math.max(speed, speed * cosine + beside);
+        if (height < 0) {
+            return {
+                enterMin: high > 0 ? -height / high : Infinity,
+                enterMax: low > 0 ? -height / low : Infinity,
+                leaveMin: Infinity,
+            };
+        }
+        const leaveMin = low < 0 ? -height / Math.min(low, speed) : Infinity;
+        return { enterMin: -Infinity, enterMax: -Infinity, leaveMin };
+    }
+
     /** Moves balls that may be seen in a tile to the front of the list.
      *  @returns how many there are */
     #keep(level, column, row, count) {
-        const [balls, nearest] = this.levels[level].lists,
+        const { balls, nearest } = this.levels[level],
             values = this.balls;
         const { cosine, sine } = this.angles[level];
-        const [x, y, z] = this.#middleOf(level, column, row);
+        const ray = this.#middleOf(level, column, row),
+            [x, y, z] = ray;
+        const { enterMin, enterMax, leaveMin } = this.#keptSpan(level, ray);
+        const front = this.plane ? Number(kFront) : 0;
         let covered = Infinity,
             met = 0;
         for (let i = 0; i < count; ++i) {
@@ -197,16 +201,20 @@ class Tiles {
             const sineOf = Math.sqrt(Math.max(0, 1 - cosineOf * cosineOf));
             // The rays nearest to the center.
             const towards = cosineOf >= cosine ? 1 : cosineOf * cosine + sineOf * sine;
-            const room = Math.max(0, outer * outer - length * length * (1 - towards * towards));
+            const half = Math.sqrt(
+                Math.max(0, outer * outer - length * length * (1 - towards * towards)),
+            );
+            if (!isInside && length * towards + half < enterMin) continue;
             balls[met] = ball;
-            nearest[met++] = isInside
-                ? -1e6
-                : length * towards - Math.sqrt(room) - this.front * outer;
+            const begin = isInside ? -1e6 : length * towards - half;
+            nearest[met++] = Math.max(begin, enterMin) - front * outer;
             if (isInside || inner < length * sine) continue;
             // Those farthest from it.
             const away = cosineOf * cosine - sineOf * sine;
             const hiding = inner * inner - length * length * (1 - away * away);
-            if (hiding > 0) covered = Math.min(covered, length * away - Math.sqrt(hiding));
+            if (hiding <= 0 || length * away + Math.sqrt(hiding) < enterMax) continue;
+            const end = Math.max(length * away - Math.sqrt(hiding), enterMax);
+            if (end <= leaveMin) covered = Math.min(covered, end);
         }
         let kept = 0;
         for (let i = 0; i < met; ++i) {
@@ -217,52 +225,62 @@ class Tiles {
         return kept;
     }
 
-    /** Adds the sphere that the ray through a pixel meets first. */
-    #addNearest(column, row, count) {
-        const balls = this.levels[0].lists[0],
-            values = this.balls;
-        const [x, y, z] = this.#middleOf(0, column, row);
+    /** The sphere that the ray through a pixel shows; -1 if there is none. As in ballShader.js. */
+    #nearestSphere(column, row, count) {
+        const { balls } = this.levels[0],
+            values = this.balls,
+            { plane } = this;
+        const ray = this.#middleOf(0, column, row),
+            [x, y, z] = ray;
+        const speed = plane ? dot(plane, ray) : 0,
+            height = plane ? plane[3] : 1;
+        if (speed <= 0 && height < 0) return -1;
+        const cut = -height / speed;
+        const enter = speed > 0 ? cut : -Infinity,
+            leave = speed < 0 ? cut : Infinity;
+        const from = this.view.near / z;
         let found = -1,
             least = Infinity;
         for (let i = 0; i < count; ++i) {
             const at = Tiles.kBall * balls[i];
             const cosine = x * values[at] + y * values[at + 1] + z * values[at + 2];
-            if (cosine < values[at + 6]) continue;
             const length = values[at + 3],
                 outer = values[at + 4];
-            const begin =
-                length * cosine -
-                Math.sqrt(outer * outer - length * length * (1 - cosine * cosine));
-            if (begin >= least || begin * z < this.view.near) continue;
+            if (cosine < values[at + 6] && length > outer) continue;
+            const room = outer * outer - length * length * (1 - cosine * cosine);
+            const half = Math.sqrt(Math.max(0, room));
+            let begin = length * cosine - half;
+            if (begin > leave || length * cosine + half < enter) continue;
+            if (begin < enter) {
+                const apart = enter - length * cosine; // along the ray, from beside the center
+                begin = enter;
+                if (begin < from) continue;
+                begin += (Number(kFront) * (apart * apart - half * half)) / outer / z;
+            } else if (begin < from) continue;
+            if (begin >= least) continue;
             least = begin;
             found = balls[i];
         }
-        if (found < 0) return;
-        this.output.reserve(this.count + 1);
-        this.output.lists[0][this.count] = found;
-        this.output.lists[1][this.count] = least;
-        this.ranges.set([this.count, this.count + 1], 2 * (row * this.across + column));
-        ++this.count;
+        return found;
     }
 
-    /** Adds all balls of a pixel. */
-    #add(column, row, count) {
-        this.output.reserve(this.count + count);
-        this.levels[0].lists.forEach((list, i) =>
-            this.output.lists[i].set(list.subarray(0, count), this.count),
+    /** The same of discs and of balls of norms. */
+    #nearestShape(column, row, count) {
+        const ray = rayThrough(
+            this.view,
+            (2 * (column + 0.5)) / this.width - 1,
+            (2 * (row + 0.5)) / this.height - 1,
         );
-        this.ranges.set([this.count, this.count + count], 2 * (row * this.across + column));
-        this.count += count;
-    }
-
-    #pack() {
-        const rows = Math.max(1, Math.ceil(this.count / kTextureWidth));
-        this.entries = new Uint32Array(2 * rows * kTextureWidth);
-        const distances = new Float32Array(this.entries.buffer);
-        const [balls, nearest] = this.output.lists;
-        for (let i = 0; i < this.count; ++i) {
-            this.entries[2 * i] = balls[i];
-            distances[2 * i + 1] = nearest[i];
+        const kept = keptBy(this.look.clip, ray),
+            { balls } = this.levels[0];
+        let found = -1,
+            least = Infinity;
+        for (let i = 0; i < count; ++i) {
+            const order = orderOf(ray, kept, this.view, this.shapes, balls[i], this.look);
+            if (order >= least) continue;
+            least = order;
+            found = balls[i];
         }
+        return found;
     }
 }
