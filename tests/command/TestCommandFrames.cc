@@ -98,6 +98,22 @@ TEST_F(CommandFrames, FramesMayBeChosen)
     EXPECT_FALSE(exists("tree_0009.vdb"));
 }
 
+/// Slices are one volume. Only where someone says frames they are images, one after the other.
+TEST_F(CommandFrames, PicturesAreAStackUnlessFramesAreNamed)
+{
+    for (const int number : {1, 2, 3}) {
+        writeText(path("s_000" + std::to_string(number) + ".pgm"), "P2 2 1 9\n5 5\n");
+    }
+    const Result stack = run("-read s_####.pgm -print");
+    EXPECT_EQ(stack.exitCode, 0) << stack.err;
+    EXPECT_NE(stack.out.find("6 active voxels"), std::string::npos) << stack.out;
+    const Result frames = run("-read s_%04d.pgm frames=1-3 -print");
+    EXPECT_EQ(frames.exitCode, 0) << frames.err;
+    EXPECT_EQ(std::count(frames.out.begin(), frames.out.end(), '\n'), 3) << frames.out;
+    const Result loop = run("-for i=1,3 -read s_%04d.pgm -print -clear -end");
+    EXPECT_NE(loop.out.find("2 active voxels"), std::string::npos) << loop.out << loop.err;
+}
+
 TEST_F(CommandFrames, AGapIsNoted)
 {
     writeFrames({8, 9, 12});

@@ -5,7 +5,7 @@
 usage: run_page.py PROGRAM FOLDER PAGE [NAME=VALUE ...]    exit code 77: a program of the page is not here
 
 Blocks between ```sh and ``` are for bash, and those between ```python and ``` for Python; a block with
-<!-- needs: program --> in the line before is left out where there is no such program. A block between ```cpp and
+<!-- needs: program --> in the line before is left out where there is no such program, or module of Python. A block between ```cpp and
 ``` must stand in a program of examples/, which others build and run. Each NAME=VALUE is put into the environment;
 SPHERETREE is the project's folder.
 """
@@ -71,6 +71,13 @@ def blocks_of(page):
     return [(language, code, needs) for needs, language, code in pattern.findall(page.read_text())]
 
 
+def is_here(name, environment):
+    if shutil.which(name, path=environment["PATH"]):
+        return True
+    return subprocess.run([sys.executable, "-c", f"import {name}"], env=environment,
+                          capture_output=True).returncode == 0
+
+
 def main():
     program, folder, page = (Path(word).resolve() for word in sys.argv[1:4])
     environment = dict(os.environ, PATH=f"{program.parent}:{os.environ['PATH']}")
@@ -83,7 +90,7 @@ def main():
         sys.exit(f"{page}: no block of commands")
     left_out = 0
     for language, code, needs in blocks:
-        if needs and shutil.which(needs, path=environment["PATH"]) is None:
+        if needs and not is_here(needs, environment):
             left_out += 1
             continue
         if language == "cpp":

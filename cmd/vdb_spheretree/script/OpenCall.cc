@@ -3,6 +3,7 @@
 
 #include "base/Errors.h"
 #include "expression/FrameName.h"
+#include "Sequence.h"
 
 namespace command {
 
@@ -14,6 +15,7 @@ ActionCall closedCall(const ActionCall& call, Variables& variables, std::optiona
         const bool isName = option.kind == OptionKind::Text || option.kind == OptionKind::List;
         if (!isName || !hasFrame(text)) return text;
         if (number) return withFrame(text, *number);
+        if (isStack(call, text)) return text;
         throwUsage(oneLine(text, 200)
             + " has a place for a frame number, and there is none: read a sequence (-read "
               "smoke_####.vdb), or put -for i=1,26 and -end around");

@@ -5,19 +5,21 @@
 #include "expression/Expression.h"
 #include "expression/FrameName.h"
 
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
+
 #include <algorithm>
 
 namespace command {
 
 namespace {
 
-/// @return the first of several names, commas between, that has a place for a number.
-std::optional<std::string> firstWithFrame(const std::string& names)
+/// @return the first of several names, commas between, that has a place for the number of a frame.
+std::optional<std::string> firstWithFrame(const ActionCall& call, const std::string& names)
 {
     for (size_t begin = 0; begin < names.size();) {
         const size_t end = std::min(names.find(',', begin), names.size());
         const std::string name = names.substr(begin, end - begin);
-        if (hasFrame(name)) return name;
+        if (hasFrame(name) && !isStack(call, name)) return name;
         begin = end + 1;
     }
     return {};
@@ -35,6 +37,11 @@ std::string gapsIn(const std::vector<int64_t>& frames, const std::string& name)
 
 } // namespace
 
+bool isStack(const ActionCall& call, const std::string& name)
+{
+    return call.spec().isSource && !call.given("frames") && openvdb_spheretree::isStackName(name);
+}
+
 std::optional<std::string> sequenceName(const ActionCall& call, const Variables& variables)
 {
     if (!call.spec().isSource || !call.isOpen()) return {};
@@ -42,7 +49,7 @@ std::optional<std::string> sequenceName(const ActionCall& call, const Variables&
         if (!one.isOpen || one.option->name != "files") continue;
         Variables own = variables; // nothing is stored yet
         try {
-            const auto name = firstWithFrame(evaluate(one.typed, own, nullptr));
+            const auto name = firstWithFrame(call, evaluate(one.typed, own, nullptr));
             if (name) return name;
         } catch (const NeedsStack&) { // a name that will come from the stack
         }

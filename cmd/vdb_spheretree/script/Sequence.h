@@ -14,6 +14,10 @@
 
 namespace command {
 
+/// @return whether pictures of such names are the slices of one volume: frames of a sequence they are only where
+///         frames= says so.
+bool isStack(const ActionCall& call, const std::string& name);
+
 /// @return the first name with a place for a number among the files that an action reads; nothing if there is
 ///         none.
 /// @throw CommandError (usage)
