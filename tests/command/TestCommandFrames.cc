@@ -16,6 +16,7 @@ namespace {
 using command_test::CommandTest;
 using command_test::readText;
 using command_test::Result;
+using command_test::writeText;
 
 class CommandFrames : public CommandTest {
 protected:
