@@ -119,6 +119,24 @@ TEST_F(CommandLoops, ATestMayComeFromTheStackAndSetVariables)
         "two.vdb\n");
 }
 
+TEST_F(CommandLoops, WhatMayNotBeDoneIsNotTakenForDone)
+{
+    writeSpheres();
+    for (const char* file : {"one", "two"}) {
+        EXPECT_EQ(printed({"-eval", "{0:@found}", "-read", std::string(file) + ".vdb", "-if",
+                      "{gridCount:1:>}", "-eval", "{5:@found}", "-end", "-eval", "{$found}"}),
+            std::string(file) == "two" ? "5\n" : "0\n");
+    }
+}
+
+TEST_F(CommandLoops, AValueThatIsFoundLaterIsFoundOnce)
+{
+    writeSpheres();
+    EXPECT_EQ(printed({"-read", "two.vdb", "-eval", "{1:@a}{gridCount:@a}", "-eval", "{7:@b}",
+                  "-eval", "{$a}{$b}"}),
+        "27\n");
+}
+
 TEST_F(CommandLoops, AnOpenFileIsCheckedWhenItIsReached)
 {
     writeSpheres();
@@ -259,10 +277,10 @@ const BadLoop kBadLoops[] = {
     {"NoNumber", {"-for", "i=a,b", "-end"}, "i=a,b has what is no number"},
     {"OneNumber", {"-for", "i=3", "-end"}, "i=3 has 1 number, and takes two or three"},
     {"NoStep", {"-for", "i=0,3,0", "-end"}, "a step of 0, and no end"},
-    {"TooMany", {"-for", "i=0,1000000000", "-end"}, "more than 250000 turns"},
-    {"TooManyOfReals", {"-for", "i=0,1,1e-9", "-end"}, "more than 250000 turns"},
+    {"TooMany", {"-for", "i=0,1000000000", "-end"}, "more than 100000 turns"},
+    {"TooManyOfReals", {"-for", "i=0,1,1e-9", "-end"}, "more than 100000 turns"},
     {"TooManyOfAll", {"-for", "i=0,1000", "-for", "j=0,1000", "-eval", "x", "-end", "-end"},
-        "come to more than 250000 actions"},
+        "come to more than 100000 actions"},
     {"BadName", {"-for", "3i=0,3", "-end"}, "'3i' is no name of a variable"},
     {"SameName", {"-for", "i=0,3", "-for", "i=0,3", "-end", "-end"}, "is that of a loop around"},
     {"EmptyValue", {"-each", "s=a,,b", "-end"}, "a value of s is empty"},

@@ -39,6 +39,7 @@ public:
     /// @brief What is added from now on belongs to a frame of a loop; or to none, if @a frame is empty. Inputs of
     /// frames that are not there are kept until requireInputs(): all of them are worth knowing.
     void setFrame(const std::string& frame) { mFrame = frame; }
+    const std::string& frame() const { return mFrame; }
     /// @throw CommandError (input) that names those that are not there
     void requireInputs() const;
 

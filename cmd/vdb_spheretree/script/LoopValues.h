@@ -12,7 +12,7 @@
 namespace command {
 
 /// The most turns of all loops of a line together, and actions in them.
-constexpr size_t kMostSteps = 250000;
+constexpr size_t kMostSteps = 100000;
 
 struct LoopValues {
     std::string variable;

@@ -247,10 +247,9 @@ void ScriptRunner::runLoop(const Step& loop, bool isEnd)
 void ScriptRunner::runFrame(const Frame& frame, Turns& turns, bool isEnd)
 {
     const Stopwatch watch;
-    const Session::InFrame inFrame(mSession, turns.label());
+    const Session::InFrame inFrame(mSession, frame.name, turns.label());
     FrameItems items(mSession);
     const bool isLast = turns.begun == turns.loop.frames.size();
-    mSession.plan.setFrame(frame.name);
     replay(frame.variables);
     try {
         runSteps(frame.steps, isEnd);

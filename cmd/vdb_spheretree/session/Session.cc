@@ -21,11 +21,18 @@ void Session::run(const Script& script)
     noteAllIsDone();
 }
 
-Session::InFrame::InFrame(Session& session, const std::string& label)
-    : mSession(session), mBefore(std::exchange(session.mFrame, label))
+Session::InFrame::InFrame(Session& session, const std::string& name, const std::string& label)
+    : mSession(session), mName(session.plan.frame()), mLabel(std::exchange(session.mFrame, label))
 {
+    session.plan.setFrame(name);
     session.seconds = {};
     session.total = {};
+}
+
+Session::InFrame::~InFrame()
+{
+    mSession.plan.setFrame(mName);
+    mSession.mFrame = mLabel;
 }
 
 void Session::runOne(const ActionCall& call)

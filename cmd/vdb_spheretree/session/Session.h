@@ -46,14 +46,16 @@ struct Session {
     /// While a frame runs: actions are shown with its name, and times count from its begin.
     class InFrame {
     public:
-        InFrame(Session& session, const std::string& label);
-        ~InFrame() { mSession.mFrame = mBefore; }
+        /// @param name   of the frame, for the plan
+        /// @param label  the same with its place among the others, to be shown
+        InFrame(Session& session, const std::string& name, const std::string& label);
+        ~InFrame();
         InFrame(const InFrame&) = delete;
         InFrame& operator=(const InFrame&) = delete;
 
     private:
         Session& mSession;
-        std::string mBefore;
+        std::string mName, mLabel; ///< those of before
     };
 
     /// Has parallel work take so many threads at most, until the program ends.

@@ -3,6 +3,7 @@
 /// @brief Masks and points as objects; what is no object; what an object keeps of its grid.
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
@@ -190,6 +191,20 @@ TEST(Object, EveryGridTypeOfOpenVdbEitherWorksOrIsATypeError)
         }
     });
     EXPECT_EQ(bounded, 8);
+}
+
+TEST(Object, OnlyEmptyOnesAreRefusedAsEmpty)
+{
+    const auto fog = named<FloatGrid>("smoke", 0.0f);
+    EXPECT_THROW(objectOf(*fog), openvdb_spheretree::EmptyObject);
+    const auto unbounded = named<FloatGrid>("smoke", 1.0f);
+    try {
+        objectOf(*unbounded);
+        FAIL() << "an object without bounds";
+    } catch (const openvdb_spheretree::EmptyObject&) {
+        FAIL() << "it is not empty";
+    } catch (const openvdb::ValueError&) { // as it should be
+    }
 }
 
 TEST(Object, AnEmptyObjectIsAnErrorThatNamesGridAndCriterion)
