@@ -8,6 +8,7 @@
 #include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include <sys/stat.h>
 
@@ -80,13 +81,21 @@ TEST_F(CommandFrames, ALoopHasTheNumberOfItsFrameInNames)
     EXPECT_FALSE(exists("09_0009.csv"));
 }
 
-TEST_F(CommandFrames, TheInnermostNumberCounts)
+TEST_F(CommandFrames, ALoopOfNamesHasNoNumber)
 {
     const Result result =
         run("-for n=1,3 -each s=a,b -generate ball voxels=1e4 -write {$s}_##.vdb -end -end");
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_TRUE(
         exists("a_01.vdb") && exists("b_01.vdb") && exists("a_02.vdb") && exists("b_02.vdb"));
+}
+
+TEST_F(CommandFrames, OfTwoNumbersTheInnerOneCounts)
+{
+    const Result result =
+        run("-for n=1,3 -for m=5,6 -generate ball voxels=1e4 -write {$n}_##.vdb -end -end");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(exists("1_05.vdb") && exists("2_05.vdb"));
 }
 
 TEST_F(CommandFrames, FramesMayBeChosen)
@@ -324,13 +333,32 @@ TEST_F(CommandFrames, AFullDiskEndsTheLoop)
 
 TEST_F(CommandFrames, AnInputOfAFrameThatIsDoneMayChange)
 {
+    for (const char* line :
+        {"-read smoke_####.vdb delayed=1 -spheretree spheres=1 -write t_####.vdb",
+            "-for i=8,10 -read smoke_####.vdb delayed=1 -spheretree spheres=1 -write t_####.vdb "
+            "-end"}) {
+        writeFrames({8, 9});
+        const std::string bytes = readText(path("smoke_0009.vdb"));
+        std::filesystem::remove(path("smoke_0009.vdb"));
+        const std::string fifo = path("smoke_0009.vdb");
+        ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+        auto running = start(command_test::split(line));
+        ASSERT_TRUE(running.waitForError(" (1 of 2): tree"));
+        std::ofstream(path("smoke_0008.vdb"), std::ios::app) << "more";
+        command_test::writeText(fifo, bytes);
+        const Result result = running.wait();
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_TRUE(existAll("t", {8, 9})) << line;
+        std::filesystem::remove(fifo);
+    }
+}
+
+TEST_F(CommandFrames, FilesThatAreReadMayBeReplaced)
+{
     writeFrames({8, 9});
-    const Result result =
-        run("-for i=8,10 -read smoke_####.vdb delayed=1 -write smoke_0008.vdb keep=1 -clear -end");
-    EXPECT_EQ(result.exitCode, 2) << result.err; // two frames to one file
-    const Result other = run("-read smoke_####.vdb delayed=1 -spheretree spheres=1 "
-                             "-write smoke_####.vdb");
-    EXPECT_EQ(other.exitCode, 0) << other.err;
+    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write smoke_####.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(readGrids("smoke_0009.vdb")[0]->isType<openvdb::points::PointDataGrid>());
 }
 
 TEST_F(CommandFrames, TimesOfStatsCountFromTheBeginOfTheFrame)

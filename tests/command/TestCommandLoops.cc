@@ -119,6 +119,24 @@ TEST_F(CommandLoops, ATestMayComeFromTheStackAndSetVariables)
         "two.vdb\n");
 }
 
+TEST_F(CommandLoops, WhatMayNotBeDoneIsNotTakenForDone)
+{
+    writeSpheres();
+    for (const char* file : {"one", "two"}) {
+        EXPECT_EQ(printed({"-eval", "{0:@found}", "-read", std::string(file) + ".vdb", "-if",
+                      "{gridCount:1:>}", "-eval", "{5:@found}", "-end", "-eval", "{$found}"}),
+            std::string(file) == "two" ? "5\n" : "0\n");
+    }
+}
+
+TEST_F(CommandLoops, AValueThatIsFoundLaterIsFoundOnce)
+{
+    writeSpheres();
+    EXPECT_EQ(printed({"-read", "two.vdb", "-eval", "{1:@a}{gridCount:@a}", "-eval", "{7:@b}",
+                  "-eval", "{$a}{$b}"}),
+        "27\n");
+}
+
 TEST_F(CommandLoops, AnOpenFileIsCheckedWhenItIsReached)
 {
     writeSpheres();
