@@ -4,6 +4,7 @@
 import json
 import os
 import struct
+import subprocess
 from pathlib import Path
 
 from read_programs import Missing, need, output_of
@@ -20,7 +21,10 @@ def node(trees, script, *arguments):
     if not (modules / "node_modules" / "three").exists():
         modules.mkdir(parents=True, exist_ok=True)
         (modules / "package.json").write_text((HERE / "web" / "package.json").read_text())
-        output_of("npm", "install", "--no-audit", "--no-fund", "--loglevel=error", cwd=modules)
+        try:
+            output_of("npm", "install", "--no-audit", "--no-fund", "--loglevel=error", cwd=modules)
+        except (AssertionError, subprocess.TimeoutExpired) as error:
+            raise Missing(f"packages of npm: {error}") from error
     # Modules find packages from where they are.
     copy = modules / script
     copy.write_text((HERE / "web" / script).read_text())
