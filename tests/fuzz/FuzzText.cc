@@ -8,8 +8,8 @@
 #include <openvdb_spheretree/tree/SettingsTable.h>
 #include <openvdb_spheretree/tree/SphereTreeSettings.h>
 
+#include <base/DidYouMean.h>
 #include <line/Action.h>
-#include <line/ActionParser.h>
 
 #include <openvdb/Exceptions.h>
 
