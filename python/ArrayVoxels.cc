@@ -263,7 +263,7 @@ InRange rangeOf(const ObjectSettings& settings)
 // ---- Grids of values
 
 template <typename Value>
-using GridFor = openvdb::BoolGrid::ValueConverter<Value>::Type;
+using GridFor = typename openvdb::BoolGrid::ValueConverter<Value>::Type;
 
 template <typename T>
 openvdb::GridBase::Ptr valuesOf(
