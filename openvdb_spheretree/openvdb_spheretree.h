@@ -68,6 +68,10 @@
 #include "tree/LevelSpheres.h"
 #include "tree/SphereLevelSet.h"
 
+// Questions to a tree.
+#include "query/QueryTree.h"
+#include "query/RigidTransform.h"
+
 // Spheres that other tools have made.
 #include "input/spheres/SphereFile.h"
 #include "input/spheres/WorldSpheres.h"

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file QueryData.h
+/// @brief What a QueryTree is: blocks of spheres about an origin, and what they promise.
+
+#pragma once
+
+#include "QueryTree.h"
+#include "SphereBlocks.h"
+
+#include <openvdb/math/Transform.h>
+
+#include <limits>
+
+namespace openvdb_spheretree::detail {
+
+struct QueryData {
+    SphereBlocks spheres;
+    openvdb::Vec3d origin;    ///< of the blocks' coordinates, in the world
+    int32_t firstLeafId = 0;  ///< node id of leaf 0; those of others follow
+    bool holdsObject = false; ///< the chains of QueryTree.h
+    bool holdsLeaves = false;
+    double leafReach = std::numeric_limits<double>::infinity(); ///< world units
+    double leafInset = std::numeric_limits<double>::infinity(); ///< world units
+
+    openvdb::Vec3d world(const FloatSphere& s) const
+    {
+        return origin + openvdb::Vec3d(s.x, s.y, s.z);
+    }
+};
+
+} // namespace openvdb_spheretree::detail
