@@ -69,6 +69,9 @@
 #include "tree/SphereLevelSet.h"
 
 // Questions to a tree.
+#include "query/BodyDistance.h"
+#include "query/Collide.h"
+#include "query/Contact.h"
 #include "query/QueryTree.h"
 #include "query/RigidTransform.h"
 

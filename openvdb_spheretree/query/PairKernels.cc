@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PairKernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "openvdb_spheretree/query/PairKernels.cc"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include <openvdb_spheretree/base/Rounding.h>
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace openvdb_spheretree::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, kBlockWidth>;
+using V = hn::Vec<D>;
+constexpr int kWidth = int(hn::MaxLanes(D()));
+
+/// One bit a lane.
+template <typename Mask>
+HWY_INLINE uint32_t Bits(const Mask& mask)
+{
+    uint64_t bits = 0; // of a few lanes one byte is written, of 16 two
+    hn::StoreMaskBits(D(), mask, reinterpret_cast<uint8_t*>(&bits));
+    return uint32_t(bits);
+}
+
+HWY_INLINE int FirstLane(uint32_t bits) { return int(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
+
+/// Squared distances of some lanes' centers to that of a sphere.
+HWY_INLINE V DistSq(const SphereBlock& block, int lane, const FloatSphere& s)
+{
+    const D d;
+    const V x = hn::Sub(hn::Load(d, block.x + lane), hn::Set(d, s.x));
+    const V y = hn::Sub(hn::Load(d, block.y + lane), hn::Set(d, s.y));
+    const V z = hn::Sub(hn::Load(d, block.z + lane), hn::Set(d, s.z));
+    return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+/// A place is kBlockWidth * block + lane; or this, of the sphere above all.
+constexpr int32_t kRootPlace = -1;
+
+struct Node {
+    FloatSphere sphere;
+    int32_t child; ///< as in a block
+};
+
+HWY_INLINE Node NodeAt(const SphereBlocks& blocks, int32_t place)
+{
+    if (place == kRootPlace) return {blocks.root, 0};
+    const SphereBlock& block = blocks.blocks[std::size_t(place) / kBlockWidth];
+    const int lane = place % kBlockWidth;
+    return {block.sphere(lane), block.child[lane]};
+}
+
+/// A pair that waits on the stack.
+struct Pair {
+    int32_t a, b; ///< places
+};
+
+/// A block that is tested next, and the sphere of the other body in its frame.
+struct Opened {
+    const SphereBlock* block;
+    int32_t place; ///< of lane 0
+    FloatSphere other;
+    int32_t otherChild; ///< negative: a leaf
+    bool isOfA;         ///< the block
+
+    bool areLeaves(int lane) const { return otherChild < 0 && block->child[lane] < 0; }
+    /// The leaves of such a pair.
+    int32_t leafA(int lane) const { return ~(isOfA ? block->child[lane] : otherChild); }
+    int32_t leafB(int lane) const { return ~(isOfA ? otherChild : block->child[lane]); }
+    Pair below(const Pair& pair, int lane) const
+    {
+        return isOfA ? Pair{place + lane, pair.b} : Pair{pair.a, place + lane};
+    }
+};
+
+/// Opens the larger sphere of a pair that is not two leaves.
+HWY_INLINE Opened Open(const PairFrame& frame, const Pair& pair)
+{
+    const Node a = NodeAt(*frame.a, pair.a), b = NodeAt(*frame.b, pair.b);
+    const bool opensA = b.child < 0 || (a.child >= 0 && a.sphere.r >= b.sphere.r);
+    Opened opened;
+    opened.isOfA = opensA;
+    const int32_t number = opensA ? a.child : b.child;
+    opened.block = (opensA ? frame.a : frame.b)->blocks.data() + number;
+    opened.place = kBlockWidth * number;
+    opened.other = opensA ? frame.toA(b.sphere) : frame.toB(a.sphere);
+    opened.otherChild = opensA ? b.child : a.child;
+    return opened;
+}
+
+/// What sums of radii grow by, so that no pair is missed whose gap is the margin or less.
+float ReachOf(const PairFrame& frame, const SearchLimits& limits)
+{
+    return toFloatUp(limits.margin + 1e-6 * std::abs(limits.margin) + frame.pad);
+}
+
+/// Any pair that meets: lanes that meet are descended into, the deepest first.
+class OverlapSearch {
+public:
+    OverlapSearch(const PairFrame& frame, const SearchLimits& limits)
+        : mFrame(frame), mLimits(limits), mReach(ReachOf(frame, limits))
+    {}
+
+    template <bool kWantsBound>
+    SearchEnd Run()
+    {
+        mStack[0] = {kRootPlace, kRootPlace};
+        mCount = 1;
+        while (mCount > 0) {
+            if (mEnd.blocks == mLimits.maxBlocks) {
+                mEnd.isDecided = false;
+                return mEnd;
+            }
+            const Pair pair = mStack[--mCount];
+            Opened opened = Open(mFrame, pair);
+            opened.other.r += mReach;
+            ++mEnd.blocks;
+            if (Descend<kWantsBound>(pair, opened)) return mEnd;
+        }
+        if (kWantsBound)
+            mEnd.lowerBound = std::min(double(mLeast) + mLimits.margin, mLeastOfLeaves);
+        return mEnd;
+    }
+
+private:
+    /// @return whether leaves that meet are found.
+    template <bool kWantsBound>
+    HWY_INLINE bool Descend(const Pair& pair, const Opened& opened)
+    {
+        HWY_ALIGN float depth[kBlockWidth];
+        uint32_t hits = Test<kWantsBound>(opened, depth);
+        int deepest = mCount;
+        float most = 0;
+        for (; hits; hits &= hits - 1) {
+            const int lane = FirstLane(hits);
+            if (opened.areLeaves(lane)) {
+                if (Meet(opened, lane)) return true;
+                continue;
+            }
+            if (depth[lane] < most) {
+                most = depth[lane];
+                deepest = mCount;
+            }
+            mStack[mCount++] = opened.below(pair, lane);
+        }
+        if (deepest < mCount) std::swap(mStack[deepest], mStack[mCount - 1]);
+        return false;
+    }
+
+    /// @return lanes that meet the sphere; `depth` receives the square of their distance less that of the
+    ///         radii.
+    template <bool kWantsBound>
+    HWY_INLINE uint32_t Test(const Opened& opened, float* depth)
+    {
+        const D d;
+        uint32_t hits = 0;
+        for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
+            const V distSq = DistSq(*opened.block, lane, opened.other);
+            const V sum = hn::Add(hn::Load(d, opened.block->r + lane), hn::Set(d, opened.other.r));
+            const V reach = hn::Max(sum, hn::Zero(d)); // of a negative margin
+            const V reachSq = hn::Mul(reach, reach);
+            const auto meets = hn::Le(distSq, reachSq);
+            hits |= Bits(meets) << lane;
+            hn::Store(hn::Sub(distSq, reachSq), d, depth + lane);
+            if (kWantsBound)
+                AddBound(
+                    hn::IfThenElse(meets, hn::Set(d, kEmptyLane), hn::Sub(hn::Sqrt(distSq), sum)));
+        }
+        return hits;
+    }
+
+    HWY_INLINE void AddBound(const V& gaps)
+    {
+        mLeast = std::min(mLeast, hn::GetLane(hn::MinOfLanes(D(), gaps)));
+    }
+
+    bool Meet(const Opened& opened, int lane)
+    {
+        const LeafPair pair{opened.leafA(lane), opened.leafB(lane),
+            mFrame.leafGap(opened.leafA(lane), opened.leafB(lane))};
+        mLeastOfLeaves = std::min(mLeastOfLeaves, pair.gap);
+        if (pair.gap > mLimits.margin + mFrame.rounding) return false;
+        mEnd.pair = pair;
+        return true;
+    }
+
+    const PairFrame& mFrame;
+    const SearchLimits& mLimits;
+    float mReach; ///< what radii grow by
+    float mLeast = kEmptyLane;
+    double mLeastOfLeaves = std::numeric_limits<double>::infinity();
+    SearchEnd mEnd;
+    int mCount = 0;
+    Pair mStack[kMostPairs];
+};
+
+/// All pairs that meet.
+class AllOverlaps {
+public:
+    AllOverlaps(const PairFrame& frame, const SearchLimits& limits, const PairSink& sink)
+        : mFrame(frame), mLimits(limits), mSink(sink), mReach(ReachOf(frame, limits)),
+          mSlack(2.001f * frame.pad + 4e-6f * float(std::abs(limits.margin)))
+    {}
+
+    SearchEnd Run()
+    {
+        mStack[0] = {kRootPlace, kRootPlace};
+        mCount = 1;
+        while (mCount > 0) {
+            if (mEnd.blocks == mLimits.maxBlocks) {
+                mEnd.isDecided = false;
+                return mEnd;
+            }
+            const Pair pair = mStack[--mCount];
+            Opened opened = Open(mFrame, pair);
+            opened.other.r += mReach;
+            ++mEnd.blocks;
+            if (!Descend(pair, opened)) return mEnd;
+        }
+        return mEnd;
+    }
+
+private:
+    /// @return false if no more is wanted.
+    HWY_INLINE bool Descend(const Pair& pair, const Opened& opened)
+    {
+        uint32_t hits = 0, certain = 0;
+        Test(opened, hits, certain);
+        for (; hits; hits &= hits - 1) {
+            const int lane = FirstLane(hits);
+            if (!opened.areLeaves(lane)) {
+                mStack[mCount++] = opened.below(pair, lane);
+                continue;
+            }
+            const int32_t a = opened.leafA(lane), b = opened.leafB(lane);
+            const bool meet =
+                (certain >> lane & 1) || mFrame.leafGap(a, b) <= mLimits.margin + mFrame.rounding;
+            if (!meet) continue;
+            mEnd.pair.a = a;
+            mEnd.pair.b = b;
+            if (!mSink.add(mSink.context, a, b)) return false;
+        }
+        return true;
+    }
+
+    /// Lanes that may meet the sphere, and of these the ones that do for certain: by more than rounding.
+    HWY_INLINE void Test(const Opened& opened, uint32_t& hits, uint32_t& certain) const
+    {
+        const D d;
+        for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
+            const V distSq = DistSq(*opened.block, lane, opened.other);
+            const V sum = hn::Add(hn::Load(d, opened.block->r + lane), hn::Set(d, opened.other.r));
+            const V reach = hn::Max(sum, hn::Zero(d));
+            const V least = hn::Max(hn::Sub(sum, hn::Set(d, mSlack)), hn::Zero(d));
+            hits |= Bits(hn::Le(distSq, hn::Mul(reach, reach))) << lane;
+            certain |= Bits(hn::Lt(distSq, hn::Mul(least, least))) << lane;
+        }
+    }
+
+    const PairFrame& mFrame;
+    const SearchLimits& mLimits;
+    const PairSink& mSink;
+    float mReach, mSlack;
+    SearchEnd mEnd;
+    int mCount = 0;
+    Pair mStack[kMostPairs];
+};
+
+/// The pairs with the smallest gaps: branch and bound, depth first, the nearest first.
+class NearestSearch {
+public:
+    NearestSearch(const PairFrame& frame, const NearestLimits& limits, LeafPair* pairs, int count)
+        : mFrame(frame), mLimits(limits), mPairs(pairs), mFound(count)
+    {
+        std::make_heap(mPairs, mPairs + mFound, IsNearer);
+        SetBound();
+    }
+
+    SearchEnd Run(int& count)
+    {
+        const float root = toFloatDown(mFrame.rootGap());
+        mStack[0] = {{kRootPlace, kRootPlace}, root};
+        mCount = 1;
+        while (mCount > 0 && !mIsDone) {
+            const Waiting next = mStack[--mCount];
+            if (next.bound >= mBound) continue;
+            if (mEnd.blocks == mLimits.maxBlocks) {
+                mEnd.isDecided = false;
+                ++mCount;
+                break;
+            }
+            ++mEnd.blocks;
+            Descend(next.pair, Open(mFrame, next.pair));
+        }
+        SetLowerBound();
+        std::sort_heap(mPairs, mPairs + mFound, IsNearer);
+        count = mFound;
+        if (mFound > 0) mEnd.pair = mPairs[0];
+        return mEnd;
+    }
+
+private:
+    struct Waiting {
+        Pair pair;
+        float bound;
+    };
+
+    /// Ties by leaf, so that the order of a search does not show.
+    static bool IsNearer(const LeafPair& p, const LeafPair& q)
+    {
+        if (p.gap != q.gap) return p.gap < q.gap;
+        return p.a != q.a ? p.a < q.a : p.b < q.b;
+    }
+
+    /// What no pair above is looked at any more.
+    double Target() const
+    {
+        if (mFound < mLimits.wanted) return mLimits.below;
+        const double gap = mPairs[0].gap;
+        const double lower = gap - std::max(mLimits.absErr, gap > 0 ? gap * mLimits.relErr : 0.0);
+        return std::min(mLimits.below, lower);
+    }
+
+    /// As floats see it: with what they may be off by.
+    void SetBound() { mBound = toFloatUp(Target() + mFrame.pad); }
+
+    /// The least gap that a pair may have that was not found: what was left out by the last bound, or still
+    /// waits.
+    void SetLowerBound()
+    {
+        double lower = Target();
+        for (int i = 0; i < mCount; ++i)
+            lower = std::min(lower, double(mStack[i].bound) - mFrame.pad);
+        if (mFound > 0) {
+            const double nearest = std::min_element(mPairs, mPairs + mFound, IsNearer)->gap;
+            lower = std::min(lower, nearest);
+        }
+        mEnd.lowerBound = lower;
+    }
+
+    HWY_INLINE void Descend(const Pair& pair, const Opened& opened)
+    {
+        HWY_ALIGN float gaps[kBlockWidth];
+        uint32_t hits = Test(opened, gaps);
+        const int first = mCount;
+        for (; hits; hits &= hits - 1) {
+            const int lane = FirstLane(hits);
+            if (gaps[lane] >= mBound) continue; // a pair of this block has lowered it
+            if (opened.areLeaves(lane)) {
+                Add(opened.leafA(lane), opened.leafB(lane));
+                continue;
+            }
+            Push({opened.below(pair, lane), gaps[lane]}, first);
+        }
+    }
+
+    /// The nearest of the pairs of a block comes to lie on top.
+    HWY_INLINE void Push(const Waiting& waiting, int first)
+    {
+        int place = mCount++;
+        for (; place > first && mStack[place - 1].bound < waiting.bound; --place) {
+            mStack[place] = mStack[place - 1];
+        }
+        mStack[place] = waiting;
+    }
+
+    HWY_INLINE uint32_t Test(const Opened& opened, float* gaps) const
+    {
+        const D d;
+        uint32_t hits = 0;
+        for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
+            const V distSq = DistSq(*opened.block, lane, opened.other);
+            const V sum = hn::Add(hn::Load(d, opened.block->r + lane), hn::Set(d, opened.other.r));
+            const V gap = hn::Sub(hn::Sqrt(distSq), sum);
+            hits |= Bits(hn::Lt(gap, hn::Set(d, mBound))) << lane;
+            hn::Store(gap, d, gaps + lane);
+        }
+        return hits;
+    }
+
+    void Add(int32_t a, int32_t b)
+    {
+        const LeafPair pair{a, b, mFrame.leafGap(a, b)};
+        if (!(pair.gap < mLimits.below)) return;
+        if (mFound == mLimits.wanted) {
+            if (!IsNearer(pair, mPairs[0])) return;
+            std::pop_heap(mPairs, mPairs + mFound--, IsNearer);
+        }
+        mPairs[mFound++] = pair;
+        std::push_heap(mPairs, mPairs + mFound, IsNearer);
+        mIsDone = pair.gap <= mLimits.stopBelow;
+        SetBound();
+    }
+
+    const PairFrame& mFrame;
+    const NearestLimits& mLimits;
+    LeafPair* mPairs; ///< a heap, the farthest first
+    int mFound;
+    float mBound = 0;
+    bool mIsDone = false;
+    SearchEnd mEnd;
+    int mCount = 0;
+    Waiting mStack[kMostPairs];
+};
+
+SearchEnd FindOverlap(const PairFrame& frame, const SearchLimits& limits, bool wantBound)
+{
+    OverlapSearch search(frame, limits);
+    return wantBound ? search.Run<true>() : search.Run<false>();
+}
+
+SearchEnd FindAllOverlaps(const PairFrame& frame, const SearchLimits& limits, const PairSink& sink)
+{
+    return AllOverlaps(frame, limits, sink).Run();
+}
+
+SearchEnd FindNearest(
+    const PairFrame& frame, const NearestLimits& limits, LeafPair* pairs, int& count)
+{
+    return NearestSearch(frame, limits, pairs, count).Run(count);
+}
+
+} // namespace openvdb_spheretree::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace openvdb_spheretree::detail {
+
+HWY_EXPORT(FindOverlap);
+HWY_EXPORT(FindAllOverlaps);
+HWY_EXPORT(FindNearest);
+
+SearchEnd findOverlap(const PairFrame& frame, const SearchLimits& limits, bool wantBound)
+{
+    return HWY_DYNAMIC_DISPATCH(FindOverlap)(frame, limits, wantBound);
+}
+
+SearchEnd findAllOverlaps(const PairFrame& frame, const SearchLimits& limits, const PairSink& sink)
+{
+    return HWY_DYNAMIC_DISPATCH(FindAllOverlaps)(frame, limits, sink);
+}
+
+SearchEnd findNearest(
+    const PairFrame& frame, const NearestLimits& limits, LeafPair* pairs, int& count)
+{
+    return HWY_DYNAMIC_DISPATCH(FindNearest)(frame, limits, pairs, count);
+}
+
+} // namespace openvdb_spheretree::detail
+#endif
