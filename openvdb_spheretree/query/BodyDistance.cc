@@ -47,8 +47,8 @@ DistanceResult distance(const QueryTree& a, const RigidTransform& poseA, const Q
     const RigidTransform& poseB, const DistanceRequest& request)
 {
     const NearestLimits limits = limitsOf(request);
-    const BodyPair bodies(a, poseA, b, poseB);
-    bodies.frame.requireNear();
+    BodyPair bodies(a, poseA, b, poseB);
+    bodies.frame.enterFloats();
     LeafPair nearest;
     int count = 0;
     if (request.warmStart.isGiven()) nearest = bodies.leaves(request.warmStart);

@@ -23,10 +23,10 @@ SearchLimits limitsOf(const CollisionRequest& request)
 }
 
 /// @return whether the spheres around both bodies meet: only then are blocks asked.
-bool rootsMeet(const BodyPair& bodies, double margin)
+bool rootsMeet(BodyPair& bodies, double margin)
 {
     if (bodies.frame.rootGap() > margin + bodies.frame.rounding) return false;
-    bodies.frame.requireNear();
+    bodies.frame.enterFloats();
     return true;
 }
 
@@ -60,7 +60,7 @@ void setTouching(CollisionResult& result, const BodyPair& bodies, const LeafPair
 }
 
 /// Any pair that touches.
-CollisionResult anyContact(const BodyPair& bodies, const CollisionRequest& request)
+CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
 {
     CollisionResult result;
     const SearchLimits limits = limitsOf(request);
@@ -84,7 +84,7 @@ CollisionResult anyContact(const BodyPair& bodies, const CollisionRequest& reque
 
 /// The deepest pairs: the nearest ones with gaps up to the margin.
 CollisionResult deepestContacts(
-    const BodyPair& bodies, const CollisionRequest& request, std::vector<Contact>& contacts)
+    BodyPair& bodies, const CollisionRequest& request, std::vector<Contact>& contacts)
 {
     CollisionResult result;
     const SearchLimits search = limitsOf(request);
@@ -117,7 +117,7 @@ CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const Q
         OPENVDB_THROW(openvdb::ValueError,
             "collide() was asked for " << request.maxContacts << " contacts: ask for 1 or more");
     }
-    const BodyPair bodies(a, poseA, b, poseB);
+    BodyPair bodies(a, poseA, b, poseB);
     if (contacts) contacts->clear();
     if (contacts && request.maxContacts > 1) return deepestContacts(bodies, request, *contacts);
     const CollisionResult result = anyContact(bodies, request);
@@ -131,7 +131,7 @@ CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, cons
     CollisionRequest request;
     request.securityMargin = securityMargin;
     const SearchLimits limits = limitsOf(request);
-    const BodyPair bodies(a, poseA, b, poseB);
+    BodyPair bodies(a, poseA, b, poseB);
     CollisionResult result;
     if (!rootsMeet(bodies, limits.margin)) {
         setApart(result, bodies, 0);
@@ -162,7 +162,8 @@ void collideBatch(const QueryTree& a, const QueryTree& b, const std::vector<Rigi
     limitsOf(each); // errors before any thread starts
     const RigidTransform here;
     detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
-        const CollisionResult result = anyContact(BodyPair(a, here, b, poses[i]), each);
+        BodyPair bodies(a, here, b, poses[i]);
+        const CollisionResult result = anyContact(bodies, each);
         verdicts[i] = each.decideObjects ? result.objects : result.verdict;
     });
 }

@@ -13,7 +13,7 @@ namespace openvdb_spheretree::detail {
 struct BodyPair {
     const QueryTree& a;
     const QueryTree& b;
-    RigidTransform poseA;
+    const RigidTransform& poseA;
     PairFrame frame;
 
     BodyPair(const QueryTree& treeA, const RigidTransform& inWorldA, const QueryTree& treeB,

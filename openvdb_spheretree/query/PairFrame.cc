@@ -15,6 +15,9 @@ using openvdb::Vec3d;
 /// Beyond this a translation is not asked about in floats: empty lanes (1e15) must stay the farthest.
 constexpr double kMostShift = 1e13;
 
+/// @return no less than the length.
+double size(const Vec3d& v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
+
 FloatPose rounded(const RigidTransform& pose)
 {
     FloatPose result;
@@ -29,34 +32,33 @@ FloatPose rounded(const RigidTransform& pose)
 
 PairFrame::PairFrame(const QueryData& dataA, const RigidTransform& poseA, const QueryData& dataB,
     const RigidTransform& poseB)
-    : a(&dataA.spheres), b(&dataB.spheres)
+    : a(&dataA.spheres), b(&dataB.spheres), pose(poseB.seenFrom(poseA))
 {
-    const RigidTransform relative = poseA.inverse() * poseB;
     // Blocks have origins of their own.
-    pose = RigidTransform(relative.rotation(), relative * dataB.origin - dataA.origin);
-    const double shift = pose.translation().length(), extents = double(a->extent) + b->extent;
-    rounding = 0x1p-49
-        * (extents + shift + poseA.translation().length() + poseB.translation().length()
-            + dataA.origin.length() + dataB.origin.length());
-    if (shift > kMostShift) return; // floats are not asked for
+    pose.move(pose.rotate(dataB.origin) - dataA.origin);
+    const double lengths = double(a->extent) + b->extent + size(pose.translation())
+        + size(poseA.translation()) + size(poseB.translation()) + size(dataA.origin)
+        + size(dataB.origin);
+    rounding = 0x1p-49 * lengths;
+}
+
+void PairFrame::enterFloats()
+{
+    const double shift = size(pose.translation());
+    if (shift > kMostShift) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the bodies are " << shift << " world units apart, and distances are computed up to "
+                              << kMostShift << ": choose another unit");
+    }
     toA = rounded(pose);
     toB = rounded(pose.inverse());
-    pad = toFloatUp(0x1p-24 * (8 * shift + 13 * extents) + rounding);
+    pad = toFloatUp(0x1p-24 * (8 * shift + 13 * (double(a->extent) + b->extent)) + rounding);
 }
 
 double PairFrame::gap(const FloatSphere& ofA, const FloatSphere& ofB) const
 {
     const Vec3d moved = pose * Vec3d(ofB.x, ofB.y, ofB.z);
     return (moved - Vec3d(ofA.x, ofA.y, ofA.z)).length() - ofA.r - ofB.r;
-}
-
-void PairFrame::requireNear() const
-{
-    const double shift = pose.translation().length();
-    if (shift <= kMostShift) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the bodies are " << shift << " world units apart, and distances are computed up to "
-                          << kMostShift << ": choose another unit");
 }
 
 } // namespace openvdb_spheretree::detail

@@ -27,26 +27,24 @@ namespace openvdb_spheretree::detail {
 struct FloatPose {
     std::array<float, 9> rotation;
     std::array<float, 3> translation;
-
-    FloatSphere operator()(const FloatSphere& s) const
-    {
-        const auto& m = rotation;
-        return {(m[0] * s.x + m[1] * s.y) + (m[2] * s.z + translation[0]),
-            (m[3] * s.x + m[4] * s.y) + (m[5] * s.z + translation[1]),
-            (m[6] * s.x + m[7] * s.y) + (m[8] * s.z + translation[2]), s.r};
-    }
 };
 
 struct PairFrame {
     const SphereBlocks* a = nullptr;
     const SphereBlocks* b = nullptr;
-    RigidTransform pose;          ///< of b's blocks in the frame of those of a
-    FloatPose toA = {}, toB = {}; ///< of spheres of the other body
-    float pad = 0;                ///< above, in world units
-    double rounding = 0;          ///< what a gap in doubles may be off by
+    RigidTransform pose; ///< of b's blocks in the frame of those of a
+    double rounding = 0; ///< what a gap in doubles may be off by
+    /// @name In floats, once enterFloats() was called
+    /// @{
+    FloatPose toA, toB; ///< of spheres of the other body
+    float pad = 0;      ///< above, in world units
+    /// @}
 
     PairFrame(const QueryData& dataA, const RigidTransform& poseA, const QueryData& dataB,
         const RigidTransform& poseB);
+
+    /// @throw openvdb::ValueError if the bodies are too far apart to square distances in floats
+    void enterFloats();
 
     /// @return how far apart two spheres are, in doubles; negative is how deep they meet.
     double gap(const FloatSphere& ofA, const FloatSphere& ofB) const;
@@ -55,8 +53,6 @@ struct PairFrame {
         return gap(a->leaf(leafA), b->leaf(leafB));
     }
     double rootGap() const { return gap(a->root, b->root); }
-    /// @throw openvdb::ValueError if the bodies are too far apart to square distances in floats
-    void requireNear() const;
 };
 
 } // namespace openvdb_spheretree::detail

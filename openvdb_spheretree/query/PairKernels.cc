@@ -42,6 +42,15 @@ HWY_INLINE V DistSq(const SphereBlock& block, int lane, const FloatSphere& s)
     return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
+HWY_INLINE FloatSphere Moved(const FloatPose& pose, const FloatSphere& s)
+{
+    const auto& m = pose.rotation;
+    const auto& t = pose.translation;
+    return {(m[0] * s.x + m[1] * s.y) + (m[2] * s.z + t[0]),
+        (m[3] * s.x + m[4] * s.y) + (m[5] * s.z + t[1]),
+        (m[6] * s.x + m[7] * s.y) + (m[8] * s.z + t[2]), s.r};
+}
+
 /// A place is kBlockWidth * block + lane; or this, of the sphere above all.
 constexpr int32_t kRootPlace = -1;
 
@@ -53,9 +62,9 @@ struct Node {
 HWY_INLINE Node NodeAt(const SphereBlocks& blocks, int32_t place)
 {
     if (place == kRootPlace) return {blocks.root, 0};
-    const SphereBlock& block = blocks.blocks[std::size_t(place) / kBlockWidth];
-    const int lane = place % kBlockWidth;
-    return {block.sphere(lane), block.child[lane]};
+    const SphereBlock& block = blocks.blocks.data()[uint32_t(place) / kBlockWidth];
+    const uint32_t lane = uint32_t(place) % kBlockWidth;
+    return {{block.x[lane], block.y[lane], block.z[lane], block.r[lane]}, block.child[lane]};
 }
 
 /// A pair that waits on the stack.
@@ -91,7 +100,7 @@ HWY_INLINE Opened Open(const PairFrame& frame, const Pair& pair)
     const int32_t number = opensA ? a.child : b.child;
     opened.block = (opensA ? frame.a : frame.b)->blocks.data() + number;
     opened.place = kBlockWidth * number;
-    opened.other = opensA ? frame.toA(b.sphere) : frame.toB(a.sphere);
+    opened.other = Moved(opensA ? frame.toA : frame.toB, opensA ? b.sphere : a.sphere);
     opened.otherChild = opensA ? b.child : a.child;
     return opened;
 }
