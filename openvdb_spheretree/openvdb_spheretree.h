@@ -69,8 +69,12 @@
 #include "tree/SphereLevelSet.h"
 
 // Questions to a tree.
+#include "query/DigitalLeaves.h"
+#include "query/PointQuery.h"
 #include "query/QueryTree.h"
+#include "query/RayQuery.h"
 #include "query/RigidTransform.h"
+#include "query/SphereDistances.h"
 
 // Spheres that other tools have made.
 #include "input/spheres/SphereFile.h"
