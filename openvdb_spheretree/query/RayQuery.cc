@@ -52,7 +52,7 @@ struct SoundRay {
             refuse(ray, which,
                 "is asked from tNear to tFar of which one is NaN, or the first infinite");
         }
-        direction = ray.direction / length;
+        direction = ray.direction * (1 / length);
     }
 
     Vec3d direction;
