@@ -72,8 +72,12 @@
 #include "query/BodyDistance.h"
 #include "query/Collide.h"
 #include "query/Contact.h"
+#include "query/DigitalLeaves.h"
+#include "query/PointQuery.h"
 #include "query/QueryTree.h"
+#include "query/RayQuery.h"
 #include "query/RigidTransform.h"
+#include "query/SphereDistances.h"
 
 // Spheres that other tools have made.
 #include "input/spheres/SphereFile.h"
