@@ -74,6 +74,8 @@
 #include "query/Contact.h"
 #include "query/DigitalLeaves.h"
 #include "query/PointQuery.h"
+#include "query/QueryScene.h"
+#include "query/QueryTables.h"
 #include "query/QueryTree.h"
 #include "query/RayQuery.h"
 #include "query/RigidTransform.h"

@@ -2,6 +2,7 @@
 #include "SphereFile.h"
 
 #include "SphereFormats.h"
+#include <openvdb_spheretree/base/RegularFile.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <system_error>
 
 namespace openvdb_spheretree {
 
@@ -107,22 +107,6 @@ WorldSpheres SphereList::take(std::optional<int> level)
 
 } // namespace detail
 
-namespace {
-
-void requireRegularFile(const std::string& path, const std::string& name)
-{
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    const char* why = nullptr;
-    if (!std::filesystem::exists(status)) why = "no such file";
-    else if (std::filesystem::is_directory(status)) why = "is a directory, not a file of spheres";
-    else if (!std::filesystem::is_regular_file(status)) why = "is not a regular file";
-    else if (std::filesystem::file_size(path, error) == 0) why = "the file is empty";
-    if (why) throw openvdb::IoError(name + ": " + why);
-}
-
-} // namespace
-
 bool isSphereFileName(const std::string& path)
 {
     const std::string extension = detail::lowerExtension(path);
@@ -133,9 +117,7 @@ WorldSpheres readSphereFile(
     const std::string& path, std::optional<int> level, const std::string& shownAs)
 {
     const std::string& name = shownAs.empty() ? path : shownAs;
-    requireRegularFile(path, name);
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw openvdb::IoError(name + ": cannot be opened for reading");
+    std::ifstream file = detail::openRegularFile(path, name, "a file of spheres");
     try {
         detail::SphereList list;
         std::string assumption;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file QueryScene.h
+/// @brief Rigid bodies that move: which of them touch.
+///
+///     QueryScene scene;
+///     const int hand = scene.add(handTree), scan = scene.add(scanTree);
+///     scene.setPose(hand, pose);
+///     for (const ScenePair& pair : scene.touchingPairs()) ...
+///
+/// Bodies of one shape share its QueryTree. Pairs that are never asked about are ignored: neighbouring links of a
+/// robot, or two bodies that do not move.
+///
+/// *How.* The sphere around each body (QueryTree::center()) is brought to the world. Along the axis on which their
+/// centers spread most, the spheres are intervals; these are sorted by where they begin, and swept (Baraff 1992, without
+/// his coherence in time). Pairs that overlap there and as spheres may touch, and collide() decides. Sorting anew takes
+/// less than one narrow question a body, so nothing is kept from pose to pose, and answers depend on
+/// the poses alone.
+///
+/// Cost: O(n log n) of n bodies, and the pairs that overlap along the axis; then collide(), in parallel. Results are the same for any
+/// number of threads. Asking is thread-safe, changing is not. Tests: TestQueryScene.cc, against all pairs.
+
+#pragma once
+
+#include "Collide.h"
+#include "QueryTree.h"
+#include "RigidTransform.h"
+
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+/// Two bodies, a < b, and what is known of them.
+struct ScenePair {
+    int a = -1, b = -1;
+    CollisionResult result;
+};
+
+class QueryScene {
+public:
+    /// @return the number of the body: 0, 1, 2 ... as they are added.
+    int add(const QueryTree& tree, const RigidTransform& pose = {});
+    int size() const { return int(mBodies.size()); }
+
+    /// @name A body by its number
+    /// @throw openvdb::IndexError if there is none
+    /// @{
+    void setPose(int body, const RigidTransform& pose);
+    const RigidTransform& pose(int body) const;
+    const QueryTree& tree(int body) const;
+    /// The pair is never among the answers; or again, with @a isIgnored = false.
+    void ignore(int a, int b, bool isIgnored = true);
+    bool isIgnored(int a, int b) const;
+    /// @}
+
+    /// @return pairs whose spheres are within @a margin (world units, 0 or more): no others can be. Sorted.
+    /// @throw openvdb::ValueError for a margin that is none
+    std::vector<std::pair<int, int>> nearPairs(double margin = 0) const;
+
+    /// @return all pairs that do not come out as Verdict::Apart, sorted: those that touch, and with
+    ///         request.maxBlocks those that are undecided.
+    /// @param request      of each pair; warmStart takes no part
+    /// @param interrupter  may be null
+    /// @throw openvdb::ValueError as collide(), naming the pair; Interrupted
+    std::vector<ScenePair> touchingPairs(const CollisionRequest& request = {},
+        openvdb::util::NullInterrupter* interrupter = nullptr) const;
+
+private:
+    struct Body {
+        QueryTree tree;
+        RigidTransform pose;
+        openvdb::Vec3d center; ///< of the sphere around it, in the world
+        double radius;         ///< of the same, with what rounding may have moved it by
+    };
+
+    static Body placed(const QueryTree& tree, const RigidTransform& pose);
+    const Body& body(int number) const;
+    int widestAxis() const;
+
+    std::vector<Body> mBodies;
+    std::set<std::pair<int, int>> mIgnored;
+};
+
+} // namespace openvdb_spheretree

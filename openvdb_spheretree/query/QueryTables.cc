@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QueryTables.h"
+
+#include <openvdb_spheretree/base/CsvTable.h>
+#include <openvdb_spheretree/base/RegularFile.h>
+#include <openvdb_spheretree/base/Text.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace openvdb_spheretree {
+namespace {
+
+using detail::CsvTable;
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+using Names = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+const Names kPlace = {"x", "y", "z"};
+const Names kQuaternion = {"qx", "qy", "qz", "qw"};
+const Names kAngles = {"rx", "ry", "rz"};
+const Names kDirection = {"dx", "dy", "dz"};
+const Names kMatrix = {
+    "m00", "m01", "m02", "m03", "m10", "m11", "m12", "m13", "m20", "m21", "m22", "m23"};
+const Names kLastRow = {"m30", "m31", "m32", "m33"};
+
+Names operator+(Names a, const Names& b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+std::string listOf(const Names& names)
+{
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// A table whose columns are found by their names, or by how many there are.
+class NamedColumns {
+public:
+    NamedColumns(std::istream& in, const std::string& what)
+        : mWhat(what), mTable(in, "the file holds no " + what)
+    {}
+
+    bool hasHeader() const { return mTable.hasHeader(); }
+    std::size_t count() const { return mTable.fields().size(); }
+    std::string lowerName(std::size_t column) const
+    {
+        const std::string_view field = mTable.fields()[column];
+        constexpr std::size_t kLongest =
+            8; // of the names above: whatever is longer is none of them
+        return field.size() > kLongest ? std::string() : detail::lowerCase(field);
+    }
+
+    /// @return whether the header names one of these columns.
+    bool namesAny(const Names& names) const
+    {
+        for (std::size_t i = 0; i < count(); ++i) {
+            if (std::count(names.begin(), names.end(), lowerName(i))) return true;
+        }
+        return false;
+    }
+
+    /// Takes the columns of these names; without a header, the first of all.
+    /// @throw openvdb::IoError if one is missing, or there twice
+    void take(const Names& names)
+    {
+        for (const std::string& name : names) {
+            std::optional<std::size_t> found;
+            if (!hasHeader()) found = mColumns.size();
+            for (std::size_t i = 0; hasHeader() && i < count(); ++i) {
+                if (lowerName(i) != name) continue;
+                if (found) fail("the header names more than one column '" + name + "'");
+                found = i;
+            }
+            if (!found) {
+                fail("the header names no column '" + name + "', and " + mWhat + " have "
+                    + listOf(names));
+            }
+            mColumns.push_back(*found);
+        }
+    }
+
+    /// @return what people are told of a table without a header.
+    std::string assumption(const Names& names) const
+    {
+        return "it has no header: its " + std::to_string(names.size()) + " columns are taken as "
+            + listOf(names);
+    }
+
+    /// Calls @a add with the numbers of each line, in the order of take().
+    template <typename Add>
+    void forEach(const Add& add)
+    {
+        if (hasHeader() && !mTable.next()) throw openvdb::IoError("the file holds no " + mWhat);
+        Numbers numbers(mColumns.size());
+        do {
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                numbers[i] = mTable.number(mColumns[i]);
+                if (!std::isfinite(numbers[i])) {
+                    fail(detail::inQuotes(mTable.fields()[mColumns[i]]) + " is not finite");
+                }
+            }
+            try {
+                add(numbers);
+            } catch (const openvdb::ValueError& error) {
+                fail(detail::messageOf(error));
+            }
+        } while (mTable.next());
+    }
+
+    [[noreturn]] void fail(const std::string& what) const { mTable.fail(what); }
+
+private:
+    std::string mWhat;
+    CsvTable mTable;
+    std::vector<std::size_t> mColumns; ///< of the numbers that are taken
+};
+
+Vec3d vecOf(const Numbers& numbers, std::size_t first)
+{
+    return Vec3d(numbers[first], numbers[first + 1], numbers[first + 2]);
+}
+
+/// Of x, y, z, w.
+Mat3d rotationOfQuaternion(const Numbers& numbers, std::size_t first)
+{
+    constexpr double kOff = 0.01;
+    double x = numbers[first], y = numbers[first + 1], z = numbers[first + 2];
+    double w = numbers[first + 3];
+    const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));
+    if (!(std::abs(length - 1) <= kOff)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the quaternion qx, qy, qz, qw has length " << detail::shortNumber(length)
+                                                        << ", and that of a rotation has 1");
+    }
+    x /= length, y /= length, z /= length, w /= length;
+    return Mat3d(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), //
+        2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),          //
+        2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y));
+}
+
+RigidTransform poseOfMatrix(const Numbers& numbers)
+{
+    std::array<double, 16> matrix = {};
+    matrix[15] = 1;
+    std::copy(numbers.begin(), numbers.end(), matrix.begin());
+    return RigidTransform::fromMatrix(matrix);
+}
+
+/// @return the columns that poses are read from.
+Names poseColumns(const NamedColumns& table)
+{
+    if (table.hasHeader()) {
+        if (table.namesAny(kMatrix)) {
+            return kMatrix + (table.namesAny(kLastRow) ? kLastRow : Names());
+        }
+        if (table.namesAny(kQuaternion)) return kPlace + kQuaternion;
+        return kPlace + (table.namesAny(kAngles) ? kAngles : Names());
+    }
+    for (const Names& names : {kPlace, kPlace + kQuaternion, kMatrix, kMatrix + kLastRow}) {
+        if (names.size() == table.count()) return names;
+    }
+    table.fail(
+        "a table of poses without a header has 3 columns (x y z), 7 (x y z qx qy qz qw), 12 or "
+        "16 (a matrix), and this one has "
+        + std::to_string(table.count()) + ": put a line with their names before it");
+}
+
+RigidTransform poseOf(const Numbers& numbers, const Names& columns)
+{
+    if (columns.size() >= kMatrix.size()) return poseOfMatrix(numbers);
+    if (columns.size() == kPlace.size()) return RigidTransform::fromTranslation(vecOf(numbers, 0));
+    const Mat3d rotation = columns[3] == kAngles[0] ? rotationOfAngles(vecOf(numbers, 3))
+                                                    : rotationOfQuaternion(numbers, 3);
+    return RigidTransform(rotation, vecOf(numbers, 0));
+}
+
+/// @throw openvdb::IoError for a table without a header that has not as many columns
+void requireColumns(const NamedColumns& table, const Names& names, const char* what)
+{
+    if (table.hasHeader() || table.count() == names.size()) return;
+    table.fail(std::string("a table of ") + what + " without a header has "
+        + std::to_string(names.size()) + " columns, " + listOf(names) + ", and this one has "
+        + std::to_string(table.count()) + ": put a line with their names before it");
+}
+
+QueryRay rayOf(const Numbers& numbers)
+{
+    QueryRay ray{vecOf(numbers, 0), vecOf(numbers, 3)};
+    if (ray.direction == Vec3d(0.0)) {
+        OPENVDB_THROW(openvdb::ValueError, "the ray's direction has no length");
+    }
+    if (numbers.size() > 6) {
+        ray.tNear = numbers[6];
+        ray.tFar = numbers[7];
+    }
+    return ray;
+}
+
+/// @param fill  of the table's columns and the rows, returns the assumption
+template <typename Row, typename Fill>
+QueryTable<Row> readTable(
+    const std::string& path, const std::string& shownAs, const std::string& what, const Fill& fill)
+{
+    const std::string& name = shownAs.empty() ? path : shownAs;
+    std::ifstream file = detail::openRegularFile(path, name, "a table of " + what);
+    try {
+        QueryTable<Row> table;
+        NamedColumns columns(file, what);
+        const Names names = fill(columns, table.rows);
+        if (file.bad()) throw openvdb::IoError("cannot be read to its end");
+        if (!columns.hasHeader()) table.assumption = name + ": " + columns.assumption(names);
+        return table;
+    } catch (const openvdb::IoError& error) {
+        throw openvdb::IoError(name + ": " + detail::messageOf(error));
+    }
+}
+
+} // namespace
+
+QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::string& shownAs)
+{
+    const auto fill = [](NamedColumns& table, std::vector<RigidTransform>& poses) {
+        const Names columns = poseColumns(table);
+        table.take(columns);
+        table.forEach([&](const Numbers& numbers) { poses.push_back(poseOf(numbers, columns)); });
+        return columns;
+    };
+    return readTable<RigidTransform>(path, shownAs, "poses", fill);
+}
+
+QueryTable<Vec3d> readPointTable(const std::string& path, const std::string& shownAs)
+{
+    const auto fill = [](NamedColumns& table, std::vector<Vec3d>& points) {
+        requireColumns(table, kPlace, "points");
+        table.take(kPlace);
+        table.forEach([&](const Numbers& numbers) { points.push_back(vecOf(numbers, 0)); });
+        return kPlace;
+    };
+    return readTable<Vec3d>(path, shownAs, "points", fill);
+}
+
+QueryTable<QueryRay> readRayTable(const std::string& path, const std::string& shownAs)
+{
+    const auto fill = [](NamedColumns& table, std::vector<QueryRay>& rays) {
+        const Names bounds = {"tnear", "tfar"};
+        Names columns = kPlace + kDirection;
+        requireColumns(table, columns, "rays");
+        if (table.hasHeader() && table.namesAny(bounds)) columns = columns + bounds;
+        table.take(columns);
+        table.forEach([&](const Numbers& numbers) { rays.push_back(rayOf(numbers)); });
+        return columns;
+    };
+    return readTable<QueryRay>(path, shownAs, "rays", fill);
+}
+
+Mat3d rotationOfAngles(const Vec3d& radians)
+{
+    const auto about = [&](int axis) {
+        const double c = std::cos(radians[axis]), s = std::sin(radians[axis]);
+        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        Mat3d m = Mat3d::identity();
+        m(i, i) = m(j, j) = c;
+        m(i, j) = -s;
+        m(j, i) = s;
+        return m;
+    };
+    return about(2) * about(1) * about(0);
+}
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file QueryTables.h
+/// @brief Tables (`.csv`) of poses, points and rays: what a batch of questions is read from, one a line.
+///
+/// A header names the columns, in any order and among any others; or there is none, and the number of columns
+/// says what they are. Columns are separated by commas, semicolons, tabs or blanks. Empty lines are skipped,
+/// and those that begin with '#'.
+///
+/// | table  | header                                        | without one                             |
+/// |--------|-----------------------------------------------|-----------------------------------------|
+/// | poses  | x y z                                         | 3: x y z                                |
+/// |        | x y z qx qy qz qw                             | 7: x y z qx qy qz qw, as TUM and ROS    |
+/// |        | x y z rx ry rz, radians: rotationOfAngles()   |                                         |
+/// |        | m00 m01 m02 m03 m10 ... m23 (m30 ... m33)     | 12 or 16: rows of a matrix, as KITTI    |
+/// | points | x y z                                         | 3: x y z                                |
+/// | rays   | x y z dx dy dz (tnear tfar)                   | 6: origin and direction                 |
+///
+/// A quaternion may be off a length of 1 by 1 %, and is made one; a matrix may be off a rotation by what
+/// RigidTransform takes for rounding. Tests: TestQueryTables.cc.
+
+#pragma once
+
+#include "RayQuery.h"
+#include "RigidTransform.h"
+
+#include <openvdb/Types.h>
+
+#include <string>
+#include <vector>
+
+namespace openvdb_spheretree {
+
+template <typename Row>
+struct QueryTable {
+    std::vector<Row> rows;  ///< at least one
+    std::string assumption; ///< what was taken for granted, for people; empty if nothing was
+};
+
+/// @name Readers
+/// @param shownAs  what messages call the file; empty: @a path
+/// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no line; the message names the file and
+///        the line
+/// @{
+QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::string& shownAs = {});
+QueryTable<openvdb::Vec3d> readPointTable(const std::string& path, const std::string& shownAs = {});
+QueryTable<QueryRay> readRayTable(const std::string& path, const std::string& shownAs = {});
+/// @}
+
+/// @return the rotation about the world's x axis, then its y axis, then its z axis, by the right-hand rule; radians. As
+///         `-transform rotate=` of vdb_tool turns, and "XYZ" of Houdini and Blender.
+openvdb::Mat3d rotationOfAngles(const openvdb::Vec3d& radians);
+
+} // namespace openvdb_spheretree

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestQueryScene.cc
+/// @brief Which bodies of a scene touch, against all pairs of bodies and of their leaf spheres.
+
+#include "QuerySamples.h"
+#include "support/Messages.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/query/QueryScene.h>
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using openvdb::Vec3d;
+using Pairs = std::vector<std::pair<int, int>>;
+
+/// Leaves grow by rounding to floats: gaps this near to 0 may be either.
+constexpr double kRounding = 2e-5;
+
+/// Bodies of the samples thrown into a box, and all that naive loops need.
+struct RandomScene {
+    QueryScene scene;
+    std::vector<const QuerySample*> samples;
+
+    RandomScene(Random& random, int count, const Vec3d& box)
+    {
+        static const std::vector<QueryTree> trees = [] {
+            std::vector<QueryTree> made;
+            for (const QuerySample& sample : querySamples()) {
+                made.push_back(makeQueryTree(sample.tree, Exactness::LeafUnion));
+            }
+            return made;
+        }();
+        for (int i = 0; i < count; ++i) {
+            const auto which = std::size_t(uniform(random, 0, double(trees.size()) - 1e-9));
+            samples.push_back(&querySamples()[which]);
+            EXPECT_EQ(scene.add(trees[which]), i);
+        }
+        shake(random, box);
+    }
+
+    void shake(Random& random, const Vec3d& box)
+    {
+        for (int i = 0; i < scene.size(); ++i) {
+            const Vec3d place(uniform(random, -box[0], box[0]), uniform(random, -box[1], box[1]),
+                uniform(random, -box[2], box[2]));
+            const auto toOrigin = RigidTransform::fromTranslation(-scene.tree(i).center());
+            scene.setPose(
+                i, RigidTransform::fromTranslation(place) * randomRotation(random) * toOrigin);
+        }
+    }
+
+    double smallestGap(int a, int b) const
+    {
+        return spheretree_test::smallestGap(leafBalls(samples[std::size_t(a)]->tree, scene.pose(a)),
+            leafBalls(samples[std::size_t(b)]->tree, scene.pose(b)));
+    }
+};
+
+Pairs pairsOf(const std::vector<ScenePair>& found)
+{
+    Pairs pairs;
+    for (const ScenePair& pair : found) pairs.emplace_back(pair.a, pair.b);
+    return pairs;
+}
+
+bool isAmong(const Pairs& pairs, int a, int b)
+{
+    return std::binary_search(pairs.begin(), pairs.end(), std::make_pair(a, b));
+}
+
+/// @return how many pairs touch.
+int expectAllPairs(const RandomScene& random, double margin)
+{
+    CollisionRequest request;
+    request.securityMargin = margin;
+    const Pairs found = pairsOf(random.scene.touchingPairs(request));
+    const Pairs near = random.scene.nearPairs(margin);
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    int touching = 0;
+    for (int a = 0; a < random.scene.size(); ++a) {
+        for (int b = a + 1; b < random.scene.size(); ++b) {
+            const double gap = random.smallestGap(a, b) - margin;
+            EXPECT_TRUE(gap > kRounding || isAmong(near, a, b)) << a << " " << b << " " << gap;
+            if (std::abs(gap) < kRounding) continue;
+            EXPECT_EQ(isAmong(found, a, b), gap < 0) << a << " " << b << " " << gap;
+            touching += gap < 0;
+        }
+    }
+    return touching;
+}
+
+} // namespace
+
+TEST(QueryScene, FindsThePairsThatTouchAndNoOthers)
+{
+    Random random(71);
+    int touching = 0;
+    for (const Vec3d box : {Vec3d(30, 2, 2), Vec3d(2, 30, 3), Vec3d(4, 4, 40), Vec3d(12, 12, 12)}) {
+        RandomScene scene(random, 30, box);
+        for (int step = 0; step < 4; ++step) {
+            touching += expectAllPairs(scene, 0) + expectAllPairs(scene, 1.5);
+            scene.shake(random, box);
+        }
+    }
+    EXPECT_GT(touching, 300);
+}
+
+TEST(QueryScene, FarFromTheOriginAndInALineAtOnePlace)
+{
+    Random random(5);
+    RandomScene far(random, 20, Vec3d(4, 4, 4));
+    for (int i = 0; i < far.scene.size(); ++i) {
+        const RigidTransform away = RigidTransform::fromTranslation(Vec3d(1e4, -2e4, 3e4));
+        far.scene.setPose(i, away * far.scene.pose(i));
+    }
+    EXPECT_GT(expectAllPairs(far, 0), 3);
+    RandomScene same(random, 12, Vec3d(0.0));
+    EXPECT_GT(expectAllPairs(same, 0), 20);
+}
+
+TEST(QueryScene, IgnoredPairsAreNotAmongTheAnswersUntilTheyAreAgain)
+{
+    Random random(11);
+    RandomScene random12(random, 12, Vec3d(3, 3, 3));
+    QueryScene& scene = random12.scene;
+    const Pairs all = pairsOf(scene.touchingPairs());
+    ASSERT_GT(all.size(), 4u);
+    scene.ignore(all[1].second, all[1].first);
+    EXPECT_TRUE(scene.isIgnored(all[1].first, all[1].second));
+    EXPECT_FALSE(scene.isIgnored(all[0].first, all[0].second));
+    Pairs rest = all;
+    rest.erase(rest.begin() + 1);
+    EXPECT_EQ(pairsOf(scene.touchingPairs()), rest);
+    EXPECT_FALSE(isAmong(scene.nearPairs(), all[1].first, all[1].second));
+    scene.ignore(all[1].first, all[1].second, false);
+    EXPECT_EQ(pairsOf(scene.touchingPairs()), all);
+}
+
+TEST(QueryScene, AnswersAreThoseOfCollideForAnyNumberOfThreads)
+{
+    Random random(3);
+    const RandomScene scene(random, 25, Vec3d(6, 6, 6));
+    std::vector<ScenePair> found[2];
+    for (const int threads : {1, 4}) {
+        tbb::task_arena arena(threads);
+        arena.execute([&] { found[threads > 1] = scene.scene.touchingPairs(); });
+    }
+    ASSERT_EQ(pairsOf(found[0]), pairsOf(found[1]));
+    ASSERT_FALSE(found[0].empty());
+    for (std::size_t i = 0; i < found[0].size(); ++i) {
+        const ScenePair& one = found[0][i];
+        const CollisionResult alone = collide(scene.scene.tree(one.a), scene.scene.pose(one.a),
+            scene.scene.tree(one.b), scene.scene.pose(one.b));
+        for (const ScenePair& pair : {one, found[1][i]}) {
+            EXPECT_EQ(pair.result.verdict, alone.verdict);
+            EXPECT_EQ(pair.result.blocks, alone.blocks);
+            EXPECT_EQ(pair.result.contact->nodes, alone.contact->nodes);
+        }
+    }
+}
+
+TEST(QueryScene, WhatIsUndecidedIsAmongTheAnswers)
+{
+    Random random(19);
+    const RandomScene scene(random, 25, Vec3d(5, 5, 5));
+    CollisionRequest request;
+    request.maxBlocks = 1;
+    std::size_t undecided = 0;
+    const auto bounded = scene.scene.touchingPairs(request);
+    for (const ScenePair& pair : bounded) {
+        undecided += pair.result.verdict == Verdict::Undecided;
+    }
+    EXPECT_GT(undecided, 0u);
+    EXPECT_GE(bounded.size(), scene.scene.touchingPairs().size());
+}
+
+TEST(QueryScene, HasNoAnswersWithoutTwoBodies)
+{
+    QueryScene scene;
+    EXPECT_TRUE(scene.nearPairs().empty());
+    EXPECT_TRUE(scene.touchingPairs().empty());
+    scene.add(makeQueryTree(querySamples().front().tree));
+    EXPECT_TRUE(scene.touchingPairs().empty());
+}
+
+TEST(QueryScene, RefusesBodiesThatAreNotThereAndMarginsThatAreNone)
+{
+    QueryScene scene;
+    scene.add(makeQueryTree(querySamples().front().tree));
+    for (const int body : {-1, 1}) {
+        const auto why = messageOf<openvdb::IndexError>([&] { scene.setPose(body, {}); });
+        EXPECT_TRUE(mentions(why, "no body " + std::to_string(body)));
+        EXPECT_THROW(scene.pose(body), openvdb::IndexError);
+        EXPECT_THROW(scene.tree(body), openvdb::IndexError);
+        EXPECT_THROW(scene.ignore(0, body), openvdb::IndexError);
+        EXPECT_THROW(scene.isIgnored(body, 0), openvdb::IndexError);
+    }
+    for (const double margin : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        EXPECT_THROW(scene.nearPairs(margin), openvdb::ValueError);
+    }
+    const QueryTree tree = scene.tree(0);
+    scene.add(tree);
+    CollisionRequest request;
+    request.maxContacts = -3;
+    const auto why = messageOf<openvdb::ValueError>([&] { scene.touchingPairs(request); });
+    EXPECT_TRUE(mentions(why, "bodies 0 and 1"));
+}
+
+TEST(QueryScene, CanBeInterrupted)
+{
+    struct Stop : openvdb::util::NullInterrupter {
+        bool wasInterrupted(int) override { return true; }
+    } stop;
+    QueryScene scene;
+    const QueryTree tree = makeQueryTree(querySamples().front().tree);
+    scene.add(tree);
+    scene.add(tree);
+    EXPECT_THROW(scene.touchingPairs({}, &stop), Interrupted);
+}
