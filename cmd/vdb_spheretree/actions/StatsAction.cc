@@ -2,62 +2,23 @@
 /// @file StatsAction.cc
 /// @brief -stats and -print: what is on the stack, in words and numbers.
 
-#include "base/Errors.h"
-#include "base/LastWords.h"
 #include "base/Terminal.h"
-#include "files/AtomicFile.h"
 #include "GivenSpheres.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "report/StatsReport.h"
+#include "ReportFiles.h"
 
-#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
-#include <utility>
-#include <vector>
+#include <string>
 
 namespace command {
 
 namespace {
-
-constexpr const char* kTakes = "-stats writes .json or .csv, or to stdout with json=- or csv=-";
-
-/// @return "json" or "csv", for a file that is named without saying which.
-std::string formOf(const std::string& path)
-{
-    const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
-    if (extension == ".csv") return "csv";
-    if (extension == ".json" || extension.empty()) return "json";
-    throwUsage(path + ": " + kTakes);
-}
-
-/// @return the files of a call, each with its form.
-std::vector<std::pair<std::string, std::string>> filesOf(const ActionCall& call)
-{
-    std::vector<std::pair<std::string, std::string>> files;
-    for (const std::string& path : call.list("files")) files.emplace_back(path, formOf(path));
-    for (const char* form : {"json", "csv"}) {
-        if (call.given(form)) files.emplace_back(call.text(form), form);
-    }
-    return files;
-}
-
-void checkStats(const ActionCall& call, Plan& plan)
-{
-    for (const auto& [path, form] : filesOf(call)) {
-        const FileKind kind = fileKind(path);
-        const FileKind own = form == "csv" ? FileKind::Csv : FileKind::Json;
-        if (kind != own && kind != FileKind::Unknown) {
-            throwUsage(form + "=" + path + ": files of this name are something else; " + kTakes);
-        }
-        plan.addOutput(path);
-    }
-}
 
 /// Finds the object of a tree that was read from a file: the only grid on the stack that an object
 /// can be made of, if it is that. -stats does without one, so nothing here is an error.
@@ -89,22 +50,10 @@ void runStats(const ActionCall& call, Session& session)
     if (!item.object && (lacking || call.flag("mass"))) findObject(item, session);
     if (item.object && lacking) computeErrors(item, session);
     const StatsMass mass = massOf(item, call.flag("mass"), session);
-    const auto outputs = filesOf(call);
-    if (outputs.empty()) return session.print(statsTable(*item.tree, mass, session));
-    std::vector<std::unique_ptr<AtomicFile>> files;
-    for (const auto& [path, form] : outputs) {
-        const std::string text =
-            form == "csv" ? statsCsv(*item.tree, mass) : statsJson(*item.tree, mass, session);
-        if (isStdout(path)) {
-            session.print(text, standardOutput());
-            continue;
-        }
-        files.push_back(std::make_unique<AtomicFile>(path));
-        files.back()->write([&](std::ostream& out) { out << text; });
-    }
-    const Uninterrupted untilAllAreThere;
-    throwIfStopped();
-    for (const auto& file : files) file->commit();
+    if (!hasReportFiles(call)) return session.print(statsTable(*item.tree, mass, session));
+    writeReportFiles(call, session, [&](std::ostream& out, const std::string& form) {
+        out << (form == "csv" ? statsCsv(*item.tree, mass) : statsJson(*item.tree, mass, session));
+    });
 }
 
 /// One number of cubes, else three.
@@ -163,18 +112,16 @@ ActionSpec statsAction()
 {
     ActionSpec action{"stats", "", "files",
         "print a table of a sphere-tree's levels, their exact errors, and timings"};
-    action.options = {
-        list("files", "",
-            "in place of a table, .json files of the same, or .csv files with a line a level"),
-        text("json", "", "the same as JSON to this file, or to stdout (-)"),
-        text("csv", "", "the levels as a CSV to this file, or to stdout (-)"),
-        flag("mass", false,
-            "volume, center of mass and inertia of each level's spheres as well, of density 1; "
-            "those "
-            "of the object are always there"),
-        vdbOption("the tree")};
+    action.options = reportOptions(
+        "in place of a table, .json files of the same, or .csv files with a line a level",
+        "the same as JSON to this file, or to stdout (-)",
+        "the levels as a CSV to this file, or to stdout (-)");
+    action.options.push_back(flag("mass", false,
+        "volume, center of mass and inertia of each level's spheres as well, of density 1; those "
+        "of the object are always there"));
+    action.options.push_back(vdbOption("the tree"));
     action.givesOut = true;
-    action.check = checkStats;
+    action.check = checkReportFiles;
     action.run = runStats;
     return action;
 }

@@ -9,11 +9,11 @@ const std::vector<ActionSpec>& actionTable()
 {
     static const std::vector<ActionSpec> table = {readAction(), generateAction(), mesh2lsAction(),
         resampleAction(), maskAction(), spheretreeAction(), statsAction(), checkAction(),
-        levelAction(), spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(),
-        forAction(), eachAction(), filesAction(), ifAction(), endAction(), onerrorAction(),
-        evalAction(), defaultAction(), configAction(), clearAction(), threadsAction(),
-        quietAction(), verboseAction(), debugAction(), helpAction(), versionAction(),
-        examplesAction()};
+        collideAction(), distanceAction(), raycastAction(), containsAction(), levelAction(),
+        spheres2maskAction(), spheres2lsAction(), writeAction(), printAction(), forAction(),
+        eachAction(), filesAction(), ifAction(), endAction(), onerrorAction(), evalAction(),
+        defaultAction(), configAction(), clearAction(), threadsAction(), quietAction(),
+        verboseAction(), debugAction(), helpAction(), versionAction(), examplesAction()};
     return table;
 }
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QueryOptions.h"
+
+#include "base/Errors.h"
+#include "base/Terminal.h"
+#include "files/InputStamp.h"
+#include "files/SpooledInput.h"
+#include "line/Length.h"
+#include "ReportFiles.h"
+
+#include <openvdb_spheretree/base/Text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace command {
+
+namespace spheretree = openvdb_spheretree;
+using openvdb_spheretree::QueryTable;
+using openvdb_spheretree::QueryTreeSettings;
+
+namespace {
+
+/// Items of the stack, the first body first.
+std::vector<const StackItem*> itemsOf(const ActionCall& call, Session& session, int trees)
+{
+    std::vector<const StackItem*> items;
+    if (call.given("vdb") || trees == 1) {
+        const std::vector<std::string> names = call.list("vdb");
+        if (names.empty()) return {&session.stack.selectTree("")};
+        for (const std::string& name : names) items.push_back(&session.stack.selectTree(name));
+        return items;
+    }
+    for (const auto& item : session.stack.items()) {
+        if (item->tree) items.push_back(item.get());
+    }
+    if (items.size() == 1) {
+        throwInput("asks two sphere-trees, and there is one: read another one, or ask it against "
+                   "itself with vdb=0,0");
+    }
+    if (items.size() != 2) {
+        throwInput("asks two sphere-trees, and there are " + std::to_string(items.size())
+            + (items.empty() ? ""
+                             : ": choose with vdb=, the one that stays first, such as vdb=1,0"));
+    }
+    return items;
+}
+
+std::optional<int> levelOf(const ActionCall& call, std::size_t place)
+{
+    const std::vector<std::string> levels = call.list("level");
+    if (levels.empty()) return {};
+    return spheretree::detail::parseNumber<int>(levels[std::min(place, levels.size() - 1)]);
+}
+
+void checkLevels(const ActionCall& call, int trees)
+{
+    const std::vector<std::string> levels = call.list("level");
+    for (const std::string& level : levels) {
+        const auto number = spheretree::detail::parseNumber<int>(level);
+        if (number && *number >= 0 && *number <= 1000) continue;
+        throwUsage("level=" + call.text("level") + ": a level is a whole number, 0 to 1000");
+    }
+    if (int(levels.size()) > trees) {
+        throwUsage("level=" + call.text("level") + " names more levels than there are trees");
+    }
+}
+
+QueryTreeSettings settingsOf(const ActionCall& call, const StackItem& item, int place, bool isLast)
+{
+    QueryTreeSettings settings;
+    const auto& tree = *item.tree;
+    const auto level = levelOf(call, std::size_t(place));
+    if (level && !tree.hasLevel(*level)) {
+        throwInput("the tree has no level " + std::to_string(*level) + ": it has levels "
+            + std::to_string(tree.levels.front().level) + " to "
+            + std::to_string(tree.root().level));
+    }
+    settings.level = level.value_or(-1);
+    if (call.flag("exact")) settings.exactness = spheretree::Exactness::LeafUnion;
+    const bool isReversible =
+        tree.settings.type() == spheretree::TreeType::Reversible && tree.levels.size() > 1;
+    if (isReversible && !call.flag("exact")) {
+        throwInput("spheres of a reversible tree do not hold those below them: add exact=1, which "
+                   "makes a hierarchy over its leaves, or build a tight tree");
+    }
+    if (isLast && call.spec().option("scale")) settings.scale = call.real("scale");
+    return settings;
+}
+
+QueryBody bodyOf(const StackItem& item, const QueryTreeSettings& settings)
+{
+    try {
+        return {item.name(), item.tree.get(), settings,
+            spheretree::makeQueryTree(*item.tree, settings)};
+    } catch (...) {
+        rethrowNamed(item.description(), kInput);
+    }
+}
+
+} // namespace
+
+std::vector<OptionSpec> questionOptions(int trees, const std::vector<OptionSpec>& own)
+{
+    const bool two = trees == 2;
+    std::vector<OptionSpec> options =
+        reportOptions("in place of a table, .json or .csv files of all answers",
+            "the answers as JSON to this file, or to stdout (-)",
+            "the answers as a CSV to this file, or to stdout (-)");
+    options.insert(options.begin() + 1, own.begin(), own.end());
+    options.push_back(list("level", "",
+        two ? "the level whose spheres are asked, or one of each tree, such as 0,2; by default the "
+              "finest"
+            : "the level whose spheres are asked; by default the finest"));
+    options.push_back(flag("exact", false,
+        "answers are exactly those of the level's spheres; of a tree whose spheres do not hold "
+        "those below, a hierarchy is made anew, and answers are a little farther from the object"));
+    std::vector<std::string> names;
+    for (const auto& unit : unitsOfLength()) names.push_back(unit.first);
+    OptionSpec units = choice("units", names,
+        "the unit of all numbers here, typed, read and answered: the trees are in metres then");
+    units.fallback.clear();
+    options.push_back(units);
+    options.push_back(two
+            ? list("vdb", "",
+                "the two trees, by their age on the stack (0 is the newest) or name, the one that "
+                "stays first; by default the only two that there are")
+            : vdbOption("the tree"));
+    return options;
+}
+
+void checkQuestion(const ActionCall& call, Plan& plan, int trees)
+{
+    checkReportFiles(call, plan);
+    checkLevels(call, trees);
+    if (trees == 2 && call.given("vdb") && call.list("vdb").size() != 2) {
+        throwUsage("vdb=" + call.text("vdb") + ": name two trees, such as vdb=1,0");
+    }
+}
+
+std::vector<QueryBody> bodiesOf(const ActionCall& call, Session& session, int trees)
+{
+    std::vector<QueryBody> bodies;
+    for (const StackItem* item : itemsOf(call, session, trees)) {
+        session.noteIfUnverified(*item);
+        const int place = int(bodies.size());
+        bodies.push_back(bodyOf(*item, settingsOf(call, *item, place, place + 1 == trees)));
+        const auto& tree = bodies.back().tree;
+        if (!tree.holdsObject() && !tree.holdsLeaves()) {
+            session.note(item->description()
+                + ": its spheres do not hold whole voxels (padding=), so answers are about voxel "
+                  "centres; exact=1 makes them those of the spheres");
+        }
+    }
+    return bodies;
+}
+
+double unitOf(const ActionCall& call)
+{
+    return call.given("units") ? metresOfUnit(call.text("units")).value() : 1;
+}
+
+double lengthOf(const ActionCall& call, const std::string& option)
+{
+    const bool hasUnit = parseLength(call.text(option)).has_value();
+    return call.length(option) * (hasUnit ? 1 : unitOf(call));
+}
+
+OptionSpec tableOption(const std::string& name, const std::string& doc)
+{
+    return text(name, "", doc + " of a .csv, one a line, or of stdin.csv; columns are below");
+}
+
+void checkTable(const ActionCall& call, Plan& plan, const std::string& name,
+    const std::vector<std::string>& others)
+{
+    if (!call.given(name)) return;
+    const std::string path = call.text(name);
+    if (fileKind(path) != FileKind::Csv) {
+        throwUsage(name + "=" + path + ": " + name + " are read from a .csv");
+    }
+    for (const std::string& other : others) {
+        if (call.given(other)) throwUsage(name + " and " + other + " exclude each other");
+    }
+    plan.addInput(path);
+}
+
+template <typename Row>
+std::vector<Row> rowsOf(const ActionCall& call, const std::string& name, Session& session,
+    QueryTable<Row> (*read)(const std::string&, const std::string&))
+{
+    const std::string path = call.text(name);
+    std::optional<SpooledInput> spooled;
+    std::optional<InputStamp> stamp;
+    if (isStdin(path)) spooled.emplace(path);
+    else stamp.emplace(path);
+    QueryTable<Row> table = read(spooled ? spooled->path() : path, path);
+    if (stamp) stamp->requireUnchanged();
+    if (!table.assumption.empty()) session.note(table.assumption);
+    return std::move(table.rows);
+}
+
+template std::vector<spheretree::RigidTransform> rowsOf(const ActionCall&, const std::string&,
+    Session&, QueryTable<spheretree::RigidTransform> (*)(const std::string&, const std::string&));
+template std::vector<openvdb::Vec3d> rowsOf(const ActionCall&, const std::string&, Session&,
+    QueryTable<openvdb::Vec3d> (*)(const std::string&, const std::string&));
+template std::vector<spheretree::QueryRay> rowsOf(const ActionCall&, const std::string&, Session&,
+    QueryTable<spheretree::QueryRay> (*)(const std::string&, const std::string&));
+
+Cell lengthCell(double length, double unit)
+{
+    return std::isfinite(length) ? Cell(length / unit) : Cell();
+}
+
+void addCells(Cells& cells, const openvdb::Vec3d& vec, double unit)
+{
+    for (int axis = 0; axis < 3; ++axis) cells.push_back(vec[axis] / unit);
+}
+
+void addNothing(Cells& cells, int count) { cells.insert(cells.end(), std::size_t(count), Cell()); }
+
+void giveAnswers(const ActionCall& call, Session& session, const AnswerSheet& sheet)
+{
+    if (!hasReportFiles(call)) {
+        return session.print(answerTable(sheet, terminalColumns(session.textOut())));
+    }
+    writeReportFiles(call, session, [&](std::ostream& out, const std::string& form) {
+        if (form == "csv") writeAnswersCsv(out, sheet);
+        else writeAnswersJson(out, sheet);
+    });
+}
+
+} // namespace command
