@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/input/volume/VolumeFile.h>
+#include <openvdb_spheretree/query/QueryTables.h>
 
 #include <base/Errors.h>
 #include <expression/Expression.h>
@@ -98,6 +99,9 @@ bool InputReader::read(const std::string& bytes, bool delayed)
     try {
         if (mExtension == ".vdb") readVdb(delayed);
         else if (isConfig) command::parseLine({"-config", path});
+        else if (mExtension == ".poses") openvdb_spheretree::readPoseTable(path);
+        else if (mExtension == ".points") openvdb_spheretree::readPointTable(path);
+        else if (mExtension == ".rays") openvdb_spheretree::readRayTable(path);
         else if (isVolFileName(path)) readVolFile(path);
         else if (isVolumeFileName(path)) readVolumeFile(path, volumeSettings());
         else if (isSphereFileName(path)) readSphereFile(path);

@@ -13,8 +13,9 @@ namespace spheretree_test {
 
 class InputReader {
 public:
-    /// @param extension  `.vdb`, `.vol`, `.longvol`, another volume's, a mesh's, `.csv`, `.json`, `.cfg` for a file of
-    ///                   -config, or `.expression` for the value of an option, which is in no file
+    /// @param extension  `.vdb`, `.vol`, `.longvol`, another volume's, a mesh's, `.csv`, `.json`; `.poses`, `.points` or
+    ///                   `.rays` for a table of questions; `.cfg` for a file of -config; or `.expression` for the
+    ///                   value of an option, which is in no file
     explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}
 
     /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, and all values of

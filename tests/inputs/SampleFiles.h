@@ -12,8 +12,9 @@ namespace spheretree_test {
 
 struct SampleFile {
     std::string name; ///< such as `tight_blosc`; no other sample has it
-    std::string
-        extension; ///< with its dot; `.cfg` is a file of -config, `.expression` the value of an option
+    /// With its dot. `.cfg` is a file of -config; `.poses`, `.points` and `.rays` are tables of questions;
+    /// `.expression` is the value of an option.
+    std::string extension;
     /// Whether a part of the file is never a sound file: true of formats that say how much they hold.
     bool saysItsLength = true;
     std::string bytes;
@@ -34,7 +35,7 @@ struct SampleMaker {
 
 /// @name Parts of the list
 /// @{
-const std::vector<SampleMaker>& textSamples();   ///< .vol, meshes, spheres, config files
+const std::vector<SampleMaker>& textSamples();   ///< .vol, meshes, spheres, questions, config files
 const std::vector<SampleMaker>& volumeSamples(); ///< other volumes, and pictures
 const std::vector<SampleMaker>& treeSamples();   ///< sphere-trees, as `.vdb`
 const std::vector<SampleMaker>& gridSamples();   ///< other grids, as `.vdb`

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TextSamples.cc
-/// @brief Samples of volumes, meshes, spheres and config files, byte by byte.
+/// @brief Samples of volumes, meshes, spheres, tables of questions and config files, byte by byte.
 
 #include "SampleBytes.h"
 #include "SampleFiles.h"
@@ -152,6 +152,23 @@ std::string spheresRows()
 )";
 }
 
+// Questions
+
+std::string posesNamed()
+{
+    return "# a "
+           "trajectory\ntime;x;y;z;qx;qy;qz;qw\n0.5;1;-2;3e-1;0;0;0;1\n1.5;.5;2e3;0;0;0.6;0;0.8\n";
+}
+
+std::string posesAsMatrices() { return "0 -1 0 20 1 0 0 1 0 0 1 2\n1 0 0 0 0 1 0 0 0 0 1 0\n"; }
+
+std::string points() { return "z,\"y\",x\n1,2,3\n+4,-5,6e-3\n"; }
+
+std::string rays()
+{
+    return "x y z dx dy dz tnear tfar\n1 2 3 0 0 -2 0.5 9\n-1 0 0 1e3 0 0 0 1e300\n";
+}
+
 // Lines
 
 std::string config()
@@ -186,6 +203,10 @@ const std::vector<SampleMaker>& textSamples()
         {"spheres_csv", ".csv", spheresCsv, false},
         {"spheres_json", ".json", spheresJson, false},
         {"spheres_rows", ".json", spheresRows, false},
+        {"poses_named", ".poses", posesNamed, false},
+        {"poses_matrices", ".poses", posesAsMatrices, false},
+        {"points", ".points", points, false},
+        {"rays", ".rays", rays, false},
         {"config", ".cfg", config, false},
         {"expression", ".expression", expression, false},
     };
