@@ -51,6 +51,20 @@ HWY_INLINE FloatSphere Moved(const FloatPose& pose, const FloatSphere& s)
         (m[6] * s.x + m[7] * s.y) + (m[8] * s.z + t[2]), s.r};
 }
 
+/// PairFrame::gap(), once more, so that it comes to stand within the loops.
+HWY_INLINE double Gap(const PairFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB)
+{
+    const auto& m = frame.pose.rotation();
+    const auto& t = frame.pose.translation();
+    double distSq = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double center = i == 0 ? ofA.x : i == 1 ? ofA.y : ofA.z;
+        const double d = (m(i, 0) * ofB.x + m(i, 1) * ofB.y + m(i, 2) * ofB.z + t[i]) - center;
+        distSq += d * d;
+    }
+    return std::sqrt(distSq) - ofA.r - ofB.r;
+}
+
 /// A place is kBlockWidth * block + lane; or this, of the sphere above all.
 constexpr int32_t kRootPlace = -1;
 
@@ -67,6 +81,20 @@ HWY_INLINE Node NodeAt(const SphereBlocks& blocks, int32_t place)
     return {{block.x[lane], block.y[lane], block.z[lane], block.r[lane]}, block.child[lane]};
 }
 
+/// Lanes whose spheres are leaves, and empty ones.
+HWY_INLINE uint32_t LeafLanes(const SphereBlock& block)
+{
+    const hn::RebindToSigned<D> d;
+    uint64_t bits = 0;
+    uint32_t lanes = 0;
+    for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
+        hn::StoreMaskBits(d, hn::Lt(hn::Load(d, block.child + lane), hn::Zero(d)),
+            reinterpret_cast<uint8_t*>(&bits));
+        lanes |= uint32_t(bits) << lane;
+    }
+    return lanes;
+}
+
 /// A pair that waits on the stack.
 struct Pair {
     int32_t a, b; ///< places
@@ -77,6 +105,7 @@ struct Opened {
     const SphereBlock* block;
     int32_t place; ///< of lane 0
     FloatSphere other;
+    FloatSphere own;    ///< the same in its own frame
     int32_t otherChild; ///< negative: a leaf
     bool isOfA;         ///< the block
 
@@ -101,8 +130,16 @@ HWY_INLINE Opened Open(const PairFrame& frame, const Pair& pair)
     opened.block = (opensA ? frame.a : frame.b)->blocks.data() + number;
     opened.place = kBlockWidth * number;
     opened.other = Moved(opensA ? frame.toA : frame.toB, opensA ? b.sphere : a.sphere);
+    opened.own = opensA ? b.sphere : a.sphere;
     opened.otherChild = opensA ? b.child : a.child;
     return opened;
+}
+
+/// The gap of the lane's sphere and the other one, in doubles.
+HWY_INLINE double GapOf(const PairFrame& frame, const Opened& opened, int lane)
+{
+    const FloatSphere here = opened.block->sphere(lane);
+    return opened.isOfA ? Gap(frame, here, opened.own) : Gap(frame, opened.own, here);
 }
 
 /// What sums of radii grow by, so that no pair is missed whose gap is the margin or less.
@@ -146,21 +183,52 @@ private:
     {
         HWY_ALIGN float depth[kBlockWidth];
         uint32_t hits = Test<kWantsBound>(opened, depth);
-        int deepest = mCount;
-        float most = 0;
+        uint32_t leaves = opened.otherChild < 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        for (; leaves; leaves &= leaves - 1) {
+            if (Meet(opened, FirstLane(leaves))) return true;
+        }
+        if (!hits) return false;
+        int count = mCount, deepest = count;
+        float most = 1;
         for (; hits; hits &= hits - 1) {
             const int lane = FirstLane(hits);
-            if (opened.areLeaves(lane)) {
-                if (Meet(opened, lane)) return true;
-                continue;
-            }
-            if (depth[lane] < most) {
-                most = depth[lane];
-                deepest = mCount;
-            }
-            mStack[mCount++] = opened.below(pair, lane);
+            deepest = depth[lane] < most ? count : deepest;
+            most = std::min(most, depth[lane]);
+            mStack[count++] = opened.below(pair, lane);
         }
-        if (deepest < mCount) std::swap(mStack[deepest], mStack[mCount - 1]);
+        mCount = count;
+        std::swap(mStack[deepest], mStack[count - 1]);
+        return IsDeep(opened, most) && LargestMeet(pair, opened);
+    }
+
+    /// Whether the largest leaves of both are worth a look: at the top, and if a lane's center is far inside.
+    static HWY_INLINE bool IsDeep(const Opened& opened, float depth)
+    {
+        const float r = opened.other.r;
+        return opened.place == 0 && depth < -2 * r * r;
+    }
+
+    /// Tests the largest leaf below each lane of a root's block against that below the other sphere.
+    bool LargestMeet(const Pair& pair, const Opened& opened)
+    {
+        const int32_t other = opened.isOfA ? pair.b : pair.a;
+        if (other >= kBlockWidth || mEnd.blocks == mLimits.maxBlocks) return false;
+        const SphereBlocks& here = opened.isOfA ? *mFrame.a : *mFrame.b;
+        const SphereBlocks& there = opened.isOfA ? *mFrame.b : *mFrame.a;
+        Opened largest = opened;
+        largest.block = &here.largestLeaves;
+        largest.otherChild =
+            other == kRootPlace ? ~there.largestLeaf : there.largestLeaves.child[other];
+        largest.own =
+            other == kRootPlace ? there.leaf(there.largestLeaf) : there.largestLeaves.sphere(other);
+        largest.other = Moved(opened.isOfA ? mFrame.toA : mFrame.toB, largest.own);
+        largest.other.r += mReach;
+        ++mEnd.blocks;
+        HWY_ALIGN float depth[kBlockWidth];
+        for (uint32_t hits = Test<false>(largest, depth); hits; hits &= hits - 1) {
+            if (Meet(largest, FirstLane(hits))) return true;
+        }
         return false;
     }
 
@@ -193,8 +261,7 @@ private:
 
     bool Meet(const Opened& opened, int lane)
     {
-        const LeafPair pair{opened.leafA(lane), opened.leafB(lane),
-            mFrame.leafGap(opened.leafA(lane), opened.leafB(lane))};
+        const LeafPair pair{opened.leafA(lane), opened.leafB(lane), GapOf(mFrame, opened, lane)};
         mLeastOfLeaves = std::min(mLeastOfLeaves, pair.gap);
         if (pair.gap > mLimits.margin + mFrame.rounding) return false;
         mEnd.pair = pair;
@@ -250,8 +317,8 @@ private:
                 continue;
             }
             const int32_t a = opened.leafA(lane), b = opened.leafB(lane);
-            const bool meet =
-                (certain >> lane & 1) || mFrame.leafGap(a, b) <= mLimits.margin + mFrame.rounding;
+            const bool meet = (certain >> lane & 1)
+                || GapOf(mFrame, opened, lane) <= mLimits.margin + mFrame.rounding;
             if (!meet) continue;
             mEnd.pair.a = a;
             mEnd.pair.b = b;
@@ -359,26 +426,25 @@ private:
     {
         HWY_ALIGN float gaps[kBlockWidth];
         uint32_t hits = Test(opened, gaps);
-        const int first = mCount;
+        uint32_t leaves = opened.otherChild < 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        for (; leaves; leaves &= leaves - 1) {
+            const int lane = FirstLane(leaves);
+            if (gaps[lane] >= mBound) continue; // a pair of this block has lowered it
+            Add({opened.leafA(lane), opened.leafB(lane), GapOf(mFrame, opened, lane)});
+        }
+        if (!hits) return;
+        int count = mCount, nearest = count;
+        float least = std::numeric_limits<float>::infinity();
         for (; hits; hits &= hits - 1) {
             const int lane = FirstLane(hits);
-            if (gaps[lane] >= mBound) continue; // a pair of this block has lowered it
-            if (opened.areLeaves(lane)) {
-                Add(opened.leafA(lane), opened.leafB(lane));
-                continue;
-            }
-            Push({opened.below(pair, lane), gaps[lane]}, first);
+            const float bound = gaps[lane];
+            nearest = bound < least ? count : nearest;
+            least = std::min(least, bound);
+            mStack[count++] = {opened.below(pair, lane), bound};
         }
-    }
-
-    /// The nearest of the pairs of a block comes to lie on top.
-    HWY_INLINE void Push(const Waiting& waiting, int first)
-    {
-        int place = mCount++;
-        for (; place > first && mStack[place - 1].bound < waiting.bound; --place) {
-            mStack[place] = mStack[place - 1];
-        }
-        mStack[place] = waiting;
+        mCount = count;
+        std::swap(mStack[nearest], mStack[count - 1]);
     }
 
     HWY_INLINE uint32_t Test(const Opened& opened, float* gaps) const
@@ -395,9 +461,8 @@ private:
         return hits;
     }
 
-    void Add(int32_t a, int32_t b)
+    void Add(const LeafPair& pair)
     {
-        const LeafPair pair{a, b, mFrame.leafGap(a, b)};
         if (!(pair.gap < mLimits.below)) return;
         if (mFound == mLimits.wanted) {
             if (!IsNearer(pair, mPairs[0])) return;
