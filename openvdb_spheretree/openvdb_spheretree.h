@@ -72,7 +72,9 @@
 #include "query/BodyDistance.h"
 #include "query/Collide.h"
 #include "query/Contact.h"
+#include "query/ContinuousCollide.h"
 #include "query/QueryTree.h"
+#include "query/RigidMotion.h"
 #include "query/RigidTransform.h"
 
 // Spheres that other tools have made.
