@@ -78,6 +78,9 @@
 #include "query/QueryTables.h"
 #include "query/QueryTree.h"
 #include "query/RayQuery.h"
+#include "query/ContinuousCollide.h"
+#include "query/QueryTree.h"
+#include "query/RigidMotion.h"
 #include "query/RigidTransform.h"
 #include "query/SphereDistances.h"
 

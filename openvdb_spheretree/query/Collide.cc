@@ -51,10 +51,12 @@ void decideObjects(CollisionResult& result, const BodyPair& bodies, int64_t maxB
     if (end.pair.a >= 0) result.objects = Verdict::Touching;
 }
 
-void setTouching(CollisionResult& result, const BodyPair& bodies, const LeafPair& pair)
+void setTouching(
+    CollisionResult& result, const BodyPair& bodies, const LeafPair& pair, bool enableContact)
 {
     result.verdict = Verdict::Touching;
-    result.contact = bodies.contact(pair);
+    result.nodes = {bodies.a.nodeId(pair.a), bodies.b.nodeId(pair.b)};
+    if (enableContact) result.contact = bodies.contact(pair);
     // A pair within a margin says nothing of the objects.
     if (bodies.objectsMeet(pair)) result.objects = Verdict::Touching;
 }
@@ -74,7 +76,7 @@ CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
         end = findOverlap(bodies.frame, limits, request.enableDistanceLowerBound);
     }
     result.blocks = end.blocks;
-    if (end.pair.a >= 0) setTouching(result, bodies, end.pair);
+    if (end.pair.a >= 0) setTouching(result, bodies, end.pair, request.enableContact);
     else if (end.isDecided)
         setApart(result, bodies, request.enableDistanceLowerBound ? end.lowerBound : 0);
     if (result.isCollision() && request.decideObjects)
@@ -101,7 +103,7 @@ CollisionResult deepestContacts(
     const SearchEnd end = findNearest(bodies.frame, limits, pairs.data(), count);
     result.blocks = end.blocks;
     for (int i = 0; i < count; ++i) contacts.push_back(bodies.contact(pairs[i]));
-    if (count > 0) setTouching(result, bodies, pairs[0]);
+    if (count > 0) setTouching(result, bodies, pairs[0], request.enableContact);
     else if (end.isDecided) setApart(result, bodies, search.margin);
     if (result.isCollision() && request.decideObjects)
         decideObjects(result, bodies, limits.maxBlocks);
@@ -120,8 +122,11 @@ CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const Q
     BodyPair bodies(a, poseA, b, poseB);
     if (contacts) contacts->clear();
     if (contacts && request.maxContacts > 1) return deepestContacts(bodies, request, *contacts);
-    const CollisionResult result = anyContact(bodies, request);
-    if (contacts && result.contact) contacts->push_back(*result.contact);
+    if (!contacts) return anyContact(bodies, request);
+    CollisionRequest wanted = request;
+    wanted.enableContact = true;
+    const CollisionResult result = anyContact(bodies, wanted);
+    if (result.contact) contacts->push_back(*result.contact);
     return result;
 }
 
@@ -157,7 +162,7 @@ void collideBatch(const QueryTree& a, const QueryTree& b, const std::vector<Rigi
     Verdict* verdicts, const CollisionRequest& request, openvdb::util::NullInterrupter* interrupter)
 {
     CollisionRequest each = request;
-    each.enableDistanceLowerBound = false;
+    each.enableDistanceLowerBound = each.enableContact = false;
     each.warmStart = {};
     limitsOf(each); // errors before any thread starts
     const RigidTransform here;

@@ -37,6 +37,8 @@ struct CollisionRequest {
     double securityMargin = 0;
     /// Up to so many contacts go to the list of collide(); more than one: those of the deepest pairs.
     int maxContacts = 1;
+    /// Also say where the pair of the result meets.
+    bool enableContact = false;
     /// Also find a lower bound of the distance of bodies that are apart. Some 10% of the time.
     bool enableDistanceLowerBound = false;
     /// Also decide about the objects where the spheres touch: a second search may follow.
@@ -52,8 +54,9 @@ struct CollisionResult {
     Verdict verdict = Verdict::Undecided;
     /// Of the objects' voxel cubes. Touching only as far as the contact found says so, unless decideObjects.
     Verdict objects = Verdict::Undecided;
-    /// Of spheres that touch: any pair that does, or the deepest one of several.
-    std::optional<Contact> contact;
+    /// Of bodies that touch: any two leaf spheres that do, or the deepest ones of several.
+    NodePair nodes;
+    std::optional<Contact> contact; ///< of these, if asked for
     /// Of leaf spheres that are apart: their distance is no less; nor is that of the objects. 0 if not asked for.
     double distanceLowerBound = 0;
     int64_t blocks = 0; ///< tested; the same on every machine

@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "openvdb_spheretree/query/PairKernels.cc"
 #include <hwy/foreach_target.h>
 
+#include "PairLanes-inl.h"
 #include <hwy/highway.h>
 
 #include <openvdb_spheretree/base/Rounding.h>
@@ -16,94 +17,6 @@ HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, kBlockWidth>;
-using V = hn::Vec<D>;
-constexpr int kWidth = int(hn::MaxLanes(D()));
-
-/// One bit a lane.
-template <typename Mask>
-HWY_INLINE uint32_t Bits(const Mask& mask)
-{
-    uint64_t bits = 0; // of a few lanes one byte is written, of 16 two
-    hn::StoreMaskBits(D(), mask, reinterpret_cast<uint8_t*>(&bits));
-    return uint32_t(bits);
-}
-
-HWY_INLINE int FirstLane(uint32_t bits) { return int(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
-
-/// Squared distances of some lanes' centers to that of a sphere.
-HWY_INLINE V DistSq(const SphereBlock& block, int lane, const FloatSphere& s)
-{
-    const D d;
-    const V x = hn::Sub(hn::Load(d, block.x + lane), hn::Set(d, s.x));
-    const V y = hn::Sub(hn::Load(d, block.y + lane), hn::Set(d, s.y));
-    const V z = hn::Sub(hn::Load(d, block.z + lane), hn::Set(d, s.z));
-    return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-}
-
-HWY_INLINE FloatSphere Moved(const FloatPose& pose, const FloatSphere& s)
-{
-    const auto& m = pose.rotation;
-    const auto& t = pose.translation;
-    return {(m[0] * s.x + m[1] * s.y) + (m[2] * s.z + t[0]),
-        (m[3] * s.x + m[4] * s.y) + (m[5] * s.z + t[1]),
-        (m[6] * s.x + m[7] * s.y) + (m[8] * s.z + t[2]), s.r};
-}
-
-/// A place is kBlockWidth * block + lane; or this, of the sphere above all.
-constexpr int32_t kRootPlace = -1;
-
-struct Node {
-    FloatSphere sphere;
-    int32_t child; ///< as in a block
-};
-
-HWY_INLINE Node NodeAt(const SphereBlocks& blocks, int32_t place)
-{
-    if (place == kRootPlace) return {blocks.root, 0};
-    const SphereBlock& block = blocks.blocks.data()[uint32_t(place) / kBlockWidth];
-    const uint32_t lane = uint32_t(place) % kBlockWidth;
-    return {{block.x[lane], block.y[lane], block.z[lane], block.r[lane]}, block.child[lane]};
-}
-
-/// A pair that waits on the stack.
-struct Pair {
-    int32_t a, b; ///< places
-};
-
-/// A block that is tested next, and the sphere of the other body in its frame.
-struct Opened {
-    const SphereBlock* block;
-    int32_t place; ///< of lane 0
-    FloatSphere other;
-    int32_t otherChild; ///< negative: a leaf
-    bool isOfA;         ///< the block
-
-    bool areLeaves(int lane) const { return otherChild < 0 && block->child[lane] < 0; }
-    /// The leaves of such a pair.
-    int32_t leafA(int lane) const { return ~(isOfA ? block->child[lane] : otherChild); }
-    int32_t leafB(int lane) const { return ~(isOfA ? otherChild : block->child[lane]); }
-    Pair below(const Pair& pair, int lane) const
-    {
-        return isOfA ? Pair{place + lane, pair.b} : Pair{pair.a, place + lane};
-    }
-};
-
-/// Opens the larger sphere of a pair that is not two leaves.
-HWY_INLINE Opened Open(const PairFrame& frame, const Pair& pair)
-{
-    const Node a = NodeAt(*frame.a, pair.a), b = NodeAt(*frame.b, pair.b);
-    const bool opensA = b.child < 0 || (a.child >= 0 && a.sphere.r >= b.sphere.r);
-    Opened opened;
-    opened.isOfA = opensA;
-    const int32_t number = opensA ? a.child : b.child;
-    opened.block = (opensA ? frame.a : frame.b)->blocks.data() + number;
-    opened.place = kBlockWidth * number;
-    opened.other = Moved(opensA ? frame.toA : frame.toB, opensA ? b.sphere : a.sphere);
-    opened.otherChild = opensA ? b.child : a.child;
-    return opened;
-}
 
 /// What sums of radii grow by, so that no pair is missed whose gap is the margin or less.
 float ReachOf(const PairFrame& frame, const SearchLimits& limits)
@@ -146,21 +59,52 @@ private:
     {
         HWY_ALIGN float depth[kBlockWidth];
         uint32_t hits = Test<kWantsBound>(opened, depth);
-        int deepest = mCount;
-        float most = 0;
+        uint32_t leaves = opened.otherChild < 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        for (; leaves; leaves &= leaves - 1) {
+            if (Meet(opened, FirstLane(leaves))) return true;
+        }
+        if (!hits) return false;
+        int count = mCount, deepest = count;
+        float most = 1;
         for (; hits; hits &= hits - 1) {
             const int lane = FirstLane(hits);
-            if (opened.areLeaves(lane)) {
-                if (Meet(opened, lane)) return true;
-                continue;
-            }
-            if (depth[lane] < most) {
-                most = depth[lane];
-                deepest = mCount;
-            }
-            mStack[mCount++] = opened.below(pair, lane);
+            deepest = depth[lane] < most ? count : deepest;
+            most = std::min(most, depth[lane]);
+            mStack[count++] = opened.below(pair, lane);
         }
-        if (deepest < mCount) std::swap(mStack[deepest], mStack[mCount - 1]);
+        mCount = count;
+        std::swap(mStack[deepest], mStack[count - 1]);
+        return IsDeep(opened, most) && LargestMeet(pair, opened);
+    }
+
+    /// Whether the largest leaves of both are worth a look: at the top, and if a lane's center is far inside.
+    static HWY_INLINE bool IsDeep(const Opened& opened, float depth)
+    {
+        const float r = opened.other.r;
+        return opened.place == 0 && depth < -2 * r * r;
+    }
+
+    /// Tests the largest leaf below each lane of a root's block against that below the other sphere.
+    bool LargestMeet(const Pair& pair, const Opened& opened)
+    {
+        const int32_t other = opened.isOfA ? pair.b : pair.a;
+        if (other >= kBlockWidth || mEnd.blocks == mLimits.maxBlocks) return false;
+        const SphereBlocks& here = opened.isOfA ? *mFrame.a : *mFrame.b;
+        const SphereBlocks& there = opened.isOfA ? *mFrame.b : *mFrame.a;
+        Opened largest = opened;
+        largest.block = &here.largestLeaves;
+        largest.otherChild =
+            other == kRootPlace ? ~there.largestLeaf : there.largestLeaves.child[other];
+        largest.own =
+            other == kRootPlace ? there.leaf(there.largestLeaf) : there.largestLeaves.sphere(other);
+        largest.other = Moved(opened.isOfA ? mFrame.toA : mFrame.toB, largest.own);
+        largest.other.r += mReach;
+        ++mEnd.blocks;
+        HWY_ALIGN float depth[kBlockWidth];
+        for (uint32_t hits = Test<false>(largest, depth); hits; hits &= hits - 1) {
+            if (Meet(largest, FirstLane(hits))) return true;
+        }
         return false;
     }
 
@@ -193,8 +137,7 @@ private:
 
     bool Meet(const Opened& opened, int lane)
     {
-        const LeafPair pair{opened.leafA(lane), opened.leafB(lane),
-            mFrame.leafGap(opened.leafA(lane), opened.leafB(lane))};
+        const LeafPair pair{opened.leafA(lane), opened.leafB(lane), GapOf(mFrame, opened, lane)};
         mLeastOfLeaves = std::min(mLeastOfLeaves, pair.gap);
         if (pair.gap > mLimits.margin + mFrame.rounding) return false;
         mEnd.pair = pair;
@@ -250,8 +193,8 @@ private:
                 continue;
             }
             const int32_t a = opened.leafA(lane), b = opened.leafB(lane);
-            const bool meet =
-                (certain >> lane & 1) || mFrame.leafGap(a, b) <= mLimits.margin + mFrame.rounding;
+            const bool meet = (certain >> lane & 1)
+                || GapOf(mFrame, opened, lane) <= mLimits.margin + mFrame.rounding;
             if (!meet) continue;
             mEnd.pair.a = a;
             mEnd.pair.b = b;
@@ -359,26 +302,25 @@ private:
     {
         HWY_ALIGN float gaps[kBlockWidth];
         uint32_t hits = Test(opened, gaps);
-        const int first = mCount;
+        uint32_t leaves = opened.otherChild < 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        for (; leaves; leaves &= leaves - 1) {
+            const int lane = FirstLane(leaves);
+            if (gaps[lane] >= mBound) continue; // a pair of this block has lowered it
+            Add({opened.leafA(lane), opened.leafB(lane), GapOf(mFrame, opened, lane)});
+        }
+        if (!hits) return;
+        int count = mCount, nearest = count;
+        float least = std::numeric_limits<float>::infinity();
         for (; hits; hits &= hits - 1) {
             const int lane = FirstLane(hits);
-            if (gaps[lane] >= mBound) continue; // a pair of this block has lowered it
-            if (opened.areLeaves(lane)) {
-                Add(opened.leafA(lane), opened.leafB(lane));
-                continue;
-            }
-            Push({opened.below(pair, lane), gaps[lane]}, first);
+            const float bound = gaps[lane];
+            nearest = bound < least ? count : nearest;
+            least = std::min(least, bound);
+            mStack[count++] = {opened.below(pair, lane), bound};
         }
-    }
-
-    /// The nearest of the pairs of a block comes to lie on top.
-    HWY_INLINE void Push(const Waiting& waiting, int first)
-    {
-        int place = mCount++;
-        for (; place > first && mStack[place - 1].bound < waiting.bound; --place) {
-            mStack[place] = mStack[place - 1];
-        }
-        mStack[place] = waiting;
+        mCount = count;
+        std::swap(mStack[nearest], mStack[count - 1]);
     }
 
     HWY_INLINE uint32_t Test(const Opened& opened, float* gaps) const
@@ -395,9 +337,8 @@ private:
         return hits;
     }
 
-    void Add(int32_t a, int32_t b)
+    void Add(const LeafPair& pair)
     {
-        const LeafPair pair{a, b, mFrame.leafGap(a, b)};
         if (!(pair.gap < mLimits.below)) return;
         if (mFound == mLimits.wanted) {
             if (!IsNearer(pair, mPairs[0])) return;
