@@ -210,6 +210,41 @@ TEST(RayQuery, ComesFromFarAwayAsWellAsFromNear)
     }
 }
 
+TEST(RayQuery, IsTheSameInAMovedWorldWithPermutedAxes)
+{
+    Random random(28);
+    const Vec3d offset(4096, -512, 1024);
+    const auto turned = [](const Vec3d& v) { return Vec3d(v[1], v[2], v[0]); };
+    for (const QuerySample& sample : querySamples()) {
+        const QueryTree here = makeQueryTree(sample.tree, Exactness::LeafUnion);
+        const SphereTree moved = turnedTree(sample.tree, offset);
+        const QueryTree there = makeQueryTree(moved, Exactness::LeafUnion);
+        const auto balls = leafBalls(sample.tree);
+        for (int i = 0; i < 200; ++i) {
+            QueryRay ray = randomRay(random, balls);
+            ray.direction.normalize();
+            const RayHit a = intersect(here, ray);
+            ray.origin = turned(ray.origin) + offset;
+            ray.direction = turned(ray.direction);
+            const RayHit b = intersect(there, ray);
+            // Balls that are grazed are hit or not by rounding, and then much sooner or later.
+            const double slack = 2 * kRounding * here.radius();
+            const auto there_ = leafBalls(moved);
+            const double latest = entryOfBalls(plain(ray), there_, -slack);
+            ASSERT_LE(a.t, latest + slack) << sample.name;
+            ASSERT_LE(b.t, latest + slack) << sample.name;
+            const double soonest = entryOfBalls(plain(ray), there_, slack);
+            if (latest - soonest > 10 * slack || std::isinf(latest) != std::isinf(soonest))
+                continue;
+            if (std::isfinite(latest)) {
+                ASSERT_NEAR(a.t, b.t, 20 * slack) << sample.name;
+            } else {
+                ASSERT_EQ(a.t, b.t) << sample.name;
+            }
+        }
+    }
+}
+
 void expectSame(const RayHit& a, const RayHit& b)
 {
     ASSERT_EQ(a.t, b.t);
