@@ -132,11 +132,11 @@ TEST(RayQuery, AHitIsOnItsLeaf)
 
 TEST(RayQuery, ThroughNothingButTheMiddleOfARingHitsNothing)
 {
-    Voxels ring; // the middle of the tree is empty, and so are lanes of its blocks
-    for (int x = -12; x <= 12; ++x) {
-        for (int y = -12; y <= 12; ++y) {
-            const int r = x * x + y * y;
-            if (r < 144 && r > 90) ring.push_back(Coord(x, y, 0));
+    Voxels ring; // the middle of the tree is empty, and blocks have empty lanes far along x
+    for (int y = -12; y <= 12; ++y) {
+        for (int z = -12; z <= 12; ++z) {
+            const int r = y * y + z * z;
+            if (r < 144 && r > 90) ring.push_back(Coord(0, y, z));
         }
     }
     TightOptions fast;
@@ -149,9 +149,8 @@ TEST(RayQuery, ThroughNothingButTheMiddleOfARingHitsNothing)
             ray.origin = tree.data().origin;
             ray.direction = Vec3d(0.0);
             ray.direction[axis] = sign;
-            ray.origin -= (axis == 2 ? 100 : 0) * ray.direction;
-            EXPECT_EQ(bool(intersect(tree, ray)), axis != 2);
-            EXPECT_EQ(occluded(tree, ray), axis != 2);
+            EXPECT_EQ(bool(intersect(tree, ray)), axis != 0);
+            EXPECT_EQ(occluded(tree, ray), axis != 0);
         }
     }
 }
