@@ -9,8 +9,36 @@
 
 #include "NearestFirst-inl.h"
 
+#include <algorithm>
+#include <limits>
+
 HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::detail::HWY_NAMESPACE {
+
+uint32_t SpheresWithin(const BallAround& around, const float* spheres, std::size_t count)
+{
+    const Lanes d;
+    const Floats infinity = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
+    uint32_t within = 0;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const std::size_t left = count - i;
+        float last[4 * kBlockWidth] = {};
+        const bool isWhole = left >= hn::Lanes(d);
+        if (!isWhole) std::copy_n(spheres + 4 * i, 4 * left, last);
+        Floats x, y, z, r;
+        hn::LoadInterleaved4(d, isWhole ? spheres + 4 * i : last, x, y, z, r);
+        const Floats dx = hn::Sub(x, hn::Set(d, around.x)), dy = hn::Sub(y, hn::Set(d, around.y)),
+                     dz = hn::Sub(z, hn::Set(d, around.z));
+        const Floats distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
+        const Floats reach = hn::Add(r, hn::Set(d, around.reach));
+        const auto isFar = hn::Gt(distSq, hn::Mul(reach, reach));
+        const auto isOff = hn::And(hn::Lt(r, zero), hn::Gt(r, hn::Neg(infinity)));
+        // Comparisons with NaN are false, so what is NaN or infinite counts as within.
+        const auto isOut = hn::And(hn::Or(isFar, isOff), hn::Lt(distSq, infinity));
+        within |= bitsOf(hn::Not(isOut), i);
+    }
+    return count == kMostFiltered ? within : within & ((uint32_t(1) << count) - 1);
+}
 
 /// A point, and how far the spheres of a block are from it.
 struct PointLanes {
@@ -104,9 +132,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace openvdb_spheretree::detail {
 
+HWY_EXPORT(SpheresWithin);
 HWY_EXPORT(NearestLeaves);
 HWY_EXPORT(FirstBallThatMeets);
 HWY_EXPORT(IsInDigitalBall);
+
+uint32_t spheresWithin(const BallAround& around, const float* spheres, std::size_t count)
+{
+    return HWY_DYNAMIC_DISPATCH(SpheresWithin)(around, spheres, count);
+}
 
 void nearestLeaves(
     const SphereBlocks& tree, const PointQuestion* points, std::size_t count, BlockHit* hits)

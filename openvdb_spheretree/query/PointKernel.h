@@ -19,6 +19,18 @@
 
 namespace openvdb_spheretree::detail {
 
+/// A ball around a tree: what is farther from it than `reach` has no question to the tree.
+struct BallAround {
+    float x, y, z, reach;
+};
+constexpr std::size_t kMostFiltered = 32; ///< spheres at a time
+
+/// @param spheres  x, y, z, radius of each; not aligned
+/// @param count    kMostFiltered at most
+/// @return a bit for each sphere that may be within reach, by its surface; and for each that has a number which is
+///         not finite, for the caller to see. Not for those whose radius is negative.
+uint32_t spheresWithin(const BallAround& around, const float* spheres, std::size_t count);
+
 struct PointQuestion {
     float x, y, z;
     float limit; ///< only leaves whose spheres are nearer count: below 1e15

@@ -51,12 +51,6 @@ struct LocalRay {
         question.anyHit = false;
     }
 
-    /// @return where the ray enters what a kernel found: on the ray, and not too far.
-    double entry(float key, double near) const
-    {
-        return std::max(near, shift + (double(key) - question.slack));
-    }
-
     RayQuestion question;
     double shift; ///< what the kernel's numbers along the ray are less by
     bool misses;  ///< the root's sphere: then there is no question

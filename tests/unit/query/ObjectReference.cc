@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace spheretree_test {
 
@@ -116,6 +117,17 @@ double sizeOf(const std::vector<WorldBall>& balls)
 {
     const auto box = boxOf(balls);
     return (box.max() - box.min()).length() / 2;
+}
+
+SphereTree turnedTree(SphereTree tree, const Vec3d& offset)
+{
+    const auto turned = [](const auto& v) { return std::decay_t<decltype(v)>(v[1], v[2], v[0]); };
+    for (Vec3d& center : tree.spheres.center) center = turned(center);
+    for (Coord& voxel : tree.ijk) voxel = turned(voxel);
+    const Vec3d origin = turned(tree.transform->indexToWorld(Vec3d(0.0)));
+    tree.transform = openvdb::math::Transform::createLinearTransform(tree.voxelSize());
+    tree.transform->postTranslate(origin + offset);
+    return tree;
 }
 
 } // namespace spheretree_test

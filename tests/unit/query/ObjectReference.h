@@ -42,4 +42,7 @@ openvdb::Vec3d randomPoint(Random& random, const std::vector<WorldBall>& balls);
 /// @return the farthest a point of a ball is from the middle of all centers.
 double sizeOf(const std::vector<WorldBall>& balls);
 
+/// The tree somewhere else, with its axes in another order: x of it is y of @a tree, and so on.
+SphereTree turnedTree(SphereTree tree, const openvdb::Vec3d& offset);
+
 } // namespace spheretree_test

@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -65,6 +67,26 @@ TEST(DigitalLeaves, ContainJustTheVoxelsOfTheObject)
         settings.exactness = Exactness::LeafUnion;
         settings.scale = 3.7;
         expectContainsObject(sample, settings, "all leaves, scaled: " + sample.name);
+    }
+}
+
+TEST(DigitalLeaves, DoSoForEveryObjectOf3x2x2)
+{
+    TightOptions fast;
+    fast.quality = Quality::Fast;
+    for (unsigned mask = 1; mask < 1u << 12; ++mask) {
+        Voxels voxels;
+        for (int i = 0; i < 12; ++i) {
+            if (mask >> i & 1) voxels.push_back(Coord(i / 4, i / 2 % 2, i % 2));
+        }
+        const SphereTree built = buildSphereTree(*gridOf(voxels), SphereTreeSettings(fast));
+        const QueryTree tree = makeQueryTree(built);
+        const DigitalLeaves leaves(built);
+        for (int i = 0; i < 5 * 4 * 4; ++i) {
+            const Coord voxel(i / 16 - 1, i / 4 % 4 - 1, i % 4 - 1);
+            const bool isObject = std::count(voxels.begin(), voxels.end(), voxel) == 1;
+            ASSERT_EQ(contains(tree, leaves, voxel.asVec3d()), isObject) << mask << voxel;
+        }
     }
 }
 

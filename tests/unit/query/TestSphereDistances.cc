@@ -221,9 +221,10 @@ TEST(SphereDistances, TakeLargeSpheresAndFarOnes)
 {
     const QueryTree tree = makeQueryTree(querySamples()[0].tree);
     for (const float far : {1e3f, 1e10f, 1e30f, 3e38f}) {
-        const float spheres[8] = {far, 0, 0, far / 2, far, 0, 0, far};
-        Results found(2);
-        sphereDistances(tree, spheres, 2, kInfinity, found.arrays());
+        const float spheres[12] = {far, 0, 0, far / 2, far, 0, 0, far, far, 0, 0, -1};
+        Results found(3);
+        sphereDistances(tree, spheres, 3, kInfinity, found.arrays());
+        EXPECT_EQ(found.leaf[2], -1);
         EXPECT_NEAR(found.distance[0] / (far / 2), 1, 0.05);
         EXPECT_GE(found.leaf[1], 0);
         EXPECT_LE(std::abs(found.distance[1]), 20 + 1e-4 * far);
