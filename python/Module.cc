@@ -23,4 +23,5 @@ PYBIND11_MODULE(_spheretree, module)
     binding::bindBuild(module);
     binding::bindTransforms(module);
     binding::bindPoints(module);
+    binding::bindQuery(module);
 }

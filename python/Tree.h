@@ -36,5 +36,6 @@ void bindTreeExport(pybind11::module_& module);
 void bindBuild(pybind11::module_& module);
 void bindTransforms(pybind11::module_& module);
 void bindPoints(pybind11::module_& module);
+void bindQuery(pybind11::module_& module);
 
 } // namespace binding

@@ -18,6 +18,7 @@ exceptions: `InputError`, which is a ValueError, for arguments; OSError for file
 
 from ._build import build
 from ._export import ExportFormat, export, export_formats
+from ._query import Collisions, Distances, Hits, Nearest, Query
 from ._spheretree import InputError
 from ._spheretree import version as __version__
 from ._transforms import distance_transform, medial_axis, pyramid
@@ -25,9 +26,9 @@ from ._tree import Fault, Level, Tree, check, load, read_points
 from ._volume import Volume, volume
 
 __all__ = [
-    "ExportFormat", "Fault", "InputError", "Level", "Tree", "Volume", "build", "check", "distance_transform", "export",
-    "export_formats", "load", "medial_axis", "pyramid", "read_points", "volume", "__version__",
+    "Collisions", "Distances", "ExportFormat", "Fault", "Hits", "InputError", "Level", "Nearest", "Query", "Tree", "Volume",
+    "build", "check", "distance_transform", "export", "export_formats", "load", "medial_axis", "pyramid", "read_points",
+    "volume", "__version__",
 ]
-for _name in __all__:
-    if isinstance(globals()[_name], type) and issubclass(globals()[_name], (Tree, Volume, Level, Fault, ExportFormat)):
-        globals()[_name].__module__ = __name__
+for _type in (Collisions, Distances, ExportFormat, Fault, Hits, Level, Nearest, Query, Tree, Volume):
+    _type.__module__ = __name__

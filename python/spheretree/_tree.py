@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _spheretree
+from ._query import Query
 from ._volume import Progress, VolumeLike, readable, thread_count
 from ._volume import volume as as_volume
 
@@ -145,6 +146,32 @@ class Tree:
     def cut(self, spheres: int) -> Tree:
         """The tree of one level with at most so many spheres, of a tree that was built with cuts=True."""
         return Tree(self._handle.cut(spheres))
+
+    def query(self, *, exact: bool = False, level: int | None = None, scale: float = 1) -> Query:
+        """The tree made ready for questions: collision, distance, points, rays.
+
+        Parameters
+        ----------
+        exact
+            Answers are exactly those of the leaf spheres, for any tree; else of a tight tree with cover="voxels" they
+            are nearer to the voxels themselves, and faster.
+        level
+            Whose spheres are asked; by default those of the finest level.
+        scale
+            The tree is larger by this factor, about the origin of the world.
+
+        Raises
+        ------
+        InputError
+            The tree has no answers: it is of a norm, of side="fit", or reversible without `exact`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> spheretree.build(numpy.ones((8, 8, 8), dtype=bool), [8, 1]).query()
+        <spheretree.Query of 8 spheres>
+        """
+        return Query(self, exact, level, scale)
 
     def save(self, path: str | os.PathLike[str], *, progress: Progress = None) -> None:
         """Write the tree to a file; its extension says how.

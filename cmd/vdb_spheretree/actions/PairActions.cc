@@ -88,6 +88,7 @@ spheretree::CollisionRequest collisionRequest(const ActionCall& call)
     spheretree::CollisionRequest request;
     request.securityMargin = lengthOf(call, "margin");
     request.maxBlocks = blocksOf(call);
+    request.enableContact = true;
     request.decideObjects = call.flag("objects");
     return request;
 }

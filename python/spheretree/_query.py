@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Questions to trees, in batches."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _spheretree
+from ._spheretree import InputError
+from ._volume import Progress, thread_count
+
+if TYPE_CHECKING:
+    from ._tree import Tree
+
+APART, UNDECIDED, TOUCHING = -1, 0, 1
+
+
+class Collisions(NamedTuple):
+    """Whether two trees touch, for each pose. Where they do not, numbers are NaN and ids -1."""
+
+    spheres: npt.NDArray[np.int8]
+    """1 where leaf spheres touch, -1 where they are apart, 0 where that is not decided."""
+    objects: npt.NDArray[np.int8]
+    """The same of the voxels themselves: 0 where spheres cannot know."""
+    distance: npt.NDArray[np.float64]
+    """Of the two spheres that were found: negative is how deep they meet."""
+    points: npt.NDArray[np.float64]
+    """The middle between them: shape (..., 3)."""
+    normals: npt.NDArray[np.float64]
+    """From the first tree's sphere to the second's, of length 1: shape (..., 3)."""
+    ids: npt.NDArray[np.int32]
+    """Of both spheres in their trees: shape (..., 2)."""
+
+
+class Distances(NamedTuple):
+    """How far two trees are apart, for each pose. Where nothing is near enough, points are NaN and ids -1."""
+
+    distance: npt.NDArray[np.float64]
+    """Of the nearest leaf spheres; infinite where nothing is within `upto`."""
+    lower: npt.NDArray[np.float64]
+    """The voxels themselves are no nearer."""
+    upper: npt.NDArray[np.float64]
+    """The voxels themselves are no farther."""
+    points_a: npt.NDArray[np.float64]
+    """Where the first tree's sphere is nearest to the second's: shape (..., 3)."""
+    points_b: npt.NDArray[np.float64]
+    """And the other way round."""
+    ids: npt.NDArray[np.int32]
+    """Of both spheres in their trees: shape (..., 2)."""
+
+
+class Nearest(NamedTuple):
+    """The leaf sphere nearest to each point, or to each sphere."""
+
+    distance: npt.NDArray[Any]
+    """Negative inside; the cut-off where nothing is nearer."""
+    gradients: npt.NDArray[Any]
+    """In which direction the distance grows fastest, of length 1: shape (..., 3); 0 where nothing is nearer."""
+    ids: npt.NDArray[np.int32]
+    """Of the spheres in the tree, or -1."""
+
+
+class Hits(NamedTuple):
+    """Where rays enter the leaf spheres."""
+
+    t: npt.NDArray[np.float64]
+    """Counted by the length of the direction; infinite without a hit."""
+    ids: npt.NDArray[np.int32]
+    """Of the spheres in the tree, or -1."""
+
+
+def _rows(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: Any = np.float64) -> tuple[Any, Any]:
+    """The values as rows that C++ takes, and the shape in front of the columns."""
+    array = np.ascontiguousarray(values, dtype=dtype)
+    if array.shape[array.ndim - len(columns):] != columns or array.ndim < len(columns):
+        wanted = ", ".join(["...", *map(str, columns)])
+        raise InputError(f"{name} has shape {array.shape}: it takes ({wanted})")
+    return array.reshape(-1, int(np.prod(columns))), array.shape[: array.ndim - len(columns)]
+
+
+def _shaped(shape: tuple[int, ...], arrays: tuple[Any, ...]) -> list[Any]:
+    return [array.reshape(shape + array.shape[1:]) for array in arrays]
+
+
+class Query:
+    """A tree made ready for questions: `Tree.query()` makes it. It never changes, and threads may share it.
+
+    Answers are certain of the voxels themselves, in one direction: what is said to be apart, outside or not hit is so.
+    docs/queries.md has what holds for which tree, and why. All lengths are in world units.
+    """
+
+    __slots__ = ("_handle", "tree")
+
+    def __init__(self, tree: Tree, exact: bool, level: int | None, scale: float) -> None:
+        if level is not None and level < 0:
+            raise InputError(f"level={level}: levels are counted from 0, the finest")
+        self.tree = tree
+        self._handle = _spheretree.Query(tree._handle, bool(exact), -1 if level is None else level, float(scale))
+
+    def __repr__(self) -> str:
+        return f"<spheretree.Query of {self._handle.leaf_count:,} spheres>"
+
+    def _pair(self, other: Query, pose: npt.ArrayLike | None) -> tuple[Any, Any]:
+        if not isinstance(other, Query):
+            raise TypeError(f"other must be a spheretree.Query, not {type(other).__name__}")
+        return _rows("pose", np.eye(4) if pose is None else pose, (4, 4))
+
+    def collide(
+        self, other: Query, pose: npt.ArrayLike | None = None, *, margin: float = 0, objects: bool = False,
+        progress: Progress = None, threads: int | None = None,
+    ) -> Collisions:
+        """Whether two trees touch, and where.
+
+        Parameters
+        ----------
+        other
+            The tree that is moved.
+        pose
+            Where it is in the world of this one: a rigid 4 x 4 matrix for columns, or many of them, shape
+            (..., 4, 4). All answers have the shape in front.
+        margin
+            Spheres nearer than this touch.
+        objects
+            Search on until it is known whether the voxels themselves touch, or no spheres can know.
+        progress, threads
+            As for `build()`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> poses = numpy.tile(numpy.eye(4), (3, 1, 1))
+        >>> poses[:, 0, 3] = [2, 9, 20]
+        >>> cube.collide(cube, poses).spheres
+        array([ 1,  1, -1], dtype=int8)
+        """
+        poses, shape = self._pair(other, pose)
+        answers = self._handle.collide(other._handle, poses, margin, objects, progress, thread_count(threads))
+        return Collisions(*_shaped(shape, answers))
+
+    def distance(
+        self, other: Query, pose: npt.ArrayLike | None = None, *, signed: bool = False, upto: float = np.inf,
+        progress: Progress = None, threads: int | None = None,
+    ) -> Distances:
+        """How far two trees are apart, and where they are nearest.
+
+        Parameters
+        ----------
+        other, pose, progress, threads
+            As for `collide()`.
+        signed
+            Of trees that meet, the depth of their deepest two spheres as a negative number, in place of 0.
+        upto
+            Look for nothing that is farther.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> pose = numpy.eye(4)
+        >>> pose[0, 3] = 20
+        >>> far = cube.distance(cube, pose)
+        >>> bool(far.lower <= 12 <= far.upper)
+        True
+        """
+        poses, shape = self._pair(other, pose)
+        answers = self._handle.distance(other._handle, poses, signed, upto, progress, thread_count(threads))
+        return Distances(*_shaped(shape, answers))
+
+    def contains(
+        self, points: npt.ArrayLike, *, progress: Progress = None, threads: int | None = None
+    ) -> npt.NDArray[np.bool_]:
+        """Whether points, shape (..., 3), lie in the object: exactly.
+
+        Raises
+        ------
+        InputError
+            The tree does not have all leaf balls of its object: build it without `spheres=`, or use `nearest()`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> cube.contains([[0, 0, 0], [7.4, 7.4, 7.4], [7.6, 0, 0]])
+        array([ True,  True, False])
+        """
+        places, shape = _rows("points", points, (3,))
+        inside: npt.NDArray[np.bool_] = self._handle.contains(places, progress, thread_count(threads))
+        return inside.reshape(shape)
+
+    def nearest(
+        self, points: npt.ArrayLike, cutoff: float = np.inf, *, progress: Progress = None, threads: int | None = None
+    ) -> Nearest:
+        """The leaf sphere nearest to each point, shape (..., 3), its signed distance and the direction away from it.
+
+        What is farther than `cutoff` is not looked for, which takes a part of the time.
+        """
+        places, shape = _rows("points", points, (3,))
+        return Nearest(*_shaped(shape, self._handle.nearest(places, cutoff, progress, thread_count(threads))))
+
+    def intersect(
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tfar: float = np.inf, leaves_start: bool = False,
+        progress: Progress = None, threads: int | None = None,
+    ) -> Hits:
+        """Where rays enter the leaf spheres first.
+
+        Parameters
+        ----------
+        origins, directions
+            Shape (..., 3), of one shape or broadcast to one. A direction may have any length above 0.
+        tfar
+            How far rays go, by the length of their directions.
+        leaves_start
+            Spheres that hold the origin do not count, as for rays that leave a surface.
+        progress, threads
+            As for `build()`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> hits = cube.intersect([-10, 3, 3], [[1, 0, 0], [-1, 0, 0]])
+        >>> hits.ids >= 0, bool(8 < hits.t[0] <= 9.5)
+        (array([ True, False]), True)
+        """
+        rays, shape = self._rays(origins, directions)
+        answers = self._handle.intersect(*rays, tfar, leaves_start, progress, thread_count(threads))
+        return Hits(*_shaped(shape, answers))
+
+    def occluded(
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tfar: float = np.inf, leaves_start: bool = False,
+        progress: Progress = None, threads: int | None = None,
+    ) -> npt.NDArray[np.bool_]:
+        """Whether rays hit anything: as `intersect()`, in less time."""
+        rays, shape = self._rays(origins, directions)
+        blocked: npt.NDArray[np.bool_] = self._handle.occluded(
+            *rays, tfar, leaves_start, progress, thread_count(threads))
+        return blocked.reshape(shape)
+
+    def sphere_distances(
+        self, spheres: npt.ArrayLike, activation: float, *, progress: Progress = None, threads: int | None = None
+    ) -> Nearest:
+        """The signed distance of spheres to the leaf spheres, as planners ask for it.
+
+        Parameters
+        ----------
+        spheres
+            x, y, z and radius, as float32: shape (..., 4), such as (batch, horizon, n, 4). A radius below 0 switches
+            a sphere off.
+        activation
+            What is farther is not looked for.
+        progress, threads
+            As for `build()`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> robot = numpy.zeros((5, 2, 4), dtype=numpy.float32)
+        >>> robot[..., 0], robot[..., 3] = [[12, 30]], 1
+        >>> near = cube.sphere_distances(robot, activation=5)
+        >>> near.distance.shape, near.distance[0] < 5
+        ((5, 2), array([ True, False]))
+        """
+        balls, shape = _rows("spheres", spheres, (4,), np.float32)
+        answers = self._handle.sphere_distances(balls, activation, progress, thread_count(threads))
+        return Nearest(*_shaped(shape, answers))
+
+    @staticmethod
+    def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[list[Any], Any]:
+        for name, array in (("origins", np.asarray(origins)), ("directions", np.asarray(directions))):
+            if array.shape[-1:] != (3,):
+                raise InputError(f"{name} has shape {array.shape}: it takes (..., 3)")
+        try:
+            starts, ways = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
+        except ValueError as error:
+            raise InputError(f"origins and directions: {error}") from None
+        rows = [np.ascontiguousarray(array).reshape(-1, 3) for array in (starts, ways)]
+        return rows, starts.shape[:-1]
