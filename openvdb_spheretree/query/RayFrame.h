@@ -16,44 +16,55 @@
 #include "PointFrame.h"
 #include "QueryData.h"
 #include "RayKernel.h"
+#include "RayQuery.h"
 
 #include <openvdb/math/Vec3.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace openvdb_spheretree::detail {
 
 struct LocalRay {
     static constexpr double kFarthestStart = 0x1p26; ///< times the extent
 
-    /// @param direction  of length 1
-    LocalRay(const QueryData& tree, const openvdb::Vec3d& origin, const openvdb::Vec3d& direction,
-        double near, double far)
+    /// @param ray  as intersect() takes it
+    LocalRay(const QueryData& tree, const QueryRay& ray)
     {
         const FloatSphere& root = tree.spheres.root;
-        const openvdb::Vec3d center(root.x, root.y, root.z), from = origin - tree.origin;
+        const openvdb::Vec3d center(root.x, root.y, root.z), from = ray.origin - tree.origin;
         const double extent = tree.spheres.extent, slack = 32 * kFloatError * extent;
-        shift = (center - from).dot(direction);
-        const openvdb::Vec3d middle = from + shift * direction;
+        const double lengthSq = ray.direction.lengthSqr(), length = std::sqrt(lengthSq);
+        shift = (center - from).dot(ray.direction) / lengthSq;
+        perWorld = 1 / length;
+        const openvdb::Vec3d middle = from + shift * ray.direction;
         const double reach = root.r + 2 * slack;
-        near -= shift, far -= shift;
+        const double near = (ray.tNear - shift) * length, far = (ray.tFar - shift) * length;
         misses = (middle - center).lengthSqr() > reach * reach || near > reach || far < -reach
             || near > far;
         for (int axis = 0; axis < 3; ++axis) {
             question.origin[axis] = float(middle[axis]);
-            question.direction[axis] = float(direction[axis]);
+            question.direction[axis] = float(ray.direction[axis] * perWorld);
         }
         // Nothing is beyond `reach`, but empty lanes are.
         question.near = float(std::max(near, -2 * reach) - slack);
         question.far = float(std::min(far, 2 * reach) + 2 * slack);
         question.slack = float(slack);
-        question.leavesStart = false;
+        question.leavesStart = ray.leavesStart;
         question.anyHit = false;
     }
 
+    /// @return where the ray enters what a kernel found.
+    double entry(float key, const QueryRay& ray) const
+    {
+        const double t = shift + (double(key) - question.slack) * perWorld;
+        return std::min(std::max(t, ray.tNear), ray.tFar);
+    }
+
     RayQuestion question;
-    double shift; ///< what the kernel's numbers along the ray are less by
-    bool misses;  ///< the root's sphere: then there is no question
+    double shift;    ///< of the ray, where the kernel's numbers along it are 0
+    double perWorld; ///< of the ray, for one world unit
+    bool misses;     ///< the root's sphere: then there is no question
 };
 
 } // namespace openvdb_spheretree::detail

@@ -55,13 +55,9 @@ struct RayLanes {
     const RayQuestion& ray;
 };
 
-void FirstLeaves(
-    const SphereBlocks& tree, const RayQuestion* rays, std::size_t count, BlockHit* hits)
+BlockHit FirstLeaf(const SphereBlocks& tree, const RayQuestion& ray)
 {
-    const SphereBlock* const blocks = tree.blocks.data();
-    for (std::size_t i = 0; i < count; ++i) {
-        hits[i] = nearestFirst(blocks, RayLanes(rays[i]), rays[i].far);
-    }
+    return nearestFirst(tree.blocks.data(), RayLanes(ray), ray.far);
 }
 
 } // namespace openvdb_spheretree::detail::HWY_NAMESPACE
@@ -70,12 +66,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace openvdb_spheretree::detail {
 
-HWY_EXPORT(FirstLeaves);
+HWY_EXPORT(FirstLeaf);
 
-void firstLeaves(
-    const SphereBlocks& tree, const RayQuestion* rays, std::size_t count, BlockHit* hits)
+BlockHit firstLeaf(const SphereBlocks& tree, const RayQuestion& ray)
 {
-    HWY_DYNAMIC_DISPATCH(FirstLeaves)(tree, rays, count, hits);
+    return HWY_DYNAMIC_DISPATCH(FirstLeaf)(tree, ray);
 }
 
 } // namespace openvdb_spheretree::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayKernel.h
-/// @brief Kernels of rays: the first leaf sphere along each.
+/// @brief The kernel of rays: the first leaf sphere along one.
 ///
 /// Results are the same for every vector target. Tests: TestRayQuery.cc.
 
@@ -8,8 +8,6 @@
 
 #include "BlockHit.h"
 #include "SphereBlocks.h"
-
-#include <cstddef>
 
 namespace openvdb_spheretree::detail {
 
@@ -24,8 +22,7 @@ struct RayQuestion {
     bool anyHit;        ///< the first leaf found will do
 };
 
-/// @param hits  receives the leaf that each ray enters first, and where; before `near` if it starts inside
-void firstLeaves(
-    const SphereBlocks& tree, const RayQuestion* rays, std::size_t count, BlockHit* hits);
+/// @return the leaf that a ray enters first, and where; before `near` if the ray starts inside.
+BlockHit firstLeaf(const SphereBlocks& tree, const RayQuestion& ray);
 
 } // namespace openvdb_spheretree::detail

@@ -10,6 +10,7 @@
 /// walk, as those of a robot are.
 
 #include "AlternatingTimes.h"
+#include "DenseField.h"
 #include "EmbreeScenes.h"
 #include "Questions.h"
 
@@ -68,7 +69,9 @@ public:
         : mTree(makeQueryTree(tree)), mPlain(plainTree(tree)), mLeaves(tree),
           mBalls(leafBalls(mTree)), mMesh(meshOfObject(tree)), mVoxel(tree.voxelSize()),
           mRounds(rounds), mSphereScene(EmbreeScene::ofSpheres(mBalls)),
-          mMeshScene(EmbreeScene::ofMesh(mMesh)), mPointScene(EmbreeScene::forPoints(mBalls))
+          mMeshScene(EmbreeScene::ofMesh(mMesh)), mPointScene(EmbreeScene::forPoints(mBalls)),
+          mField(mTree, mTree.center() - Vec3d(1.3 * mTree.radius()),
+              mTree.center() + Vec3d(1.3 * mTree.radius()), mVoxel)
     {}
 
     void run() const
@@ -78,6 +81,8 @@ public:
             "%zu leaf spheres, %.1f bytes each (%.1f more for exact insides), %zu triangles\n",
             mBalls.size(), double(mTree.bytes()) / count, double(mLeaves.bytes()) / count,
             mMesh.triangles.size());
+        if (mField.isThere())
+            std::printf("dense field: %.1f bytes a leaf sphere\n", double(mField.bytes()) / count);
         Questions questions(mTree);
         compareRays("incoherent", questions.raysFromAround());
         compareRays("camera", questions.raysOfCamera());
@@ -151,15 +156,20 @@ private:
                 };
             };
             const std::string title = std::isinf(voxels) ? "" : ", no farther than 5 voxels";
-            printTimes("signed distance of points, " + kind + title,
-                {contender("points", points, distanceOf(mTree)),
-                    contender(
-                        "points, plain hierarchy over the leaves", points, distanceOf(mPlain)),
-                    contender("Embree rtcPointQuery, spheres (any depth)", points,
-                        [&](const Vec3s& point) {
-                            return mPointScene.distance(point.asPointer(), float(cutoff));
-                        })},
-                points.size(), mRounds);
+            std::vector<Contender> contenders{contender("points", points, distanceOf(mTree)),
+                contender("points, plain hierarchy over the leaves", points, distanceOf(mPlain)),
+                contender(
+                    "Embree rtcPointQuery, spheres (any depth)", points, [&](const Vec3s& point) {
+                        return mPointScene.distance(point.asPointer(), float(cutoff));
+                    })};
+            if (mField.isThere()) {
+                contenders.push_back(contender(
+                    "dense field of distances, interpolated", points, [&](const Vec3s& point) {
+                        return std::min(double(mField.at(point)), cutoff);
+                    }));
+            }
+            printTimes(
+                "signed distance of points, " + kind + title, contenders, points.size(), mRounds);
         }
         printTimes("inside?, " + kind,
             {contender("leaf spheres", points,
@@ -205,6 +215,7 @@ private:
     const double mVoxel;
     const int mRounds;
     const EmbreeScene mSphereScene, mMeshScene, mPointScene;
+    const DenseField mField;
 };
 
 SphereTree readTree(const std::string& path)
