@@ -7,7 +7,7 @@
 ///
 /// Rays come from all around, each aimed at a random place of the box (incoherent), or from one place through a
 /// grid (camera). Points fill the box made 1.3 times as large, or lie near the surface. A configuration is 64 spheres along a
-/// walk, as those of a robot are.
+/// walk, as those of a robot are. docs/queries.md has the results.
 
 #include "AlternatingTimes.h"
 #include "DenseField.h"
@@ -70,8 +70,7 @@ public:
           mBalls(leafBalls(mTree)), mMesh(meshOfObject(tree)), mVoxel(tree.voxelSize()),
           mRounds(rounds), mSphereScene(EmbreeScene::ofSpheres(mBalls)),
           mMeshScene(EmbreeScene::ofMesh(mMesh)), mPointScene(EmbreeScene::forPoints(mBalls)),
-          mField(mTree, mTree.center() - Vec3d(1.3 * mTree.radius()),
-              mTree.center() + Vec3d(1.3 * mTree.radius()), mVoxel)
+          mField(mTree, cornerOf(-1), cornerOf(1), mVoxel)
     {}
 
     void run() const
@@ -92,6 +91,17 @@ public:
     }
 
 private:
+    /// @return a corner of the box that points are asked in.
+    Vec3d cornerOf(double side) const
+    {
+        openvdb::math::BBox<Vec3d> box;
+        for (const SceneBall& b : mBalls) {
+            box.expand(Vec3d(b.x, b.y, b.z) - Vec3d(b.r));
+            box.expand(Vec3d(b.x, b.y, b.z) + Vec3d(b.r));
+        }
+        return box.getCenter() + side * 0.65 * (box.max() - box.min());
+    }
+
     /// A hierarchy over the same leaves that knows nothing of the tree: what is slower with it, the tree has made faster.
     static QueryTree plainTree(const SphereTree& tree)
     {
