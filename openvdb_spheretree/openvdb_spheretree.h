@@ -69,10 +69,15 @@
 #include "tree/SphereLevelSet.h"
 
 // Questions to a tree.
+#include "query/BodyDistance.h"
+#include "query/Collide.h"
+#include "query/Contact.h"
+#include "query/ContinuousCollide.h"
 #include "query/DigitalLeaves.h"
 #include "query/PointQuery.h"
 #include "query/QueryTree.h"
 #include "query/RayQuery.h"
+#include "query/RigidMotion.h"
 #include "query/RigidTransform.h"
 #include "query/SphereDistances.h"
 

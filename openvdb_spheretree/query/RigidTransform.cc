@@ -99,7 +99,10 @@ RigidTransform RigidTransform::fromMatrix(const std::array<double, 16>& m)
 
 RigidTransform RigidTransform::fromTranslation(const Vec3d& translation)
 {
-    return {Mat3d::identity(), translation};
+    requireFinite(translation.asPointer(), 3, "the translation");
+    RigidTransform result;
+    result.mTranslation = translation;
+    return result;
 }
 
 RigidTransform RigidTransform::fromRotation(const Vec3d& axis, double radians)
@@ -141,6 +144,21 @@ RigidTransform RigidTransform::inverse() const
     back.mRotation = mRotation.transpose();
     back.mTranslation = -multiply(back.mRotation, mTranslation);
     return back;
+}
+
+RigidTransform RigidTransform::seenFrom(const RigidTransform& body) const
+{
+    RigidTransform relative;
+    const Mat3d &a = body.mRotation, &b = mRotation;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            relative.mRotation(i, j) = a(0, i) * b(0, j) + a(1, i) * b(1, j) + a(2, i) * b(2, j);
+        }
+    }
+    const Vec3d t = mTranslation - body.mTranslation;
+    for (int i = 0; i < 3; ++i)
+        relative.mTranslation[i] = a(0, i) * t[0] + a(1, i) * t[1] + a(2, i) * t[2];
+    return relative;
 }
 
 } // namespace openvdb_spheretree

@@ -57,6 +57,10 @@ public:
     /// @return what does @a first, and then this.
     RigidTransform operator*(const RigidTransform& first) const;
     RigidTransform inverse() const;
+    /// @return the same place in the frame of a body: the inverse of @a body times this.
+    RigidTransform seenFrom(const RigidTransform& body) const;
+    /// Moves it by @a offset, after all else.
+    void move(const openvdb::Vec3d& offset) { mTranslation += offset; }
 
 private:
     openvdb::Mat3d mRotation = openvdb::Mat3d::identity();

@@ -52,7 +52,10 @@ struct SphereBlocks {
     std::vector<SphereBlock> blocks; ///< the root's children first; a block before those below it
     std::vector<int32_t> leafPlace;  ///< of each leaf: kBlockWidth * block + lane
     FloatSphere root = {};           ///< holds the spheres of blocks[0]
-    int depth = 0;                   ///< blocks on the longest way from the root to a leaf
+    /// The largest leaf below each lane of blocks[0], and of all: where bodies meet deeply these do, too.
+    SphereBlock largestLeaves = {};
+    int32_t largestLeaf = 0;
+    int depth = 0; ///< blocks on the longest way from the root to a leaf
     /// No point of any sphere, empty lanes aside, is farther from the origin: what rounding errors are
     /// bounded by.
     float extent = 0;

@@ -147,6 +147,7 @@ public:
         write(mForest.roots, 1);
         mResult.blocks.shrink_to_fit();
         for (const SphereBlock& block : mResult.blocks) addExtent(block);
+        setLargestLeaves();
         return std::move(mResult);
     }
 
@@ -218,6 +219,32 @@ private:
             const Vec3d center(block.x[lane], block.y[lane], block.z[lane]);
             const float far = toFloatUp(addUp(center.length() * (1 + 1e-15), block.r[lane]));
             mResult.extent = std::max(mResult.extent, far);
+        }
+    }
+
+    /// @return the largest leaf at or below a child, as a block has them.
+    int32_t largestBelow(int32_t child) const
+    {
+        if (child < 0) return ~child;
+        int32_t largest = -1;
+        const SphereBlock& block = mResult.blocks[child];
+        for (int lane = 0; lane < kBlockWidth; ++lane) {
+            if (isEmptyLane(block, lane)) continue;
+            const int32_t leaf = largestBelow(block.child[lane]);
+            if (largest < 0 || mResult.leaf(leaf).r > mResult.leaf(largest).r) largest = leaf;
+        }
+        return largest;
+    }
+
+    void setLargestLeaves()
+    {
+        mResult.largestLeaf = largestBelow(0);
+        mResult.largestLeaves = mResult.blocks[0]; // with its empty lanes
+        for (int lane = 0; lane < kBlockWidth; ++lane) {
+            if (isEmptyLane(mResult.blocks[0], lane)) continue;
+            const int32_t leaf = largestBelow(mResult.blocks[0].child[lane]);
+            mResult.largestLeaves.set(lane, mResult.leaf(leaf));
+            mResult.largestLeaves.child[lane] = ~leaf;
         }
     }
 

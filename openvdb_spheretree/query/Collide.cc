@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Collide.h"
+
+#include "PairAnswers.h"
+#include <openvdb_spheretree/base/Parallel.h>
+
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
+
+namespace openvdb_spheretree {
+namespace {
+
+using detail::BodyPair;
+using detail::LeafPair;
+using detail::SearchEnd;
+using detail::SearchLimits;
+
+SearchLimits limitsOf(const CollisionRequest& request)
+{
+    detail::requireLength(request.securityMargin, "the security margin");
+    return {request.securityMargin, detail::blocksOrAny(request.maxBlocks)};
+}
+
+/// @return whether the spheres around both bodies meet: only then are blocks asked.
+bool rootsMeet(BodyPair& bodies, double margin)
+{
+    if (bodies.frame.rootGap() > margin + bodies.frame.rounding) return false;
+    bodies.frame.enterFloats();
+    return true;
+}
+
+void setApart(CollisionResult& result, const BodyPair& bodies, double lowerBound)
+{
+    result.verdict = Verdict::Apart;
+    const bool isCertain = bodies.a.holdsObject() && bodies.b.holdsObject();
+    result.objects = isCertain ? Verdict::Apart : Verdict::Undecided;
+    result.distanceLowerBound = std::max(0.0, lowerBound - bodies.frame.rounding);
+}
+
+/// Objects meet for certain where leaves do that are shrunk: any pair that is deep enough shows it.
+void decideObjects(CollisionResult& result, const BodyPair& bodies, int64_t maxBlocks)
+{
+    if (result.objects == Verdict::Touching || result.blocks >= maxBlocks) return;
+    SearchLimits limits;
+    limits.margin = -(bodies.a.leafInset() + bodies.b.leafInset()) - 2 * bodies.frame.rounding;
+    limits.maxBlocks = maxBlocks - result.blocks;
+    if (limits.margin == -std::numeric_limits<double>::infinity()) return;
+    const SearchEnd end = findOverlap(bodies.frame, limits, false);
+    result.blocks += end.blocks;
+    if (end.pair.a >= 0) result.objects = Verdict::Touching;
+}
+
+void setTouching(
+    CollisionResult& result, const BodyPair& bodies, const LeafPair& pair, bool enableContact)
+{
+    result.verdict = Verdict::Touching;
+    result.nodes = {bodies.a.nodeId(pair.a), bodies.b.nodeId(pair.b)};
+    if (enableContact) result.contact = bodies.contact(pair);
+    // A pair within a margin says nothing of the objects.
+    if (bodies.objectsMeet(pair)) result.objects = Verdict::Touching;
+}
+
+/// Any pair that touches.
+CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
+{
+    CollisionResult result;
+    const SearchLimits limits = limitsOf(request);
+    if (!rootsMeet(bodies, limits.margin)) {
+        setApart(result, bodies, bodies.frame.rootGap());
+        return result;
+    }
+    SearchEnd end;
+    if (request.warmStart.isGiven()) end.pair = bodies.leaves(request.warmStart);
+    if (end.pair.a < 0 || end.pair.gap > limits.margin) {
+        end = findOverlap(bodies.frame, limits, request.enableDistanceLowerBound);
+    }
+    result.blocks = end.blocks;
+    if (end.pair.a >= 0) setTouching(result, bodies, end.pair, request.enableContact);
+    else if (end.isDecided)
+        setApart(result, bodies, request.enableDistanceLowerBound ? end.lowerBound : 0);
+    if (result.isCollision() && request.decideObjects)
+        decideObjects(result, bodies, limits.maxBlocks);
+    return result;
+}
+
+/// The deepest pairs: the nearest ones with gaps up to the margin.
+CollisionResult deepestContacts(
+    BodyPair& bodies, const CollisionRequest& request, std::vector<Contact>& contacts)
+{
+    CollisionResult result;
+    const SearchLimits search = limitsOf(request);
+    if (!rootsMeet(bodies, search.margin)) {
+        setApart(result, bodies, bodies.frame.rootGap());
+        return result;
+    }
+    detail::NearestLimits limits;
+    limits.wanted = request.maxContacts;
+    limits.below = std::nextafter(search.margin + bodies.frame.rounding, INFINITY);
+    limits.maxBlocks = search.maxBlocks;
+    std::vector<LeafPair> pairs(std::size_t(request.maxContacts));
+    int count = 0;
+    const SearchEnd end = findNearest(bodies.frame, limits, pairs.data(), count);
+    result.blocks = end.blocks;
+    for (int i = 0; i < count; ++i) contacts.push_back(bodies.contact(pairs[i]));
+    if (count > 0) setTouching(result, bodies, pairs[0], request.enableContact);
+    else if (end.isDecided) setApart(result, bodies, search.margin);
+    if (result.isCollision() && request.decideObjects)
+        decideObjects(result, bodies, limits.maxBlocks);
+    return result;
+}
+
+} // namespace
+
+CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
+    const RigidTransform& poseB, const CollisionRequest& request, std::vector<Contact>* contacts)
+{
+    if (request.maxContacts < 1) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "collide() was asked for " << request.maxContacts << " contacts: ask for 1 or more");
+    }
+    BodyPair bodies(a, poseA, b, poseB);
+    if (contacts) contacts->clear();
+    if (contacts && request.maxContacts > 1) return deepestContacts(bodies, request, *contacts);
+    if (!contacts) return anyContact(bodies, request);
+    CollisionRequest wanted = request;
+    wanted.enableContact = true;
+    const CollisionResult result = anyContact(bodies, wanted);
+    if (result.contact) contacts->push_back(*result.contact);
+    return result;
+}
+
+CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
+    const RigidTransform& poseB, double securityMargin, const ContactCallback& callback)
+{
+    CollisionRequest request;
+    request.securityMargin = securityMargin;
+    const SearchLimits limits = limitsOf(request);
+    BodyPair bodies(a, poseA, b, poseB);
+    CollisionResult result;
+    if (!rootsMeet(bodies, limits.margin)) {
+        setApart(result, bodies, 0);
+        return result;
+    }
+    struct Context {
+        const BodyPair& bodies;
+        const ContactCallback& callback;
+    } context{bodies, callback};
+    const detail::PairSink sink{
+        &context, [](void* given, int32_t leafA, int32_t leafB) {
+            const Context& to = *static_cast<const Context*>(given);
+            return to.callback({to.bodies.a.nodeId(leafA), to.bodies.b.nodeId(leafB)});
+        }};
+    const SearchEnd end = findAllOverlaps(bodies.frame, limits, sink);
+    result.blocks = end.blocks;
+    if (end.pair.a < 0) setApart(result, bodies, 0);
+    else result.verdict = Verdict::Touching;
+    return result;
+}
+
+void collideBatch(const QueryTree& a, const QueryTree& b, const std::vector<RigidTransform>& poses,
+    Verdict* verdicts, const CollisionRequest& request, openvdb::util::NullInterrupter* interrupter)
+{
+    CollisionRequest each = request;
+    each.enableDistanceLowerBound = each.enableContact = false;
+    each.warmStart = {};
+    limitsOf(each); // errors before any thread starts
+    const RigidTransform here;
+    detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
+        BodyPair bodies(a, here, b, poses[i]);
+        const CollisionResult result = anyContact(bodies, each);
+        verdicts[i] = each.decideObjects ? result.objects : result.verdict;
+    });
+}
+
+} // namespace openvdb_spheretree

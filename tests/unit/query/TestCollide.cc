@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file TestCollide.cc
+/// @brief Verdicts and contacts of two bodies against all pairs of their leaf spheres; that nothing that meets is
+/// missed, in any rounding; the same answers for swapped bodies, a moved world, threads and vectors.
+
+#include "PosePairs.h"
+#include "QuerySamples.h"
+#include "support/Messages.h"
+#include "support/VectorTarget.h"
+
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/query/Collide.h>
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace spheretree_test;
+using openvdb::Vec3d;
+
+/// Leaves grow by rounding to floats: gaps this near to 0 may be either.
+constexpr double kRounding = 2e-5;
+
+/// All pairs of leaves that are within a margin, by node id, and those that are nearly.
+struct NaivePairs {
+    std::set<std::pair<int32_t, int32_t>> certain, possible;
+
+    NaivePairs(const PosePair& pair, double margin)
+    {
+        const auto a = leafBalls(pair.a.tree, pair.poseA), b = leafBalls(pair.b.tree, pair.poseB);
+        const int32_t firstA = pair.a.tree.levels[0].begin, firstB = pair.b.tree.levels[0].begin;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            for (std::size_t j = 0; j < b.size(); ++j) {
+                const double apart = gap(a[i], b[j]) - margin;
+                const std::pair<int32_t, int32_t> ids(firstA + int32_t(i), firstB + int32_t(j));
+                if (apart <= -kRounding) certain.insert(ids);
+                if (apart <= kRounding) possible.insert(ids);
+            }
+        }
+    }
+};
+
+std::string refusal(const CollisionRequest& request)
+{
+    const QueryTree tree = makeQueryTree(querySamples().front().tree);
+    return messageOf<openvdb::ValueError>([&] { collide(tree, {}, tree, {}, request); });
+}
+
+} // namespace
+
+TEST(Collide, AgreesWithAllPairsOfLeavesWhereTreesHoldThem)
+{
+    int touching = 0, apart = 0;
+    forEachPosePair(Exactness::LeafUnion, 100000, [&](const PosePair& pair) {
+        CollisionRequest request;
+        request.enableDistanceLowerBound = request.enableContact = true;
+        const CollisionResult result = pair.collide(request);
+        const double truth = pair.smallestGap();
+        ASSERT_NE(result.verdict, Verdict::Undecided);
+        if (std::abs(truth) > kRounding) {
+            ASSERT_EQ(result.isCollision(), truth < 0) << pair.name() << truth;
+        }
+        if (result.isCollision()) {
+            ++touching;
+            ASSERT_TRUE(result.contact);
+            ASSERT_LE(result.contact->distance, kRounding);
+            ASSERT_NEAR(result.contact->distance, pair.gapOf(result.nodes), kRounding);
+        } else {
+            ++apart;
+            ASSERT_LE(result.distanceLowerBound, truth);
+            ASSERT_FALSE(result.contact);
+        }
+    });
+    EXPECT_GT(touching, 20000);
+    EXPECT_GT(apart, 20000);
+}
+
+TEST(Collide, NoTwoVoxelCubesMeetThatAreSaidToBeApart)
+{
+    int met = 0, apart = 0;
+    forEachPosePair(Exactness::Object, 20000, [&](const PosePair& pair) {
+        CollisionRequest request;
+        request.decideObjects = true;
+        const CollisionResult result = pair.collide(request);
+        if (result.verdict == Verdict::Apart) {
+            ++apart;
+            ASSERT_FALSE(pair.cubesMeet()) << pair.name();
+            ASSERT_EQ(result.objects, Verdict::Apart);
+            return;
+        }
+        ASSERT_LE(pair.gapOf(result.nodes), kRounding);
+        ASSERT_NE(result.objects, Verdict::Apart);
+        if (result.objects != Verdict::Touching) return;
+        ++met;
+        ASSERT_TRUE(pair.cubesMeet()) << pair.name();
+    });
+    EXPECT_GT(met, 500);
+    EXPECT_GT(apart, 4000);
+}
+
+TEST(Collide, FindsTheDeepestPairsInTheirOrder)
+{
+    forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
+        CollisionRequest request;
+        request.maxContacts = 5;
+        std::vector<Contact> contacts(17);
+        const CollisionResult result = pair.collide(request, &contacts);
+        std::vector<double> gaps = pair.allGaps();
+        std::sort(gaps.begin(), gaps.end());
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            ASSERT_NEAR(contacts[i].distance, gaps[i], kRounding);
+            ASSERT_NEAR(contacts[i].distance, pair.gapOf(contacts[i].nodes), kRounding);
+        }
+        ASSERT_LE(contacts.size(), 5u);
+        if (contacts.size() < std::min<std::size_t>(5, gaps.size())) {
+            ASSERT_GT(gaps[contacts.size()], -kRounding);
+        }
+        ASSERT_EQ(result.isCollision(), !contacts.empty());
+        std::set<std::pair<int32_t, int32_t>> different;
+        for (const Contact& c : contacts) different.insert({c.nodes.a, c.nodes.b});
+        ASSERT_EQ(different.size(), contacts.size());
+    });
+}
+
+TEST(Collide, CallsBackForEveryPairOnce)
+{
+    forEachPosePair(Exactness::LeafUnion, 2000, [&](const PosePair& pair) {
+        for (const double margin : {0.0, 0.4}) {
+            const NaivePairs naive(pair, margin);
+            std::set<std::pair<int32_t, int32_t>> found;
+            const CollisionResult result = pair.collideAll(margin, [&](const NodePair& nodes) {
+                EXPECT_TRUE(found.insert({nodes.a, nodes.b}).second);
+                return true;
+            });
+            ASSERT_TRUE(std::includes(
+                found.begin(), found.end(), naive.certain.begin(), naive.certain.end()));
+            ASSERT_TRUE(std::includes(
+                naive.possible.begin(), naive.possible.end(), found.begin(), found.end()));
+            ASSERT_EQ(result.isCollision(), !found.empty());
+        }
+    });
+}
+
+TEST(Collide, StopsWhenTheCallbackHasHadEnough)
+{
+    const QueryTree tree = makeQueryTree(querySamples().front().tree);
+    int calls = 0;
+    collideAll(tree, {}, tree, {}, 0, [&](const NodePair&) { return ++calls < 3; });
+    EXPECT_EQ(calls, 3);
+}
+
+TEST(Collide, AMarginIsADistance)
+{
+    forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
+        const double truth = pair.smallestGap();
+        for (const double margin : {0.1, 1.0, 30.0}) {
+            if (std::abs(truth - margin) < kRounding) continue;
+            CollisionRequest request;
+            request.securityMargin = margin;
+            ASSERT_EQ(pair.collide(request).isCollision(), truth < margin);
+        }
+    });
+}
+
+TEST(Collide, TangentSpheresTouchInAnyPose)
+{
+    // Two voxels: their spheres are moved so that doubles see them touch by 10^-12 of their size, or not to
+    // by as little as floats can tell.
+    const QuerySample& one = querySample("one voxel");
+    const QueryTree tree = makeQueryTree(one.tree);
+    const Vec3d center = tree.leafCenter(0);
+    const double radius = tree.leafRadius(0);
+    Random random(5);
+    for (int i = 0; i < 20000; ++i) {
+        const double far = std::pow(10.0, uniform(random, -3, 7));
+        const RigidTransform world =
+            RigidTransform::fromTranslation(far * randomDirection(random)) * randomRotation(random);
+        const RigidTransform poseA = world;
+        const Vec3d direction = randomDirection(random);
+        // The other sphere's center is 2 radius along the direction from this one's.
+        const RigidTransform turn = randomRotation(random);
+        const auto at = [&](double apart) {
+            return world
+                * RigidTransform::fromTranslation(center + apart * direction - turn.rotate(center))
+                * turn;
+        };
+        const double rounding = 1e-12 * (radius + center.length()) + 4e-16 * far;
+        EXPECT_EQ(collide(tree, poseA, tree, at(2 * radius - rounding)).verdict, Verdict::Touching)
+            << far;
+        const double apart = 2 * radius + rounding + 4e-14 * far + 1e-12;
+        EXPECT_EQ(collide(tree, poseA, tree, at(apart)).verdict, Verdict::Apart) << far;
+    }
+}
+
+TEST(Collide, ABodyInAnotherTouchesIt)
+{
+    const QueryTree ball =
+        makeQueryTree(querySample("ball", shapes::ball(150), TightOptions()).tree);
+    const QueryTree& dot = makeQueryTree(querySample("one voxel").tree);
+    const RigidTransform inside = RigidTransform::fromTranslation(ball.center() - dot.center());
+    EXPECT_EQ(collide(ball, {}, dot, inside).verdict, Verdict::Touching);
+    CollisionRequest request;
+    request.decideObjects = true;
+    EXPECT_EQ(collide(ball, {}, dot, inside, request).objects, Verdict::Touching);
+}
+
+TEST(Collide, SwappedBodiesGiveTheSameVerdict)
+{
+    forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
+        if (std::abs(pair.smallestGap()) < kRounding) return;
+        ASSERT_EQ(pair.collide().verdict, pair.swapped().collide().verdict);
+    });
+}
+
+TEST(Collide, AMovedWorldGivesTheSameVerdict)
+{
+    Random random(8);
+    forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
+        if (std::abs(pair.smallestGap()) < 1e-4) return;
+        const auto world =
+            RigidTransform::fromTranslation(1e6 * randomDirection(random)) * randomRotation(random);
+        ASSERT_EQ(pair.collide().verdict, pair.movedBy(world).collide().verdict);
+    });
+}
+
+TEST(Collide, ABatchIsTheSameForAnyNumberOfThreadsAndAsOneByOne)
+{
+    const QueryTree a = makeQueryTree(querySamples()[0].tree),
+                    b = makeQueryTree(querySamples()[4].tree);
+    Random random(4);
+    std::vector<RigidTransform> poses;
+    for (int i = 0; i < 3000; ++i) {
+        poses.push_back(RigidTransform::fromTranslation(a.center() - b.center()
+                            + uniform(random, 0, 1) * randomDirection(random))
+            * randomRotation(random));
+    }
+    std::vector<Verdict> one(poses.size()), many(poses.size());
+    tbb::task_arena(1).execute([&] { collideBatch(a, b, poses, one.data()); });
+    tbb::task_arena(2).execute([&] { collideBatch(a, b, poses, many.data()); });
+    EXPECT_EQ(one, many);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        EXPECT_EQ(one[i], collide(a, {}, b, poses[i]).verdict);
+    EXPECT_GT(std::count(one.begin(), one.end(), Verdict::Touching), 20);
+    EXPECT_GT(std::count(one.begin(), one.end(), Verdict::Apart), 100);
+}
+
+TEST(Collide, ABatchCanBeInterrupted)
+{
+    struct Stop : openvdb::util::NullInterrupter {
+        bool wasInterrupted(int) override { return true; }
+    } stop;
+    const QueryTree tree = makeQueryTree(querySamples()[0].tree);
+    std::vector<Verdict> verdicts(100);
+    EXPECT_THROW(
+        collideBatch(tree, tree, std::vector<RigidTransform>(100), verdicts.data(), {}, &stop),
+        Interrupted);
+}
+
+TEST(Collide, EveryVectorTargetGivesTheSameAnswersToTheLastBit)
+{
+    std::vector<std::vector<double>> answers;
+    for (const int64_t target : allTargets()) {
+        forceTarget(target);
+        std::vector<double> all;
+        forEachPosePair(Exactness::Object, 2000, [&](const PosePair& pair) {
+            CollisionRequest request;
+            request.enableDistanceLowerBound = request.enableContact = true;
+            const CollisionResult result = pair.collide(request);
+            all.insert(all.end(),
+                {double(result.verdict), double(result.blocks), result.distanceLowerBound});
+            if (result.contact)
+                all.insert(all.end(), {double(result.contact->nodes.a), result.contact->distance});
+            pair.collideAll(0.1, [&](const NodePair& nodes) {
+                all.push_back(nodes.a * 1000.0 + nodes.b);
+                return true;
+            });
+        });
+        answers.push_back(all);
+        EXPECT_EQ(answers.front(), answers.back()) << targetName(target);
+    }
+    forceTarget(0);
+}
+
+TEST(Collide, ABudgetOfBlocksDecidesOrSaysThatItDoesNot)
+{
+    int undecided = 0;
+    forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
+        const CollisionResult whole = pair.collide();
+        CollisionRequest request;
+        request.maxBlocks = 2;
+        const CollisionResult result = pair.collide(request);
+        ASSERT_LE(result.blocks, 2);
+        if (result.verdict == Verdict::Undecided) {
+            ++undecided;
+        } else {
+            ASSERT_EQ(result.verdict, whole.verdict);
+        }
+    });
+    EXPECT_GT(undecided, 100);
+}
+
+TEST(Collide, AWarmStartIsLookedAtFirst)
+{
+    const QueryTree tree = makeQueryTree(querySamples()[0].tree);
+    CollisionRequest request;
+    request.warmStart = {tree.nodeId(0), tree.nodeId(0)};
+    const CollisionResult result = collide(tree, {}, tree, {}, request);
+    EXPECT_EQ(result.blocks, 0);
+    EXPECT_TRUE(result.nodes == request.warmStart);
+    const auto away =
+        RigidTransform::fromTranslation(Vec3d(0.9 * tree.leafRadius(0) + 2 * tree.radius(), 0, 0));
+    EXPECT_EQ(collide(tree, {}, tree, away, request).verdict, Verdict::Apart);
+    request.warmStart = {0, tree.nodeId(tree.leafCount())};
+    EXPECT_THROW(collide(tree, {}, tree, {}, request), openvdb::LookupError);
+}
+
+TEST(Collide, ContactsAreWhereTheSpheresMeet)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    const double r = dot.leafRadius(0);
+    const auto moved = RigidTransform::fromTranslation(Vec3d(0, 1.5 * r, 0));
+    CollisionRequest request;
+    request.enableContact = true;
+    const Contact contact = *collide(dot, {}, dot, moved, request).contact;
+    EXPECT_NEAR(contact.distance, -0.5 * r, 1e-6);
+    EXPECT_LT((contact.normal - Vec3d(0, 1, 0)).length(), 1e-6);
+    EXPECT_LT((contact.pointA - dot.center() - Vec3d(0, r, 0)).length(), 1e-6);
+    EXPECT_LT((contact.pointB - dot.center() - Vec3d(0, 0.5 * r, 0)).length(), 1e-6);
+    EXPECT_LT((contact.point() - dot.center() - Vec3d(0, 0.75 * r, 0)).length(), 1e-6);
+    EXPECT_TRUE(
+        collide(dot, {}, dot, {}, request).contact->normal.eq(Vec3d(1, 0, 0))); // concentric
+}
+
+TEST(Collide, RefusesRequestsThatMeanNothing)
+{
+    CollisionRequest request;
+    request.securityMargin = -0.1;
+    EXPECT_NE(refusal(request).find("the security margin is -0.1"), std::string::npos);
+    request.securityMargin = std::nan("");
+    EXPECT_NE(refusal(request), "");
+    request.securityMargin = std::numeric_limits<double>::infinity();
+    EXPECT_NE(refusal(request), "");
+    request = {};
+    request.maxContacts = 0;
+    EXPECT_NE(refusal(request).find("0 contacts"), std::string::npos);
+    request = {};
+    request.maxBlocks = 0;
+    EXPECT_NE(refusal(request).find("maxBlocks 0"), std::string::npos);
+    request.maxBlocks = -2;
+    EXPECT_NE(refusal(request), "");
+}
+
+TEST(Collide, BodiesAsFarApartAsDoublesGoAreApart)
+{
+    const QueryTree tree = makeQueryTree(querySamples()[0].tree);
+    const auto far = RigidTransform::fromTranslation(Vec3d(1e150, 0, 0));
+    EXPECT_EQ(collide(tree, {}, tree, far).verdict, Verdict::Apart);
+    CollisionRequest request;
+    request.securityMargin = 1e200;
+    EXPECT_THROW(collide(tree, {}, tree, far, request), openvdb::ValueError);
+}
