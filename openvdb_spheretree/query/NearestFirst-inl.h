@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file NearestFirst-inl.h
-/// @brief The walk down the blocks of a tree that all questions to one tree share: what is nearest is
-/// looked at first, and what is no nearer than the best leaf found is left out.
+/// @brief The walk down the blocks of a tree that all questions to one tree share: what is nearest
+/// is looked at first, and what is no nearer than the best leaf found is left out.
 ///
 /// A question is a struct of two functions, and how it ends:
 /// - lanes(block, best, key) tests a block: it returns a bit for each lane that may hold something
-///   nearer than `best`, and fills in keys of these lanes: lower bounds of what is below them, and of
-///   a leaf its own value;
+///   nearer than `best`, and fills in keys of these lanes: lower bounds of what is below them, and
+///   of a leaf its own value;
 /// - accept(leaf, key): whether a leaf counts;
 /// - isEnough(key): whether nothing nearer is worth looking for.
 ///
-/// The order is fixed: children by key, then by lane, with the nearest one next. So the answer, and the number
-/// of blocks, are the same on every machine. This header is compiled once for each instruction set.
+/// The order is fixed: children by key, then by lane, with the nearest one next. So the answer, and
+/// the number of blocks, are the same on every machine. This header is compiled once for each
+/// instruction set.
 
 #if defined(SPHERETREE_NEAREST_FIRST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_NEAREST_FIRST_INL_H
@@ -21,7 +22,7 @@
 #endif
 
 #include "BlockHit.h"
-#include "SphereBlocks.h"
+#include "BlockLanes-inl.h"
 
 #include <hwy/highway.h>
 
@@ -31,46 +32,20 @@ HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Lanes = hn::CappedTag<float, kBlockWidth>;
-using Floats = hn::Vec<Lanes>;
-
-/// @return the bits of a mask of Lanes, at the place of lane @a first.
-template <typename Mask>
-HWY_INLINE uint32_t bitsOf(const Mask& mask, std::size_t first)
-{
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(Lanes(), mask, bits);
-    return uint32_t(bits[0]) << first;
-}
-
-HWY_INLINE Floats sumOfProducts(Floats a, Floats b, Floats c, Floats d, Floats e, Floats f)
+HWY_INLINE V sumOfProducts(V a, V b, V c, V d, V e, V f)
 {
     return hn::Add(hn::Add(hn::Mul(a, b), hn::Mul(c, d)), hn::Mul(e, f));
 }
 
-/// @return the lanes of a block that are leaves, or empty.
-HWY_INLINE uint32_t leavesOf(const SphereBlock& block)
-{
-    const hn::RebindToSigned<Lanes> d;
-    uint32_t leaves = 0;
-    for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-        const auto isLeaf = hn::Lt(hn::Load(d, block.child + i), hn::Zero(d));
-        leaves |= bitsOf(hn::RebindMask(Lanes(), isLeaf), i);
-    }
-    return leaves;
-}
-
-HWY_INLINE int lowestOf(uint32_t lanes) { return int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes)); }
-
-/// Ranks of some lanes by key, without a branch: how many of them have a smaller one. Keys are compared as integers, which
-/// have the order of floats once the bits of negative ones are turned around. The last three bits make way for the number of the lane:
-/// no two are equal.
+/// Ranks of some lanes by key, without a branch: how many of them have a smaller one. Keys are
+/// compared as integers, which have the order of floats once the bits of negative ones are turned
+/// around. The last three bits make way for the number of the lane: no two are equal.
 HWY_INLINE void rankLanes(const float* key, uint32_t lanes, int32_t* rank)
 {
-    const hn::RebindToSigned<Lanes> d;
+    const hn::RebindToSigned<D> d;
     alignas(SphereBlock) int32_t order[kBlockWidth];
     for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-        const auto bits = hn::BitCast(d, hn::Load(Lanes(), key + i));
+        const auto bits = hn::BitCast(d, hn::Load(D(), key + i));
         const auto turned = hn::And(hn::ShiftRight<31>(bits), hn::Set(d, 0x7fffffff));
         const auto ordered = hn::And(hn::Xor(bits, turned), hn::Set(d, ~(kBlockWidth - 1)));
         hn::Store(hn::Or(ordered, hn::Iota(d, int32_t(i))), d, order + i);
@@ -79,7 +54,7 @@ HWY_INLINE void rankLanes(const float* key, uint32_t lanes, int32_t* rank)
         const auto own = hn::Load(d, order + i);
         auto before = hn::Zero(d);
         for (uint32_t left = lanes; left != 0; left &= left - 1) {
-            const auto isBefore = hn::Lt(hn::Set(d, order[lowestOf(left)]), own);
+            const auto isBefore = hn::Lt(hn::Set(d, order[FirstLane(left)]), own);
             before = hn::Add(before, hn::IfThenElseZero(isBefore, hn::Set(d, 1)));
         }
         hn::Store(before, d, rank + i);
@@ -94,20 +69,20 @@ struct WaitingBlock {
 /// Each step takes one block, and adds one for each of its lanes but the one that is next.
 constexpr int kMostWaiting = kMostDepth * (kBlockWidth - 1) + 1;
 
-/// The nearest of some lanes of a block is next, and the others wait, the nearest on top. (Sorted one by one, points take 1.6
-/// times as long: what goes where cannot be foretold. One or two lanes keep clear of memory, which would be a tenth
-/// of a ray's time.)
+/// The nearest of some lanes of a block is next, and the others wait, the nearest on top. (Sorted
+/// one by one, points take 1.6 times as long: what goes where cannot be foretold. One or two lanes
+/// keep clear of memory, which would be a tenth of a ray's time.)
 /// @param lanes    not 0
 /// @param waiting  the stack, of size @a count
 HWY_INLINE WaitingBlock takeNearest(
     const SphereBlock& block, const float* key, uint32_t lanes, WaitingBlock* waiting, int& count)
 {
-    const int first = lowestOf(lanes);
+    const int first = FirstLane(lanes);
     const uint32_t others = lanes & (lanes - 1);
     const WaitingBlock a{key[first], block.child[first]};
     if (others == 0) return a;
     if ((others & (others - 1)) == 0) {
-        const int second = lowestOf(others);
+        const int second = FirstLane(others);
         const WaitingBlock b{key[second], block.child[second]};
         const bool isNearer = a.key <= b.key;
         waiting[count++] = isNearer ? b : a;
@@ -117,7 +92,7 @@ HWY_INLINE WaitingBlock takeNearest(
     rankLanes(key, lanes, rank);
     count += int(hwy::PopCount(lanes));
     for (uint32_t left = lanes; left != 0; left &= left - 1) {
-        const int lane = lowestOf(left);
+        const int lane = FirstLane(left);
         waiting[count - 1 - rank[lane]] = {key[lane], block.child[lane]};
     }
     return waiting[--count];
@@ -134,10 +109,10 @@ HWY_INLINE BlockHit nearestFirst(const SphereBlock* blocks, const Question& ques
     for (int32_t here = 0;;) {
         const SphereBlock& block = blocks[here];
         ++best.blocks;
-        const uint32_t met = question.lanes(block, best.key, key), leaves = leavesOf(block);
+        const uint32_t met = question.lanes(block, best.key, key), leaves = LeafLanes(block);
         const float before = best.key;
         for (uint32_t left = met & leaves; left != 0; left &= left - 1) {
-            const int lane = lowestOf(left);
+            const int lane = FirstLane(left);
             const int32_t leaf = ~block.child[lane];
             const bool isBetter = key[lane] < best.key && question.accept(leaf, key[lane]);
             best.key = isBetter ? key[lane] : best.key;

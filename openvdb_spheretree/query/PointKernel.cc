@@ -17,25 +17,25 @@ namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 uint32_t SpheresWithin(const BallAround& around, const float* spheres, std::size_t count)
 {
-    const Lanes d;
-    const Floats infinity = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
+    const D d;
+    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
     uint32_t within = 0;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const std::size_t left = count - i;
         float last[4 * kBlockWidth] = {};
         const bool isWhole = left >= hn::Lanes(d);
         if (!isWhole) std::copy_n(spheres + 4 * i, 4 * left, last);
-        Floats x, y, z, r;
+        V x, y, z, r;
         hn::LoadInterleaved4(d, isWhole ? spheres + 4 * i : last, x, y, z, r);
-        const Floats dx = hn::Sub(x, hn::Set(d, around.x)), dy = hn::Sub(y, hn::Set(d, around.y)),
-                     dz = hn::Sub(z, hn::Set(d, around.z));
-        const Floats distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
-        const Floats reach = hn::Add(r, hn::Set(d, around.reach));
+        const V dx = hn::Sub(x, hn::Set(d, around.x)), dy = hn::Sub(y, hn::Set(d, around.y)),
+                dz = hn::Sub(z, hn::Set(d, around.z));
+        const V distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
+        const V reach = hn::Add(r, hn::Set(d, around.reach));
         const auto isFar = hn::Gt(distSq, hn::Mul(reach, reach));
         const auto isOff = hn::And(hn::Lt(r, zero), hn::Gt(r, hn::Neg(infinity)));
         // Comparisons with NaN are false, so what is NaN or infinite counts as within.
         const auto isOut = hn::And(hn::Or(isFar, isOff), hn::Lt(distSq, infinity));
-        within |= bitsOf(hn::Not(isOut), i);
+        within |= Bits(hn::Not(isOut)) << i;
     }
     return count == kMostFiltered ? within : within & ((uint32_t(1) << count) - 1);
 }
@@ -43,26 +43,26 @@ uint32_t SpheresWithin(const BallAround& around, const float* spheres, std::size
 /// A point, and how far the spheres of a block are from it.
 struct PointLanes {
     PointLanes(float atX, float atY, float atZ)
-        : x(hn::Set(Lanes(), atX)), y(hn::Set(Lanes(), atY)), z(hn::Set(Lanes(), atZ))
+        : x(hn::Set(D(), atX)), y(hn::Set(D(), atY)), z(hn::Set(D(), atZ))
     {}
 
     HWY_INLINE uint32_t lanes(const SphereBlock& block, float best, float* key) const
     {
-        const Lanes d;
+        const D d;
         uint32_t nearer = 0;
         for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-            const Floats dx = hn::Sub(hn::Load(d, block.x + i), x);
-            const Floats dy = hn::Sub(hn::Load(d, block.y + i), y);
-            const Floats dz = hn::Sub(hn::Load(d, block.z + i), z);
-            const Floats distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
-            const Floats distance = hn::Sub(hn::Sqrt(distSq), hn::Load(d, block.r + i));
+            const V dx = hn::Sub(hn::Load(d, block.x + i), x);
+            const V dy = hn::Sub(hn::Load(d, block.y + i), y);
+            const V dz = hn::Sub(hn::Load(d, block.z + i), z);
+            const V distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
+            const V distance = hn::Sub(hn::Sqrt(distSq), hn::Load(d, block.r + i));
             hn::Store(distance, d, key + i);
-            nearer |= bitsOf(hn::Lt(distance, hn::Set(d, best)), i);
+            nearer |= Bits(hn::Lt(distance, hn::Set(d, best))) << i;
         }
         return nearer;
     }
 
-    Floats x, y, z;
+    V x, y, z;
 };
 
 /// The nearest of all leaves.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayKernel.h
-/// @brief Kernels of rays: the first leaf sphere along each.
+/// @brief The kernel of rays: the first leaf sphere along one.
 ///
 /// Results are the same for every vector target. Tests: TestRayQuery.cc.
 
@@ -9,12 +9,10 @@
 #include "BlockHit.h"
 #include "SphereBlocks.h"
 
-#include <cstddef>
-
 namespace openvdb_spheretree::detail {
 
-/// In the coordinates of the blocks. The origin is where the line is nearest to the middle of the tree, so
-/// that floats are as fine as the tree is large, wherever the ray started.
+/// In the coordinates of the blocks. The origin is where the line is nearest to the middle of the
+/// tree, so that floats are as fine as the tree is large, wherever the ray started.
 struct RayQuestion {
     float origin[3];
     float direction[3]; ///< of length 1
@@ -24,8 +22,7 @@ struct RayQuestion {
     bool anyHit;        ///< the first leaf found will do
 };
 
-/// @param hits  receives the leaf that each ray enters first, and where; before `near` if it starts inside
-void firstLeaves(
-    const SphereBlocks& tree, const RayQuestion* rays, std::size_t count, BlockHit* hits);
+/// @return the leaf that a ray enters first, and where; before `near` if the ray starts inside.
+BlockHit firstLeaf(const SphereBlocks& tree, const RayQuestion& ray);
 
 } // namespace openvdb_spheretree::detail

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file EmbreeMain.cc
-/// @brief Rays, points and batches of spheres against a tree, timed against Embree on the same spheres and on a
-/// mesh of the same voxels: one thread, contenders by turns.
+/// @brief Rays, points and batches of spheres against a tree, timed against Embree on the same
+/// spheres and on a mesh of the same voxels: one thread, contenders by turns.
 ///
 ///     spheretree_benchmark_embree ROUNDS TREE.vdb...
 ///
-/// Rays come from all around, each aimed at a random place of the box (incoherent), or from one place through a
-/// grid (camera). Points fill the box made 1.3 times as large, or lie near the surface. A configuration is 64 spheres along a
-/// walk, as those of a robot are.
+/// Rays come from all around, each aimed at a random place of the box (incoherent), or from one
+/// place through a grid (camera). Points fill the box made 1.3 times as large, or lie near the
+/// surface. A configuration is 64 spheres along a walk, as those of a robot are. docs/queries.md
+/// has the results.
 
 #include "AlternatingTimes.h"
+#include "DenseField.h"
 #include "EmbreeScenes.h"
 #include "Questions.h"
 
@@ -68,7 +70,8 @@ public:
         : mTree(makeQueryTree(tree)), mPlain(plainTree(tree)), mLeaves(tree),
           mBalls(leafBalls(mTree)), mMesh(meshOfObject(tree)), mVoxel(tree.voxelSize()),
           mRounds(rounds), mSphereScene(EmbreeScene::ofSpheres(mBalls)),
-          mMeshScene(EmbreeScene::ofMesh(mMesh)), mPointScene(EmbreeScene::forPoints(mBalls))
+          mMeshScene(EmbreeScene::ofMesh(mMesh)), mPointScene(EmbreeScene::forPoints(mBalls)),
+          mField(mTree, cornerOf(-1), cornerOf(1), mVoxel)
     {}
 
     void run() const
@@ -78,6 +81,8 @@ public:
             "%zu leaf spheres, %.1f bytes each (%.1f more for exact insides), %zu triangles\n",
             mBalls.size(), double(mTree.bytes()) / count, double(mLeaves.bytes()) / count,
             mMesh.triangles.size());
+        if (mField.isThere())
+            std::printf("dense field: %.1f bytes a leaf sphere\n", double(mField.bytes()) / count);
         Questions questions(mTree);
         compareRays("incoherent", questions.raysFromAround());
         compareRays("camera", questions.raysOfCamera());
@@ -87,7 +92,19 @@ public:
     }
 
 private:
-    /// A hierarchy over the same leaves that knows nothing of the tree: what is slower with it, the tree has made faster.
+    /// @return a corner of the box that points are asked in.
+    Vec3d cornerOf(double side) const
+    {
+        openvdb::math::BBox<Vec3d> box;
+        for (const SceneBall& b : mBalls) {
+            box.expand(Vec3d(b.x, b.y, b.z) - Vec3d(b.r));
+            box.expand(Vec3d(b.x, b.y, b.z) + Vec3d(b.r));
+        }
+        return box.getCenter() + side * 0.65 * (box.max() - box.min());
+    }
+
+    /// A hierarchy over the same leaves that knows nothing of the tree: what is slower with it, the
+    /// tree has made faster.
     static QueryTree plainTree(const SphereTree& tree)
     {
         QueryTreeSettings settings;
@@ -151,15 +168,20 @@ private:
                 };
             };
             const std::string title = std::isinf(voxels) ? "" : ", no farther than 5 voxels";
-            printTimes("signed distance of points, " + kind + title,
-                {contender("points", points, distanceOf(mTree)),
-                    contender(
-                        "points, plain hierarchy over the leaves", points, distanceOf(mPlain)),
-                    contender("Embree rtcPointQuery, spheres (any depth)", points,
-                        [&](const Vec3s& point) {
-                            return mPointScene.distance(point.asPointer(), float(cutoff));
-                        })},
-                points.size(), mRounds);
+            std::vector<Contender> contenders{contender("points", points, distanceOf(mTree)),
+                contender("points, plain hierarchy over the leaves", points, distanceOf(mPlain)),
+                contender(
+                    "Embree rtcPointQuery, spheres (any depth)", points, [&](const Vec3s& point) {
+                        return mPointScene.distance(point.asPointer(), float(cutoff));
+                    })};
+            if (mField.isThere()) {
+                contenders.push_back(contender(
+                    "dense field of distances, interpolated", points, [&](const Vec3s& point) {
+                        return std::min(double(mField.at(point)), cutoff);
+                    }));
+            }
+            printTimes(
+                "signed distance of points, " + kind + title, contenders, points.size(), mRounds);
         }
         printTimes("inside?, " + kind,
             {contender("leaf spheres", points,
@@ -205,6 +227,7 @@ private:
     const double mVoxel;
     const int mRounds;
     const EmbreeScene mSphereScene, mMeshScene, mPointScene;
+    const DenseField mField;
 };
 
 SphereTree readTree(const std::string& path)
