@@ -73,9 +73,13 @@
 #include "query/Collide.h"
 #include "query/Contact.h"
 #include "query/ContinuousCollide.h"
+#include "query/DigitalLeaves.h"
+#include "query/PointQuery.h"
 #include "query/QueryTree.h"
+#include "query/RayQuery.h"
 #include "query/RigidMotion.h"
 #include "query/RigidTransform.h"
+#include "query/SphereDistances.h"
 
 // Spheres that other tools have made.
 #include "input/spheres/SphereFile.h"

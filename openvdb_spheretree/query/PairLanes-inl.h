@@ -10,6 +10,7 @@
 #define SPHERETREE_PAIR_LANES_INL_H
 #endif
 
+#include "BlockLanes-inl.h"
 #include "PairFrame.h"
 
 #include <hwy/highway.h>
@@ -21,21 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<float, kBlockWidth>;
-using V = hn::Vec<D>;
-constexpr int kWidth = int(hn::MaxLanes(D()));
-
-/// One bit a lane.
-template <typename Mask>
-HWY_INLINE uint32_t Bits(const Mask& mask)
-{
-    uint64_t bits = 0; // of a few lanes one byte is written, of 16 two
-    hn::StoreMaskBits(D(), mask, reinterpret_cast<uint8_t*>(&bits));
-    return uint32_t(bits);
-}
-
-HWY_INLINE int FirstLane(uint32_t bits) { return int(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
 
 /// Squared distances of some lanes' centers to that of a sphere.
 HWY_INLINE V DistSq(const SphereBlock& block, int lane, const FloatSphere& s)
@@ -84,20 +70,6 @@ HWY_INLINE Node NodeAt(const SphereBlocks& blocks, int32_t place)
     const SphereBlock& block = blocks.blocks.data()[uint32_t(place) / kBlockWidth];
     const uint32_t lane = uint32_t(place) % kBlockWidth;
     return {{block.x[lane], block.y[lane], block.z[lane], block.r[lane]}, block.child[lane]};
-}
-
-/// Lanes whose spheres are leaves, and empty ones.
-HWY_INLINE uint32_t LeafLanes(const SphereBlock& block)
-{
-    const hn::RebindToSigned<D> d;
-    uint64_t bits = 0;
-    uint32_t lanes = 0;
-    for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
-        hn::StoreMaskBits(d, hn::Lt(hn::Load(d, block.child + lane), hn::Zero(d)),
-            reinterpret_cast<uint8_t*>(&bits));
-        lanes |= uint32_t(bits) << lane;
-    }
-    return lanes;
 }
 
 /// A pair that waits on the stack.
