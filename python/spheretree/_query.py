@@ -270,7 +270,7 @@ class Query:
         return Nearest(*_shaped(shape, answers))
 
     @staticmethod
-    def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[list[Any], Any]:
+    def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[tuple[Any, Any], Any]:
         for name, array in (("origins", np.asarray(origins)), ("directions", np.asarray(directions))):
             if array.shape[-1:] != (3,):
                 raise InputError(f"{name} has shape {array.shape}: it takes (..., 3)")
@@ -278,5 +278,5 @@ class Query:
             starts, ways = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
         except ValueError as error:
             raise InputError(f"origins and directions: {error}") from None
-        rows = [np.ascontiguousarray(array).reshape(-1, 3) for array in (starts, ways)]
+        rows = np.ascontiguousarray(starts).reshape(-1, 3), np.ascontiguousarray(ways).reshape(-1, 3)
         return rows, starts.shape[:-1]

@@ -129,6 +129,9 @@ TEST_F(CommandQueries, CollideTellsTouchingFromApart)
     EXPECT_EQ(apart["spheres"], "apart");
     EXPECT_EQ(apart["objects"], "apart");
     EXPECT_TRUE(apart["distance"].is_null());
+    EXPECT_GT(double(apart["lower"]), 0);
+    EXPECT_LE(
+        double(apart["lower"]), double(answer("-distance vdb=0,0 translate=20,1,2")["distance"]));
     const json deep = answer("-collide vdb=0,0 translate=1,0,0 objects=1");
     EXPECT_EQ(deep["spheres"], "touching");
     EXPECT_EQ(deep["objects"], "touching");
@@ -161,7 +164,7 @@ TEST_F(CommandQueries, PosesOfAFileAreThoseThatAreTyped)
                                "poses=stdin.csv csv=- < poses.csv");
     EXPECT_EQ(piped.exitCode, 0) << piped.err;
     EXPECT_EQ(std::count(piped.out.begin(), piped.out.end(), '\n'), 4) << piped.out;
-    EXPECT_TRUE(mentions(piped.out, "pose,spheres,objects,distance,x,y,z")) << piped.out;
+    EXPECT_TRUE(mentions(piped.out, "pose,spheres,objects,distance,lower,x,y,z")) << piped.out;
 }
 
 TEST_F(CommandQueries, AnswersAreTheSameForAnyNumberOfThreads)
@@ -317,6 +320,8 @@ TEST_F(CommandQueries, UnitsAreThoseOfAllNumbers)
     const std::string ask = "-collide vdb=0,0 translate=20000,0,0 units=mm margin=";
     EXPECT_EQ(answer(ask + "20000")["spheres"], "touching");
     EXPECT_EQ(answer(ask + "20")["spheres"], "apart");
+    EXPECT_EQ(answer(ask + "20m")["spheres"], "touching");
+    EXPECT_EQ(answer(ask + "20cm")["spheres"], "apart");
     EXPECT_EQ(run("-read t.vdb -collide vdb=0,0 margin=5mm").exitCode, 2);
 }
 

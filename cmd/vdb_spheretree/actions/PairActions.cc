@@ -88,7 +88,7 @@ spheretree::CollisionRequest collisionRequest(const ActionCall& call)
     spheretree::CollisionRequest request;
     request.securityMargin = lengthOf(call, "margin");
     request.maxBlocks = blocksOf(call);
-    request.enableContact = true;
+    request.enableContact = request.enableDistanceLowerBound = true;
     request.decideObjects = call.flag("objects");
     return request;
 }
@@ -104,6 +104,8 @@ Cells cellsOf(const CollisionResult& result, double unit)
     } else {
         addNothing(cells, 9);
     }
+    const bool isApart = result.verdict == Verdict::Apart;
+    cells.insert(cells.begin() + 3, isApart ? Cell(result.distanceLowerBound / unit) : Cell());
     cells.push_back(result.blocks);
     return cells;
 }
@@ -158,8 +160,8 @@ void runCollide(const ActionCall& call, Session& session)
             return spheretree::collide(a, {}, b, pose, request);
         });
     AnswerSheet sheet = question.sheet("vdb_spheretree.collide.1");
-    sheet.columns = {"pose", "spheres", "objects", "distance", "x", "y", "z", "nx", "ny", "nz", "a",
-        "b", "blocks"};
+    sheet.columns = {"pose", "spheres", "objects", "distance", "lower", "x", "y", "z", "nx", "ny",
+        "nz", "a", "b", "blocks"};
     sheet.row = [&](std::size_t i) {
         Cells cells = cellsOf(results[i], question.unit);
         cells.insert(cells.begin(), int64_t(i));
@@ -174,7 +176,6 @@ void checkCollide(const ActionCall& call, Plan& plan)
 {
     checkQuestion(call, plan, 2);
     checkPoses(call, plan);
-    plan.requireKnownUnit("margin", call.text("margin"));
 }
 
 // -distance
@@ -240,9 +241,6 @@ void checkDistance(const ActionCall& call, Plan& plan)
 {
     checkQuestion(call, plan, 2);
     checkPoses(call, plan);
-    for (const char* length : {"upto", "abserr"}) {
-        if (call.given(length)) plan.requireKnownUnit(length, call.text(length));
-    }
 }
 
 } // namespace

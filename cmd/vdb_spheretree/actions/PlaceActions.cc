@@ -224,7 +224,6 @@ void checkContains(const ActionCall& call, Plan& plan)
     checkQuestion(call, plan, 1);
     checkTable(call, plan, "points", {"point"});
     requireQuestion(call, {"point"}, "points");
-    if (call.given("upto")) plan.requireKnownUnit("upto", call.text("upto"));
 }
 
 } // namespace

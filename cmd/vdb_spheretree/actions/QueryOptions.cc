@@ -149,8 +149,8 @@ std::vector<QueryBody> bodiesOf(const ActionCall& call, Session& session, int tr
         const auto& tree = bodies.back().tree;
         if (!tree.holdsObject() && !tree.holdsLeaves()) {
             session.note(item->description()
-                + ": its spheres do not hold whole voxels (padding=), so answers are about voxel "
-                  "centres; exact=1 makes them those of the spheres");
+                + ": its spheres hold neither the voxels of the object nor the spheres below them, "
+                  "so something may be missed; exact=1 has the answers of its leaf spheres");
         }
     }
     return bodies;

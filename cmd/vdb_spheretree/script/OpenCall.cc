@@ -25,8 +25,9 @@ ActionCall closedCall(const ActionCall& call, Variables& variables, std::optiona
 void checkCall(const ActionCall& call, Plan& plan)
 {
     try {
+        const bool saysUnit = call.spec().option("units") && call.given("units");
         for (const OptionSpec& option : call.spec().options) {
-            if (option.kind != OptionKind::Length || !call.given(option.name)) continue;
+            if (option.kind != OptionKind::Length || !call.given(option.name) || saysUnit) continue;
             plan.requireKnownUnit(option.name, call.text(option.name));
         }
         if (call.spec().check) call.spec().check(call, plan);

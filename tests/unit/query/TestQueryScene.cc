@@ -150,17 +150,19 @@ TEST(QueryScene, AnswersAreThoseOfCollideForAnyNumberOfThreads)
 {
     Random random(3);
     const RandomScene scene(random, 25, Vec3d(6, 6, 6));
+    CollisionRequest request;
+    request.enableContact = true;
     std::vector<ScenePair> found[2];
     for (const int threads : {1, 4}) {
         tbb::task_arena arena(threads);
-        arena.execute([&] { found[threads > 1] = scene.scene.touchingPairs(); });
+        arena.execute([&] { found[threads > 1] = scene.scene.touchingPairs(request); });
     }
     ASSERT_EQ(pairsOf(found[0]), pairsOf(found[1]));
     ASSERT_FALSE(found[0].empty());
     for (std::size_t i = 0; i < found[0].size(); ++i) {
         const ScenePair& one = found[0][i];
         const CollisionResult alone = collide(scene.scene.tree(one.a), scene.scene.pose(one.a),
-            scene.scene.tree(one.b), scene.scene.pose(one.b));
+            scene.scene.tree(one.b), scene.scene.pose(one.b), request);
         for (const ScenePair& pair : {one, found[1][i]}) {
             EXPECT_EQ(pair.result.verdict, alone.verdict);
             EXPECT_EQ(pair.result.blocks, alone.blocks);

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -72,6 +73,22 @@ TEST_F(QueryTables, APoseIsReadInEveryWayToWriteIt)
     const auto moves = poses("x,y,z\n1,2,3\n\n+4,5e0,6\n");
     ASSERT_EQ(moves.rows.size(), 2u);
     expectNear(moves.rows[1] * Vec3d(0.0), Vec3d(4, 5, 6));
+}
+
+TEST_F(QueryTables, AQuaternionTurnsAboutItsAxis)
+{
+    const Vec3d axis = Vec3d(1, -2, 3).unit();
+    const double angle = 0.9;
+    std::ostringstream text;
+    text.precision(17);
+    text << "7 8 9 ";
+    for (int a = 0; a < 3; ++a) text << axis[a] * std::sin(angle / 2) << " ";
+    text << std::cos(angle / 2);
+    const auto table = poses(text.str());
+    const auto expected = RigidTransform::fromRotation(axis, angle);
+    for (const Vec3d p : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0.3, -2, 5)}) {
+        expectNear(table.rows.at(0) * p, expected * p + Vec3d(7, 8, 9));
+    }
 }
 
 TEST_F(QueryTables, WhatIsTakenForGrantedIsSaid)
