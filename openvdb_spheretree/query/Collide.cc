@@ -142,19 +142,20 @@ CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, cons
         setApart(result, bodies, 0);
         return result;
     }
-    struct Context {
-        const BodyPair& bodies;
-        const ContactCallback& callback;
-    } context{bodies, callback};
-    const detail::PairSink sink{
-        &context, [](void* given, int32_t leafA, int32_t leafB) {
-            const Context& to = *static_cast<const Context*>(given);
-            return to.callback({to.bodies.a.nodeId(leafA), to.bodies.b.nodeId(leafB)});
-        }};
+    const ContactCallback* context = &callback;
+    const detail::PairSink sink{&context,
+        [](void* given, const NodePair* pairs, int count) {
+            return (**static_cast<const ContactCallback**>(given))(pairs, count);
+        },
+        a.nodeId(0), b.nodeId(0)};
     const SearchEnd end = findAllOverlaps(bodies.frame, limits, sink);
     result.blocks = end.blocks;
-    if (end.pair.a < 0) setApart(result, bodies, 0);
-    else result.verdict = Verdict::Touching;
+    if (end.pair.a < 0) {
+        setApart(result, bodies, 0);
+        return result;
+    }
+    result.verdict = Verdict::Touching;
+    result.nodes = {a.nodeId(end.pair.a), b.nodeId(end.pair.b)};
     return result;
 }
 

@@ -73,11 +73,11 @@ CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const Q
     const RigidTransform& poseB, const CollisionRequest& request = {},
     std::vector<Contact>* contacts = nullptr);
 
-/// Called with every pair of leaf spheres that touches, in a fixed order. False: no more.
-using ContactCallback = std::function<bool(const NodePair&)>;
+/// Called with pairs of leaf spheres that touch, some at a time, in a fixed order. False: no more.
+using ContactCallback = std::function<bool(const NodePair* pairs, int count)>;
 
-/// @brief Calls @a callback for all pairs of leaf spheres that are within @a securityMargin.
-/// @return the verdict; Touching also if the callback ended it
+/// @brief Calls @a callback with all pairs of leaf spheres that are within @a securityMargin, each once.
+/// @return the verdict; Touching also if the callback ended it. `nodes` is one of the pairs.
 /// @throw openvdb::ValueError as above
 CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
     const RigidTransform& poseB, double securityMargin, const ContactCallback& callback);

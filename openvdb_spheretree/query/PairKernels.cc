@@ -169,38 +169,52 @@ public:
         while (mCount > 0) {
             if (mEnd.blocks == mLimits.maxBlocks) {
                 mEnd.isDecided = false;
-                return mEnd;
+                break;
             }
             const Pair pair = mStack[--mCount];
             Opened opened = Open(mFrame, pair);
             opened.other.r += mReach;
             ++mEnd.blocks;
-            if (!Descend(pair, opened)) return mEnd;
+            Descend(pair, opened);
+            if (mFound > kMostFound - kBlockWidth && !Flush()) return mEnd;
         }
+        Flush();
         return mEnd;
     }
 
 private:
-    /// @return false if no more is wanted.
-    HWY_INLINE bool Descend(const Pair& pair, const Opened& opened)
+    static constexpr int kMostFound = 8 * kBlockWidth;
+
+    HWY_INLINE void Descend(const Pair& pair, const Opened& opened)
     {
         uint32_t hits = 0, certain = 0;
         Test(opened, hits, certain);
-        for (; hits; hits &= hits - 1) {
-            const int lane = FirstLane(hits);
-            if (!opened.areLeaves(lane)) {
-                mStack[mCount++] = opened.below(pair, lane);
-                continue;
-            }
-            const int32_t a = opened.leafA(lane), b = opened.leafB(lane);
-            const bool meet = (certain >> lane & 1)
-                || GapOf(mFrame, opened, lane) <= mLimits.margin + mFrame.rounding;
-            if (!meet) continue;
-            mEnd.pair.a = a;
-            mEnd.pair.b = b;
-            if (!mSink.add(mSink.context, a, b)) return false;
+        uint32_t leaves = opened.otherChild < 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        for (uint32_t unsure = leaves & ~certain; unsure; unsure &= unsure - 1) {
+            const int lane = FirstLane(unsure);
+            if (GapOf(mFrame, opened, lane) > mLimits.margin + mFrame.rounding)
+                leaves &= ~(1u << lane);
         }
-        return true;
+        int found = mFound, count = mCount;
+        for (; leaves; leaves &= leaves - 1) {
+            const int lane = FirstLane(leaves);
+            mPairs[found++] = {
+                mSink.firstA + opened.leafA(lane), mSink.firstB + opened.leafB(lane)};
+        }
+        for (; hits; hits &= hits - 1) mStack[count++] = opened.below(pair, FirstLane(hits));
+        mFound = found;
+        mCount = count;
+    }
+
+    /// @return false if no more is wanted.
+    bool Flush()
+    {
+        if (mFound == 0) return true;
+        mEnd.pair = {mPairs[0].a - mSink.firstA, mPairs[0].b - mSink.firstB, 0};
+        const bool more = mSink.add(mSink.context, mPairs, mFound);
+        mFound = 0;
+        return more;
     }
 
     /// Lanes that may meet the sphere, and of these the ones that do for certain: by more than rounding.
@@ -222,7 +236,8 @@ private:
     const PairSink& mSink;
     float mReach, mSlack;
     SearchEnd mEnd;
-    int mCount = 0;
+    int mCount = 0, mFound = 0;
+    NodePair mPairs[kMostFound];
     Pair mStack[kMostPairs];
 };
 

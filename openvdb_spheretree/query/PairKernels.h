@@ -9,6 +9,7 @@
 
 #pragma once
 
+#include "Contact.h"
 #include "PairFrame.h"
 
 #include <cstdint>
@@ -41,13 +42,14 @@ struct SearchEnd {
 /// @param wantBound  also compute `lowerBound`
 SearchEnd findOverlap(const PairFrame& frame, const SearchLimits& limits, bool wantBound);
 
-/// What is called with every pair of leaves that meets. False: no more.
+/// What is called with pairs of leaves that meet, a few at a time. False: no more.
 struct PairSink {
     void* context;
-    bool (*add)(void* context, int32_t leafA, int32_t leafB);
+    bool (*add)(void* context, const NodePair* pairs, int count);
+    int32_t firstA, firstB; ///< node ids of leaf 0
 };
 
-/// @brief Calls @a sink for every pair of leaves that meets.
+/// @brief Calls @a sink with all pairs of leaves that meet.
 SearchEnd findAllOverlaps(const PairFrame& frame, const SearchLimits& limits, const PairSink& sink);
 
 /// The nearest pairs found so far: at most `wanted`, in a heap with the farthest first.

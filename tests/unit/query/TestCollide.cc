@@ -136,10 +136,12 @@ TEST(Collide, CallsBackForEveryPairOnce)
         for (const double margin : {0.0, 0.4}) {
             const NaivePairs naive(pair, margin);
             std::set<std::pair<int32_t, int32_t>> found;
-            const CollisionResult result = pair.collideAll(margin, [&](const NodePair& nodes) {
-                EXPECT_TRUE(found.insert({nodes.a, nodes.b}).second);
-                return true;
-            });
+            const CollisionResult result =
+                pair.collideAll(margin, [&](const NodePair* pairs, int count) {
+                    for (int i = 0; i < count; ++i)
+                        EXPECT_TRUE(found.insert({pairs[i].a, pairs[i].b}).second);
+                    return true;
+                });
             ASSERT_TRUE(std::includes(
                 found.begin(), found.end(), naive.certain.begin(), naive.certain.end()));
             ASSERT_TRUE(std::includes(
@@ -151,9 +153,17 @@ TEST(Collide, CallsBackForEveryPairOnce)
 
 TEST(Collide, StopsWhenTheCallbackHasHadEnough)
 {
-    const QueryTree tree = makeQueryTree(querySamples().front().tree);
-    int calls = 0;
-    collideAll(tree, {}, tree, {}, 0, [&](const NodePair&) { return ++calls < 3; });
+    const auto& sample = std::max_element(
+        querySamples().begin(), querySamples().end(), [](const auto& a, const auto& b) {
+            return a.tree.levels[0].size() < b.tree.levels[0].size();
+        });
+    const QueryTree tree = makeQueryTree(sample->tree);
+    int all = 0, calls = 0;
+    collideAll(
+        tree, {}, tree, {}, 2 * tree.radius(), [&](const NodePair*, int) { return ++all > 0; });
+    ASSERT_GT(all, 3);
+    collideAll(
+        tree, {}, tree, {}, 2 * tree.radius(), [&](const NodePair*, int) { return ++calls < 3; });
     EXPECT_EQ(calls, 3);
 }
 
@@ -278,8 +288,8 @@ TEST(Collide, EveryVectorTargetGivesTheSameAnswersToTheLastBit)
                 {double(result.verdict), double(result.blocks), result.distanceLowerBound});
             if (result.contact)
                 all.insert(all.end(), {double(result.contact->nodes.a), result.contact->distance});
-            pair.collideAll(0.1, [&](const NodePair& nodes) {
-                all.push_back(nodes.a * 1000.0 + nodes.b);
+            pair.collideAll(0.1, [&](const NodePair* pairs, int count) {
+                for (int i = 0; i < count; ++i) all.push_back(pairs[i].a * 1000.0 + pairs[i].b);
                 return true;
             });
         });

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/query/QueryTree.h>
+#include <openvdb_spheretree/query/RigidMotion.h>
 #include <openvdb_spheretree/query/RigidTransform.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
@@ -41,5 +42,10 @@ constexpr std::array<const char*, 4> kStrata = {"apart", "near", "slight", "deep
 /// @return where b is in the frame of a; the same ones each time.
 std::vector<openvdb_spheretree::RigidTransform> posesOf(
     const QueryBody& a, const QueryBody& b, Stratum stratum, int count);
+
+/// @return screws that end in such poses, from places apart along the directions of these, turned by up to half a
+///         turn.
+std::vector<openvdb_spheretree::RigidMotion> motionsTo(const QueryBody& a, const QueryBody& b,
+    const std::vector<openvdb_spheretree::RigidTransform>& ends);
 
 } // namespace spheretree_benchmark

@@ -24,8 +24,7 @@ BodyMesh meshOf(const openvdb::BoolGrid& object)
 {
     const auto inside = openvdb::FloatGrid::create(0.0f);
     inside->setTransform(object.transform().copy());
-    const auto accessor = inside->getAccessor();
-    auto writer = accessor;
+    auto writer = inside->getAccessor();
     for (auto it = object.cbeginValueOn(); it; ++it) {
         openvdb::CoordBBox box;
         it.getBoundingBox(box);
@@ -101,6 +100,24 @@ std::vector<RigidTransform> posesOf(
         poses.push_back(at(offset));
     }
     return poses;
+}
+
+std::vector<RigidMotion> motionsTo(
+    const QueryBody& a, const QueryBody& b, const std::vector<RigidTransform>& ends)
+{
+    std::mt19937 random(9);
+    const double both = a.query.radius() + b.query.radius();
+    std::vector<RigidMotion> motions;
+    for (const RigidTransform& end : ends) {
+        const auto turn = RigidTransform::fromRotation(direction(random), uniform(random, 0, M_PI));
+        const Vec3d center = end * b.query.center(), away = center - a.query.center();
+        const Vec3d along = away.length() > 0 ? away / away.length() : Vec3d(1, 0, 0);
+        const RigidTransform start = RigidTransform::fromTranslation(a.query.center()
+                                         + 1.5 * both * along - turn.rotate(b.query.center()))
+            * turn;
+        motions.push_back(RigidMotion::screw(start, end));
+    }
+    return motions;
 }
 
 } // namespace spheretree_benchmark
