@@ -74,6 +74,9 @@ case "${1:-}" in
 -h | --help) usage 0 ;;
 '' | *[!0-9]*) usage 2 >&2 ;;
 esac
+# The compiler cache does not know that this file is part of what is compiled.
+export CCACHE_EXTRAFILES="$project_root/scripts/sanitizers/clang.ignore"
+
 seconds=$(($1 * 60))
 shift
 targets=("$@")
