@@ -45,7 +45,7 @@ struct SphereDistanceArrays {
 /// @throw openvdb::ValueError for numbers that are not finite, naming the sphere, and for an
 ///        activation below 0 or NaN
 /// @throw Interrupted; then the results are undefined
-/// @note Cost: 15 to 30 nanoseconds a sphere, where a tenth of them are active; 70, where all are.
+/// @note Cost: 15 to 30 nanoseconds a sphere, where a tenth of them are active.
 void sphereDistances(const QueryTree& tree, const float* spheres, std::size_t count,
     float activation, const SphereDistanceArrays& results,
     openvdb::util::NullInterrupter* interrupter = nullptr);

@@ -109,6 +109,27 @@ TEST(RayQuery, HitsAreBetweenThoseOfLeavesAndThoseOfCubes)
         << "trees with cover=voxels were to leave out leaves that reach out of the object";
 }
 
+TEST(RayQuery, EveryCornerOfACubeStopsARay)
+{
+    Random random(29);
+    for (const QuerySample& sample : querySamples()) {
+        const QueryTree tree = makeQueryTree(sample.tree);
+        for (const WorldCube& cube : cubes(sample)) {
+            Vec3d corner;
+            for (int axis = 0; axis < 3; ++axis) {
+                corner[axis] = (random.chance(0.5) ? cube.low : cube.high)[axis];
+            }
+            // Ends at the corner, often tangent to the spheres that just hold it; or starts there.
+            QueryRay ray;
+            ray.direction = randomDirection(random) * uniform(random, 0.1, 10);
+            ray.origin = corner - 3 * ray.direction;
+            ray.tFar = 3 + 1e-13;
+            ASSERT_LE(intersect(tree, ray).t, ray.tFar) << sample.name;
+            ASSERT_TRUE(occluded(tree, {corner, ray.direction})) << sample.name;
+        }
+    }
+}
+
 TEST(RayQuery, AHitIsOnItsLeaf)
 {
     Random random(23);
