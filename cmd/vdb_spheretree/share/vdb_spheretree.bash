@@ -43,7 +43,7 @@ _vdb_spheretree() {
         case $action in
         help | h) mapfile -t COMPREPLY < <(compgen -W \
             "$(_vdb_spheretree_words "" "$1" | tr -d -)" -- "$word") ;;
-        read | i | write | o | config | c | stats | files | each)
+        read | i | write | o | config | c | stats | files | each | collide | distance | raycast | contains)
             local files
             mapfile -t files < <(compgen -f -- "$word")
             COMPREPLY+=("${files[@]}")
