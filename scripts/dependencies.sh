@@ -17,6 +17,7 @@ test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib zsh groff-base d
 reader_packages=(
     python3-yaml python3-meshio python3-open3d python3-vtk9 python3-ase
     libmujoco-dev liburdfdom-tools lammps yade nodejs blender)
+embree_packages=(libembree-dev) # what rays and points are timed against
 browser_packages=(chromium) # for tests of pages, which are left out without
 clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BlockLanes-inl.h
-/// @brief The lanes of a block as vectors, which all kernels of questions share. Compiled once for each instruction set.
+/// @brief The lanes of a block as vectors, which all kernels of questions share. Compiled once for
+/// each instruction set.
 
 #if defined(SPHERETREE_BLOCK_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_BLOCK_LANES_INL_H

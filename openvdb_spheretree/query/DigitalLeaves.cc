@@ -6,6 +6,7 @@
 #include "QueryData.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <cmath>
 #include <limits>
@@ -23,7 +24,8 @@ using openvdb::Vec3d;
         openvdb::ValueError, "the leaves of this tree are not the voxels of its object: " << why);
 }
 
-/// Level 0 of medial balls records as many voxels as the object has (TightLevels.cc, TreeLevels.cc).
+/// Level 0 of medial balls records as many voxels as the object has (TightLevels.cc,
+/// TreeLevels.cc).
 void requireObject(const SphereTree& tree, const QueryTreeSettings& settings)
 {
     tree.validate();

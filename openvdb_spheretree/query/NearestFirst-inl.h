@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file NearestFirst-inl.h
-/// @brief The walk down the blocks of a tree that all questions to one tree share: what is nearest is
-/// looked at first, and what is no nearer than the best leaf found is left out.
+/// @brief The walk down the blocks of a tree that all questions to one tree share: what is nearest
+/// is looked at first, and what is no nearer than the best leaf found is left out.
 ///
 /// A question is a struct of two functions, and how it ends:
 /// - lanes(block, best, key) tests a block: it returns a bit for each lane that may hold something
-///   nearer than `best`, and fills in keys of these lanes: lower bounds of what is below them, and of
-///   a leaf its own value;
+///   nearer than `best`, and fills in keys of these lanes: lower bounds of what is below them, and
+///   of a leaf its own value;
 /// - accept(leaf, key): whether a leaf counts;
 /// - isEnough(key): whether nothing nearer is worth looking for.
 ///
-/// The order is fixed: children by key, then by lane, with the nearest one next. So the answer, and the number
-/// of blocks, are the same on every machine. This header is compiled once for each instruction set.
+/// The order is fixed: children by key, then by lane, with the nearest one next. So the answer, and
+/// the number of blocks, are the same on every machine. This header is compiled once for each
+/// instruction set.
 
 #if defined(SPHERETREE_NEAREST_FIRST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPHERETREE_NEAREST_FIRST_INL_H
@@ -36,9 +37,9 @@ HWY_INLINE V sumOfProducts(V a, V b, V c, V d, V e, V f)
     return hn::Add(hn::Add(hn::Mul(a, b), hn::Mul(c, d)), hn::Mul(e, f));
 }
 
-/// Ranks of some lanes by key, without a branch: how many of them have a smaller one. Keys are compared as integers, which
-/// have the order of floats once the bits of negative ones are turned around. The last three bits make way for the number of the lane:
-/// no two are equal.
+/// Ranks of some lanes by key, without a branch: how many of them have a smaller one. Keys are
+/// compared as integers, which have the order of floats once the bits of negative ones are turned
+/// around. The last three bits make way for the number of the lane: no two are equal.
 HWY_INLINE void rankLanes(const float* key, uint32_t lanes, int32_t* rank)
 {
     const hn::RebindToSigned<D> d;
@@ -68,9 +69,9 @@ struct WaitingBlock {
 /// Each step takes one block, and adds one for each of its lanes but the one that is next.
 constexpr int kMostWaiting = kMostDepth * (kBlockWidth - 1) + 1;
 
-/// The nearest of some lanes of a block is next, and the others wait, the nearest on top. (Sorted one by one, points take 1.6
-/// times as long: what goes where cannot be foretold. One or two lanes keep clear of memory, which would be a tenth
-/// of a ray's time.)
+/// The nearest of some lanes of a block is next, and the others wait, the nearest on top. (Sorted
+/// one by one, points take 1.6 times as long: what goes where cannot be foretold. One or two lanes
+/// keep clear of memory, which would be a tenth of a ray's time.)
 /// @param lanes    not 0
 /// @param waiting  the stack, of size @a count
 HWY_INLINE WaitingBlock takeNearest(

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PointFrame.h
-/// @brief Points of the world as kernels take them: floats about the origin of the blocks, and how far
-/// rounding may be off.
+/// @brief Points of the world as kernels take them: floats about the origin of the blocks, and how
+/// far rounding may be off.
 ///
-/// *Rounding.* Let e = 2^-24, p the point, E the extent of the blocks. Its coordinates are off by e |p| each,
-/// differences by e (|p| + E) each, and three squares, their sums, the root and the difference with the radius
-/// by less than 5 e (|p| + E) together: a kernel's |p - c| - r is off by less than 8 e (|p| + E), the `slack`.
+/// *Rounding.* Let e = 2^-24, p the point, E the extent of the blocks. Its coordinates are off by e
+/// |p| each, differences by e (|p| + E) each, and three squares, their sums, the root and the
+/// difference with the radius by less than 5 e (|p| + E) together: a kernel's |p - c| - r is off by
+/// less than 8 e (|p| + E), the `slack`.
 ///
-/// *Points far away.* Floats that hold |p| hold no E. Such a point is moved straight towards the origin, to a
-/// distance s, and |p - c| falls by |p| - s nearly: for |c| <= E, by less than E^2 / s less. So what is nearest
-/// to the moved point is nearest to the point itself, but for this.
+/// *Points far away.* Floats that hold |p| hold no E. Such a point is moved straight towards the
+/// origin, to a distance s, and |p - c| falls by |p| - s nearly: for |c| <= E, by less than E^2 / s
+/// less. So what is nearest to the moved point is nearest to the point itself, but for this.
 
 #pragma once
 
@@ -42,7 +43,8 @@ struct LocalPoint {
         slack = 8 * kFloatError * (std::min(length, farthest) + extent);
     }
 
-    /// @return what a kernel's key must be below, of a leaf no farther than @a distance from the point.
+    /// @return what a kernel's key must be below, of a leaf no farther than @a distance from the
+    ///        point.
     float limit(double distance) const
     {
         const double key = distance - towards + 1.001 * (slack + bent);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file PointKernel.h
-/// @brief Kernels of points and balls: the nearest leaf, whether any is met, and whether a digital ball
-/// holds a voxel.
+/// @brief Kernels of points and balls: the nearest leaf, whether any is met, and whether a digital
+/// ball holds a voxel.
 ///
-/// All of them take lists: one call, many questions. Coordinates are those of the blocks. Results are the
-/// same for every vector target. Tests: TestPointQuery.cc, TestContains.cc, TestSphereDistances.cc.
+/// All of them take lists: one call, many questions. Coordinates are those of the blocks. Results
+/// are the same for every vector target. Tests: TestPointQuery.cc, TestDigitalLeaves.cc,
+/// TestSphereDistances.cc.
 
 #pragma once
 
@@ -27,8 +28,9 @@ constexpr std::size_t kMostFiltered = 32; ///< spheres at a time
 
 /// @param spheres  x, y, z, radius of each; not aligned
 /// @param count    kMostFiltered at most
-/// @return a bit for each sphere that may be within reach, by its surface; and for each that has a number which is
-///         not finite, for the caller to see. Not for those whose radius is negative.
+/// @return a bit for each sphere that may be within reach, by its surface; and for each that has a
+///        number which is not finite, for the caller to see. Not for those whose radius is
+///        negative.
 uint32_t spheresWithin(const BallAround& around, const float* spheres, std::size_t count);
 
 struct PointQuestion {
@@ -40,7 +42,8 @@ struct PointQuestion {
 void nearestLeaves(
     const SphereBlocks& tree, const PointQuestion* points, std::size_t count, BlockHit* hits);
 
-/// @return the first ball that meets a leaf sphere, within the rounding of floats; count if none does
+/// @return the first ball that meets a leaf sphere, within the rounding of floats; count if none
+///        does
 /// @param blocks  receives how many were tested
 std::size_t firstBallThatMeets(
     const SphereBlocks& tree, const FloatSphere* balls, std::size_t count, int64_t& blocks);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file RayFrame.h
-/// @brief Rays of the world as kernels take them: floats about the origin of the blocks, starting near the
-/// tree, and how far rounding may be off.
+/// @brief Rays of the world as kernels take them: floats about the origin of the blocks, starting
+/// near the tree, and how far rounding may be off.
 ///
-/// A line is cut to what passes the root's sphere: its origin becomes the point nearest to the center of
-/// that. So floats are as fine as the tree is large, however far the ray comes.
+/// A line is cut to what passes the root's sphere: its origin becomes the point nearest to the
+/// center of that. So floats are as fine as the tree is large, however far the ray comes.
 ///
-/// *Rounding.* Let e = 2^-24 and E the extent of the blocks. Centers and the new origin are within 2 E of each other. The
-/// direction is off by 2 e, the origin by e E, products and differences of the cross product by 4 e E, its length by 6 e E, and the
-/// squared radius by a few e E^2: all together moves a sphere by less than 32 e E. That far doubles are off, too, if a ray starts not more
-/// than 2^26 E away; those further away are refused. Spheres grow by this `slack`, and where a ray enters is less by it.
+/// *Rounding.* Let e = 2^-24 and E the extent of the blocks. Centers and the new origin are within
+/// 2 E of each other. The direction is off by 2 e, the origin by e E, products and differences of
+/// the cross product by 4 e E, its length by 6 e E, and the squared radius by a few e E^2: all
+/// together moves a sphere by less than 32 e E. That far doubles are off, too, if a ray starts not
+/// more than 2^26 E away; those further away are refused. Spheres grow by this `slack`, and where a
+/// ray enters is less by it.
 
 #pragma once
 

@@ -20,10 +20,11 @@ struct RayLanes {
           uz(hn::Set(D(), r.direction[2])), ray(r)
     {}
 
-    /// A sphere counts if it holds the point nearest to its center of the ray as far as `best`: that needs no
-    /// root, which is for keys alone, so the next block is known sooner. How far a center is aside of the line
-    /// comes from the cross product with the direction: nothing cancels, and it waits for nothing else. (As
-    /// center - (center . u) u, and with roots, rays take 15 to 25 % longer.)
+    /// A sphere counts if it holds the point nearest to its center of the ray as far as `best`:
+    /// that needs no root, which is for keys alone, so the next block is known sooner. How far a
+    /// center is aside of the line comes from the cross product with the direction: nothing
+    /// cancels, and it waits for nothing else. (As center - (center . u) u, and with roots, rays
+    /// take 15 to 25 % longer.)
     HWY_INLINE uint32_t lanes(const SphereBlock& block, float best, float* key) const
     {
         const D d;

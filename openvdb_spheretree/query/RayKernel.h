@@ -11,8 +11,8 @@
 
 namespace openvdb_spheretree::detail {
 
-/// In the coordinates of the blocks. The origin is where the line is nearest to the middle of the tree, so
-/// that floats are as fine as the tree is large, wherever the ray started.
+/// In the coordinates of the blocks. The origin is where the line is nearest to the middle of the
+/// tree, so that floats are as fine as the tree is large, wherever the ray started.
 struct RayQuestion {
     float origin[3];
     float direction[3]; ///< of length 1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file DenseField.h
-/// @brief The usual alternative for points: the signed distance at every voxel of a box, and between them by
-/// interpolation. Much larger, and never exact, but a look-up takes no search.
+/// @brief The usual alternative for points: the signed distance at every voxel of a box, and
+/// between them by interpolation. Much larger, and never exact, but a look-up takes no search.
 
 #pragma once
 

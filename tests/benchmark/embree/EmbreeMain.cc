@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file EmbreeMain.cc
-/// @brief Rays, points and batches of spheres against a tree, timed against Embree on the same spheres and on a
-/// mesh of the same voxels: one thread, contenders by turns.
+/// @brief Rays, points and batches of spheres against a tree, timed against Embree on the same
+/// spheres and on a mesh of the same voxels: one thread, contenders by turns.
 ///
 ///     spheretree_benchmark_embree ROUNDS TREE.vdb...
 ///
-/// Rays come from all around, each aimed at a random place of the box (incoherent), or from one place through a
-/// grid (camera). Points fill the box made 1.3 times as large, or lie near the surface. A configuration is 64 spheres along a
-/// walk, as those of a robot are. docs/queries.md has the results.
+/// Rays come from all around, each aimed at a random place of the box (incoherent), or from one
+/// place through a grid (camera). Points fill the box made 1.3 times as large, or lie near the
+/// surface. A configuration is 64 spheres along a walk, as those of a robot are. docs/queries.md
+/// has the results.
 
 #include "AlternatingTimes.h"
 #include "DenseField.h"
@@ -102,7 +103,8 @@ private:
         return box.getCenter() + side * 0.65 * (box.max() - box.min());
     }
 
-    /// A hierarchy over the same leaves that knows nothing of the tree: what is slower with it, the tree has made faster.
+    /// A hierarchy over the same leaves that knows nothing of the tree: what is slower with it, the
+    /// tree has made faster.
     static QueryTree plainTree(const SphereTree& tree)
     {
         QueryTreeSettings settings;

@@ -26,7 +26,8 @@ struct TriangleList {
     std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-/// The voxels of level 0 as triangles, where the share of solid is one half (OpenVDB's volumeToMesh).
+/// The voxels of level 0 as triangles, where the share of solid is one half (OpenVDB's
+/// volumeToMesh).
 TriangleList meshOfObject(const openvdb_spheretree::SphereTree& tree);
 
 std::vector<SceneBall> leafBalls(const openvdb_spheretree::QueryTree& tree);

@@ -18,7 +18,7 @@ case "${1:-}" in
         exit 0
         ;;
 esac
-install_packages "${build_packages[@]}" libbenchmark-dev libembree-dev
+install_packages "${build_packages[@]}" libbenchmark-dev "${embree_packages[@]}"
 build_preset benchmark vdb_spheretree spheretree_benchmark_embree
 find_data
 bin="$project_root/build/benchmark/bin"

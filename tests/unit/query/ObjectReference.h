@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ObjectReference.h
-/// @brief Answers of points and rays by brute force, in doubles: over all leaf spheres of a tree, and over all
-/// voxel cubes of its object. Shares no code with the library's traversal.
+/// @brief Answers of points and rays by brute force, in doubles: over all leaf spheres of a tree,
+/// and over all voxel cubes of its object. Shares no code with the library's traversal.
 
 #pragma once
 

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <cmath>
 #include <limits>
@@ -38,7 +39,7 @@ TEST(PointQuery, TheNearestLeafIsThatOfBruteForce)
         const QueryTree tree = makeQueryTree(sample.tree, Exactness::LeafUnion);
         ASSERT_TRUE(tree.holdsLeaves()) << sample.name;
         const auto balls = leafBalls(sample.tree);
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 1500; ++i) {
             const Vec3d point = randomPoint(random, balls);
             const double truth = distanceToBalls(point, balls);
             const PointDistance found = nearest(tree, point);
@@ -62,7 +63,7 @@ TEST(PointQuery, TheDistanceIsBetweenThatOfLeavesAndThatOfCubes)
         ASSERT_TRUE(tree.holdsObject()) << sample.name;
         const auto balls = leafBalls(sample.tree);
         const auto object = cubes(sample);
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < 1500; ++i) {
             const Vec3d point = randomPoint(random, balls);
             const double toLeaves = distanceToBalls(point, balls),
                          toCubes = distanceToCubes(point, object);
@@ -242,6 +243,28 @@ TEST(PointQuery, IsTheSameInAMovedWorldWithPermutedAxes)
             ASSERT_NEAR(nearest(here, point).distance, nearest(there, moved).distance,
                 2 * roundingAt(point, here))
                 << sample.name;
+        }
+    }
+}
+
+TEST(PointQuery, HoldsFarFromTheOriginOfTheWorldToo)
+{
+    Random random(20);
+    for (const double far : {1e3, 1e6, 1e9}) {
+        for (const QuerySample& sample : querySamples()) {
+            const QuerySample moved{
+                sample.name, {}, turnedTree(sample.tree, Vec3d(far, -far, 3 * far))};
+            const QueryTree tree = makeQueryTree(moved.tree);
+            for (const Coord& voxel : sample.voxels) {
+                const Coord there(voxel[1], voxel[2], voxel[0]);
+                Vec3d corner;
+                for (int axis = 0; axis < 3; ++axis)
+                    corner[axis] = there[axis] + (random.chance(0.5) ? 0.5 : -0.5);
+                const Vec3d point = moved.tree.transform->indexToWorld(corner);
+                // The corner itself is off by the rounding of doubles there.
+                ASSERT_LE(nearest(tree, point).distance, 1e-15 * far) << sample.name << far;
+                ASSERT_TRUE(meetsBall(tree, point, 1e-15 * far)) << sample.name << far;
+            }
         }
     }
 }

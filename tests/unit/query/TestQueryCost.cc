@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TestQueryCost.cc
-/// @brief What questions to one tree cost: blocks that are tested, which are the same on every machine. If trees, their
-/// blocks or the way through them get worse, this shows, where times on a shared machine would not.
+/// @brief What questions to one tree cost: blocks that are tested, which are the same on every
+/// machine. If trees, their blocks or the way through them get worse, this shows, where times on a
+/// shared machine would not.
 
 #include "ObjectReference.h"
 #include "QuerySamples.h"

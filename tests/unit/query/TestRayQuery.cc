@@ -59,7 +59,7 @@ TEST(RayQuery, TheFirstLeafIsThatOfBruteForce)
     for (const QuerySample& sample : querySamples()) {
         const QueryTree tree = makeQueryTree(sample.tree, Exactness::LeafUnion);
         const auto balls = leafBalls(sample.tree);
-        for (int i = 0; i < 500; ++i) {
+        for (int i = 0; i < 2000; ++i) {
             const QueryRay ray = randomRay(random, balls);
             const double slack = kRounding * tree.radius();
             const double latest = entryOfBalls(plain(ray), balls);
@@ -91,7 +91,7 @@ TEST(RayQuery, HitsAreBetweenThoseOfLeavesAndThoseOfCubes)
         const QueryTree tree = makeQueryTree(sample.tree);
         const auto balls = leafBalls(sample.tree);
         const auto object = cubes(sample);
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 2000; ++i) {
             const QueryRay ray = randomRay(random, balls);
             const RayHit hit = intersect(tree, ray);
             ASSERT_LE(hit.t, entryOfCubes(plain(ray), object)) << sample.name << i;
@@ -107,6 +107,27 @@ TEST(RayQuery, HitsAreBetweenThoseOfLeavesAndThoseOfCubes)
     }
     EXPECT_GT(later, 0)
         << "trees with cover=voxels were to leave out leaves that reach out of the object";
+}
+
+TEST(RayQuery, EveryCornerOfACubeStopsARay)
+{
+    Random random(29);
+    for (const QuerySample& sample : querySamples()) {
+        const QueryTree tree = makeQueryTree(sample.tree);
+        for (const WorldCube& cube : cubes(sample)) {
+            Vec3d corner;
+            for (int axis = 0; axis < 3; ++axis) {
+                corner[axis] = (random.chance(0.5) ? cube.low : cube.high)[axis];
+            }
+            // Ends at the corner, often tangent to the spheres that just hold it; or starts there.
+            QueryRay ray;
+            ray.direction = randomDirection(random) * uniform(random, 0.1, 10);
+            ray.origin = corner - 3 * ray.direction;
+            ray.tFar = 3 + 1e-13;
+            ASSERT_LE(intersect(tree, ray).t, ray.tFar) << sample.name;
+            ASSERT_TRUE(occluded(tree, {corner, ray.direction})) << sample.name;
+        }
+    }
 }
 
 TEST(RayQuery, AHitIsOnItsLeaf)
