@@ -76,6 +76,7 @@ case "${1:-}" in
 esac
 # The compiler cache does not know that this file is part of what is compiled.
 export CCACHE_EXTRAFILES="$project_root/scripts/sanitizers/clang.ignore"
+export LSAN_OPTIONS="suppressions=$project_root/scripts/sanitizers/leaks.supp:print_suppressions=0"
 
 seconds=$(($1 * 60))
 shift

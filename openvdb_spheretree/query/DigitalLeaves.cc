@@ -6,6 +6,7 @@
 #include "QueryData.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <cmath>
 #include <limits>

@@ -19,7 +19,6 @@
 #include "QueryTree.h"
 #include <openvdb_spheretree/voxel/MedialBall.h>
 
-#include <openvdb/math/Transform.h>
 #include <openvdb/math/Vec3.h>
 
 #include <cstddef>
@@ -49,7 +48,7 @@ public:
 
 private:
     std::vector<MedialBall> mBalls;
-    openvdb::math::Transform::ConstPtr mTransform;
+    openvdb::SharedPtr<const openvdb::math::Transform> mTransform;
     double mScale;
     int mFlatAxis = -1; ///< with dim = 2
 };

@@ -167,25 +167,60 @@ public:
         mStack[0] = {kRootPlace, kRootPlace};
         mCount = 1;
         while (mCount > 0) {
-            if (mEnd.blocks == mLimits.maxBlocks) {
-                mEnd.isDecided = false;
-                break;
-            }
             const Pair pair = mStack[--mCount];
             Opened opened = Open(mFrame, pair);
             opened.other.r += mReach;
             ++mEnd.blocks;
             Descend(pair, opened);
-            if (mFound > kMostFound - kBlockWidth && !Flush()) return mEnd;
+            if (mFound > kMostFound - kMostOfStep && !Flush()) return mEnd;
         }
         Flush();
         return mEnd;
     }
 
 private:
-    static constexpr int kMostFound = 8 * kBlockWidth;
+    /// What a step may find: each leaf of a block may meet eight of another, and they one.
+    static constexpr int kMostOfStep = kBlockWidth * (kBlockWidth + 1);
+    static constexpr int kMostFound = 4 * kMostOfStep;
 
     HWY_INLINE void Descend(const Pair& pair, const Opened& opened)
+    {
+        uint32_t hits = Collect(opened);
+        uint32_t leaves = opened.otherChild >= 0 ? hits & LeafLanes(*opened.block) : 0;
+        hits ^= leaves;
+        // A leaf that meets a node: its block comes next, without the way over the stack.
+        for (; leaves; leaves &= leaves - 1) {
+            const int lane = FirstLane(leaves);
+            const Opened next = Against(opened, lane);
+            ++mEnd.blocks;
+            Push(opened.below(pair, lane), next, Collect(next));
+        }
+        Push(pair, opened, hits);
+    }
+
+    HWY_INLINE void Push(const Pair& pair, const Opened& opened, uint32_t lanes)
+    {
+        int count = mCount;
+        for (; lanes; lanes &= lanes - 1) mStack[count++] = opened.below(pair, FirstLane(lanes));
+        mCount = count;
+    }
+
+    /// @return the block below the other sphere, and a lane's sphere in its frame.
+    HWY_INLINE Opened Against(const Opened& opened, int lane) const
+    {
+        Opened next;
+        next.isOfA = !opened.isOfA;
+        next.block = (next.isOfA ? mFrame.a : mFrame.b)->blocks.data() + opened.otherChild;
+        next.place = kBlockWidth * opened.otherChild;
+        next.own = opened.block->sphere(lane);
+        next.other = Moved(next.isOfA ? mFrame.toA : mFrame.toB, next.own);
+        next.other.r += mReach;
+        next.otherChild = opened.block->child[lane];
+        return next;
+    }
+
+    /// Notes leaves that meet. @return lanes that meet, and are none.
+    HWY_INLINE uint32_t Collect(const Opened& opened)
     {
         uint32_t hits = 0, certain = 0;
         Test(opened, hits, certain);
@@ -196,15 +231,14 @@ private:
             if (GapOf(mFrame, opened, lane) > mLimits.margin + mFrame.rounding)
                 leaves &= ~(1u << lane);
         }
-        int found = mFound, count = mCount;
+        int found = mFound;
         for (; leaves; leaves &= leaves - 1) {
             const int lane = FirstLane(leaves);
             mPairs[found++] = {
                 mSink.firstA + opened.leafA(lane), mSink.firstB + opened.leafB(lane)};
         }
-        for (; hits; hits &= hits - 1) mStack[count++] = opened.below(pair, FirstLane(hits));
         mFound = found;
-        mCount = count;
+        return hits;
     }
 
     /// @return false if no more is wanted.

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace spheretree_test {
 
@@ -199,14 +198,6 @@ void forEachPosePair(
                 * randomRotation(random);
         test({a, b, world, world * poseB});
     }
-}
-
-const QuerySample& querySample(const std::string& name)
-{
-    for (const QuerySample& sample : querySamples()) {
-        if (sample.name == name) return sample;
-    }
-    throw std::out_of_range("no sample " + name);
 }
 
 } // namespace spheretree_test

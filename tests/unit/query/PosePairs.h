@@ -68,7 +68,4 @@ struct PosePair {
 void forEachPosePair(
     Exactness exactness, int count, const std::function<void(const PosePair&)>& test);
 
-/// The sample of that name.
-const QuerySample& querySample(const std::string& name);
-
 } // namespace spheretree_test

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace spheretree_test {
 
@@ -51,6 +52,14 @@ const std::vector<QuerySample>& querySamples()
         return all;
     }();
     return samples;
+}
+
+const QuerySample& querySample(const std::string& name)
+{
+    for (const QuerySample& sample : querySamples()) {
+        if (sample.name == name) return sample;
+    }
+    throw std::out_of_range("no sample " + name);
 }
 
 double uniform(Random& random, double low, double high)

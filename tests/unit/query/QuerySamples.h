@@ -36,6 +36,9 @@ const std::vector<QuerySample>& querySamples();
 QuerySample querySample(const std::string& name, const Voxels& voxels,
     const openvdb_spheretree::SphereTreeSettings& settings);
 
+/// The sample of that name.
+const QuerySample& querySample(const std::string& name);
+
 /// Uniform in all directions.
 RigidTransform randomRotation(Random& random);
 double uniform(Random& random, double low, double high);

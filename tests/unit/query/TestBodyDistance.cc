@@ -140,6 +140,17 @@ TEST(BodyDistance, StopsAtAPairThatIsNearEnough)
     EXPECT_LT(blocks, all);
 }
 
+TEST(BodyDistance, WithoutSignsAnyPairThatMeetsIsEnough)
+{
+    int64_t plain = 0, sign = 0;
+    forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
+        if (pair.smallestGap() > -kRounding) return;
+        plain += pair.distance().blocks;
+        sign += pair.distance(isSigned()).blocks;
+    });
+    EXPECT_LT(plain, 0.8 * double(sign));
+}
+
 TEST(BodyDistance, ABudgetOfBlocksGivesBounds)
 {
     int undecided = 0;

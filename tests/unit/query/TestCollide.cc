@@ -10,6 +10,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/query/Collide.h>
+#include <openvdb_spheretree/query/QueryData.h>
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -47,6 +48,35 @@ struct NaivePairs {
         }
     }
 };
+
+/// Of spheres as questions see them, in more digits than doubles have.
+long double exactSmallestGap(
+    const QueryTree& tree, const RigidTransform& poseA, const RigidTransform& poseB)
+{
+    const auto coordinate = [&](const RigidTransform& pose, int32_t leaf, int axis) {
+        const detail::FloatSphere s = tree.data().spheres.leaf(leaf);
+        const Vec3d& origin = tree.data().origin;
+        const long double p[3] = {(long double)origin[0] + s.x, (long double)origin[1] + s.y,
+            (long double)origin[2] + s.z};
+        long double sum = pose.translation()[axis];
+        for (int j = 0; j < 3; ++j) sum += p[j] * pose.rotation()(axis, j);
+        return sum;
+    };
+    long double smallest = std::numeric_limits<long double>::infinity();
+    for (int32_t a = 0; a < tree.leafCount(); ++a) {
+        for (int32_t b = 0; b < tree.leafCount(); ++b) {
+            long double sum = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                const long double d = coordinate(poseA, a, axis) - coordinate(poseB, b, axis);
+                sum += d * d;
+            }
+            const long double radii =
+                (long double)tree.data().spheres.leaf(a).r + tree.data().spheres.leaf(b).r;
+            smallest = std::min(smallest, std::sqrt(sum) - radii);
+        }
+    }
+    return smallest;
+}
 
 std::string refusal(const CollisionRequest& request)
 {
@@ -180,34 +210,46 @@ TEST(Collide, AMarginIsADistance)
     });
 }
 
-TEST(Collide, TangentSpheresTouchInAnyPose)
+TEST(Collide, IsRightToTheLastBitsOfPosesAndSpheres)
 {
-    // Two voxels: their spheres are moved so that doubles see them touch by 10^-12 of their size, or not to
-    // by as little as floats can tell.
-    const QuerySample& one = querySample("one voxel");
-    const QueryTree tree = makeQueryTree(one.tree);
+    // A leaf of each body is moved so that they touch, or not, by far less than floats can tell.
+    const QueryTree tree = makeQueryTree(querySample("two far voxels").tree);
+    ASSERT_GE(tree.leafCount(), 2);
     const Vec3d center = tree.leafCenter(0);
     const double radius = tree.leafRadius(0);
     Random random(5);
-    for (int i = 0; i < 20000; ++i) {
+    int touching = 0, apart = 0;
+    for (int i = 0; i < 40000; ++i) {
         const double far = std::pow(10.0, uniform(random, -3, 7));
         const RigidTransform world =
             RigidTransform::fromTranslation(far * randomDirection(random)) * randomRotation(random);
-        const RigidTransform poseA = world;
-        const Vec3d direction = randomDirection(random);
-        // The other sphere's center is 2 radius along the direction from this one's.
         const RigidTransform turn = randomRotation(random);
-        const auto at = [&](double apart) {
-            return world
-                * RigidTransform::fromTranslation(center + apart * direction - turn.rotate(center))
-                * turn;
-        };
-        const double rounding = 1e-12 * (radius + center.length()) + 4e-16 * far;
-        EXPECT_EQ(collide(tree, poseA, tree, at(2 * radius - rounding)).verdict, Verdict::Touching)
-            << far;
-        const double apart = 2 * radius + rounding + 4e-14 * far + 1e-12;
-        EXPECT_EQ(collide(tree, poseA, tree, at(apart)).verdict, Verdict::Apart) << far;
+        const double noise = uniform(random, -1, 1) * (1e-13 + 1e-14 * far);
+        const Vec3d offset = (2 * radius + noise) * randomDirection(random);
+        const RigidTransform other =
+            world * RigidTransform::fromTranslation(center + offset - turn.rotate(center)) * turn;
+        const long double truth = exactSmallestGap(tree, world, other);
+        int pairs = 0;
+        const auto all = collideAll(tree, world, tree, other, 0,
+            [&](const NodePair*, int count) { return (pairs += count) > 0; });
+        const Verdict verdict = collide(tree, world, tree, other).verdict;
+        ASSERT_EQ(all.verdict, verdict);
+        if (truth <= 0) {
+            ++touching;
+            ASSERT_EQ(verdict, Verdict::Touching) << double(truth) << " at " << far;
+        } else if (truth > 1e-12 + 2e-14 * far) {
+            ASSERT_EQ(verdict, Verdict::Apart) << double(truth) << " at " << far;
+        }
+        // Too little for floats, and more than doubles are off by.
+        const RigidTransform further = RigidTransform::fromTranslation((1e-9 + 1e-13 * far)
+                                           * world.rotate(offset / offset.length()))
+            * other;
+        if (exactSmallestGap(tree, world, further) < 1e-12 + 2e-14 * far) continue;
+        ++apart;
+        ASSERT_EQ(collide(tree, world, tree, further).verdict, Verdict::Apart) << far;
     }
+    EXPECT_GT(touching, 10000);
+    EXPECT_GT(apart, 30000);
 }
 
 TEST(Collide, ABodyInAnotherTouchesIt)

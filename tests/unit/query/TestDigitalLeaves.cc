@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/Transform.h>
 
 #include <algorithm>
 #include <array>

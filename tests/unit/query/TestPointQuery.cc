@@ -39,7 +39,7 @@ TEST(PointQuery, TheNearestLeafIsThatOfBruteForce)
         const QueryTree tree = makeQueryTree(sample.tree, Exactness::LeafUnion);
         ASSERT_TRUE(tree.holdsLeaves()) << sample.name;
         const auto balls = leafBalls(sample.tree);
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 1500; ++i) {
             const Vec3d point = randomPoint(random, balls);
             const double truth = distanceToBalls(point, balls);
             const PointDistance found = nearest(tree, point);
@@ -63,7 +63,7 @@ TEST(PointQuery, TheDistanceIsBetweenThatOfLeavesAndThatOfCubes)
         ASSERT_TRUE(tree.holdsObject()) << sample.name;
         const auto balls = leafBalls(sample.tree);
         const auto object = cubes(sample);
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < 1500; ++i) {
             const Vec3d point = randomPoint(random, balls);
             const double toLeaves = distanceToBalls(point, balls),
                          toCubes = distanceToCubes(point, object);

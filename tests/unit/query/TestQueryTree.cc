@@ -135,6 +135,24 @@ TEST(QueryTree, SpheresAboveALeafHoldItWherePromised)
     EXPECT_GT(promised, int(querySamples().size()));
 }
 
+TEST(QueryTree, SpheresThatAreATouchTooSmallAreMadeToHoldTheirLeaves)
+{
+    // Stored radii are rounded one by one: here by far more.
+    SphereTree tree = querySample("a row, balls").tree;
+    ASSERT_GT(tree.levels.size(), 1u);
+    for (int32_t id = 0; id < tree.levels[0].begin; ++id) tree.spheres.radiusWorld[id] *= 0.9f;
+    const QueryTree query = makeQueryTree(tree);
+    ASSERT_TRUE(query.holdsLeaves());
+    int held = 0;
+    visitLanes(
+        query.data().spheres, [&](const FloatSphere& sphere, int32_t child, const Lanes& above) {
+            if (child >= 0) return;
+            for (const FloatSphere& outer : above) EXPECT_TRUE(holds(outer, sphere));
+            held += int(above.size());
+        });
+    EXPECT_GT(held, query.leafCount());
+}
+
 TEST(QueryTree, EveryVoxelCubeLiesInAChainOfLanesDownToALeaf)
 {
     for (const QuerySample& sample : querySamples()) {
@@ -178,20 +196,21 @@ TEST(QueryTree, ManyRootsAreDividedIntoBlocksOfFewBytes)
     EXPECT_LT(double(query.bytes()) / query.leafCount(), 50);
 }
 
-TEST(QueryTree, SpheresThatHalveAgainAndAgainMakeNoDeepTree)
+TEST(QueryTree, SpheresThatShrinkAgainAndAgainMakeNoDeepTree)
 {
-    // Centers at 1, 1/2, 1/4 ... with radii alike: the cheapest division always takes one off.
+    // Ever smaller towards the origin: the cheapest division always takes a few off.
+    constexpr int kSpheres = 2000;
     detail::SphereForest forest;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < kSpheres; ++i) {
         detail::ForestNode node;
-        node.center = Vec3d(std::ldexp(1.0, -i), 0, 0);
-        node.radius = std::ldexp(0.25, -i);
+        node.center = Vec3d(std::pow(0.75, i), 0, 0);
+        node.radius = 0.1 * std::pow(0.75, i);
         node.leaf = i;
         forest.roots.push_back(i);
         forest.nodes.push_back(node);
     }
     divideWideNodes(forest);
-    const SphereBlocks blocks = blocksOf(forest, 300);
+    const SphereBlocks blocks = blocksOf(forest, kSpheres);
     EXPECT_LE(blocks.depth, detail::kMostDepth);
     EXPECT_EQ(std::count(blocks.leafPlace.begin(), blocks.leafPlace.end(), -1), 0);
 }

@@ -59,7 +59,7 @@ TEST(RayQuery, TheFirstLeafIsThatOfBruteForce)
     for (const QuerySample& sample : querySamples()) {
         const QueryTree tree = makeQueryTree(sample.tree, Exactness::LeafUnion);
         const auto balls = leafBalls(sample.tree);
-        for (int i = 0; i < 500; ++i) {
+        for (int i = 0; i < 2000; ++i) {
             const QueryRay ray = randomRay(random, balls);
             const double slack = kRounding * tree.radius();
             const double latest = entryOfBalls(plain(ray), balls);
@@ -91,7 +91,7 @@ TEST(RayQuery, HitsAreBetweenThoseOfLeavesAndThoseOfCubes)
         const QueryTree tree = makeQueryTree(sample.tree);
         const auto balls = leafBalls(sample.tree);
         const auto object = cubes(sample);
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 2000; ++i) {
             const QueryRay ray = randomRay(random, balls);
             const RayHit hit = intersect(tree, ray);
             ASSERT_LE(hit.t, entryOfCubes(plain(ray), object)) << sample.name << i;

@@ -43,6 +43,7 @@ TEST(RigidMotion, AScrewGoesFromItsStartToItsEnd)
             * RigidTransform::fromRotation(randomDirection(random), angle) * start;
         const RigidMotion motion = RigidMotion::screw(start, end);
         expectSame(motion.at(0), start, 1e-11);
+        EXPECT_LE(std::abs(motion.radians()), M_PI + 1e-12);
         // An axis far away is known to as many digits as its distance leaves.
         expectSame(motion.at(1), end, 1e-11 + 1e-14 * motion.point().length());
     }
