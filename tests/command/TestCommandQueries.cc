@@ -185,8 +185,11 @@ TEST_F(CommandQueries, AnswersAreTheSameForAnyNumberOfThreads)
             out[threads - 1] = result.out;
         }
         EXPECT_EQ(out[0], out[1]);
-        EXPECT_GT(out[0].size(), 300u);
+        EXPECT_EQ(std::count(out[0].begin(), out[0].end(), '\n'), 301);
     }
+    const Result table = run("-read t.vdb -collide vdb=0,0 poses=poses.csv");
+    EXPECT_TRUE(mentions(table.out, "... and 250 more: csv= and json= have all")) << table.out;
+    EXPECT_TRUE(mentions(table.out, "300 poses: ")) << table.out;
 }
 
 TEST_F(CommandQueries, WhatIsNotExpectedIsExitCodeSixAndIsStillWritten)
