@@ -11,8 +11,8 @@
 /// robot, or two bodies that do not move.
 ///
 /// *How.* The sphere around each body (QueryTree::center()) is brought to the world. Along the axis on which their
-/// centers spread most, the spheres are intervals; these are sorted by where they begin, and swept (Baraff 1992, without
-/// his coherence in time). Pairs that overlap there and as spheres may touch, and collide() decides. Sorting anew takes
+/// centers spread most, the spheres are intervals; these are sorted by where they begin, and swept (D. Baraff,
+/// "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992, without his coherence in time). Pairs that overlap there and as spheres may touch, and collide() decides. Sorting anew takes
 /// less than one narrow question a body, so nothing is kept from pose to pose, and answers depend on
 /// the poses alone.
 ///
