@@ -136,6 +136,34 @@ TEST(Collide, NoTwoVoxelCubesMeetThatAreSaidToBeApart)
     EXPECT_GT(apart, 4000);
 }
 
+TEST(Collide, SpheresInsideAreCertainOfTouchingAlone)
+{
+    for (const bool strict : {false, true}) {
+        InnerOptions options;
+        options.strict = strict;
+        const QuerySample sample = querySample("inner", shapes::ball(20), options);
+        const QueryBody body{sample, makeQueryTree(sample.tree), sample.tree};
+        EXPECT_FALSE(body.query.holdsObject());
+        Random random(6);
+        CollisionRequest request;
+        request.decideObjects = true;
+        int touching = 0, apart = 0;
+        for (int i = 0; i < 400; ++i) {
+            const auto pose = RigidTransform::fromTranslation(
+                uniform(random, 0, 1.2) * 2 * body.query.radius() * randomDirection(random));
+            const PosePair pair{body, body, {}, pose};
+            const CollisionResult result = pair.collide(request);
+            ASSERT_NE(result.objects, Verdict::Apart);
+            apart += result.verdict == Verdict::Apart;
+            if (result.objects != Verdict::Touching) continue;
+            ++touching;
+            ASSERT_TRUE(pair.cubesMeet());
+        }
+        EXPECT_GT(touching, 30);
+        EXPECT_GT(apart, 30);
+    }
+}
+
 TEST(Collide, FindsTheDeepestPairsInTheirOrder)
 {
     forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
