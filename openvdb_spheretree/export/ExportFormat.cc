@@ -2,6 +2,7 @@
 #include "ExportFormat.h"
 
 #include "ExportWriters.h"
+#include "NanoVdbWriter.h"
 
 #include <algorithm>
 
@@ -53,6 +54,14 @@ ExportFormat withPositiveRadii(ExportFormat format)
     return format;
 }
 
+ExportFormat nanoVdb(ExportFormat format)
+{
+    if (!writesNanoVdb()) {
+        format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";
+    }
+    return format;
+}
+
 ExportFormat in(ExportNumbers numbers, ExportFormat format)
 {
     format.numbers = numbers;
@@ -90,6 +99,10 @@ std::vector<ExportFormat> makeFormats()
             format("ply-ascii", {".ply"}, "the same, as text", all, detail::writePlyAscii)))),
         withLevels(in(kFloat,
             format("glb", {".glb"}, "three.js, Babylon.js (instances)", all, detail::writeGlb))),
+
+        nanoVdb(withLevels(in(kFloat,
+            format("nanovdb", {".nvdb"}, "NanoVDB", std::string(all) + "; or the voxels of grids",
+                detail::writeNanoVdbPoints)))),
 
         in(kFloat,
             format("mesh", {".obj"}, "all that read meshes", "a level as triangles",

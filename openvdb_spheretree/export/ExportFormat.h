@@ -32,6 +32,8 @@ struct ExportFormat {
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia
     bool positiveRadii = false; ///< its readers refuse a radius of 0
+    /// Why this build does not write it: what it lacks. Empty if it does.
+    std::string missing;
     void (*write)(const std::vector<detail::ExportScene>& samples, std::ostream& out) = nullptr;
 };
 

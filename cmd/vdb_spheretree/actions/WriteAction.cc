@@ -10,6 +10,7 @@
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "session/Session.h"
+#include "WriteChart.h"
 #include "WriteExport.h"
 #include "WritePage.h"
 #include "WritePicture.h"
@@ -61,7 +62,7 @@ void check(const ActionCall& call, Plan& plan)
     if (!call.given("files")) throwUsage("names no file");
     compressionOf(call);
     for (const std::string& path : call.list("files")) {
-        if (exportFormatOf(call, path)) {
+        if (exportFormatOf(call, path) || isChart(call, path)) {
             plan.addOutput(path);
             continue;
         }
@@ -75,7 +76,8 @@ void check(const ActionCall& call, Plan& plan)
                                      : extension + " files are not written")
                 + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
                   "sphere-tree), .png and .jpg (a picture), .html (a page that shows a "
-                  "sphere-tree), and files of other tools such as .urdf, .usda, .ply and .obj "
+                  "sphere-tree), .svg (curves of errors), and files of other tools such as .urdf, "
+                  ".usda, .ply and .obj "
                   "(-help write lists them)");
         }
         if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
@@ -87,6 +89,7 @@ void check(const ActionCall& call, Plan& plan)
     checkPictureOptions(call);
     checkExportOptions(call);
     checkPageOptions(call);
+    checkCharts(call);
 }
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
@@ -182,7 +185,7 @@ public:
             mToStdout = path;
             return;
         }
-        if (exportFormatOf(mCall, path)) {
+        if (exportFormatOf(mCall, path) || isChart(mCall, path)) {
             return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         }
         switch (fileKind(path)) {
@@ -231,6 +234,7 @@ private:
         if (exportFormatOf(mCall, path)) {
             return writeExport(mCall, path, mItems, mSession, out);
         }
+        if (isChart(mCall, path)) return writeChart(mCall, path, mItems, out);
         switch (fileKind(path)) {
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
@@ -263,9 +267,9 @@ private:
     void writeToStdout(const std::string& path)
     {
         const FileKind kind = fileKind(path);
-        const bool isExport = exportFormatOf(mCall, path) != nullptr;
+        const bool isOther = exportFormatOf(mCall, path) || isChart(mCall, path);
         if (kind == FileKind::Vdb) return writeGridsToStdout(path, grids(), mCompression);
-        if (kind == FileKind::Csv && !isExport
+        if (kind == FileKind::Csv && !isOther
             && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
             mSession.note(path
                 + " holds the spheres; the edges of dag=1 are a table of their own, "
@@ -339,6 +343,7 @@ void run(const ActionCall& call, Session& session)
     const Stopwatch watch;
     const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
     noteSurprises(call, items, session);
+    countErrorsOfCharts(call, items, session);
     Writer writer(call, items, session);
     for (const std::string& path : call.list("files")) writer.write(path);
     writer.commit();
@@ -353,7 +358,7 @@ ActionSpec writeAction()
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb), an object (.vol), one sphere-tree as tables (.csv) "
         "or JSON (.json), a page that shows it in a browser (.html), a picture of a level of it or "
-        "of an object (.png, .jpg), or spheres for other tools"};
+        "of an object (.png, .jpg), curves of errors (.svg), or spheres for other tools"};
     action.options = {
         list("files", "",
             "files to write, or stdout.vdb, .csv, .json, .html; the extension says how"),
@@ -363,7 +368,8 @@ ActionSpec writeAction()
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
     for (const OptionSpec& option : exportOptions()) action.options.push_back(option);
     for (const OptionSpec& option : pageOptions()) action.options.push_back(option);
-    action.more = exportFormatDocs();
+    action.more = chartDocs();
+    for (const auto& doc : exportFormatDocs()) action.more.push_back(doc);
     action.givesOut = true;
     action.writesEmpty = true;
     action.failure = kOutput;
