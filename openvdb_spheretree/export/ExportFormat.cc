@@ -48,6 +48,12 @@ ExportFormat withSamples(ExportFormat format)
     return format;
 }
 
+ExportFormat withIdsInOrder(ExportFormat format)
+{
+    format.ordersIds = true;
+    return format;
+}
+
 ExportFormat withPositiveRadii(ExportFormat format)
 {
     format.positiveRadii = true;
@@ -129,9 +135,10 @@ std::vector<ExportFormat> makeFormats()
             "multisphere", {".csv"}, "multisphere, GEMSS", spheres, detail::writeMultisphere)),
         byName(format("deme", {".csv"}, "DEM-Engine, Chrono", spheres, detail::writeDeme)),
         withLevels(format("xyz", {".xyz"}, "ASE, OVITO", all, detail::writeXyz)),
-        withLevels(format("swc", {".swc"}, "neuron tools, skeletor", all, detail::writeSwc)),
-        withLevels(format("sph", {".sph"}, "Bradshaw's sphere-tree toolkit",
-            "all levels as a complete tree: centers, radii", detail::writeSph)),
+        withIdsInOrder(
+            withLevels(format("swc", {".swc"}, "neuron tools, skeletor", all, detail::writeSwc))),
+        withIdsInOrder(withLevels(format("sph", {".sph"}, "Bradshaw's sphere-tree toolkit",
+            "all levels as a complete tree: centers, radii", detail::writeSph))),
     };
 }
 
