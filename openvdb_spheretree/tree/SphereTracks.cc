@@ -79,8 +79,8 @@ private:
         Indices now, last; ///< one of them is empty
     };
 
-    /// All of the smaller set are paired. Depth: each call has at most half as many, or as many as one of
-    /// two halves had too many.
+    /// All of the smaller set are paired: both its halves are no larger than those of the other. Depth: sets
+    /// are halved.
     Rest pair(const Indices& now, const Indices& last)
     {
         if (now.empty() || last.empty()) return {now, last};
@@ -94,7 +94,7 @@ private:
             rest.now.insert(rest.now.end(), part->now.begin(), part->now.end());
             rest.last.insert(rest.last.end(), part->last.begin(), part->last.end());
         }
-        return pair(rest.now, rest.last);
+        return rest;
     }
 
     Rest pairAtOnce(const Indices& now, const Indices& last)

@@ -16,8 +16,8 @@
 /// 3. Where a level has more spheres than before, those that are left get tracks that no sphere had; where it has
 ///    fewer, tracks end.
 ///
-/// Levels of more than 256 spheres are halved across their longest side until there are no more, and what is
-/// left over is paired when the halves come together: the least movement in each part, not of all.
+/// Levels of more than 256 spheres are halved by rank across their longest side until there are no more: the least
+/// movement in each part, not of all.
 ///
 /// Cost: n 256^2 for a level of n spheres, at most. The same for any number of threads.
 

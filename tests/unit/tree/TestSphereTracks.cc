@@ -105,6 +105,14 @@ TEST(SphereTracks, EachGoesWithTheOneThatLeastMovementInAllPairsItWith)
     EXPECT_EQ(tree.track, (std::vector<int32_t>{100, 101, 102}));
 }
 
+TEST(SphereTracks, ARowThatMovesAlongItselfIsNoRowWithANewEnd)
+{
+    const auto last = lastAt({{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}, {1, 1, 1});
+    SphereTree tree = treeAt({{10, 0, 0}, {20, 0, 0}, {30, 0, 0}}, {1, 1, 1});
+    continueTracks(tree, last);
+    EXPECT_EQ(tree.track, (std::vector<int32_t>{100, 101, 102}));
+}
+
 TEST(SphereTracks, RadiiCountAsCentersDo)
 {
     const auto last = lastAt({{0, 0, 0}, {2, 0, 0}}, {1, 9});
