@@ -29,6 +29,7 @@ namespace {
 using openvdb::Coord;
 using openvdb_spheretree::kLeafDim;
 using openvdb_spheretree::LeafMask;
+using openvdb_spheretree::NumberType;
 using openvdb_spheretree::ObjectSettings;
 using openvdb_spheretree::detail::HalfSpace;
 
@@ -36,19 +37,19 @@ constexpr std::array<int, 3> kLeafStride = {64, 8, 1}; // of the index in a leaf
 
 /// Calls visit(T()) with the type of the values.
 template <typename Visit>
-auto visitType(ValueType type, const Visit& visit)
+auto visitType(NumberType type, const Visit& visit)
 {
     switch (type) {
-    case ValueType::Bool: return visit(bool());
-    case ValueType::Int8: return visit(int8_t());
-    case ValueType::UInt8: return visit(uint8_t());
-    case ValueType::Int16: return visit(int16_t());
-    case ValueType::UInt16: return visit(uint16_t());
-    case ValueType::Int32: return visit(int32_t());
-    case ValueType::UInt32: return visit(uint32_t());
-    case ValueType::Int64: return visit(int64_t());
-    case ValueType::UInt64: return visit(uint64_t());
-    case ValueType::Float: return visit(float());
+    case NumberType::Bool: return visit(bool());
+    case NumberType::Int8: return visit(int8_t());
+    case NumberType::UInt8: return visit(uint8_t());
+    case NumberType::Int16: return visit(int16_t());
+    case NumberType::UInt16: return visit(uint16_t());
+    case NumberType::Int32: return visit(int32_t());
+    case NumberType::UInt32: return visit(uint32_t());
+    case NumberType::Int64: return visit(int64_t());
+    case NumberType::UInt64: return visit(uint64_t());
+    case NumberType::Float32: return visit(float());
     default: return visit(double());
     }
 }
@@ -262,34 +263,14 @@ InRange rangeOf(const ObjectSettings& settings)
 // ---- Grids of values
 
 template <typename Value>
-struct GridFor;
-template <>
-struct GridFor<bool> {
-    using Type = openvdb::BoolGrid;
-};
-template <>
-struct GridFor<int32_t> {
-    using Type = openvdb::Int32Grid;
-};
-template <>
-struct GridFor<int64_t> {
-    using Type = openvdb::Int64Grid;
-};
-template <>
-struct GridFor<float> {
-    using Type = openvdb::FloatGrid;
-};
-template <>
-struct GridFor<double> {
-    using Type = openvdb::DoubleGrid;
-};
+using GridFor = typename openvdb::BoolGrid::ValueConverter<Value>::Type;
 
 template <typename T>
 openvdb::GridBase::Ptr valuesOf(
     const VoxelArray& array, double background, openvdb::util::NullInterrupter* interrupter)
 {
     using Value = decltype(widened(T()));
-    using Grid = typename GridFor<Value>::Type;
+    using Grid = GridFor<Value>;
     using Leaf = typename Grid::TreeType::LeafNodeType;
     const auto outside = Value(background);
     auto grid = openvdb_spheretree::detail::makeGrid<Grid>();

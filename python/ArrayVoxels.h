@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/input/array/NumberType.h>
 #include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
@@ -19,24 +20,10 @@
 
 namespace binding {
 
-enum class ValueType {
-    Bool,
-    Int8,
-    UInt8,
-    Int16,
-    UInt16,
-    Int32,
-    UInt32,
-    Int64,
-    UInt64,
-    Float,
-    Double
-};
-
 /// A view: whoever makes it keeps the values alive. Its first voxel has the index (0, 0, 0).
 struct VoxelArray {
     const char* data = nullptr;
-    ValueType type = ValueType::Bool;
+    openvdb_spheretree::NumberType type = openvdb_spheretree::NumberType::Bool;
     std::array<int64_t, 3> shape{};  ///< along x, y, z
     std::array<int64_t, 3> stride{}; ///< the same, in bytes; may be negative, or 0
 };

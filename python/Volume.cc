@@ -23,31 +23,32 @@ namespace binding {
 
 namespace spheretree = openvdb_spheretree;
 using openvdb_spheretree::Coverage;
+using openvdb_spheretree::NumberType;
 using openvdb_spheretree::ValueBound;
 
 namespace {
 
 // ---- Arguments
 
-ValueType typeOf(const py::array& array)
+NumberType typeOf(const py::array& array)
 {
     const std::string kind = py::str(array.dtype().attr("kind"));
     const auto size = array.itemsize();
-    if (kind == "b") return ValueType::Bool;
+    if (kind == "b") return NumberType::Bool;
     if (kind == "i" && size <= 8) {
-        return size == 1 ? ValueType::Int8
-            : size == 2  ? ValueType::Int16
-            : size == 4  ? ValueType::Int32
-                         : ValueType::Int64;
+        return size == 1 ? NumberType::Int8
+            : size == 2  ? NumberType::Int16
+            : size == 4  ? NumberType::Int32
+                         : NumberType::Int64;
     }
     if (kind == "u" && size <= 8) {
-        return size == 1 ? ValueType::UInt8
-            : size == 2  ? ValueType::UInt16
-            : size == 4  ? ValueType::UInt32
-                         : ValueType::UInt64;
+        return size == 1 ? NumberType::UInt8
+            : size == 2  ? NumberType::UInt16
+            : size == 4  ? NumberType::UInt32
+                         : NumberType::UInt64;
     }
     if (kind == "f" && (size == 4 || size == 8)) {
-        return size == 4 ? ValueType::Float : ValueType::Double;
+        return size == 4 ? NumberType::Float32 : NumberType::Float64;
     }
     throw InputError("volume is of dtype " + std::string(py::str(array.dtype()))
         + ": it must be bool, an integer of 8 to 64 bits, float32 or float64; volume.astype() "
@@ -162,10 +163,10 @@ openvdb::math::Transform::Ptr transformOf(const Placement& place)
 
 // ---- Arrays
 
-std::string wantedBy(const spheretree::ObjectSettings& settings, ValueType type)
+std::string wantedBy(const spheretree::ObjectSettings& settings, NumberType type)
 {
     using openvdb_spheretree::detail::toText;
-    if (type == ValueType::Bool) return "it is False everywhere";
+    if (type == NumberType::Bool) return "it is False everywhere";
     if (!settings.labels.empty()) return "no value is a label that is asked for";
     if (settings.above && settings.below) {
         return "no value is above " + toText(*settings.above) + " and below "
@@ -175,14 +176,14 @@ std::string wantedBy(const spheretree::ObjectSettings& settings, ValueType type)
     return "no value is above " + toText(settings.above.value_or(settings.threshold));
 }
 
-void requireNumbers(const ObjectRequest& request, ValueType type)
+void requireNumbers(const ObjectRequest& request, NumberType type)
 {
     for (const std::string& name : request.given) {
         if (name == "iso") {
             throw InputError("iso is for level sets, and an array is none: use below or threshold");
         }
         const bool isOfParts = name == "largest" || name == "fill";
-        if (type != ValueType::Bool || isOfParts) continue;
+        if (type != NumberType::Bool || isOfParts) continue;
         throw InputError(name + " is for volumes of numbers, and this one is of dtype bool");
     }
 }
@@ -210,7 +211,7 @@ openvdb::BoolGrid::Ptr objectOfArray(const ArrayRequest& request, Interrupter* i
 {
     ObjectRequest object = request.object;
     const bool byCenters = object.settings.coverage == Coverage::Centers
-        || request.view.type == ValueType::Bool || !object.settings.labels.empty();
+        || request.view.type == NumberType::Bool || !object.settings.labels.empty();
     openvdb::GridBase::Ptr grid;
     if (request.cubes && byCenters) {
         grid = objectOfMask(request.view, object, interrupter);

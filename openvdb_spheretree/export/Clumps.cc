@@ -86,11 +86,8 @@ void writeLammps(const std::vector<ExportScene>& samples, std::ostream& out)
     ExportText text(out, scene.decimals);
     text << "# " << oneWord(scene.name) << ": spheres\n\n" << level.size() << " atoms\n";
     text.real(mass) << " mass\n";
-    for (int axis = 0; axis < 3; ++axis) text.real(scene.mass.center[axis]) << ' ';
-    text << "com\n";
-    constexpr int kEntries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-    for (const auto& entry : kEntries) text.real(scene.mass.inertia(entry[0], entry[1])) << ' ';
-    text << "inertia\n\nCoords\n\n";
+    text.reals(scene.mass.center.asPointer(), 3) << " com\n";
+    text.reals(scene.inertia().data(), 6) << " inertia\n\nCoords\n\n";
     for (std::size_t i = 0; i < level.size(); ++i) {
         text << i + 1 << ' ';
         text.lengths(level.centers[i], " ") << '\n';

@@ -4,142 +4,108 @@
 #include "ExportWriters.h"
 #include "NanoVdbWriter.h"
 
+#include <openvdb_spheretree/base/TextStream.h>
+
 #include <algorithm>
 
 namespace openvdb_spheretree {
 
 namespace {
 
-/// What most formats have in common.
-ExportFormat format(const std::string& name, const std::vector<std::string>& extensions,
-    const std::string& readers, const std::string& keeps, decltype(ExportFormat::write) write)
+/// What a format is besides the first columns of its row.
+enum Trait : unsigned {
+    kFloats = 1,         ///< ExportNumbers::Float
+    kDoubles = 2,        ///< ExportNumbers::Double
+    kAllLevels = 4,      ///< ExportFormat::allLevels
+    kSamples = 8,        ///< ExportFormat::samples
+    kMass = 16,          ///< ExportFormat::mass
+    kPositiveRadii = 32, ///< ExportFormat::positiveRadii
+    kByName = 64,        ///< its extensions mean another format, or nothing, without its name
+    kOrdersIds = 128     ///< ExportFormat::ordersIds
+};
+
+struct Row {
+    const char* name;
+    const char* extensions; ///< with spaces between
+    const char* readers;
+    const char* keeps;
+    unsigned traits;
+    decltype(ExportFormat::write) write;
+};
+
+constexpr char kSpheres[] = "a level: centers, radii";
+constexpr char kBody[] = "a level: centers, radii; mass, center of mass, inertia";
+constexpr char kTree[] = "all levels: centers, radii, ids, parents";
+constexpr char kTriangles[] = "a level as triangles";
+
+// clang-format off
+constexpr Row kRows[] = {
+    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kPositiveRadii, detail::writeUrdf},
+    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kPositiveRadii, detail::writeMjcf},
+    {"srdf", ".srdf", "MoveIt", kSpheres, kPositiveRadii, detail::writeSrdf},
+    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kPositiveRadii, detail::writeCurobo},
+    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kPositiveRadii, detail::writeXrdf},
+    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kPositiveRadii | kByName, detail::writeLula},
+    {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName, detail::writeFoam},
+    {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
+
+    {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
+        kFloats | kAllLevels | kSamples, detail::writeUsda},
+    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels, detail::writePly},
+    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName, detail::writePlyAscii},
+    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels, detail::writeGlb},
+    {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
+        kFloats | kAllLevels, detail::writeNanoVdbPoints},
+
+    {"mesh", ".obj", "all that read meshes", kTriangles, kFloats, detail::writeMeshObj},
+    {"mesh", ".stl", "all that read meshes", kTriangles, kFloats, detail::writeMeshStl},
+    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName, detail::writeMeshGlb},
+    {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName,
+        detail::writeUnrealObj},
+
+    {"vtp", ".vtp", "ParaView, VTK", kTree, kDoubles | kAllLevels, detail::writeVtp},
+    {"vtk", ".vtk", "ParaView, VTK, multisphere, GEMSS", kTree, kAllLevels, detail::writeVtk},
+    {"liggghts", ".txt .multisphere", "LIGGGHTS", kSpheres, kPositiveRadii | kByName, detail::writeLiggghts},
+    {"yade", ".txt", "YADE", kSpheres, kPositiveRadii | kByName, detail::writeYade},
+    {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName, detail::writeLammps},
+    {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName, detail::writeMultisphere},
+    {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName, detail::writeDeme},
+    {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels, detail::writeXyz},
+    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds, detail::writeSwc},
+    {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
+        kAllLevels | kOrdersIds, detail::writeSph},
+};
+// clang-format on
+
+ExportFormat makeFormat(const Row& row)
 {
+    const auto has = [&row](Trait trait) { return (row.traits & trait) != 0; };
     ExportFormat format;
-    format.name = name;
-    format.extensions = extensions;
-    format.readers = readers;
-    format.keeps = keeps;
-    format.write = write;
-    return format;
-}
-
-/// A format whose extensions mean another one, or nothing, without its name.
-ExportFormat byName(ExportFormat format)
-{
-    format.byExtension = false;
-    return format;
-}
-
-ExportFormat withLevels(ExportFormat format)
-{
-    format.allLevels = true;
-    return format;
-}
-
-ExportFormat withMass(ExportFormat format)
-{
-    format.mass = true;
-    return format;
-}
-
-ExportFormat withSamples(ExportFormat format)
-{
-    format.samples = true;
-    return format;
-}
-
-ExportFormat withIdsInOrder(ExportFormat format)
-{
-    format.ordersIds = true;
-    return format;
-}
-
-ExportFormat withPositiveRadii(ExportFormat format)
-{
-    format.positiveRadii = true;
-    return format;
-}
-
-ExportFormat nanoVdb(ExportFormat format)
-{
-    if (!writesNanoVdb()) {
+    format.name = row.name;
+    detail::TextStream words(row.extensions);
+    for (std::string word; words >> word;) format.extensions.push_back(word);
+    format.byExtension = !has(kByName);
+    format.readers = row.readers;
+    format.keeps = row.keeps;
+    if (has(kFloats)) format.numbers = ExportNumbers::Float;
+    if (has(kDoubles)) format.numbers = ExportNumbers::Double;
+    format.allLevels = has(kAllLevels);
+    format.samples = has(kSamples);
+    format.mass = has(kMass);
+    format.positiveRadii = has(kPositiveRadii);
+    format.ordersIds = has(kOrdersIds);
+    if (format.name == "nanovdb" && !writesNanoVdb()) {
         format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";
     }
-    return format;
-}
-
-ExportFormat in(ExportNumbers numbers, ExportFormat format)
-{
-    format.numbers = numbers;
+    format.write = row.write;
     return format;
 }
 
 std::vector<ExportFormat> makeFormats()
 {
-    constexpr auto kFloat = ExportNumbers::Float, kDouble = ExportNumbers::Double;
-    const char* const spheres = "a level: centers, radii";
-    const char* const massive = "a level: centers, radii; mass, center of mass, inertia";
-    const char* const all = "all levels: centers, radii, ids, parents";
-    return {
-        withMass(withPositiveRadii(
-            format("urdf", {".urdf"}, "ROS, MuJoCo, Bullet, Drake", massive, detail::writeUrdf))),
-        withMass(withPositiveRadii(
-            format("mjcf", {".mjcf", ".xml"}, "MuJoCo, Drake", massive, detail::writeMjcf))),
-        withPositiveRadii(format("srdf", {".srdf"}, "MoveIt", spheres, detail::writeSrdf)),
-        withPositiveRadii(
-            format("curobo", {".yml", ".yaml"}, "cuRobo", spheres, detail::writeCurobo)),
-        withPositiveRadii(
-            format("xrdf", {".xrdf"}, "cuMotion, Isaac Sim, cuRobo", spheres, detail::writeXrdf)),
-        byName(withPositiveRadii(
-            format("lula", {".yml", ".yaml"}, "Isaac Sim's Lula", spheres, detail::writeLula))),
-        byName(withLevels(
-            format("foam", {".json"}, "foam", "all levels: centers, radii", detail::writeFoam))),
-        byName(format("morphit", {".json"}, "MorphIt, ballpark", spheres, detail::writeMorphIt)),
-
-        withSamples(withLevels(in(kFloat,
-            format("usd", {".usda"}, "Houdini, Blender, Maya, Omniverse",
-                std::string(all) + "; samples over time", detail::writeUsda)))),
-        withLevels(in(
-            kFloat, format("ply", {".ply"}, "Open3D, meshio, Blender 4", all, detail::writePly))),
-        byName(withLevels(in(kFloat,
-            format("ply-ascii", {".ply"}, "the same, as text", all, detail::writePlyAscii)))),
-        withLevels(in(kFloat,
-            format("glb", {".glb"}, "three.js, Babylon.js (instances)", all, detail::writeGlb))),
-
-        nanoVdb(withLevels(in(kFloat,
-            format("nanovdb", {".nvdb"}, "NanoVDB", std::string(all) + "; or the voxels of grids",
-                detail::writeNanoVdbPoints)))),
-
-        in(kFloat,
-            format("mesh", {".obj"}, "all that read meshes", "a level as triangles",
-                detail::writeMeshObj)),
-        in(kFloat,
-            format("mesh", {".stl"}, "all that read meshes", "a level as triangles",
-                detail::writeMeshStl)),
-        byName(in(kFloat,
-            format("mesh", {".glb"}, "all that read meshes", "a level as triangles",
-                detail::writeMeshGlb))),
-        byName(in(kFloat,
-            format("unreal", {".obj"}, "Unreal (sphere colliders)",
-                "a level as triangles with names", detail::writeUnrealObj))),
-
-        withLevels(in(kDouble, format("vtp", {".vtp"}, "ParaView, VTK", all, detail::writeVtp))),
-        withLevels(
-            format("vtk", {".vtk"}, "ParaView, VTK, multisphere, GEMSS", all, detail::writeVtk)),
-        byName(withPositiveRadii(format(
-            "liggghts", {".txt", ".multisphere"}, "LIGGGHTS", spheres, detail::writeLiggghts))),
-        byName(withPositiveRadii(format("yade", {".txt"}, "YADE", spheres, detail::writeYade))),
-        byName(withPositiveRadii(
-            withMass(format("lammps", {".mol", ".txt"}, "LAMMPS", massive, detail::writeLammps)))),
-        byName(format(
-            "multisphere", {".csv"}, "multisphere, GEMSS", spheres, detail::writeMultisphere)),
-        byName(format("deme", {".csv"}, "DEM-Engine, Chrono", spheres, detail::writeDeme)),
-        withLevels(format("xyz", {".xyz"}, "ASE, OVITO", all, detail::writeXyz)),
-        withIdsInOrder(
-            withLevels(format("swc", {".swc"}, "neuron tools, skeletor", all, detail::writeSwc))),
-        withIdsInOrder(withLevels(format("sph", {".sph"}, "Bradshaw's sphere-tree toolkit",
-            "all levels as a complete tree: centers, radii", detail::writeSph))),
-    };
+    std::vector<ExportFormat> formats;
+    for (const Row& row : kRows) formats.push_back(makeFormat(row));
+    return formats;
 }
 
 } // namespace

@@ -172,6 +172,13 @@ std::size_t ExportScene::sphereCount() const
     return count;
 }
 
+std::array<double, 6> ExportScene::inertia() const
+{
+    const openvdb::Mat3d& moments = mass.inertia;
+    return {
+        moments(0, 0), moments(1, 1), moments(2, 2), moments(0, 1), moments(0, 2), moments(1, 2)};
+}
+
 openvdb::BBoxd ExportScene::boxOf(const ExportLevel& level)
 {
     openvdb::BBoxd box;

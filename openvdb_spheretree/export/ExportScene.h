@@ -9,6 +9,7 @@
 
 #include <openvdb/Types.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct ExportScene {
 
     const ExportLevel& finest() const { return levels.back(); }
     std::size_t sphereCount() const;
+    /// @return xx yy zz xy xz yz of the inertia, the order in which most formats have them.
+    std::array<double, 6> inertia() const;
     /// @return the smallest box that holds all of a level's spheres.
     static openvdb::BBoxd boxOf(const ExportLevel& level);
 };

@@ -3,31 +3,27 @@
 
 #include <openvdb_spheretree/store/JsonWriter.h>
 
-#include <openvdb/Exceptions.h>
-
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <ostream>
 
 namespace openvdb_spheretree::detail {
 
 namespace {
-
-constexpr std::size_t kFlushBytes = std::size_t(1) << 16;
 
 bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 } // namespace
 
 ExportText::ExportText(std::ostream& out, int decimals)
-    : mOut(out), mDecimals(decimals), mUnits(std::pow(10.0, decimals))
+    : ExportBuffer(out), mDecimals(decimals), mUnits(std::pow(10.0, decimals))
 {}
 
 ExportText& ExportText::writeWhole(int64_t number)
 {
     std::array<char, 24> digits;
-    mText.append(
+    mBytes.append(
         digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
     return *this;
 }
@@ -39,19 +35,19 @@ ExportText& ExportText::operator<<(double length)
     const auto whole = uint64_t(std::abs(units)); // at most 2^53: decimalsFor()
     const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), whole).ptr;
     const auto count = int(end - digits.data());
-    if (units < 0) mText += '-';
+    if (units < 0) mBytes += '-';
     const int beforePoint = count - mDecimals;
     if (beforePoint <= 0) {
-        mText += "0.";
-        mText.append(std::size_t(-beforePoint), '0');
-        mText.append(digits.data(), std::size_t(count));
+        mBytes += "0.";
+        mBytes.append(std::size_t(-beforePoint), '0');
+        mBytes.append(digits.data(), std::size_t(count));
     } else {
-        mText.append(digits.data(), std::size_t(beforePoint));
-        mText += '.';
-        mText.append(digits.data() + beforePoint, std::size_t(mDecimals));
+        mBytes.append(digits.data(), std::size_t(beforePoint));
+        mBytes += '.';
+        mBytes.append(digits.data() + beforePoint, std::size_t(mDecimals));
     }
-    while (mText.back() == '0') mText.pop_back();
-    if (mText.back() == '.') mText += '0';
+    while (mBytes.back() == '0') mBytes.pop_back();
+    if (mBytes.back() == '.') mBytes += '0';
     return *this;
 }
 
@@ -64,7 +60,7 @@ ExportText& ExportText::lengths(const openvdb::Vec3d& vector, std::string_view s
 ExportText& ExportText::asFloat(double number)
 {
     std::array<char, 32> digits;
-    mText.append(digits.data(),
+    mBytes.append(digits.data(),
         std::to_chars(digits.data(), digits.data() + digits.size(), float(number)).ptr);
     return *this;
 }
@@ -79,29 +75,18 @@ ExportText& ExportText::floats(const openvdb::Vec3d& vector, std::string_view se
 ExportText& ExportText::real(double number)
 {
     std::array<char, 32> digits;
-    mText.append(
+    mBytes.append(
         digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
     return *this;
 }
 
-ExportText& ExportText::flushedIfLong()
+ExportText& ExportText::reals(const double* numbers, std::size_t count)
 {
-    if (mText.size() >= kFlushBytes) flush();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0) mBytes += ' ';
+        real(numbers[i]);
+    }
     return *this;
-}
-
-void ExportText::flush()
-{
-    mOut.write(mText.data(), std::streamsize(mText.size()));
-    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
-    mText.clear();
-}
-
-void ExportText::finish()
-{
-    flush();
-    mOut.flush();
-    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
 }
 
 std::string xmlText(std::string_view text)

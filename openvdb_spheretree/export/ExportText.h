@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ExportText.h
-/// @brief Writes text with numbers to a stream, in pieces and in no locale.
+/// @brief Writes text with numbers to a stream, in no locale.
 
 #pragma once
 
+#include "ExportBuffer.h"
+
 #include <openvdb/Types.h>
 
-#include <array>
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace openvdb_spheretree::detail {
 
-class ExportText {
+class ExportText : public ExportBuffer {
 public:
     /// @param decimals  at most so many of a length; all lengths must be multiples of 10^-decimals (ExportScene)
     ExportText(std::ostream& out, int decimals);
 
     ExportText& operator<<(std::string_view text)
     {
-        mText += text;
-        return flushedIfLong();
+        mBytes += text;
+        flushIfLong();
+        return *this;
     }
     ExportText& operator<<(char c)
     {
-        mText += c;
+        mBytes += c;
         return *this;
     }
     template <typename Number, typename = std::enable_if_t<std::is_integral_v<Number>>>
@@ -45,17 +46,12 @@ public:
     ExportText& floats(const openvdb::Vec3d& vector, std::string_view separator);
     /// Any other number: the shortest text that reads back to the same double.
     ExportText& real(double number);
-
-    /// @throw openvdb::IoError if the stream fails, as from any of the above
-    void finish();
+    /// The same for each of @a count numbers, with spaces between.
+    ExportText& reals(const double* numbers, std::size_t count);
 
 private:
     ExportText& writeWhole(int64_t number);
-    ExportText& flushedIfLong();
-    void flush();
 
-    std::ostream& mOut;
-    std::string mText;
     int mDecimals;
     double mUnits;
 };

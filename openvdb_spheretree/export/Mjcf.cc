@@ -9,19 +9,12 @@ namespace openvdb_spheretree::detail {
 namespace {
 
 /// Without it MuJoCo would count what spheres share more than once.
-void writeInertial(ExportText& text, const MassProperties& mass, double density)
+void writeInertial(ExportText& text, const ExportScene& scene)
 {
     text << "      <inertial pos=\"";
-    text.real(mass.center[0]) << ' ';
-    text.real(mass.center[1]) << ' ';
-    text.real(mass.center[2]) << "\" mass=\"";
-    text.real(mass.volume * density) << "\" fullinertia=\"";
-    constexpr int kEntries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-    for (const auto& entry : kEntries) {
-        if (&entry != &kEntries[0]) text << ' ';
-        text.real(mass.inertia(entry[0], entry[1]));
-    }
-    text << "\"/>\n";
+    text.reals(scene.mass.center.asPointer(), 3) << "\" mass=\"";
+    text.real(scene.mass.volume * scene.density) << "\" fullinertia=\"";
+    text.reals(scene.inertia().data(), 6) << "\"/>\n";
 }
 
 } // namespace
@@ -34,7 +27,7 @@ void writeMjcf(const std::vector<ExportScene>& samples, std::ostream& out)
     ExportText text(out, scene.decimals);
     text << "<mujoco model=\"" << xmlText(scene.name) << "\">\n  <worldbody>\n    <body name=\""
          << link << "\">\n      <freejoint/>\n";
-    writeInertial(text, scene.mass, scene.density);
+    writeInertial(text, scene);
     for (std::size_t i = 0; i < level.size(); ++i) {
         text << "      <geom name=\"" << link << "_sphere_" << i << "\" type=\"sphere\" size=\""
              << level.radii[i] << "\" pos=\"";

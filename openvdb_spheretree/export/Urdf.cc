@@ -8,16 +8,14 @@ namespace openvdb_spheretree::detail {
 
 namespace {
 
-void writeInertial(ExportText& text, const MassProperties& mass, double density)
+void writeInertial(ExportText& text, const ExportScene& scene)
 {
     text << "    <inertial>\n      <origin xyz=\"";
-    text.real(mass.center[0]) << ' ';
-    text.real(mass.center[1]) << ' ';
-    text.real(mass.center[2]) << "\" rpy=\"0 0 0\"/>\n      <mass value=\"";
-    text.real(mass.volume * density) << "\"/>\n      <inertia";
+    text.reals(scene.mass.center.asPointer(), 3) << "\" rpy=\"0 0 0\"/>\n      <mass value=\"";
+    text.real(scene.mass.volume * scene.density) << "\"/>\n      <inertia";
     const auto moment = [&](const char* name, int row, int column) {
         text << ' ' << name << "=\"";
-        text.real(mass.inertia(row, column)) << '"';
+        text.real(scene.mass.inertia(row, column)) << '"';
     };
     moment("ixx", 0, 0);
     moment("ixy", 0, 1);
@@ -38,7 +36,7 @@ void writeUrdf(const std::vector<ExportScene>& samples, std::ostream& out)
     ExportText text(out, scene.decimals);
     text << "<?xml version=\"1.0\"?>\n<robot name=\"" << xmlText(scene.name)
          << "\">\n  <link name=\"" << link << "\">\n";
-    writeInertial(text, scene.mass, scene.density);
+    writeInertial(text, scene);
     for (std::size_t i = 0; i < level.size(); ++i) {
         text << "    <collision name=\"" << link << "_sphere_" << i << "\"><origin xyz=\"";
         text.lengths(level.centers[i], " ") << "\" rpy=\"0 0 0\"/><geometry><sphere radius=\""

@@ -2,39 +2,17 @@
 /// @file TextSamples.cc
 /// @brief Samples of volumes, meshes, spheres and config files, byte by byte.
 
+#include "SampleBytes.h"
 #include "SampleFiles.h"
 
-#include <zlib.h>
-
 #include <cstdint>
-#include <cstring>
-#include <stdexcept>
 
 namespace spheretree_test {
 
 namespace {
 
 /// A value in the order of bytes of this machine, or in the other one.
-template <typename Value>
-std::string bytesOf(Value value, bool swapped = false)
-{
-    std::string bytes(sizeof(value), '\0');
-    std::memcpy(bytes.data(), &value, sizeof(value));
-    return swapped ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
-}
-
 // Volumes
-
-std::string deflated(const std::string& bytes)
-{
-    uLongf size = compressBound(uLong(bytes.size()));
-    std::string out(size, '\0');
-    const int code = compress(reinterpret_cast<Bytef*>(out.data()), &size,
-        reinterpret_cast<const Bytef*>(bytes.data()), uLong(bytes.size()));
-    if (code != Z_OK) throw std::runtime_error("cannot compress a sample");
-    out.resize(size);
-    return out;
-}
 
 /// 9 x 5 x 10 voxels: two slabs of leaves, and leaves that are not full.
 template <typename Value>
@@ -45,7 +23,7 @@ std::string volume(int version)
     const std::string header = "X: 9\nY: 5\nZ: 10\nVoxel-Size: 0.5\nCenter-X: 4\nAlpha-Color: 0\n"
                                "Version: "
         + std::to_string(version) + "\n.\n";
-    return header + (version == 3 ? deflated(values) : values);
+    return header + (version == 3 ? deflated(values, Deflated::Zlib) : values);
 }
 
 std::string volRaw() { return volume<uint8_t>(2); }

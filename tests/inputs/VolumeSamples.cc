@@ -2,44 +2,17 @@
 /// @file VolumeSamples.cc
 /// @brief Samples of volumes and pictures of other tools, byte by byte.
 
+#include "SampleBytes.h"
 #include "SampleFiles.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
-#include <stdexcept>
 
 namespace spheretree_test {
 
 namespace {
-
-template <typename Value>
-std::string bytesOf(Value value, bool swapped = false)
-{
-    std::string bytes(sizeof(value), '\0');
-    std::memcpy(bytes.data(), &value, sizeof(value));
-    return swapped ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
-}
-
-/// @param gzip  whether it is a gzip stream, or a zlib one
-std::string deflated(const std::string& bytes, bool gzip)
-{
-    z_stream zlib{};
-    if (deflateInit2(&zlib, 6, Z_DEFLATED, 15 + (gzip ? 16 : 0), 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::runtime_error("cannot compress a sample");
-    }
-    std::string out(deflateBound(&zlib, uLong(bytes.size())), '\0');
-    zlib.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    zlib.avail_in = uInt(bytes.size());
-    zlib.next_out = reinterpret_cast<Bytef*>(out.data());
-    zlib.avail_out = uInt(out.size());
-    deflate(&zlib, Z_FINISH);
-    out.resize(zlib.total_out);
-    deflateEnd(&zlib);
-    return out;
-}
 
 /// 9 x 5 x 10 numbers: two slabs of leaves, leaves that are not full, and one that is all the same.
 template <typename Value>
@@ -83,7 +56,7 @@ std::string nrrdOf(const std::string& encoding, const std::string& values)
 }
 
 std::string nrrdRaw() { return nrrdOf("raw", numbers<int16_t>()); }
-std::string nrrdGzip() { return nrrdOf("gzip", deflated(numbers<int16_t>(), true)); }
+std::string nrrdGzip() { return nrrdOf("gzip", deflated(numbers<int16_t>(), Deflated::Gzip)); }
 
 std::string nrrdText()
 {
@@ -123,7 +96,7 @@ std::string niiOf(int code)
 std::string niiSizes() { return niiOf(0); }
 std::string niiQuaternion() { return niiOf(1); }
 std::string niiMatrix() { return niiOf(2); }
-std::string niiGzip() { return deflated(niiOf(2), true); }
+std::string niiGzip() { return deflated(niiOf(2), Deflated::Gzip); }
 
 // Pictures of 13 x 6 pixels
 
@@ -143,7 +116,7 @@ std::string pngOf(char bits, char type, std::size_t rowBytes, const std::string&
         + chunk("IHDR",
             bytesOf(uint32_t(13), true) + bytesOf(uint32_t(6), true) + bits + type
                 + std::string(3, '\0'))
-        + more + chunk("IDAT", deflated(rows, false)) + chunk("IEND", "");
+        + more + chunk("IDAT", deflated(rows, Deflated::Zlib)) + chunk("IEND", "");
 }
 
 std::string pngGray() { return pngOf(8, 0, 13, chunk("gAMA", bytesOf(uint32_t(45455), true))); }

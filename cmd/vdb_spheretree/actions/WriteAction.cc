@@ -57,16 +57,19 @@ std::string dagPath(const std::string& csv)
     return csv.substr(0, csv.size() - extension.size()) + "_dag" + extension;
 }
 
+/// @return how @a path is written: what format= and the extension say.
+FileKind writtenKind(const ActionCall& call, const std::string& path)
+{
+    if (isChart(call, path)) return FileKind::Chart;
+    return exportFormatOf(call, path) ? FileKind::Export : fileKind(path);
+}
+
 void check(const ActionCall& call, Plan& plan)
 {
     if (!call.given("files")) throwUsage("names no file");
     compressionOf(call);
     for (const std::string& path : call.list("files")) {
-        if (exportFormatOf(call, path) || isChart(call, path)) {
-            plan.addOutput(path);
-            continue;
-        }
-        const FileKind kind = fileKind(path);
+        const FileKind kind = writtenKind(call, path);
         const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
         if ((kind == FileKind::Vol && extension != ".vol") || kind == FileKind::Mesh
             || kind == FileKind::Unknown) {
@@ -185,21 +188,13 @@ public:
             mToStdout = path;
             return;
         }
-        if (exportFormatOf(mCall, path) || isChart(mCall, path)) {
-            return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
-        }
-        switch (fileKind(path)) {
+        switch (writtenKind(mCall, path)) {
         case FileKind::Csv: return writeTables(path);
-        case FileKind::Json:
-        case FileKind::Vol:
-        case FileKind::Png:
-        case FileKind::Jpeg:
-        case FileKind::Html:
-            return writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
-        default:
-            writeFile(path, [&](std::iostream& out) {
+        case FileKind::Vdb:
+            return writeFile(path, [&](std::iostream& out) {
                 writeVdb(out, grids(), mCompression, /*seekable=*/true);
             });
+        default: writeFile(path, [&](std::iostream& out) { writeContent(path, out); });
         }
     }
 
@@ -231,11 +226,9 @@ private:
     void writeContent(const std::string& path, std::ostream& out)
     {
         namespace st = openvdb_spheretree;
-        if (exportFormatOf(mCall, path)) {
-            return writeExport(mCall, path, mItems, mSession, out);
-        }
-        if (isChart(mCall, path)) return writeChart(mCall, path, mItems, out);
-        switch (fileKind(path)) {
+        switch (writtenKind(mCall, path)) {
+        case FileKind::Export: return writeExport(mCall, path, mItems, mSession, out);
+        case FileKind::Chart: return writeChart(mCall, path, mItems, out);
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
         case FileKind::Vol: return writeVoxels(path, out);
@@ -266,11 +259,9 @@ private:
     /// A reader of text that wants no more of it (`| head`) is no error.
     void writeToStdout(const std::string& path)
     {
-        const FileKind kind = fileKind(path);
-        const bool isOther = exportFormatOf(mCall, path) || isChart(mCall, path);
+        const FileKind kind = writtenKind(mCall, path);
         if (kind == FileKind::Vdb) return writeGridsToStdout(path, grids(), mCompression);
-        if (kind == FileKind::Csv && !isOther
-            && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
+        if (kind == FileKind::Csv && openvdb_spheretree::hasDag(onlyTree(mItems, path))) {
             mSession.note(path
                 + " holds the spheres; the edges of dag=1 are a table of their own, "
                   "which only a file has room for beside it");
@@ -282,7 +273,7 @@ private:
             writeContent(path, out);
             sink.pubsync();
         } catch (const ClosedPipe&) {
-            if (kind != FileKind::Csv && kind != FileKind::Json) throw; // it is of no use in part
+            if (kind == FileKind::Html || isPicture(kind)) throw; // of no use in part
         }
     }
 

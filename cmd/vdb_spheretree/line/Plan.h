@@ -14,12 +14,13 @@
 
 namespace command {
 
-enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Html, Unknown };
+/// Export: a format that other tools read, which -write knows (WriteExport.h).
+enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Html, Export, Chart, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);
 
-/// By the extension, in upper or lower case. (A .png may be read, too: as a volume.)
+/// By the extension, in upper or lower case, and never Export. (A .png may be read, too: as a volume.)
 FileKind fileKind(const std::string& path);
 inline bool isPicture(FileKind kind) { return kind == FileKind::Png || kind == FileKind::Jpeg; }
 

@@ -2,6 +2,7 @@
 #include "PowerCells.h"
 
 #include "LeafDescent.h"
+#include "LeafPower.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallReach.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
@@ -68,38 +69,21 @@ struct Claim {
     const LeafMask* within;
 };
 
-/// @param claims  by ball
-/// @return the parts of power cells in the leaf at @a origin, by ball.
-std::vector<CellPart> partsOf(const openvdb::Coord& origin, const std::vector<Claim>& claims,
-    const std::vector<ExactSphere>& balls)
+/// @return the parts of power cells in the leaf at @a origin.
+std::vector<CellPart> partsOf(
+    const openvdb::Coord& origin, std::vector<Claim> claims, const std::vector<ExactSphere>& balls)
 {
-    std::array<int64_t, kLeafVoxels> best;
-    std::array<int32_t, kLeafVoxels> label; // place in `claims`
-    best.fill(-1); // a ball without a power of 0 or more does not hold the voxel
-    label.fill(0);
-    for (std::size_t k = 0; k < claims.size(); ++k) {
-        const ExactSphere& ball = balls[claims[k].ball];
-        const LeafMask& within = *claims[k].within;
-        int64_t terms[3][8]; // the power at a voxel is a sum of three, one for each axis
-        for (int a = 0; a < 3; ++a) {
-            for (int i = 0; i < 8; ++i) {
-                const int64_t d = kFine * (int64_t(origin[a]) + i) - ball.center[a];
-                terms[a][i] = (a == 0 ? ball.radiusSq : 0) - d * d;
-            }
-        }
-        for (int i = 0; i < kLeafVoxels; ++i) {
-            const int64_t power = terms[0][i >> 6] + terms[1][i >> 3 & 7] + terms[2][i & 7];
-            const bool more = power > best[i]
-                || (power == best[i] && power >= 0
-                    && ball.radiusSq > balls[claims[label[i]].ball].radiusSq);
-            const bool wins = more && within.isOn(uint32_t(i));
-            best[i] = wins ? power : best[i];
-            label[i] = wins ? int32_t(k) : label[i];
-        }
-    }
+    // Of equal powers the larger ball wins, then the first.
+    std::sort(claims.begin(), claims.end(), [&](const Claim& a, const Claim& b) {
+        const int64_t sizeA = balls[a.ball].radiusSq, sizeB = balls[b.ball].radiusSq;
+        return sizeA != sizeB ? sizeA > sizeB : a.ball < b.ball;
+    });
+    std::vector<LeafClaim> contenders;
+    for (const Claim& claim : claims) contenders.push_back({&balls[claim.ball], claim.within});
+    const std::array<int64_t, kLeafVoxels> winners = strongestClaims(origin, contenders);
     std::vector<LeafMask> masks(claims.size(), LeafMask{});
-    for (int i = 0; i < kLeafVoxels; ++i) {
-        if (best[i] >= 0) masks[label[i]].setOn(uint32_t(i));
+    for (uint32_t i = 0; i < kLeafVoxels; ++i) {
+        if (winners[i] >= 0) masks[std::size_t(winners[i])].setOn(i);
     }
     std::vector<CellPart> parts;
     for (std::size_t k = 0; k < claims.size(); ++k) {
@@ -134,8 +118,9 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
         }
     }
     std::vector<std::vector<CellPart>> parts(object.leafCount());
-    detail::parallelFor(parts.size(), interrupter,
-        [&](std::size_t leaf) { parts[leaf] = partsOf(object.origin(leaf), claims[leaf], balls); });
+    detail::parallelFor(parts.size(), interrupter, [&](std::size_t leaf) {
+        parts[leaf] = partsOf(object.origin(leaf), std::move(claims[leaf]), balls);
+    });
     return cellsOf(parts, balls.size());
 }
 
@@ -148,7 +133,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const auto body = [&](std::size_t leaf, const std::vector<int32_t>& among) {
         std::vector<Claim> claims;
         for (const int32_t ball : among) claims.push_back({ball, &object.mask(leaf)});
-        parts[leaf] = partsOf(object.origin(leaf), claims, balls);
+        parts[leaf] = partsOf(object.origin(leaf), std::move(claims), balls);
     };
     forEachLeafWithBalls(object, std::move(all), ballsWithPower(balls), body, interrupter);
     return cellsOf(parts, balls.size());

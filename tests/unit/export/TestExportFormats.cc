@@ -5,6 +5,7 @@
 
 #include "support/Messages.h"
 #include "support/SampleTrees.h"
+#include "support/StreamFaults.h"
 
 #include <openvdb/math/Transform.h>
 
@@ -14,7 +15,6 @@
 #include <locale>
 #include <set>
 #include <sstream>
-#include <streambuf>
 
 using namespace openvdb_spheretree;
 using namespace spheretree_test;
@@ -45,23 +45,6 @@ std::vector<ExportFormat> formats()
     }
     return all;
 }
-
-struct GermanNumbers : std::numpunct<char> {
-    char do_decimal_point() const override { return ','; }
-    char do_thousands_sep() const override { return '.'; }
-    std::string do_grouping() const override { return "\3"; }
-};
-
-class FullDisk : public std::streambuf {
-public:
-    explicit FullDisk(std::streamsize room) : mRoom(room) {}
-
-protected:
-    int_type overflow(int_type c) override { return mRoom-- > 0 ? c : traits_type::eof(); }
-
-private:
-    std::streamsize mRoom;
-};
 
 TEST(ExportFormats, EachIsFoundByItsNameAndOneByItsExtension)
 {

@@ -3,6 +3,7 @@
 
 #include "support/Messages.h"
 #include "support/SampleTrees.h"
+#include "support/StreamFaults.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/math/Transform.h>
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <locale>
 #include <sstream>
-#include <streambuf>
 #include <vector>
 
 using namespace openvdb_spheretree;
@@ -33,31 +33,6 @@ std::vector<std::string> split(const std::string& text, char separator)
     for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
     return parts;
 }
-
-/// 1.5 is "1,5" and 1000 is "1.000" here.
-struct GermanNumbers : std::numpunct<char> {
-    char do_decimal_point() const override { return ','; }
-    char do_thousands_sep() const override { return '.'; }
-    std::string do_grouping() const override { return "\3"; }
-};
-
-/// A disk that is full after some bytes.
-class FullDisk : public std::streambuf {
-public:
-    explicit FullDisk(std::streamsize room) : mRoom(room) {}
-
-protected:
-    int_type overflow(int_type c) override { return mRoom-- > 0 ? c : traits_type::eof(); }
-    std::streamsize xsputn(const char*, std::streamsize n) override
-    {
-        const std::streamsize taken = std::min(n, mRoom);
-        mRoom -= taken;
-        return taken;
-    }
-
-private:
-    std::streamsize mRoom;
-};
 
 /// Takes everything and loses it when it is to be kept.
 class LateFailure : public std::stringbuf {

@@ -55,15 +55,17 @@ TEST(PowerCells, OfLeavesAreTheVoxelsTheyCoverBest)
 }
 
 /// Balls that reach out of the object, some of them twice.
-TEST(PowerCells, OfAnyBallsAreTheVoxelsTheyCoverBest)
+TEST(PowerCells, OfAnyBallsAreTheVoxelsTheyCoverBestWithEveryTarget)
 {
-    Random random(2);
-    for (int turn = 0; turn < 30; ++turn) {
-        auto balls = randomBalls(random.between(1, 30), random, -10, 25, 12);
-        balls.push_back(balls.front());
-        const Voxels voxels = shapes::noise(Coord(17, 12, 14), 0.3, random);
-        ASSERT_NO_FATAL_FAILURE(expectCells(balls, voxels, random));
-    }
+    forEachTarget([] {
+        Random random(2);
+        for (int turn = 0; turn < 30; ++turn) {
+            auto balls = randomBalls(random.between(1, 30), random, -10, 25, 12);
+            balls.push_back(balls.front());
+            const Voxels voxels = shapes::noise(Coord(17, 12, 14), 0.3, random);
+            ASSERT_NO_FATAL_FAILURE(expectCells(balls, voxels, random));
+        }
+    });
 }
 
 } // namespace

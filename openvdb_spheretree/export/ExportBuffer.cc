@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ExportBytes.h"
+#include "ExportBuffer.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -7,14 +7,14 @@
 
 namespace openvdb_spheretree::detail {
 
-void ExportBytes::flush()
+void ExportBuffer::flush()
 {
     mOut.write(mBytes.data(), std::streamsize(mBytes.size()));
     if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
     mBytes.clear();
 }
 
-void ExportBytes::finish()
+void ExportBuffer::finish()
 {
     flush();
     mOut.flush();
