@@ -5,17 +5,16 @@
 #include "base/Errors.h"
 #include "base/LastWords.h"
 #include "base/Terminal.h"
+#include "CountErrors.h"
 #include "files/AtomicFile.h"
-#include "GivenSpheres.h"
 #include "line/Actions.h"
-#include "ObjectChoice.h"
 #include "report/StatsReport.h"
 
+#include <openvdb/Grid.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -59,35 +58,12 @@ void checkStats(const ActionCall& call, Plan& plan)
     }
 }
 
-/// Finds the object of a tree that was read from a file: the only grid on the stack that an object
-/// can be made of, if it is that. -stats does without one, so nothing here is an error.
-void findObject(StackItem& item, Session& session)
-{
-    StackItem* grid = nullptr;
-    for (const auto& other : session.stack.items()) {
-        if (!other->grid || !openvdb_spheretree::isObjectGrid(*other->grid)) continue;
-        if (grid) return;
-        grid = other.get();
-    }
-    if (grid) item.object = objectOfTree(*grid, *item.tree, session);
-}
-
-/// @return whether there may be something to count: errors, or those of stored spheres.
-bool lacksErrors(const openvdb_spheretree::SphereTreeLevel& level)
-{
-    if (!level.error) return level.errorUnknown.empty();
-    return !level.stored && level.storedUnknown.empty();
-}
-
 void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     session.noteIfUnverified(item);
-    placeInObject(item, session);
-    const auto& levels = item.tree->levels;
-    const bool lacking = std::any_of(levels.begin(), levels.end(), lacksErrors);
-    if (!item.object && (lacking || call.flag("mass"))) findObject(item, session);
-    if (item.object && lacking) computeErrors(item, session);
+    countErrors(item, session);
+    if (call.flag("mass")) findObject(item, session);
     const StatsMass mass = massOf(item, call.flag("mass"), session);
     const auto outputs = filesOf(call);
     if (outputs.empty()) return session.print(statsTable(*item.tree, mass, session));
