@@ -32,11 +32,11 @@ message(STATUS "OpenVDB ${OpenVDB_VERSION}, Highway ${hwy_VERSION}")
 # Sets SPHERETREE_HAS_NAME: whether the library is wanted (SPHERETREE_WITH_NAME) and there. The library
 # itself is taken, not the target of its package: Debian's of assimp names libraries that only assimp's
 # own build needs, and finding them would then be up to everybody who links this library. Of headers alone
-# there is no LIBRARY.
+# there is no LIBRARY. A fourth argument is a folder that the header may be in.
 macro(spheretree_find_optional name header)
     set(SPHERETREE_HAS_${name} OFF)
     if(SPHERETREE_WITH_${name})
-        find_path(${name}_INCLUDE_DIR ${header})
+        find_path(${name}_INCLUDE_DIR ${header} PATH_SUFFIXES ${ARGV3})
         mark_as_advanced(${name}_INCLUDE_DIR)
         if(${ARGC} GREATER 2)
             find_library(${name}_LIBRARY ${ARGV2})
@@ -84,4 +84,22 @@ elseif(SPHERETREE_WITH_JPEG)
     message(STATUS "Pictures: .png; no .jpg, since libjpeg was not found (Debian: apt-get install libjpeg-dev)")
 else()
     message(STATUS "Pictures: .png; no .jpg, since SPHERETREE_WITH_JPEG is off")
+endif()
+
+spheretree_find_optional(CAIRO cairo.h cairo cairo)
+if(SPHERETREE_HAS_CAIRO)
+    message(STATUS "Curves of errors: .svg and .png (${CAIRO_LIBRARY})")
+elseif(SPHERETREE_WITH_CAIRO)
+    message(STATUS "Curves of errors: .svg; no .png, since cairo was not found (Debian: apt-get install libcairo2-dev)")
+else()
+    message(STATUS "Curves of errors: .svg; no .png, since SPHERETREE_WITH_CAIRO is off")
+endif()
+
+spheretree_find_optional(NANOVDB nanovdb/util/OpenToNanoVDB.h)
+if(SPHERETREE_HAS_NANOVDB)
+    message(STATUS "Points and grids for NanoVDB: .nvdb")
+elseif(SPHERETREE_WITH_NANOVDB)
+    message(STATUS "No .nvdb, since NanoVDB was not found (Debian: apt-get install libnanovdb-dev)")
+else()
+    message(STATUS "No .nvdb, since SPHERETREE_WITH_NANOVDB is off")
 endif()

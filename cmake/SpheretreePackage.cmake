@@ -18,4 +18,12 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 # What the programs link is asked of the packages here (needs dpkg-dev).
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenvdb-dev)
+# All that cmake --install installs, and the Python module where it is built. It is for one version of Python, which
+# is no dependency: the command does without.
+if(TARGET _spheretree)
+    set(CPACK_INSTALL_CMAKE_PROJECTS
+        "${PROJECT_BINARY_DIR};${PROJECT_NAME};ALL;/;${PROJECT_BINARY_DIR};${PROJECT_NAME};debian_python;/")
+    string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS
+        ", python3 (>= ${SPHERETREE_PYTHON_VERSION}~), python3-numpy")
+endif()
 include(CPack)

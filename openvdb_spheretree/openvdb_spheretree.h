@@ -87,6 +87,7 @@
 #include "input/spheres/SphereFile.h"
 #include "input/spheres/WorldSpheres.h"
 #include "tree/GivenTree.h"
+#include "tree/SphereTracks.h"
 
 // To files and back.
 #include "store/SphereTreeCsv.h"

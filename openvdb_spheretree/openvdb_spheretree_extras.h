@@ -2,12 +2,14 @@
 /// @file openvdb_spheretree_extras.h
 /// @brief The public headers of the library openvdb_spheretree_extras: grids from files of
 /// strangers, objects from meshes, volume files and formulas, pictures of objects and trees, pages of
-/// trees, and trees for the files of other tools.
+/// trees, curves of their errors, and trees for the files of other tools.
 
 #pragma once
 
+#include "chart/ErrorChart.h"
 #include "export/ExportFormat.h"
 #include "export/ExportTree.h"
+#include "export/NanoVdbWriter.h"
 #include "export/VolWriter.h"
 #include "input/array/NumberType.h"
 #include "input/mesh/MeshFile.h"

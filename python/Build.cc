@@ -18,6 +18,7 @@
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
+#include <openvdb_spheretree/tree/SphereTracks.h>
 
 #include <openvdb/openvdb.h>
 #include <pybind11/numpy.h>
@@ -121,7 +122,7 @@ void requireWholeVoxels(const Volume& volume, const spheretree::SphereTreeSettin
 }
 
 TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::object& given,
-    CallSettings call)
+    const TreePtr& like, CallSettings call)
 {
     const auto [settings, work] = inKeywords([&] {
         const command::ActionCall options = callOf(texts);
@@ -139,6 +140,7 @@ TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::o
         spheretree::SphereTree tree = leaves
             ? spheretree::buildSphereTreeOver(*leaves, *volume.object, wanted, nullptr, interrupter)
             : spheretree::buildSphereTree(*volume.object, wanted, nullptr, interrupter);
+        if (like) spheretree::continueTracks(tree, like->get(), interrupter);
         if (errors) spheretree::computeLevelErrors(tree, *volume.object, interrupter);
         return std::make_shared<Tree>(std::move(tree));
     });
@@ -177,8 +179,8 @@ void bindBuild(py::module_& module)
 {
     module.def("build",
         [](const Volume& volume, const Texts& settings, bool errors, const py::object& given,
-            const py::object& progress, int threads) {
-            return build(volume, settings, errors, given, {progress, threads});
+            const TreePtr& like, const py::object& progress, int threads) {
+            return build(volume, settings, errors, given, like, {progress, threads});
         });
     module.def("check",
         [](const Tree& tree, const Volume& volume, const py::object& progress, int threads) {

@@ -122,6 +122,8 @@ void bindTree(py::module_& module)
     defineView(tree, "parents", [](const Tree& t, const py::handle& owner) {
         return viewOf(t.get().spheres.parent, owner);
     });
+    defineView(tree, "tracks",
+        [](const Tree& t, const py::handle& owner) { return viewOf(t.get().track, owner); });
     defineView(tree, "ijk",
         [](const Tree& t, const py::handle& owner) { return rowsOf<int32_t>(t.get().ijk, owner); });
     defineView(tree, "radii_sq",

@@ -9,14 +9,14 @@ build_packages=(
     g++ cmake ninja-build ccache git
     libopenvdb-dev libopenvdb-tools libboost-iostreams-dev libtbb-dev libblosc-dev
     zlib1g-dev libdeflate-dev libpng-dev libhwy-dev libassimp-dev libjpeg-dev
-    nlohmann-json3-dev)
+    libcairo2-dev libnanovdb-dev nlohmann-json3-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy) # the Python module, beside build_packages
 test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib zsh groff-base dpkg-dev
     "${python_packages[@]}" python3-pytest python3-scipy python3-openvdb python3-pip python3-venv mypy)
 # Readers of the files that are written for other tools; a test whose reader is missing is skipped.
 reader_packages=(
     python3-yaml python3-meshio python3-open3d python3-vtk9 python3-ase
-    libmujoco-dev liburdfdom-tools lammps yade nodejs blender)
+    libmujoco-dev liburdfdom-tools lammps yade nodejs blender libnanovdb-tools)
 embree_packages=(libembree-dev) # what rays and points are timed against
 browser_packages=(chromium) # for tests of pages, which are left out without
 clang_packages=(clang llvm) # llvm: names of functions in what the sanitizers report

@@ -2,6 +2,7 @@
 #include "ExportFormat.h"
 
 #include "ExportWriters.h"
+#include "NanoVdbWriter.h"
 
 #include <openvdb_spheretree/base/TextStream.h>
 
@@ -19,7 +20,8 @@ enum Trait : unsigned {
     kSamples = 8,        ///< ExportFormat::samples
     kMass = 16,          ///< ExportFormat::mass
     kPositiveRadii = 32, ///< ExportFormat::positiveRadii
-    kByName = 64         ///< its extensions mean another format, or nothing, without its name
+    kByName = 64,        ///< its extensions mean another format, or nothing, without its name
+    kOrdersIds = 128     ///< ExportFormat::ordersIds
 };
 
 struct Row {
@@ -52,6 +54,8 @@ constexpr Row kRows[] = {
     {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels, detail::writePly},
     {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName, detail::writePlyAscii},
     {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels, detail::writeGlb},
+    {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
+        kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
     {"mesh", ".obj", "all that read meshes", kTriangles, kFloats, detail::writeMeshObj},
     {"mesh", ".stl", "all that read meshes", kTriangles, kFloats, detail::writeMeshStl},
@@ -67,9 +71,9 @@ constexpr Row kRows[] = {
     {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName, detail::writeMultisphere},
     {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName, detail::writeDeme},
     {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels, detail::writeXyz},
-    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels, detail::writeSwc},
+    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds, detail::writeSwc},
     {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
-        kAllLevels, detail::writeSph},
+        kAllLevels | kOrdersIds, detail::writeSph},
 };
 // clang-format on
 
@@ -89,6 +93,10 @@ ExportFormat makeFormat(const Row& row)
     format.samples = has(kSamples);
     format.mass = has(kMass);
     format.positiveRadii = has(kPositiveRadii);
+    format.ordersIds = has(kOrdersIds);
+    if (format.name == "nanovdb" && !writesNanoVdb()) {
+        format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";
+    }
     format.write = row.write;
     return format;
 }

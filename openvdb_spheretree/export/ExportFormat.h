@@ -31,7 +31,10 @@ struct ExportFormat {
     bool allLevels = false;     ///< holds more than one level
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia
+    bool ordersIds = false;     ///< its ids count from the top level on: tracks have no place
     bool positiveRadii = false; ///< its readers refuse a radius of 0
+    /// Why this build does not write it: what it lacks. Empty if it does.
+    std::string missing;
     void (*write)(const std::vector<detail::ExportScene>& samples, std::ostream& out) = nullptr;
 };
 

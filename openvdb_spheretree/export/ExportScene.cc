@@ -143,6 +143,14 @@ MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* in
         "voxels");
 }
 
+/// In a sequence a sphere goes by its track, which it keeps from frame to frame.
+void showTracks(const SphereTree& tree, ExportLevel& level)
+{
+    for (std::vector<int32_t>* const ids : {&level.ids, &level.parents}) {
+        for (int32_t& id : *ids) id = id < 0 ? id : tree.track[std::size_t(id)];
+    }
+}
+
 void requirePositive(const ExportScene& scene, const ExportFormat& format)
 {
     int64_t zero = 0;
@@ -215,6 +223,9 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
         worst = std::max(worst, roundLevel(tree, frame, round, interrupter, level));
     }
     noteGrowth(worst, format, notes);
+    if (!tree.track.empty() && !format.ordersIds) {
+        for (ExportLevel& level : scene.levels) showTracks(tree, level);
+    }
     if (format.positiveRadii) requirePositive(scene, format);
     return scene;
 }

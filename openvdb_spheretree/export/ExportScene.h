@@ -21,8 +21,8 @@ struct ExportLevel {
     int number = 0; ///< 0 is the finest of the tree
     std::vector<openvdb::Vec3d> centers;
     std::vector<double> radii;
-    std::vector<int32_t> ids;     ///< of the tree
-    std::vector<int32_t> parents; ///< ids; -1 where the parent is not in the file
+    std::vector<int32_t> ids; ///< of the tree; its tracks, if it has any and the format takes them
+    std::vector<int32_t> parents; ///< the same of the parents; -1 where one is not in the file
 
     std::size_t size() const { return centers.size(); }
 };

@@ -30,6 +30,7 @@ void writeUsda(const std::vector<ExportScene>& samples, std::ostream& out);
 void writePly(const std::vector<ExportScene>& samples, std::ostream& out);
 void writePlyAscii(const std::vector<ExportScene>& samples, std::ostream& out);
 void writeGlb(const std::vector<ExportScene>& samples, std::ostream& out);
+void writeNanoVdbPoints(const std::vector<ExportScene>& samples, std::ostream& out);
 /// @}
 
 /// @name Meshes of spheres

@@ -6,6 +6,8 @@
 #include "GlbFile.h"
 #include "UnitSphere.h"
 
+#include <algorithm>
+
 namespace openvdb_spheretree::detail {
 
 namespace {
@@ -61,7 +63,8 @@ Instances addInstances(GlbFile& file, const ExportLevel& level)
     });
     // Attributes are floats in glTF, and floats count to 2^24.
     constexpr int32_t kMostExact = 1 << 24;
-    if (count > 0 && level.ids.back() > kMostExact) return instances;
+    const auto most = std::max_element(level.ids.begin(), level.ids.end());
+    if (count > 0 && *most > kMostExact) return instances;
     for (const auto& [name, ids] :
         {std::pair("_ID", &level.ids), std::pair("_PARENT", &level.parents)}) {
         const int accessor =

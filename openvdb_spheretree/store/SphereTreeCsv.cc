@@ -58,8 +58,10 @@ ShownGrid shownGrid(const SphereTree& tree, int32_t id, int level)
 
 void writeCsv(const SphereTree& tree, std::ostream& out)
 {
+    const bool hasTracks = !tree.track.empty();
     std::string text = "level,id,parent,x,y,z,radius,i,j,k,radius_sq,scale,origin_i,origin_j,"
-                       "origin_k\n";
+                       "origin_k";
+    text += hasTracks ? ",track\n" : "\n";
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
             append(text, level->level, ',');
@@ -76,7 +78,8 @@ void writeCsv(const SphereTree& tree, std::ostream& out)
             append(text, grid.scale, ',');
             append(text, grid.origin[0], ',');
             append(text, grid.origin[1], ',');
-            append(text, grid.origin[2], '\n');
+            append(text, grid.origin[2], hasTracks ? ',' : '\n');
+            if (hasTracks) append(text, tree.track[std::size_t(id)], '\n');
             write(text, out);
         }
     }

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <ostream>
 
 namespace openvdb_spheretree {
@@ -72,8 +73,10 @@ void writeSphere(JsonWriter& json, const Spheres& spheres, int32_t id)
 void writeNodes(JsonWriter& json, const SphereTree& tree, std::ostream& out)
 {
     constexpr const char* kColumns[] = {"level", "id", "parent", "x", "y", "z", "radius", "i", "j",
-        "k", "radius_sq", "index_x", "index_y", "index_z", "radius_voxels", "cover_sq"};
-    writeArray(json, "columns", kColumns);
+        "k", "radius_sq", "index_x", "index_y", "index_z", "radius_voxels", "cover_sq", "track"};
+    std::vector<std::string> columns(std::begin(kColumns), std::end(kColumns));
+    if (tree.track.empty()) columns.pop_back();
+    writeArray(json, "columns", columns);
     json.beginArray("nodes");
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         for (int32_t id = level->begin; id < level->end; ++id) {
@@ -87,6 +90,7 @@ void writeNodes(JsonWriter& json, const SphereTree& tree, std::ostream& out)
             for (int axis = 0; axis < 3; ++axis) json.value("", ijk[axis]);
             json.value("", tree.radiusSq[id]);
             writeSphere(json, tree.spheres, id);
+            if (!tree.track.empty()) json.value("", tree.track[std::size_t(id)]);
             json.endArray();
             flush(json, out);
         }

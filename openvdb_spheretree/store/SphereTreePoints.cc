@@ -170,6 +170,7 @@ SphereTree readTree(const PointDataGrid& points, NullInterrupter* interrupter)
     const auto order = readSpheres(reader, detail::readPointScale(points), tree.spheres);
     gather(reader.attribute<Vec3i>("ijk"), order, tree.ijk);
     gather(reader.attribute<int32_t>("radius_sq"), order, tree.radiusSq);
+    if (tree.nextTrack > 0) gather(reader.attribute<int32_t>("track"), order, tree.track);
     std::vector<int32_t> levelsOfPoints = reader.attribute<int32_t>("level");
     std::vector<int32_t> levels;
     gather(levelsOfPoints, order, levels);
@@ -266,6 +267,10 @@ PointDataGrid::Ptr writeTree(Tree& tree, NullInterrupter* interrupter, const Wri
     writer.addAttribute<int32_t>("level", levelOf);
     writer.addAttribute<int32_t>("radius_sq", [&](uint32_t id) { return tree.radiusSq[id]; });
     written(tree.radiusSq);
+    if (!tree.track.empty()) {
+        writer.addAttribute<int32_t>("track", [&](uint32_t id) { return tree.track[id]; });
+        written(tree.track);
+    }
     writer.addAttribute<Vec3i>("ijk", [&](uint32_t id) { return tree.ijk[id].asVec3i(); });
     written(tree.ijk);
     const int lowest = tree.levels.front().level;

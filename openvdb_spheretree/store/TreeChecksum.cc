@@ -121,6 +121,7 @@ std::vector<PartChecksum> nodeChecksums(const SphereTree& tree, NullInterrupter*
         return {tree.ijk[id][0], tree.ijk[id][1], tree.ijk[id][2]};
     };
     sums.push_back({"ijk", crc32Of<std::array<int32_t, 3>>(tree.ijk.size(), interrupter, ijk)});
+    if (!tree.track.empty()) sums.push_back({"track", crcOf(tree.track, interrupter)});
     return sums;
 }
 

@@ -24,6 +24,7 @@ constexpr char kTransformTypeKey[] = "spheretree_transform_type";
 constexpr char kSubdivisionKey[] = "spheretree_subdivision"; // in files without, it was 2
 constexpr char kQualityKey[] = "spheretree_quality"; // came with all settings of tight trees
 constexpr char kFlatAxisKey[] = "spheretree_flat_axis";
+constexpr char kNextTrackKey[] = "spheretree_next_track"; // of trees of a sequence alone
 constexpr int kMaxLevels = 1024; // far more than 32 bits of coordinates can be halved
 
 std::string levelKey(int level, const char* what)
@@ -289,6 +290,14 @@ std::vector<SphereTreeLevel> readLevels(const GridBase& grid)
     return levels;
 }
 
+int32_t readNextTrack(const GridBase& grid)
+{
+    const auto next = getMeta<int32_t>(grid, kNextTrackKey);
+    if (next > 0) return next;
+    OPENVDB_THROW(openvdb::ValueError,
+        "metadata '" << kNextTrackKey << "' is " << next << ": tracks are counted from 0 on");
+}
+
 } // namespace
 
 void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
@@ -308,6 +317,7 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     setMeta(grid, "spheretree_origin", tree.origin.asVec3i());
     setMeta<int32_t>(grid, "spheretree_levels", int32_t(tree.levels.size()));
     setMeta<int32_t>(grid, "spheretree_lowest_level", tree.levels.front().level);
+    if (tree.nextTrack > 0) setMeta<int32_t>(grid, kNextTrackKey, tree.nextTrack);
     for (const SphereTreeLevel& level : tree.levels) writeLevel(grid, level);
 }
 
@@ -333,6 +343,7 @@ SphereTree readTreeMetadata(const GridBase& grid)
     const openvdb::Coord least = coord("spheretree_object_bbox_min");
     tree.object.bbox.reset(least, coord("spheretree_object_bbox_max"));
     tree.origin = coord("spheretree_origin");
+    if (grid[kNextTrackKey]) tree.nextTrack = readNextTrack(grid);
     tree.levels = readLevels(grid);
     return tree;
 }

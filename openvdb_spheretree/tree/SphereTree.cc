@@ -62,6 +62,10 @@ SphereTree keepLevel(const SphereTree& tree, int level)
     std::fill(result.spheres.parent.begin(), result.spheres.parent.end(), -1);
     result.ijk.assign(tree.ijk.begin() + range.begin, tree.ijk.begin() + range.end);
     result.radiusSq.assign(tree.radiusSq.begin() + range.begin, tree.radiusSq.begin() + range.end);
+    if (!tree.track.empty()) {
+        result.track.assign(tree.track.begin() + range.begin, tree.track.begin() + range.end);
+        result.nextTrack = tree.nextTrack;
+    }
     result.levels = {range};
     result.levels[0].begin = 0;
     result.levels[0].end = result.size();

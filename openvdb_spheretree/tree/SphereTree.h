@@ -87,7 +87,11 @@ struct SphereTree {
     /// Of the node's digital ball {q : |q - ijk|^2 < radiusSq} (MedialBall.h). -1 for a sphere that
     /// is no digital ball.
     std::vector<int32_t> radiusSq;
+    /// Of a tree that belongs to a sequence: the same number in all frames for what is the same sphere, and
+    /// no other (SphereTracks.h). Empty for other trees.
+    std::vector<int32_t> track;
     /// @}
+    int32_t nextTrack = 0; ///< above all tracks that there have been in the sequence
     /// Units of centers and coverRadiusSq in a voxel: 2 or 16, or 1024 of given spheres.
     int subdivision = 2;
     std::vector<SphereTreeLevel> levels; ///< level 0 first

@@ -92,6 +92,9 @@ std::vector<Damage> shapeDamage(const SphereTree& tree)
         {"coverRadiusSq", tree.spheres.coverRadiusSq.size()},
         {"radiusWorld", tree.spheres.radiusWorld.size()}, {"parent", tree.spheres.parent.size()},
         {"ijk", tree.ijk.size()}, {"radiusSq", tree.radiusSq.size()}};
+    if (!tree.track.empty() && tree.track.size() != count) {
+        add("the tree has ", count, " centres, but ", tree.track.size(), " entries in track");
+    }
     for (const auto& [name, size] : arrays) {
         if (size != count)
             add("the tree has ", count, " centres, but ", size, " entries in ", name);
@@ -208,6 +211,20 @@ std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTr
     return damage;
 }
 
+std::vector<Damage> trackDamage(const SphereTree& tree)
+{
+    std::vector<int32_t> tracks = tree.track;
+    std::sort(tracks.begin(), tracks.end());
+    const auto twice = std::adjacent_find(tracks.begin(), tracks.end());
+    std::vector<Damage> damage;
+    if (twice != tracks.end()) damage.push_back(single("two nodes have the track ", *twice));
+    if (!tracks.empty() && (tracks.front() < 0 || tracks.back() >= tree.nextTrack)) {
+        damage.push_back(single("there are tracks from ", tracks.front(), " to ", tracks.back(),
+            ", and all should be from 0 to ", int64_t(tree.nextTrack) - 1));
+    }
+    return damage;
+}
+
 std::vector<Damage> treeDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage = shapeDamage(tree);
@@ -225,6 +242,7 @@ std::vector<Damage> treeDamage(const SphereTree& tree)
     balls.report(damage, "radius_sq is less than 1");
     add(parentDamage(tree));
     add(edgeDamage(tree.dag, tree));
+    add(trackDamage(tree));
     return damage;
 }
 

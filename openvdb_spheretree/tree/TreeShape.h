@@ -73,6 +73,9 @@ std::vector<Damage> edgeOrderDamage(const std::vector<DagEdge>& edges);
 std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTree& tree);
 /// @}
 
+/// Each node has a track of its own, below the next one to be given; or none has.
+std::vector<Damage> trackDamage(const SphereTree& tree);
+
 /// @return what is wrong by all rules above, and digital balls without a radius (-1 marks spheres
 ///         that are none); where the ranges of levels are wrong, nothing else is looked at.
 std::vector<Damage> treeDamage(const SphereTree& tree);

@@ -99,6 +99,7 @@ def build(
     edges: Literal["shared", "intersecting"] = "shared",
     topology: bool = True,
     errors: bool = True,
+    like: Tree | None = None,
     name: str = "spheretree",
     memory: int | str = "75%",
     # How
@@ -154,6 +155,9 @@ def build(
         Of extended trees.
     topology, errors
         Count parts, tunnels and cavities of every level's voxels; count the errors of every level.
+    like
+        The tree of the frame before, whose spheres keep their `Tree.tracks` in this one. A tree without any has its ids
+        for tracks.
     name
         Of the tree, and of the grid it is saved in.
     memory
@@ -203,7 +207,7 @@ def build(
     if (leaves == "given") != (given is not None):
         raise InputError("leaves=\"given\" and given=(centers, radii) go together")
     return Tree(_spheretree.build(own._handle, settings, bool(errors), _spheres_of(given),
-                                  part_of(progress, _READING, 1), thread_count(threads)))
+                                  None if like is None else like._handle, part_of(progress, _READING, 1), thread_count(threads)))
 
 
 def _coverage(coverage: Coverage, strict: bool) -> Any:
@@ -221,7 +225,7 @@ def _spheres_of(given: Given) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.f
 def _defaults() -> dict[str, Any]:
     """The keywords that are settings of the tree, but `spheres`."""
     parameters = inspect.signature(build).parameters
-    others = {"given", "errors", "progress", "threads"}
+    others = {"given", "errors", "like", "progress", "threads"}
     names = list(parameters)
     return {key: parameters[key].default for key in names[names.index("tree"):] if key not in others}
 

@@ -40,6 +40,8 @@ class Tree:
     @property
     def parents(self) -> npt.NDArray[np.int32]: ...
     @property
+    def tracks(self) -> npt.NDArray[np.int32]: ...
+    @property
     def ijk(self) -> npt.NDArray[np.int32]: ...
     @property
     def radii_sq(self) -> npt.NDArray[np.int32]: ...
@@ -90,6 +92,7 @@ def build(
     settings: dict[str, str],
     errors: bool,
     given: Optional[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]],
+    like: Optional[Tree],
     progress: _Progress,
     threads: int,
 ) -> Tree: ...

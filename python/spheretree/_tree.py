@@ -87,6 +87,11 @@ class Tree:
         return self._handle.parents
 
     @property
+    def tracks(self) -> npt.NDArray[np.int32]:
+        """What each sphere is called in all frames of a sequence, of a tree built with `like`: shape (n,); else empty."""
+        return self._handle.tracks
+
+    @property
     def ijk(self) -> npt.NDArray[np.int32]:
         """The center voxel of each digital ball, x, y, z in the grid of its level: shape (n, 3)."""
         return self._handle.ijk

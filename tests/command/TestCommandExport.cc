@@ -5,6 +5,8 @@
 
 #include "support/Messages.h"
 
+#include <openvdb_spheretree/export/NanoVdbWriter.h>
+
 #include <cstdio>
 
 namespace {
@@ -139,6 +141,24 @@ TEST_F(CommandExport, HelpListsAllFormats)
         {".urdf", ".usda", "format=lammps: LAMMPS", "a level: centers, radii"}) {
         EXPECT_TRUE(mentions(help, line));
     }
+}
+
+TEST_F(CommandExport, NanoVdbHoldsTheTreeOrGridsWithoutOne)
+{
+    if (!openvdb_spheretree::writesNanoVdb()) GTEST_SKIP() << "this build has no NanoVDB";
+    const auto nameIn = [](const std::string& file, const std::string& name) {
+        return mentions(file, name + std::string(1, '\0'));
+    };
+    EXPECT_TRUE(nameIn(written("t.nvdb"), "spheretree"));
+    const Result grid = run("-read a.vol -write g.nvdb");
+    EXPECT_EQ(grid.exitCode, 0) << grid.err;
+    EXPECT_TRUE(nameIn(readText(path("g.nvdb")), "a"));
+    const Result piped = run("-read tree.vdb -write stdout.nvdb");
+    EXPECT_EQ(piped.out, readText(path("t.nvdb")));
+    const Result scaled = run("-read a.vol -write s.nvdb units=mm");
+    EXPECT_EQ(scaled.exitCode, 3);
+    EXPECT_TRUE(mentions(scaled.err, "units is for sphere-trees"));
+    EXPECT_FALSE(exists("s.nvdb"));
 }
 
 } // namespace

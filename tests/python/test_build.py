@@ -250,3 +250,20 @@ def test_the_docstring_tells_of_every_keyword():
         assert name in spheretree.build.__doc__, name
     for name in inspect.signature(spheretree.volume).parameters:
         assert name in spheretree.volume.__doc__, name
+
+
+def test_spheres_keep_their_tracks_from_frame_to_frame(bone, tmp_path, command):
+    first = spheretree.build(bone, [16, 4, 1], quality="fast")
+    assert first.tracks.size == 0
+    same = spheretree.build(bone, [16, 4, 1], quality="fast", like=first)
+    np.testing.assert_array_equal(same.tracks, np.arange(len(same)))
+    more = spheretree.build(bone, [20, 4, 1], quality="fast", like=same)
+    kept = more.tracks[more.tracks < len(same)]
+    assert len(set(kept)) == len(kept) == len(same) and len(set(more.tracks)) == len(more)
+    same.save(tmp_path / "same.vdb")
+    np.testing.assert_array_equal(spheretree.load(tmp_path / "same.vdb").tracks, same.tracks)
+    write_vol(tmp_path / "volume.vol", bone)
+    command("-read", "same.vdb", "-read", "volume.vol", "-spheretree", "spheres=20,4,1", "quality=fast", "like=1",
+            "-write", "more.csv")
+    more.save(tmp_path / "ours.csv")
+    assert (tmp_path / "ours.csv").read_bytes() == (tmp_path / "more.csv").read_bytes()

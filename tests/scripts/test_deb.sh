@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Makes a Debian package of a build, installs it into a root of its own, runs what it installs, and removes it:
-# test_deb.sh BUILD FOLDER. Exit code 77: no dpkg here.
+# test_deb.sh BUILD FOLDER [PYTHON]. PYTHON is the one that a module was built for, if any was. Exit code 77: no dpkg here.
 set -euo pipefail
 build="$(realpath "$1")"
 folder="$2"
+python="${3:-}"
 if ! command -v dpkg >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
     echo "no dpkg-dev here (Debian: apt-get install dpkg-dev)"
     exit 77
@@ -27,6 +28,19 @@ for file in bin/vdb_spheretree share/man/man1/vdb_spheretree.1 \
     [ -s "root/usr/$file" ] || fail "the package lacks /usr/$file"
 done
 root/usr/bin/vdb_spheretree -quiet -generate ball voxels=2000 -spheretree spheres=8 -write tree.vdb tree.urdf
+modules=root/usr/lib/python3/dist-packages
+if [ -n "$python" ]; then
+    PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$PWD/$modules" "$python" - "$PWD/$modules" <<'END' || fail "the installed Python module does not work"
+import sys
+import numpy, spheretree
+assert spheretree.__file__.startswith(sys.argv[1]), spheretree.__file__
+tree = spheretree.build(numpy.ones((9, 8, 7), bool), spheres=[8, 1])
+assert [level.radii.size for level in tree.levels] == [8, 1], tree
+assert spheretree.load("tree.vdb").levels[0].radii.size > 0
+END
+elif [ -e "$modules" ]; then
+    fail "the package has a Python module that nobody asked for"
+fi
 if [ ! -s tree.vdb ] || [ ! -s tree.urdf ]; then fail "the installed program does not work"; fi
 package --remove vdb-spheretree
 left=$(find root -path root/var -prune -o -type f -print | head -3)

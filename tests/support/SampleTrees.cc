@@ -293,6 +293,8 @@ void expectSameTree(const SphereTree& a, const SphereTree& b)
     expectSameSpheres(a.spheres, b.spheres);
     EXPECT_EQ(a.ijk, b.ijk);
     EXPECT_EQ(a.radiusSq, b.radiusSq);
+    EXPECT_EQ(a.track, b.track);
+    EXPECT_EQ(a.nextTrack, b.nextTrack);
     EXPECT_EQ(a.subdivision, b.subdivision);
     EXPECT_EQ(a.dag, b.dag);
     expectSameCuts(a.cuts, b.cuts);

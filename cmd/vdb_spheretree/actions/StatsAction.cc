@@ -3,16 +3,15 @@
 /// @brief -stats and -print: what is on the stack, in words and numbers.
 
 #include "base/Terminal.h"
-#include "GivenSpheres.h"
+#include "CountErrors.h"
 #include "line/Actions.h"
-#include "ObjectChoice.h"
 #include "report/StatsReport.h"
 #include "ReportFiles.h"
 
+#include <openvdb/Grid.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 
-#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -20,35 +19,12 @@ namespace command {
 
 namespace {
 
-/// Finds the object of a tree that was read from a file: the only grid on the stack that an object
-/// can be made of, if it is that. -stats does without one, so nothing here is an error.
-void findObject(StackItem& item, Session& session)
-{
-    StackItem* grid = nullptr;
-    for (const auto& other : session.stack.items()) {
-        if (!other->grid || !openvdb_spheretree::isObjectGrid(*other->grid)) continue;
-        if (grid) return;
-        grid = other.get();
-    }
-    if (grid) item.object = objectOfTree(*grid, *item.tree, session);
-}
-
-/// @return whether there may be something to count: errors, or those of stored spheres.
-bool lacksErrors(const openvdb_spheretree::SphereTreeLevel& level)
-{
-    if (!level.error) return level.errorUnknown.empty();
-    return !level.stored && level.storedUnknown.empty();
-}
-
 void runStats(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree(call.text("vdb"));
     session.noteIfUnverified(item);
-    placeInObject(item, session);
-    const auto& levels = item.tree->levels;
-    const bool lacking = std::any_of(levels.begin(), levels.end(), lacksErrors);
-    if (!item.object && (lacking || call.flag("mass"))) findObject(item, session);
-    if (item.object && lacking) computeErrors(item, session);
+    countErrors(item, session);
+    if (call.flag("mass")) findObject(item, session);
     const StatsMass mass = massOf(item, call.flag("mass"), session);
     if (!hasReportFiles(call)) return session.print(statsTable(*item.tree, mass, session));
     writeReportFiles(call, session, [&](std::ostream& out, const std::string& form) {

@@ -14,6 +14,7 @@
 #include <openvdb_spheretree/check/MeshCheck.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
@@ -127,10 +128,34 @@ void requireWholeVoxels(const StackItem& input)
         + input.description() + " do not: make them with cover=whole of -mesh2ls or -mask");
 }
 
+constexpr const char* kPrevious = "previous";
+
+/// @return the tree that like= names: null without it, and for the first frame.
+std::shared_ptr<const SphereTree> lastTree(const ActionCall& call, Session& session)
+{
+    if (!call.given("like")) return nullptr;
+    if (call.text("like") == kPrevious) return session.lastTrees[call.text("name")];
+    StackItem& last = session.stack.selectTree(call.text("like"));
+    const std::shared_ptr<const SphereTree> tree = last.tree;
+    if (!call.flag("keep")) session.stack.drop(&last);
+    return tree;
+}
+
+/// For the next frame. What -write is given may be used up by it.
+void remember(const SphereTree& tree, Session& session)
+{
+    const auto copy = std::make_shared<SphereTree>(tree);
+    copy->dag = {};
+    copy->cuts = {};
+    copy->hasDag = copy->hasCuts = false;
+    session.lastTrees[tree.settings.name] = copy;
+}
+
 void runSpheretree(const ActionCall& call, Session& session)
 {
     StackItem* const leaves =
         call.text("leaves") == "given" ? &selectGivenSpheres(session) : nullptr;
+    const auto last = lastTree(call, session);
     StackItem& input = selectObjectGrid(session, call.text("vdb"));
     spheretree::ObjectSettings objectSettings;
     if (call.flag("strict")) {
@@ -146,6 +171,11 @@ void runSpheretree(const ActionCall& call, Session& session)
     result.tree = std::make_shared<SphereTree>(
         treeOf(*object, leaves ? leaves->given.get() : nullptr, settings, session));
     if (leaves && !call.flag("keep")) session.stack.drop(leaves);
+    if (call.given("like")) {
+        if (last) spheretree::continueTracks(*result.tree, *last, &session.progress);
+        else spheretree::startTracks(*result.tree);
+        remember(*result.tree, session);
+    }
     session.remark(counted(result.tree->size(), "sphere") + " on "
         + counted(int64_t(result.tree->levels.size()), "level"));
     if (const auto* options = settings.find<spheretree::BudgetOptions>()) {

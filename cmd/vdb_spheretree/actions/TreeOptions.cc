@@ -86,6 +86,11 @@ std::vector<OptionSpec> spheretreeOptions()
                 "where there is no voxel to make a tree of: an error; or what follows is not done; "
                 "or it "
                 "writes files without spheres"));
+            options.push_back(text("like", "",
+                "a tree of the frame before, whose spheres keep their tracks (numbers) in this "
+                "one: "
+                "previous is the last one of the same name that this line has built; or its age on "
+                "the stack or name"));
             options.push_back(vdbOption("the grid"));
             options.push_back(keepOption());
         }

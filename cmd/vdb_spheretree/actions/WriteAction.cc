@@ -10,6 +10,7 @@
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "session/Session.h"
+#include "WriteChart.h"
 #include "WriteExport.h"
 #include "WritePage.h"
 #include "WritePicture.h"
@@ -59,6 +60,7 @@ std::string dagPath(const std::string& csv)
 /// @return how @a path is written: what format= and the extension say.
 FileKind writtenKind(const ActionCall& call, const std::string& path)
 {
+    if (isChart(call, path)) return FileKind::Chart;
     return exportFormatOf(call, path) ? FileKind::Export : fileKind(path);
 }
 
@@ -77,7 +79,8 @@ void check(const ActionCall& call, Plan& plan)
                                      : extension + " files are not written")
                 + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
                   "sphere-tree), .png and .jpg (a picture), .html (a page that shows a "
-                  "sphere-tree), and files of other tools such as .urdf, .usda, .ply and .obj "
+                  "sphere-tree), .svg (curves of errors), and files of other tools such as .urdf, "
+                  ".usda, .ply and .obj "
                   "(-help write lists them)");
         }
         if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
@@ -89,6 +92,7 @@ void check(const ActionCall& call, Plan& plan)
     checkPictureOptions(call);
     checkExportOptions(call);
     checkPageOptions(call);
+    checkCharts(call);
 }
 
 /// @param giveUp  whether the trees are not needed any more; then each is released, because a tree
@@ -224,6 +228,7 @@ private:
         namespace st = openvdb_spheretree;
         switch (writtenKind(mCall, path)) {
         case FileKind::Export: return writeExport(mCall, path, mItems, mSession, out);
+        case FileKind::Chart: return writeChart(mCall, path, mItems, out);
         case FileKind::Csv: return st::writeCsv(onlyTree(mItems, path), out);
         case FileKind::Json: return st::writeJson(onlyTree(mItems, path), out);
         case FileKind::Vol: return writeVoxels(path, out);
@@ -329,6 +334,7 @@ void run(const ActionCall& call, Session& session)
     const Stopwatch watch;
     const std::vector<StackItem*> items = session.stack.several(call.list("vdb"));
     noteSurprises(call, items, session);
+    countErrorsOfCharts(call, items, session);
     Writer writer(call, items, session);
     for (const std::string& path : call.list("files")) writer.write(path);
     writer.commit();
@@ -343,7 +349,7 @@ ActionSpec writeAction()
     ActionSpec action{"write", "o", "files",
         "write grids and sphere-trees (.vdb), an object (.vol), one sphere-tree as tables (.csv) "
         "or JSON (.json), a page that shows it in a browser (.html), a picture of a level of it or "
-        "of an object (.png, .jpg), or spheres for other tools"};
+        "of an object (.png, .jpg), curves of errors (.svg), or spheres for other tools"};
     action.options = {
         list("files", "",
             "files to write, or stdout.vdb, .csv, .json, .html; the extension says how"),
@@ -353,7 +359,8 @@ ActionSpec writeAction()
     for (const OptionSpec& option : pictureOptions()) action.options.push_back(option);
     for (const OptionSpec& option : exportOptions()) action.options.push_back(option);
     for (const OptionSpec& option : pageOptions()) action.options.push_back(option);
-    action.more = exportFormatDocs();
+    action.more = chartDocs();
+    for (const auto& doc : exportFormatDocs()) action.more.push_back(doc);
     action.givesOut = true;
     action.writesEmpty = true;
     action.failure = kOutput;

@@ -2,10 +2,12 @@
 #include "WriteExport.h"
 
 #include "line/Length.h"
+#include "WriteChart.h"
 
 #include <openvdb/Exceptions.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/export/ExportTree.h>
+#include <openvdb_spheretree/export/NanoVdbWriter.h>
 #include <openvdb_spheretree/tree/SphereBudget.h>
 
 #include <algorithm>
@@ -41,6 +43,7 @@ std::vector<std::string> formatNames()
 /// @return the extensions of the format of that name.
 std::string extensionsOf(const std::string& name)
 {
+    if (name == kChartFormat) return ".svg, .png, .csv";
     std::vector<std::string> all;
     for (const ExportFormat& format : spheretree::exportFormats()) {
         if (format.name == name) {
@@ -98,6 +101,33 @@ std::vector<const spheretree::SphereTree*> treesOf(
     return trees;
 }
 
+/// Options of trees say nothing of grids.
+void requireNoOptions(const ActionCall& call, const std::string& path)
+{
+    std::vector<std::string> names = {"level", "up"};
+    for (const OptionSpec& option : exportOptions()) names.push_back(option.name);
+    for (const std::string& name : names) {
+        if (name == "format" || !call.given(name)) continue;
+        throwInput(path + ": " + name + " is for sphere-trees, and there is none to write");
+    }
+}
+
+/// NanoVDB holds grids, too: they are written where there is no tree.
+/// @return whether they were
+bool wroteGrids(const ActionCall& call, const std::string& path,
+    const std::vector<StackItem*>& items, Session& session, std::ostream& out)
+{
+    std::vector<openvdb::SharedPtr<openvdb::GridBase>> grids;
+    for (const StackItem* item : items) {
+        if (item->tree) return false;
+        if (item->grid) grids.push_back(item->grid);
+    }
+    if (grids.empty()) return false;
+    requireNoOptions(call, path);
+    spheretree::writeNanoVdb(grids, out, &session.progress);
+    return true;
+}
+
 } // namespace
 
 std::vector<OptionSpec> exportOptions()
@@ -105,8 +135,10 @@ std::vector<OptionSpec> exportOptions()
     std::vector<std::string> units;
     for (const auto& unit : unitsOfLength()) units.push_back(unit.first);
     // The first choice is the default: none.
-    OptionSpec format = choice("format", formatNames(),
-        "files of other tools: which one, where the extension means several; below");
+    std::vector<std::string> formats = formatNames();
+    formats.emplace_back(kChartFormat);
+    OptionSpec format =
+        choice("format", formats, "which kind of file, where the extension means several; below");
     format.fallback.clear();
     OptionSpec unit = choice(
         "units", units, "files of other tools: the unit of their numbers, of metres in the tree");
@@ -157,7 +189,9 @@ void checkExportOptions(const ActionCall& call)
     for (const std::string& path : call.list("files")) {
         const ExportFormat* const format = exportFormatOf(call, path);
         any |= format != nullptr;
-        isNamed |= format && format->name == call.text("format");
+        if (format && !format->missing.empty()) throwUsage(path + ": " + format->missing);
+        isNamed |= format ? format->name == call.text("format")
+                          : isChart(call, path) && call.text("format") == kChartFormat;
     }
     for (const OptionSpec& option : exportOptions()) {
         if (any || !call.given(option.name) || option.name == "format") continue;
@@ -177,6 +211,11 @@ void writeExport(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session, std::ostream& out)
 {
     const ExportFormat& format = *exportFormatOf(call, path);
+    try {
+        if (format.name == "nanovdb" && wroteGrids(call, path, items, session, out)) return;
+    } catch (const openvdb::ValueError&) {
+        rethrowNamed(path, kInput);
+    }
     const auto trees = treesOf(items, format, path);
     if (trees.size() > 1) {
         session.note(path + ": " + std::to_string(trees.size())

@@ -3,6 +3,7 @@
 
 #include "GivenSpheres.h"
 #include "ObjectChoice.h"
+#include "WriteChart.h"
 #include "WriteExport.h"
 
 #include <openvdb_spheretree/picture/Camera.h>
@@ -159,8 +160,8 @@ std::vector<OptionSpec> pictureOptions()
             "pictures: vertical angle of view in degrees; 0 for an orthographic camera, which is "
             "the "
             "default for objects one voxel thick"),
-        integer("width", "1280", 1, kMaxSide, "pictures: pixels, at most 16384"),
-        integer("height", "960", 1, kMaxSide, "pictures: pixels, at most 16384"),
+        integer("width", "1280", 1, kMaxSide, "pictures and curves: pixels, at most 16384"),
+        integer("height", "960", 1, kMaxSide, "pictures and curves: pixels, at most 16384"),
         integer("level", "0", 0, 1000,
             "the level that is drawn, or written for another tool; by default the finest there is, "
             "or "
@@ -174,12 +175,15 @@ void checkPictureOptions(const ActionCall& call)
 {
     const std::vector<std::string> files = call.list("files");
     const bool picture = std::any_of(files.begin(), files.end(),
-        [](const std::string& path) { return isPicture(fileKind(path)); });
+        [&](const std::string& path) { return isPicture(fileKind(path)) && !isChart(call, path); });
+    const bool chart = std::any_of(
+        files.begin(), files.end(), [&](const std::string& path) { return isChart(call, path); });
     const bool isExport = std::any_of(files.begin(), files.end(),
         [&](const std::string& path) { return exportFormatOf(call, path) != nullptr; });
     for (const OptionSpec& option : pictureOptions()) {
         if (picture || !call.given(option.name)) continue;
         if (isExport && (option.name == "level" || option.name == "up")) continue;
+        if (chart && (option.name == "width" || option.name == "height")) continue;
         throwUsage("option " + option.name + " is for pictures, and none is written (.png, .jpg)");
     }
     settingsOf(call);

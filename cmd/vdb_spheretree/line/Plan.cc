@@ -94,8 +94,8 @@ bool isStdout(const std::string& path)
 {
     return path == "-"
         || (path.rfind("stdout.", 0) == 0
-            && (isOneOf(
-                    extensionOf(path), {".vdb", ".vol", ".csv", ".json", ".png", ".jpg", ".html"})
+            && (isOneOf(extensionOf(path),
+                    {".vdb", ".vol", ".csv", ".json", ".png", ".jpg", ".html", ".svg"})
                 || isExported(extensionOf(path))));
 }
 

@@ -15,7 +15,7 @@
 namespace command {
 
 /// Export: a format that other tools read, which -write knows (WriteExport.h).
-enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Html, Export, Unknown };
+enum class FileKind { Vdb, Vol, Volume, Mesh, Csv, Json, Png, Jpeg, Html, Export, Chart, Unknown };
 
 /// @throw CommandError (input) if the file is not there, is a folder, or may not be read
 void checkReadable(const std::string& path);

@@ -16,6 +16,9 @@
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <iosfwd>
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace command {
@@ -94,6 +97,8 @@ struct Session {
     bool stopsAtErrors = false; ///< of frames (-onerror)
     /// Files whose values may not all be in memory yet.
     std::vector<InputStamp> inputs;
+    /// The last tree of each name that was built with like=, without edges and cuts.
+    std::map<std::string, std::shared_ptr<const openvdb_spheretree::SphereTree>> lastTrees;
     Stopwatch total;
     StageSeconds seconds;
 

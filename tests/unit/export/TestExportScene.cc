@@ -206,4 +206,26 @@ TEST(ExportScene, BallsOfNormsAreNoSpheres)
         messageOf<openvdb::ValueError>([&] { sceneOf(tree, format(true)); }), "those of a norm"));
 }
 
+TEST(ExportScene, TracksAreIdsWhereTheOrderOfIdsIsFree)
+{
+    SphereTree tree = turnedTree();
+    const auto plain = sceneOf(tree, format(true)).scene;
+    for (int32_t id = 0; id < tree.size(); ++id) tree.track.push_back(tree.size() - 1 - id);
+    tree.nextTrack = tree.size();
+    const auto tracked = sceneOf(tree, format(true)).scene;
+    ExportFormat ordered = format(true);
+    ordered.ordersIds = true;
+    const auto places = sceneOf(tree, ordered).scene;
+    for (std::size_t k = 0; k < plain.levels.size(); ++k) {
+        EXPECT_EQ(places.levels[k].ids, plain.levels[k].ids);
+        EXPECT_EQ(tracked.levels[k].centers, plain.levels[k].centers);
+        for (std::size_t i = 0; i < plain.levels[k].size(); ++i) {
+            EXPECT_EQ(tracked.levels[k].ids[i], tree.track[std::size_t(plain.levels[k].ids[i])]);
+            const int32_t parent = plain.levels[k].parents[i];
+            EXPECT_EQ(
+                tracked.levels[k].parents[i], parent < 0 ? -1 : tree.track[std::size_t(parent)]);
+        }
+    }
+}
+
 } // namespace

@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/tree/GivenTree.h>
+#include <openvdb_spheretree/tree/SphereTracks.h>
 
 #include "support/CoreStages.h"
 #include "support/Messages.h"
@@ -12,12 +13,15 @@
 #include "support/TreeSettings.h"
 #include "support/SampleTrees.h"
 
+#include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointCount.h>
 #include <openvdb/points/PointGroup.h>
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace {
@@ -60,6 +64,54 @@ TEST(SphereTreePoints, EveryFieldComesBackFromMemory)
         {sampleTree(), oneVoxelTree(), randomTree(1, 1), randomTree(5000, 2)}) {
         expectSameTree(fromPoints(*toPoints(tree), dagToPoints(tree).get()), tree);
     }
+}
+
+/// As of a later frame of a sequence.
+SphereTree trackedTree()
+{
+    SphereTree tree = randomTree(500, 4);
+    startTracks(tree);
+    std::reverse(tree.track.begin(), tree.track.end());
+    tree.nextTrack += 1000;
+    return tree;
+}
+
+TEST(SphereTreePoints, TracksComeBack)
+{
+    const SphereTree tree = trackedTree();
+    expectSameTree(fromPoints(*toPoints(tree)), tree);
+    SphereTree released = tree;
+    expectSameTree(fromPoints(*releaseToPoints(released)), tree);
+    const auto read = throughFile({toPoints(tree)});
+    expectSameTree(fromPoints(*read.at(0)), tree);
+}
+
+TEST(SphereTreePoints, DamagedTracksAreRefused)
+{
+    const SphereTree tree = trackedTree();
+    const auto refused = [&](const std::function<void(points::PointDataGrid&)>& damage) {
+        const auto grid = toPoints(tree);
+        damage(*grid);
+        return messageOf<openvdb::Exception>([&] { fromPoints(*grid); });
+    };
+    const auto set = [](int32_t value) {
+        return [value](points::PointDataGrid& grid) {
+            for (auto leaf = grid.tree().beginLeaf(); leaf; ++leaf) {
+                points::AttributeWriteHandle<int32_t> handle(leaf->attributeArray("track"));
+                handle.set(0, value);
+                return;
+            }
+        };
+    };
+    EXPECT_TRUE(mentions(refused(set(int32_t(1e6))), "tracks"));
+    EXPECT_TRUE(mentions(refused(set(tree.nextTrack - 1)), "track"));
+    EXPECT_TRUE(mentions(
+        refused([](points::PointDataGrid& grid) { points::dropAttribute(grid.tree(), "track"); }),
+        "'track'"));
+    EXPECT_TRUE(mentions(refused([](points::PointDataGrid& grid) {
+        grid.insertMeta("spheretree_next_track", openvdb::Int32Metadata(0));
+    }),
+        "metadata"));
 }
 
 TEST(SphereTreePoints, EveryFieldComesBackFromAFile)
