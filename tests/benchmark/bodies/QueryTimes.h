@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file QueryTimes.h
-/// @brief Times of questions: contenders take turns in one process, on one thread, by its processor time; medians
-/// of rounds. What else runs on the machine then slows all alike, so ratios say more than times.
+/// @brief Contenders that are asked question by question, and a line of their times (ContenderTimes.h).
 
 #pragma once
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file AlternatingTimes.h
-/// @brief Contenders for the same questions, timed by turns: what disturbs the machine disturbs all
-/// of them.
-///
-/// Time is that of the thread's processor, so that other work on the machine counts little. The
-/// median of the rounds is the result, and what others take in units of the first contender's time:
-/// these ratios can be compared between machines, the times cannot.
+/// @brief A table of contenders for the same questions (ContenderTimes.h).
 
 #pragma once
 
