@@ -4,8 +4,8 @@
 
     scripts/draw_floors.py [--check]     --check: draw nothing, fail if the picture in docs/ shows something else
 
-Floors are rows and folders are rooms. Folders of one name that stand on several floors (tight/...) are a tower at the
-left; the other rooms of a floor share what is left of it. An arrow runs from a folder to one that it includes. Left
+Floors are rows and folders are rooms. Folders of one name that stand on several floors, few on each (tight/...), are a
+tower at the left; the other rooms of a floor share what is left of it. An arrow runs from a folder to one that it includes. Left
 out are arrows that follow from others (where a includes b and b includes c, that from a to c), and those to the two
 lowest floors, which nearly every folder includes.
 """
@@ -18,7 +18,8 @@ import check_includes
 PICTURES = check_includes.ROOT / "docs/pictures"
 INK, FAINT, LINE = "#23272e", "#5c6470", "#0072B2"
 FILLS = ["#eef4f9", "#f8f3e8"]  # of floors in turn
-WIDTH, TOWER, GAP, ROW, ROOM = 13.2, 2.7, 0.16, 1.0, 0.7
+WIDTH, TOWER, GAP, ROW, ROOM = 17.6, 2.7, 0.16, 1.0, 0.7
+MOST_IN_TOWER = 2  # rooms of a tower on one floor
 
 
 def below_all(arrows, folder):
@@ -35,14 +36,18 @@ def drawn_arrows(floors, arrows):
             if (source, to) in arrows and floors[to][0] > 2 and not follows(source, to)]
 
 
+def is_tower(stands_on):
+    """Whether folders of one name are a tower; their floors are given."""
+    return len(set(stands_on)) > 1 and all(stands_on.count(floor) <= MOST_IN_TOWER for floor in stands_on)
+
+
 def place_rooms(floors):
     """folder -> (left, right, floor) of its room."""
     rows = {}
     for folder, (floor, _) in floors.items():
         rows.setdefault(floor, []).append(folder)
-    family = {folder.split("/")[0] for folder in floors if "/" in folder}
-    towers = {name for name in family
-              if len({floors[f][0] for f in floors if f.split("/")[0] == name}) > 1}
+    towers = {name for name in {folder.split("/")[0] for folder in floors if "/" in folder}
+              if is_tower([floor for folder, (floor, _) in floors.items() if folder.split("/")[0] == name])}
     rooms = {}
     for floor, folders in rows.items():
         inside = [f for f in folders if f.split("/")[0] in towers]
