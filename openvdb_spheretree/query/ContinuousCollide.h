@@ -5,8 +5,8 @@
 ///     const auto first = continuousCollide(room, poseOfRoom, robot, RigidMotion::screw(from, to));
 ///     if (first.isCollide) ... first.timeOfContact ...
 ///
-/// Nothing is sampled: before the time that is found no leaf spheres of the two meet, and where both trees hold their objects, no
-/// voxel cubes do. At that time the bodies are `tolerance` apart at most. That a motion is free is as
+/// Nothing is sampled. Before the time that is found no voxel cubes of the two meet, where both trees hold their objects
+/// (QueryTree::holdsObject()); and no leaf spheres, where both hold their leaves (holdsLeaves()). At that time the bodies are `tolerance` apart at most. That a motion is free is as
 /// certain. (A pair that passes within the tolerance without meeting may count as contact.)
 ///
 /// For two bodies that move, give the motion of one as seen from the other, where that is a line or a screw; or divide the time.
