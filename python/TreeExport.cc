@@ -56,7 +56,7 @@ Value oneOf(const char* keyword, const std::string& word,
     throw InputError(std::string(keyword) + "=\"" + word + "\" is none of " + known);
 }
 
-ExportSettings settingsOf(const py::dict& words)
+ExportSettings settingsOf(const py::dict& words, std::size_t trees)
 {
     using Frame = spheretree::ExportFrame;
     using Up = spheretree::UpAxis;
@@ -74,7 +74,8 @@ ExportSettings settingsOf(const py::dict& words)
     settings.density = words["density"].cast<double>();
     settings.link = words["link"].cast<std::string>();
     settings.name = words["name"].cast<std::string>();
-    settings.firstSample = words["start"].cast<double>();
+    const auto start = words["start"].cast<double>();
+    for (std::size_t i = 0; i < trees; ++i) settings.sampleTimes.push_back(start + double(i));
     return settings;
 }
 
@@ -86,7 +87,7 @@ void bindTreeExport(py::module_& module)
         [](const std::vector<TreePtr>& trees, const std::string& path,
             const std::string& formatName, const py::dict& words, const py::object& progress) {
             const ExportFormat& format = formatOf(path, formatName);
-            const ExportSettings settings = settingsOf(words);
+            const ExportSettings settings = settingsOf(words, trees.size());
             return resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
                 std::vector<const spheretree::SphereTree*> all;
                 for (const TreePtr& tree : trees) all.push_back(&tree->get());

@@ -29,6 +29,17 @@ void requireSettings(const ExportFormat& format, const ExportSettings& settings,
             openvdb::ValueError, name << "=" << value << " is out of range: it is positive");
     }
     if (settings.link.empty()) OPENVDB_THROW(openvdb::ValueError, "link= names no link");
+    const auto& times = settings.sampleTimes;
+    if (times.empty()) return;
+    if (times.size() != trees) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "there are " << times.size() << " times for " << trees << " sphere-trees");
+    }
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "time " << times[i] << " of sphere-tree " << i << " is not after the one before");
+    }
 }
 
 } // namespace
@@ -49,7 +60,9 @@ std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees
     for (const SphereTree* tree : trees) {
         std::vector<std::string> more;
         samples.push_back(detail::makeScene(*tree, format, settings, more, interrupter));
-        samples.back().sample = settings.firstSample + double(samples.size() - 1);
+        const std::size_t count = samples.size();
+        const auto& times = settings.sampleTimes;
+        samples.back().sample = times.empty() ? double(count) : times[count - 1];
         for (const std::string& note : more) {
             if (!std::count(notes.begin(), notes.end(), note)) notes.push_back(note);
         }

@@ -47,7 +47,8 @@ struct ExportSettings {
     double density = 1;          ///< mass of a cubed unit of the file, for formats with a mass
     std::string link = "object"; ///< the link of a robot that the spheres belong to
     std::string name;            ///< of the robot, model or prim; by default that of the tree
-    double firstSample = 1;      ///< the time of the first of several trees
+    /// The times of several trees, rising; empty: 1, 2, 3 and so on.
+    std::vector<double> sampleTimes;
 };
 
 /// @brief Write one tree.

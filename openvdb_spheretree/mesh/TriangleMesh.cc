@@ -71,7 +71,7 @@ openvdb::math::Transform::Ptr transformOfVoxels(double voxelSize)
     OPENVDB_THROW(openvdb::ValueError,
         "voxel size " << voxelSize
                       << " is out of range; it must be "
-                         "a finite number above 0.0001 or so");
+                         "a finite number above 0.0001 or so: is the unit of length right?");
 }
 
 void requireUsableMesh(const TriangleMesh& mesh, double voxelSize)

@@ -25,6 +25,8 @@ using Numbers = std::vector<double>;
 const Names kPlace = {"x", "y", "z"};
 const Names kQuaternion = {"qx", "qy", "qz", "qw"};
 const Names kAngles = {"rx", "ry", "rz"};
+const Names kRollPitchYaw = {"roll", "pitch", "yaw"}; // the same three angles, as ROS names them
+const Names kTime = {"time"};
 const Names kDirection = {"dx", "dy", "dz"};
 const Names kMatrix = {
     "m00", "m01", "m02", "m03", "m10", "m11", "m12", "m13", "m20", "m21", "m22", "m23"};
@@ -48,7 +50,12 @@ class NamedColumns {
 public:
     NamedColumns(std::istream& in, const std::string& what)
         : mWhat(what), mTable(in, "the file holds no " + what)
-    {}
+    {
+        if (!hasHeader()) return;
+        for (const std::string_view name : mTable.fields()) {
+            mHeader.push_back(detail::inQuotes(name, 20));
+        }
+    }
 
     bool hasHeader() const { return mTable.hasHeader(); }
     std::size_t count() const { return mTable.fields().size(); }
@@ -67,6 +74,19 @@ public:
             if (std::count(names.begin(), names.end(), lowerName(i))) return true;
         }
         return false;
+    }
+
+    /// @return the header's names of columns that take() has not taken, for people.
+    std::string leftOver() const
+    {
+        constexpr std::size_t kMost = 5;
+        Names names;
+        for (std::size_t i = 0; i < mHeader.size(); ++i) {
+            if (!std::count(mColumns.begin(), mColumns.end(), i)) names.push_back(mHeader[i]);
+        }
+        const std::size_t more = names.size() - std::min(names.size(), kMost);
+        names.resize(names.size() - more);
+        return listOf(names) + (more ? " and " + std::to_string(more) + " more" : "");
     }
 
     /// Takes the columns of these names; without a header, the first of all.
@@ -122,6 +142,7 @@ public:
 private:
     std::string mWhat;
     CsvTable mTable;
+    Names mHeader;                     ///< as messages show it; empty without one
     std::vector<std::size_t> mColumns; ///< of the numbers that are taken
 };
 
@@ -156,32 +177,51 @@ RigidTransform poseOfMatrix(const Numbers& numbers)
     return RigidTransform::fromMatrix(matrix);
 }
 
+/// @return the columns that say how a pose turns; none if the header names none.
+/// @throw openvdb::IoError if it names two kinds
+Names rotationColumns(const NamedColumns& table)
+{
+    Names found;
+    for (const Names& names : {kMatrix, kQuaternion, kAngles, kRollPitchYaw}) {
+        if (!table.namesAny(names)) continue;
+        if (!found.empty()) {
+            table.fail("the header names two rotations, by " + listOf(found) + " and by "
+                + listOf(names) + ": leave one of them out");
+        }
+        found = names;
+    }
+    return found;
+}
+
 /// @return the columns that poses are read from.
 Names poseColumns(const NamedColumns& table)
 {
     if (table.hasHeader()) {
-        if (table.namesAny(kMatrix)) {
-            return kMatrix + (table.namesAny(kLastRow) ? kLastRow : Names());
-        }
-        if (table.namesAny(kQuaternion)) return kPlace + kQuaternion;
-        return kPlace + (table.namesAny(kAngles) ? kAngles : Names());
+        const Names rotation = rotationColumns(table);
+        if (rotation != kMatrix) return kPlace + rotation;
+        return kMatrix + (table.namesAny(kLastRow) ? kLastRow : Names());
     }
-    for (const Names& names : {kPlace, kPlace + kQuaternion, kMatrix, kMatrix + kLastRow}) {
+    for (const Names& names :
+        {kPlace, kPlace + kQuaternion, kTime + kPlace + kQuaternion, kMatrix, kMatrix + kLastRow}) {
         if (names.size() == table.count()) return names;
     }
     table.fail(
-        "a table of poses without a header has 3 columns (x y z), 7 (x y z qx qy qz qw), 12 or "
-        "16 (a matrix), and this one has "
+        "a table of poses without a header has 3 columns (x y z), 7 (x y z qx qy qz qw), 8 (a time "
+        "before these), 12 or 16 (a matrix), and this one has "
         + std::to_string(table.count()) + ": put a line with their names before it");
 }
 
 RigidTransform poseOf(const Numbers& numbers, const Names& columns)
 {
     if (columns.size() >= kMatrix.size()) return poseOfMatrix(numbers);
-    if (columns.size() == kPlace.size()) return RigidTransform::fromTranslation(vecOf(numbers, 0));
-    const Mat3d rotation = columns[3] == kAngles[0] ? rotationOfAngles(vecOf(numbers, 3))
-                                                    : rotationOfQuaternion(numbers, 3);
-    return RigidTransform(rotation, vecOf(numbers, 0));
+    const std::size_t place = columns.front() == kTime.front() ? 1 : 0;
+    const std::size_t rotation = place + kPlace.size();
+    const Vec3d move = vecOf(numbers, place);
+    if (columns.size() == rotation) return RigidTransform::fromTranslation(move);
+    const bool isQuaternion = columns[rotation] == kQuaternion.front();
+    return RigidTransform(isQuaternion ? rotationOfQuaternion(numbers, rotation)
+                                       : rotationOfAngles(vecOf(numbers, rotation)),
+        move);
 }
 
 /// @throw openvdb::IoError for a table without a header that has not as many columns
@@ -206,7 +246,7 @@ QueryRay rayOf(const Numbers& numbers)
     return ray;
 }
 
-/// @param fill  of the table's columns and the rows, returns the assumption
+/// @param fill  of the columns and the table: takes columns and adds rows; returns the names of those it took
 template <typename Row, typename Fill>
 QueryTable<Row> readTable(
     const std::string& path, const std::string& shownAs, const std::string& what, const Fill& fill)
@@ -216,9 +256,10 @@ QueryTable<Row> readTable(
     try {
         QueryTable<Row> table;
         NamedColumns columns(file, what);
-        const Names names = fill(columns, table.rows);
+        const Names names = fill(columns, table);
         if (file.bad()) throw openvdb::IoError("cannot be read to its end");
-        if (!columns.hasHeader()) table.assumption = name + ": " + columns.assumption(names);
+        if (!columns.hasHeader()) table.assumption = columns.assumption(names);
+        if (!table.assumption.empty()) table.assumption = name + ": " + table.assumption;
         return table;
     } catch (const openvdb::IoError& error) {
         throw openvdb::IoError(name + ": " + detail::messageOf(error));
@@ -229,21 +270,27 @@ QueryTable<Row> readTable(
 
 QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::string& shownAs)
 {
-    const auto fill = [](NamedColumns& table, std::vector<RigidTransform>& poses) {
-        const Names columns = poseColumns(table);
-        table.take(columns);
-        table.forEach([&](const Numbers& numbers) { poses.push_back(poseOf(numbers, columns)); });
-        return columns;
+    const auto fill = [](NamedColumns& columns, QueryTable<RigidTransform>& table) {
+        const Names names = poseColumns(columns);
+        columns.take(names);
+        columns.forEach(
+            [&](const Numbers& numbers) { table.rows.push_back(poseOf(numbers, names)); });
+        const std::string leftOver = columns.leftOver();
+        if (names == kPlace && !leftOver.empty()) {
+            table.assumption =
+                "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
+        }
+        return names;
     };
     return readTable<RigidTransform>(path, shownAs, "poses", fill);
 }
 
 QueryTable<Vec3d> readPointTable(const std::string& path, const std::string& shownAs)
 {
-    const auto fill = [](NamedColumns& table, std::vector<Vec3d>& points) {
-        requireColumns(table, kPlace, "points");
-        table.take(kPlace);
-        table.forEach([&](const Numbers& numbers) { points.push_back(vecOf(numbers, 0)); });
+    const auto fill = [](NamedColumns& columns, QueryTable<Vec3d>& table) {
+        requireColumns(columns, kPlace, "points");
+        columns.take(kPlace);
+        columns.forEach([&](const Numbers& numbers) { table.rows.push_back(vecOf(numbers, 0)); });
         return kPlace;
     };
     return readTable<Vec3d>(path, shownAs, "points", fill);
@@ -251,14 +298,14 @@ QueryTable<Vec3d> readPointTable(const std::string& path, const std::string& sho
 
 QueryTable<QueryRay> readRayTable(const std::string& path, const std::string& shownAs)
 {
-    const auto fill = [](NamedColumns& table, std::vector<QueryRay>& rays) {
+    const auto fill = [](NamedColumns& columns, QueryTable<QueryRay>& table) {
         const Names bounds = {"tnear", "tfar"};
-        Names columns = kPlace + kDirection;
-        requireColumns(table, columns, "rays");
-        if (table.hasHeader() && table.namesAny(bounds)) columns = columns + bounds;
-        table.take(columns);
-        table.forEach([&](const Numbers& numbers) { rays.push_back(rayOf(numbers)); });
-        return columns;
+        Names names = kPlace + kDirection;
+        requireColumns(columns, names, "rays");
+        if (columns.hasHeader() && columns.namesAny(bounds)) names = names + bounds;
+        columns.take(names);
+        columns.forEach([&](const Numbers& numbers) { table.rows.push_back(rayOf(numbers)); });
+        return names;
     };
     return readTable<QueryRay>(path, shownAs, "rays", fill);
 }

@@ -9,13 +9,16 @@
 /// | table  | header                                        | without one                             |
 /// |--------|-----------------------------------------------|-----------------------------------------|
 /// | poses  | x y z                                         | 3: x y z                                |
-/// |        | x y z qx qy qz qw                             | 7: x y z qx qy qz qw, as TUM and ROS    |
+/// |        | x y z qx qy qz qw                             | 7: x y z qx qy qz qw, as ROS            |
+/// |        |                                               | 8: a time before these, as TUM          |
 /// |        | x y z rx ry rz, radians: rotationOfAngles()   |                                         |
+/// |        | x y z roll pitch yaw, the same three angles   |                                         |
 /// |        | m00 m01 m02 m03 m10 ... m23 (m30 ... m33)     | 12 or 16: rows of a matrix, as KITTI    |
 /// | points | x y z                                         | 3: x y z                                |
 /// | rays   | x y z dx dy dz (tnear tfar)                   | 6: origin and direction                 |
 ///
-/// A quaternion may be off a length of 1 by 1 %, and is made one; a matrix may be off a rotation by what
+/// A header names one rotation at most; one that names none makes poses of moves alone, which is noted if it has
+/// columns beside them. A quaternion may be off a length of 1 by 1 %, and is made one; a matrix may be off a rotation by what
 /// RigidTransform takes for rounding. Tests: TestQueryTables.cc.
 
 #pragma once

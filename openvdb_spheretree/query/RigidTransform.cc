@@ -54,7 +54,8 @@ double distanceFromRotation(const Mat3d& m)
     const double scale = std::cbrt(std::abs(m.det()));
     if (scale > 0 && distanceFromRotation(m * (1 / scale)) <= RigidTransform::kRotationTolerance) {
         text << ". It scales by " << scale
-             << ": scale the tree (QueryTreeSettings::scale), and take the rotation alone here";
+             << ": give the tree the scale when it is made ready (scale=), and take the rotation "
+                "alone here";
     }
     OPENVDB_THROW(openvdb::ValueError, text.str());
 }

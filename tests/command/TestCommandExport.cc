@@ -120,8 +120,18 @@ TEST_F(CommandExport, SeveralTreesAreSamplesOfOneStage)
 {
     const Result result = run("-read tree.vdb -read tree.vdb -write t.usda start=25");
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_TRUE(mentions(result.err, "2 sphere-trees are samples over time, from 25 on"));
+    EXPECT_TRUE(mentions(result.err, "2 sphere-trees are samples over time, from 25 to 26"));
     EXPECT_TRUE(mentions(readText(path("t.usda")), "endTimeCode = 26"));
+    const auto times = [&](const std::string& line) {
+        const Result stage = run(line + " -write t.usda");
+        EXPECT_EQ(stage.exitCode, 0) << stage.err;
+        const std::string text = readText(path("t.usda"));
+        return std::array<bool, 3>{
+            mentions(text, " 3: [("), mentions(text, " 2: [("), mentions(text, " 1: [(")};
+    };
+    EXPECT_EQ(times("-read tree.vdb tree.vdb"), (std::array<bool, 3>{false, true, true}));
+    EXPECT_EQ(times("-for i=1,5,2 -read tree.vdb -end"), (std::array<bool, 3>{true, false, true}));
+    EXPECT_EQ(times("-for i=3,0,-1 -read tree.vdb -end"), (std::array<bool, 3>{true, true, true}));
 }
 
 TEST_F(CommandExport, AnObjectAsVol)

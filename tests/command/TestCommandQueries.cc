@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -256,7 +257,7 @@ TEST_F(CommandQueries, RaysEnterTheNearestSphere)
     EXPECT_EQ(any.at(0)["hit"], true);
     EXPECT_EQ(any.at(1)["hit"], false);
     const Result table = run("-read t.vdb -raycast rays=rays.csv");
-    EXPECT_TRUE(mentions(table.out, "2 rays, 1 hits")) << table.out;
+    EXPECT_TRUE(mentions(table.out, "2 rays: 1 hit")) << table.out;
     EXPECT_TRUE(mentions(table.err, "no header")) << table.err;
 }
 
@@ -297,6 +298,9 @@ TEST_F(CommandQueries, PointsAreInTheObjectExactlyWhereItsVoxelsAre)
     const json far = answer("-contains point=100,0,0 upto=5");
     EXPECT_EQ(far["object"], "outside");
     EXPECT_TRUE(far["distance"].is_null());
+    const Result shown = run("-read t.vdb -contains points=points.csv");
+    EXPECT_TRUE(mentions(shown.out, "3,000 points: ")) << shown.out;
+    EXPECT_TRUE(mentions(shown.out, " inside, ")) << shown.out;
 }
 
 TEST_F(CommandQueries, WithoutMedialBallsPointsAreKnownWithinBounds)
@@ -308,6 +312,10 @@ TEST_F(CommandQueries, WithoutMedialBallsPointsAreKnownWithinBounds)
     EXPECT_TRUE(mentions(few.out, "0,undecided,1,")) << few.out;
     const Result out = run("-quiet -read few.vdb -contains point=30,3,2 csv=-");
     EXPECT_TRUE(mentions(out.out, "0,outside,0,")) << out.out;
+    const Result none = run("-quiet -read few.vdb -contains point=30,3,2 upto=0 csv=-");
+    EXPECT_TRUE(mentions(none.out, "0,outside,0,,")) << none.out;
+    const Result table = run("-read few.vdb -contains point=4,3,2");
+    EXPECT_TRUE(mentions(table.out, "1 point: 1 undecided")) << table.out;
 }
 
 TEST_F(CommandQueries, UnitsAreThoseOfAllNumbers)
@@ -325,7 +333,9 @@ TEST_F(CommandQueries, UnitsAreThoseOfAllNumbers)
     EXPECT_EQ(answer(ask + "20")["spheres"], "apart");
     EXPECT_EQ(answer(ask + "20m")["spheres"], "touching");
     EXPECT_EQ(answer(ask + "20cm")["spheres"], "apart");
-    EXPECT_EQ(run("-read t.vdb -collide vdb=0,0 margin=5mm").exitCode, 2);
+    const Result unknown = run("-read t.vdb -collide vdb=0,0 margin=5mm");
+    EXPECT_EQ(unknown.exitCode, 2);
+    EXPECT_TRUE(mentions(unknown.err, "say so by units=mm beside it")) << unknown.err;
 }
 
 TEST_F(CommandQueries, TreesWithoutAnswersAreRefusedWithTheReason)
@@ -359,6 +369,50 @@ TEST_F(CommandQueries, FilesOfQuestionsAreNamedWithTheirLine)
     }
     writeText(path("mirror.csv"), "-1 0 0 0 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(mentions(run("-read t.vdb -collide vdb=0,0 poses=mirror.csv").err, "mirrors"));
+}
+
+TEST_F(CommandQueries, WhatMayBeAMistakeIsNoted)
+{
+    const std::string ask = "-read t.vdb -collide vdb=0,0 ";
+    const auto noteOf = [&](const std::string& line) {
+        const Result result = run(line);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_FALSE(mentions(noteOf(ask + "translate=20,0,0"), "note:"));
+    const std::string far = noteOf(ask + "translate=20000,0,0");
+    EXPECT_TRUE(mentions(far, "more than a hundred times their size apart")) << far;
+    const std::string large = noteOf(ask + "scale=1000");
+    EXPECT_TRUE(mentions(large, "times as large as")) << large;
+
+    ASSERT_EQ(run("-read a.vol -spheretree side=inner -write i.vdb").exitCode, 0);
+    const std::string inner = noteOf("-read i.vdb -collide vdb=0,0 translate=20,0,0 expect=apart");
+    EXPECT_TRUE(mentions(inner, "do not hold the object")) << inner;
+    ASSERT_EQ(run("-read a.vol -spheretree spheres=4 -write few.vdb").exitCode, 0);
+    const std::string few = noteOf("-read few.vdb -collide vdb=0,0 objects=1");
+    EXPECT_TRUE(mentions(few, "are not known to hold a part of the object")) << few;
+    EXPECT_FALSE(mentions(noteOf(ask + "objects=1 expect=touching"), "note:"));
+}
+
+TEST_F(CommandQueries, ATableThatIsAskedIsNotTakenForOneOfAnswers)
+{
+    writeText(path("poses.csv"), "x,y,z\n1,2,3\n");
+    for (const char* ask : {"-collide vdb=0,0", "-distance vdb=0,0", "-contains point=0,0,0",
+             "-raycast origin=0,0,9 direction=0,0,-1"}) {
+        const std::string line = "-read t.vdb " + std::string(ask);
+        const Result mistaken = run(line + " poses.csv");
+        EXPECT_EQ(mistaken.exitCode, 2);
+        EXPECT_TRUE(mentions(mistaken.err, "poses.csv is there, and holds no answers"))
+            << mistaken.err;
+        EXPECT_EQ(readText(path("poses.csv")), "x,y,z\n1,2,3\n");
+        EXPECT_EQ(run(line + " answers.csv").exitCode, 0);
+        EXPECT_EQ(run(line + " answers.csv").exitCode, 0) << "answers are replaced by answers";
+        std::filesystem::remove(path("answers.csv"));
+    }
+    const Result same = run("-read t.vdb -collide vdb=0,0 poses=poses.csv csv=poses.csv");
+    EXPECT_EQ(same.exitCode, 0) << same.err;
+    EXPECT_TRUE(mentions(same.err, "poses.csv, which was read, is replaced")) << same.err;
+    EXPECT_TRUE(mentions(readText(path("poses.csv")), "pose,spheres"));
 }
 
 TEST_F(CommandQueries, ExpressionsAndLoopsAskPoseByPose)

@@ -9,11 +9,13 @@
 #include "QueryOptions.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/query/BodyDistance.h>
 #include <openvdb_spheretree/query/Collide.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -24,8 +26,10 @@ namespace command {
 namespace spheretree = openvdb_spheretree;
 using spheretree::CollisionResult;
 using spheretree::DistanceResult;
+using spheretree::QueryTree;
 using spheretree::RigidTransform;
 using spheretree::Verdict;
+using spheretree::detail::shortNumber;
 
 namespace {
 
@@ -48,7 +52,9 @@ struct PairQuestion {
 
     PairQuestion(const ActionCall& call, Session& session)
         : bodies(bodiesOf(call, session, 2)), poses(posesOf(call, session)), unit(unitOf(call))
-    {}
+    {
+        noteUnlikeUnits(session);
+    }
 
     /// @param ask  of both trees and the second one's pose
     /// @return its answers, one a pose
@@ -59,6 +65,29 @@ struct PairQuestion {
         spheretree::detail::parallelFor(poses.size(), &session.progress,
             [&](std::size_t i) { results[i] = ask(bodies[0].tree, bodies[1].tree, poses[i]); });
         return results;
+    }
+
+    /// Metres and millimetres are mistaken for each other most easily.
+    void noteUnlikeUnits(Session& session) const
+    {
+        constexpr double kMuch = 100;
+        const QueryTree &a = bodies[0].tree, &b = bodies[1].tree;
+        const double larger = std::max(a.radius(), b.radius());
+        const double smaller = std::min(a.radius(), b.radius());
+        if (larger > kMuch * smaller) {
+            const bool isFirst = a.radius() > b.radius();
+            session.note(bodies[isFirst ? 0 : 1].name + " is " + shortNumber(larger / smaller)
+                + " times as large as " + bodies[isFirst ? 1 : 0].name
+                + ": are both in one unit of length?");
+        }
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const RigidTransform& pose : poses) {
+            nearest = std::min(nearest, (pose * b.center() - a.center()).length());
+        }
+        if (nearest > kMuch * (a.radius() + b.radius())) {
+            session.note("in every pose the trees are more than a hundred times their size apart: "
+                         "are numbers here in their unit of length (units=)?");
+        }
     }
 
     AnswerSheet sheet(const std::string& format) const
@@ -151,9 +180,27 @@ void requireExpected(const ActionCall& call, const std::vector<CollisionResult>&
             + std::to_string(other - results.begin()) + " is " + nameOf(*other.*which));
 }
 
+/// Says what spheres cannot tell of the objects, where it is asked.
+void noteWhatIsUnknown(const ActionCall& call, const PairQuestion& question, Session& session)
+{
+    for (const QueryBody& body : question.bodies) {
+        if (call.flag("objects") && std::isinf(body.tree.leafInset())) {
+            session.note("objects=1: spheres of " + body.name
+                + " are not known to hold a part of the object, so it touches in no pose for "
+                  "certain; build the tree without spheres=, error= or distance=");
+        }
+        const bool expectsApart = call.given("expect") && call.text("expect") == "apart";
+        if (expectsApart && !call.flag("objects") && !body.tree.holdsObject()) {
+            session.note("expect=apart: spheres of " + body.name
+                + " do not hold the object, so it may touch where they are apart");
+        }
+    }
+}
+
 void runCollide(const ActionCall& call, Session& session)
 {
     const PairQuestion question(call, session);
+    noteWhatIsUnknown(call, question, session);
     const auto request = collisionRequest(call);
     const auto results = question.answers<CollisionResult>(
         session, [&](const auto& a, const auto& b, const RigidTransform& pose) {
@@ -174,7 +221,7 @@ void runCollide(const ActionCall& call, Session& session)
 
 void checkCollide(const ActionCall& call, Plan& plan)
 {
-    checkQuestion(call, plan, 2);
+    checkQuestion(call, plan, 2, "poses", "pose,spheres");
     checkPoses(call, plan);
 }
 
@@ -239,7 +286,7 @@ void runDistance(const ActionCall& call, Session& session)
 
 void checkDistance(const ActionCall& call, Plan& plan)
 {
-    checkQuestion(call, plan, 2);
+    checkQuestion(call, plan, 2, "poses", "pose,distance");
     checkPoses(call, plan);
 }
 

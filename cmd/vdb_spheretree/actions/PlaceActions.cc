@@ -112,14 +112,13 @@ void runRaycast(const ActionCall& call, Session& session)
         };
     }
     const auto hitCount = std::count(blocked.begin(), blocked.end(), 1);
-    sheet.summary = counted(int64_t(rays.size()), "ray") + ", " + withCommas(hitCount)
-        + (hitCount == 1 ? " hits" : " hit");
+    sheet.summary = counted(int64_t(rays.size()), "ray") + ": " + counted(hitCount, "hit");
     giveAnswers(call, session, sheet);
 }
 
 void checkRaycast(const ActionCall& call, Plan& plan)
 {
-    checkQuestion(call, plan, 1);
+    checkQuestion(call, plan, 1, "rays", "ray,hit");
     checkTable(call, plan, "rays", {"origin", "direction"});
     requireQuestion(call, {"origin", "direction"}, "rays");
     if (call.given("direction") && vecOf(call, "direction") == Vec3d(0.0)) {
@@ -150,21 +149,23 @@ std::optional<spheretree::DigitalLeaves> digitalLeaves(const QueryBody& body, Se
 PointAnswer answerOf(
     const QueryTree& tree, const spheretree::DigitalLeaves* leaves, const Vec3d& point, double upTo)
 {
+    constexpr double kRounding = 1e-6; // doubles and floats are off by less than this part
     PointAnswer answer;
-    answer.nearest = spheretree::nearest(tree, point, upTo);
-    const PointDistance& nearest = answer.nearest;
+    PointDistance& nearest = answer.nearest;
+    // Whether the point is outside of all spheres is to be known even where nothing else is asked.
+    nearest = spheretree::nearest(tree, point, std::max(upTo, kRounding * tree.radius()));
     if (leaves) {
         answer.inObject = spheretree::contains(tree, *leaves, point);
     } else if (nearest.distance > 0 && tree.holdsObject()) {
         answer.inObject = false;
     } else if (nearest) {
-        // A leaf that is shrunk lies in the object. Doubles and floats are off by less than this part.
-        constexpr double kRounding = 1e-6;
+        // A leaf that is shrunk lies in the object.
         const double radius = tree.leafRadius(nearest.leaf);
         const double fromCenter = (point - tree.leafCenter(nearest.leaf)).length();
         const double shrunk = radius * (1 - kRounding) - tree.leafInset();
         if (fromCenter < shrunk - kRounding * tree.radius()) answer.inObject = true;
     }
+    if (nearest.distance > upTo) nearest.leaf = -1;
     return answer;
 }
 
@@ -187,6 +188,21 @@ Cells cellsOf(const QueryTree& tree, const PointAnswer& answer, double unit)
     }
     cells.push_back(int64_t(nearest.blocks));
     return cells;
+}
+
+std::string summaryOf(const std::vector<PointAnswer>& answers)
+{
+    std::string text = counted(int64_t(answers.size()), "point");
+    const char* separator = ": ";
+    for (const std::optional<bool> inObject :
+        {std::optional(true), std::optional(false), std::optional<bool>()}) {
+        const auto count = std::count_if(answers.begin(), answers.end(),
+            [&](const PointAnswer& answer) { return answer.inObject == inObject; });
+        if (!count) continue;
+        text += separator + withCommas(count) + " " + nameOf(inObject);
+        separator = ", ";
+    }
+    return text;
 }
 
 void runContains(const ActionCall& call, Session& session)
@@ -212,16 +228,13 @@ void runContains(const ActionCall& call, Session& session)
         cells.insert(cells.begin(), int64_t(i));
         return cells;
     };
-    const auto inside = std::count_if(answers.begin(), answers.end(),
-        [](const PointAnswer& answer) { return answer.inObject.value_or(false); });
-    sheet.summary =
-        counted(int64_t(points.size()), "point") + ", " + withCommas(inside) + " in the object";
+    sheet.summary = summaryOf(answers);
     giveAnswers(call, session, sheet);
 }
 
 void checkContains(const ActionCall& call, Plan& plan)
 {
-    checkQuestion(call, plan, 1);
+    checkQuestion(call, plan, 1, "points", "point,object");
     checkTable(call, plan, "points", {"point"});
     requireQuestion(call, {"point"}, "points");
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <optional>
 
 namespace command {
@@ -89,6 +90,19 @@ QueryTreeSettings settingsOf(const ActionCall& call, const StackItem& item, int 
     return settings;
 }
 
+/// Whoever forgets `poses=` would have the poses replaced by answers.
+/// @throw CommandError (usage) if there is such a file, and it holds no answers
+void requireOwnAnswers(
+    const std::string& path, const std::string& table, const std::string& columns)
+{
+    std::ifstream file(path);
+    std::string start(columns.size(), 0);
+    file.read(start.data(), std::streamsize(start.size()));
+    if (file.gcount() == 0 || start == columns) return;
+    throwUsage(path + " is there, and holds no answers of this kind: to ask what it holds, write "
+        + table + "=" + path + "; to replace it by answers, csv=" + path);
+}
+
 QueryBody bodyOf(const StackItem& item, const QueryTreeSettings& settings)
 {
     try {
@@ -130,9 +144,13 @@ std::vector<OptionSpec> questionOptions(int trees, const std::vector<OptionSpec>
     return options;
 }
 
-void checkQuestion(const ActionCall& call, Plan& plan, int trees)
+void checkQuestion(const ActionCall& call, Plan& plan, int trees, const std::string& table,
+    const std::string& columns)
 {
     checkReportFiles(call, plan);
+    for (const std::string& path : call.list("files")) {
+        if (fileKind(path) == FileKind::Csv) requireOwnAnswers(path, table, columns);
+    }
     checkLevels(call, trees);
     if (trees == 2 && call.given("vdb") && call.list("vdb").size() != 2) {
         throwUsage("vdb=" + call.text("vdb") + ": name two trees, such as vdb=1,0");

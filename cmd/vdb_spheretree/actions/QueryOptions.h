@@ -30,8 +30,11 @@ struct QueryBody {
 /// @param trees  how many a question is put to
 /// @param own    those of the action alone, which come first behind files=
 std::vector<OptionSpec> questionOptions(int trees, const std::vector<OptionSpec>& own);
+/// @param columns  how the header of the action's own tables begins: a table of another kind is not taken for one of
+///                 answers, and written over
 /// @throw CommandError (usage or output)
-void checkQuestion(const ActionCall& call, Plan& plan, int trees);
+void checkQuestion(const ActionCall& call, Plan& plan, int trees, const std::string& table,
+    const std::string& columns);
 /// @return the trees that a question is put to, the first body first. The last one is scaled, if `scale` is an option.
 /// @throw CommandError (input)
 std::vector<QueryBody> bodiesOf(const ActionCall& call, Session& session, int trees);

@@ -317,9 +317,7 @@ void noteSurprises(const ActionCall& call, const std::vector<StackItem*>& items,
     const auto isTree = [](const StackItem* item) { return bool(item->tree); };
     const bool anyTree = std::any_of(items.begin(), items.end(), isTree);
     for (const std::string& path : call.list("files")) {
-        if (session.plan.replacesInput(path)) {
-            session.note(path + ", which was read, is replaced by what is written");
-        }
+        session.noteIfReplaced(path);
         if (fileKind(path) != FileKind::Vdb || !anyTree || call.given("vdb")) continue;
         for (const StackItem* item : items) {
             if (item->tree) continue;

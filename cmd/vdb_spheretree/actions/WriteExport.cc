@@ -11,6 +11,7 @@
 #include <openvdb_spheretree/tree/SphereBudget.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace command {
 
@@ -80,16 +81,15 @@ ExportSettings settingsOf(const ActionCall& call)
     settings.density = call.real("density");
     settings.link = call.text("link");
     if (call.given("name")) settings.name = call.text("name");
-    settings.firstSample = call.real("start");
     return settings;
 }
 
-std::vector<const spheretree::SphereTree*> treesOf(
+std::vector<const StackItem*> treesOf(
     const std::vector<StackItem*>& items, const ExportFormat& format, const std::string& path)
 {
-    std::vector<const spheretree::SphereTree*> trees;
+    std::vector<const StackItem*> trees;
     for (const StackItem* item : items) {
-        if (item->tree) trees.push_back(item->tree.get());
+        if (item->tree) trees.push_back(item);
     }
     if (trees.empty()) {
         throwInput(path + " holds spheres of a tree, and there is none: put -spheretree before");
@@ -99,6 +99,24 @@ std::vector<const spheretree::SphereTree*> treesOf(
             + ": choose with vdb=");
     }
     return trees;
+}
+
+/// @return the times of several trees: one after the other from start= on; else the numbers of their frames, if these
+///         rise; else from 1 on.
+std::vector<double> sampleTimesOf(
+    const ActionCall& call, const std::vector<const StackItem*>& trees)
+{
+    std::vector<double> times;
+    for (const StackItem* item : trees) {
+        const bool isLater = item->frame && (times.empty() || double(*item->frame) > times.back());
+        if (call.given("start") || !isLater) break;
+        times.push_back(double(*item->frame));
+    }
+    if (times.size() == trees.size()) return times;
+    const double start = call.given("start") ? call.real("start") : 1;
+    times.resize(trees.size());
+    std::iota(times.begin(), times.end(), start);
+    return times;
 }
 
 /// Options of trees say nothing of grids.
@@ -157,8 +175,9 @@ std::vector<OptionSpec> exportOptions()
             "that of the tree)"),
         real("density", "1000", 1e-30, 1e30,
             "files with a mass: that of a cubed unit of the file; water has 1000 in metres"),
-        real("start", "1", -1e9, 1e9,
-            ".usda of several trees, which are samples over time: the time of the first")};
+        real("start", "", -1e9, 1e9,
+            ".usda of several trees, which are samples over time: the time of the first, and 1 "
+            "more for each that follows (by default the numbers of their frames, or from 1 on)")};
 }
 
 std::vector<std::pair<std::string, std::string>> exportFormatDocs()
@@ -216,13 +235,20 @@ void writeExport(const ActionCall& call, const std::string& path,
     } catch (const openvdb::ValueError&) {
         rethrowNamed(path, kInput);
     }
-    const auto trees = treesOf(items, format, path);
+    const auto chosen = treesOf(items, format, path);
+    std::vector<const spheretree::SphereTree*> trees;
+    for (const StackItem* item : chosen) trees.push_back(item->tree.get());
+    ExportSettings settings = settingsOf(call);
+    settings.sampleTimes = sampleTimesOf(call, chosen);
     if (trees.size() > 1) {
+        using spheretree::detail::shortNumber;
         session.note(path + ": " + std::to_string(trees.size())
-            + " sphere-trees are samples over time, from " + call.text("start") + " on");
+            + " sphere-trees are samples over time, from "
+            + shortNumber(settings.sampleTimes.front()) + " to "
+            + shortNumber(settings.sampleTimes.back()));
     }
     try {
-        const auto notes = exportTrees(trees, format, settingsOf(call), out, &session.progress);
+        const auto notes = exportTrees(trees, format, settings, out, &session.progress);
         for (const std::string& note : notes) session.note(path + ": " + note);
     } catch (const openvdb::ValueError&) { // of what the format cannot hold
         rethrowNamed(path, kInput);

@@ -101,15 +101,15 @@ bool isStdout(const std::string& path)
 
 void Plan::addWorldUnit(bool metres) { mAllMetres = mAllMetres.value_or(true) && metres; }
 
-void Plan::requireKnownUnit(const std::string& option, const std::string& typed) const
+void Plan::requireKnownUnit(
+    const std::string& option, const std::string& typed, const std::string& remedy) const
 {
     const auto length = parseLength(typed);
     if (!length || mAllMetres.value_or(false)) return;
-    throwUsage(option + "=" + typed
-        + ": a file does not say what its unit of length is; say it where it is read, such as "
-          "-read "
-          "part.stl units="
-        + length->unit + ", or write the number alone, in the units of the file");
+    std::string advice = remedy;
+    advice.replace(advice.find('@'), 1, length->unit);
+    throwUsage(option + "=" + typed + ": a file does not say what its unit of length is; " + advice
+        + ", or write the number alone, in the units of the file");
 }
 
 bool Plan::replacesInput(const std::string& path) const

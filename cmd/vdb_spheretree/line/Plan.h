@@ -46,9 +46,12 @@ public:
 
     /// @param metres  whether what comes from a source is in metres: said by units= of -read
     void addWorldUnit(bool metres);
-    /// @param typed  a length, as the value of @a option
+    /// @param typed   a length, as the value of @a option
+    /// @param remedy  how the unit can be said; `@` stands for that of the length
     /// @throw CommandError (usage) if it has a unit, and not all that was read so far is in metres
-    void requireKnownUnit(const std::string& option, const std::string& typed) const;
+    void requireKnownUnit(const std::string& option, const std::string& typed,
+        const std::string& remedy =
+            "say it where it is read, such as -read part.stl units=@") const;
 
     /// @return whether stdout carries data, so that tables and lists have to go to stderr.
     bool stdoutIsTaken() const { return mStdoutTaken; }

@@ -7,6 +7,27 @@
 
 namespace command {
 
+namespace {
+
+/// @throw CommandError (usage) for a length with a unit that nothing says the unit of the files to
+void requireKnownUnits(const ActionCall& call, const Plan& plan)
+{
+    const bool hasUnits = call.spec().option("units");
+    if (hasUnits && call.given("units")) return;
+    for (const OptionSpec& option : call.spec().options) {
+        if (option.kind != OptionKind::Length || !call.given(option.name)) continue;
+        const std::string typed = call.text(option.name);
+        if (hasUnits) {
+            plan.requireKnownUnit(option.name, typed,
+                "where it is in metres, say so by units=@ beside it: the unit of all numbers here");
+        } else {
+            plan.requireKnownUnit(option.name, typed);
+        }
+    }
+}
+
+} // namespace
+
 ActionCall closedCall(const ActionCall& call, Variables& variables, std::optional<int64_t> number,
     const StackFacts* stack)
 {
@@ -25,11 +46,7 @@ ActionCall closedCall(const ActionCall& call, Variables& variables, std::optiona
 void checkCall(const ActionCall& call, Plan& plan)
 {
     try {
-        const bool saysUnit = call.spec().option("units") && call.given("units");
-        for (const OptionSpec& option : call.spec().options) {
-            if (option.kind != OptionKind::Length || !call.given(option.name) || saysUnit) continue;
-            plan.requireKnownUnit(option.name, call.text(option.name));
-        }
+        requireKnownUnits(call, plan);
         if (call.spec().check) call.spec().check(call, plan);
     } catch (...) {
         rethrowNamed(call.where(), kUsage);

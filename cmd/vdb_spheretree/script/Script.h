@@ -29,7 +29,7 @@ struct Step {
     bool isChecked = true;               ///< with all else before any work
     bool isLost = false;                 ///< no later action gives out what it makes
     size_t place = 0;                    ///< on the line
-    std::optional<int64_t> number = {};  ///< for `####` in values that are open
+    std::optional<int64_t> number = {};  ///< of its frame; nothing outside of loops
     std::vector<Assignment> stored = {}; ///< variables that its values have stored
     std::vector<Frame> frames = {};      ///< of a loop; of an -if what is done if its test holds
     std::string variable = {};           ///< of a loop

@@ -219,6 +219,7 @@ void ScriptRunner::runAction(const Step& step)
         checkCall(call, mSession.plan);
         mSession.plan.requireInputs();
     }
+    mSession.stack.setFrame(step.number);
     mSession.runOne(call);
 }
 

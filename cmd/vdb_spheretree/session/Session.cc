@@ -65,6 +65,12 @@ void Session::noteIfUnverified(const StackItem& item)
         + " has no checksum, as those of version 0.1: nobody can tell whether it is whole");
 }
 
+void Session::noteIfReplaced(const std::string& path)
+{
+    if (!plan.replacesInput(path)) return;
+    note(path + ", which was read, is replaced by what is written");
+}
+
 void Session::limitThreads(size_t count)
 {
     // Never destroyed at the end: the limit before would be in force again, and oneTBB would start

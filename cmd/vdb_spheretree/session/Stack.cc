@@ -55,6 +55,7 @@ void Stack::push(StackItem item)
     mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isWritten), mItems.end());
     item.source = mSource;
     item.batch = mBatch;
+    item.frame = mFrame;
     mItems.push_back(std::make_unique<StackItem>(std::move(item)));
 }
 

@@ -14,7 +14,9 @@
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <functional>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +37,10 @@ struct StackItem {
     std::string source = {}; ///< the file or action that it comes from
     /// The tree of no object: without levels, and `grid` is its points, of which there are none.
     std::shared_ptr<openvdb_spheretree::SphereTree> emptyTree = {};
-    bool unverified = false; ///< a tree of a file without a checksum
-    int batch = 0;           ///< the same number for all items of one action
-    bool written = false;    ///< to be dropped when the next item arrives
+    std::optional<int64_t> frame = {}; ///< that it was made in; nothing outside of loops
+    bool unverified = false;           ///< a tree of a file without a checksum
+    int batch = 0;                     ///< the same number for all items of one action
+    bool written = false;              ///< to be dropped when the next item arrives
 
     std::string name() const;
     /// @return for instance `grid 'density' (float, fog volume, from smoke.vdb)`.
@@ -51,6 +54,8 @@ public:
     /// From now on, items that are pushed belong to one action, and come from @a source.
     void beginBatch(const std::string& source);
     void setSource(const std::string& source) { mSource = source; }
+    /// From now on, items that are pushed belong to this frame.
+    void setFrame(std::optional<int64_t> frame) { mFrame = frame; }
     void push(StackItem item);
     void drop(const StackItem* item);
     void clear() { mItems.clear(); }
@@ -85,6 +90,7 @@ private:
 
     std::vector<std::unique_ptr<StackItem>> mItems;
     std::string mSource;
+    std::optional<int64_t> mFrame;
     int mBatch = 0;
 };
 

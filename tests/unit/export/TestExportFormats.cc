@@ -138,13 +138,19 @@ TEST(ExportFormats, SeveralTreesAreSamplesOverTimeWhereThereIsTime)
 {
     const SphereTree a = someTree(30), b = someTree(40);
     ExportSettings settings;
-    settings.firstSample = 101;
+    settings.sampleTimes = {101, 104};
     std::ostringstream out;
     exportTrees({&a, &b}, *findExportFormat(".usda"), settings, out);
     const std::string text = out.str();
     EXPECT_TRUE(mentions(text, "startTimeCode = 101\n"));
-    EXPECT_TRUE(mentions(text, "endTimeCode = 102\n"));
+    EXPECT_TRUE(mentions(text, "endTimeCode = 104\n"));
     EXPECT_TRUE(mentions(text, "point3f[] points.timeSamples = {\n            101: [("));
+    EXPECT_TRUE(mentions(text, "\n            104: [("));
+    for (const std::vector<double>& times : {std::vector<double>{1}, {2, 2}, {2, 1}, {1, NAN}}) {
+        settings.sampleTimes = times;
+        EXPECT_THROW(
+            exportTrees({&a, &b}, *findExportFormat(".usda"), settings, out), openvdb::ValueError);
+    }
     std::ostringstream none;
     EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] {
         exportTrees({&a, &b}, *findExportFormat(".ply"), {}, none);

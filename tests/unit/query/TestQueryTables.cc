@@ -66,6 +66,8 @@ TEST_F(QueryTables, APoseIsReadInEveryWayToWriteIt)
     expectQuarter(poses("1 2 3 0 0 " + half + " " + half));
     expectQuarter(poses("time;qw;qx;qy;qz;X;Y;Z\n7;" + half + ";0;0;" + half + ";1;2;3\n"));
     expectQuarter(poses("# a comment\n\nx,y,z,rx,ry,rz,\"name\"\n1,2,3,0,0," + quarter + ",a\n"));
+    expectQuarter(poses("X,Y,Z,Roll,Pitch,Yaw\n1,2,3,0,0," + quarter + "\n"));
+    expectQuarter(poses("1305031098.67 1 2 3 0 0 " + half + " " + half));
     expectQuarter(poses("0 -1 0 1  1 0 0 2  0 0 1 3"));
     expectQuarter(poses("0\t-1\t0\t1\t1\t0\t0\t2\t0\t0\t1\t3\t0\t0\t0\t1\r\n"));
     expectQuarter(
@@ -95,6 +97,12 @@ TEST_F(QueryTables, WhatIsTakenForGrantedIsSaid)
 {
     EXPECT_EQ(poses("x,y,z\n1,2,3").assumption, "");
     EXPECT_TRUE(mentions(poses("1,2,3").assumption, "3 columns are taken as x, y, z"));
+    EXPECT_TRUE(mentions(poses("1 1 2 3 0 0 0 1").assumption, "8 columns are taken as time, x"));
+    const std::string moves = poses("time,x,y,z,tilt\n0,1,2,3,90").assumption;
+    EXPECT_TRUE(mentions(moves, "table.csv: its poses are moves without a turn")) << moves;
+    EXPECT_TRUE(mentions(moves, "not used: 'time', 'tilt'")) << moves;
+    EXPECT_TRUE(mentions(poses("a,b,c,x,y,z,d,e,f\n0,0,0,1,2,3,0,0,0").assumption, " and 1 more"));
+    EXPECT_EQ(poses("time,x,y,z,qx,qy,qz,qw\n0,1,2,3,0,0,0,1").assumption, "");
     EXPECT_TRUE(mentions(readRayTable(save("1 2 3 4 5 6")).assumption, "dx, dy, dz"));
     const std::string path = save("1,2,3");
     EXPECT_TRUE(mentions(readPointTable(path, "stdin.csv").assumption, "stdin.csv: "));
@@ -137,7 +145,10 @@ TEST_F(QueryTables, AShortOrWrongLineIsNamed)
     EXPECT_TRUE(mentions(noPoses("x,y,z,x\n1,2,3,4\n"), "more than one column 'x'"));
     EXPECT_TRUE(mentions(noPoses("x,y,z,qx,qy,qz\n1,2,3,0,0,0\n"), "no column 'qw'"));
     EXPECT_TRUE(mentions(noPoses("1,2,3,4,5\n"), "and this one has 5"));
-    EXPECT_TRUE(mentions(noPoses("0 0 0 1 0 0 0 0\n"), "and this one has 8"));
+    EXPECT_TRUE(mentions(noPoses("0 0 0 1 0 0 0 0 0\n"), "and this one has 9"));
+    EXPECT_TRUE(mentions(noPoses("x,y,z,qx,qy,qz,qw,roll,pitch,yaw\n1,2,3,0,0,0,1,0,0,0\n"),
+        "names two rotations, by qx, qy, qz, qw and by roll, pitch, yaw"));
+    EXPECT_TRUE(mentions(noPoses("x,y,z,yaw\n1,2,3,0\n"), "no column 'roll'"));
     EXPECT_TRUE(mentions(noPoses("# nothing\n"), "the file holds no poses"));
     EXPECT_TRUE(mentions(noPoses("x,y,z\n"), "the file holds no poses"));
     EXPECT_TRUE(mentions(noPoses(""), "the file is empty"));
