@@ -51,7 +51,7 @@ DistanceResult distance(const QueryTree& a, const RigidTransform& poseA, const Q
     bodies.frame.enterFloats();
     LeafPair nearest;
     int count = 0;
-    if (request.warmStart.isGiven()) nearest = bodies.leaves(request.warmStart);
+    nearest = bodies.leaves(request.warmStart);
     if (nearest.gap < limits.below) count = 1;
     SearchEnd end;
     end.lowerBound = bodies.frame.rootGap() - bodies.frame.rounding;

@@ -46,8 +46,8 @@ struct DistanceResult {
     std::optional<Contact> contact;
     /// Of that pair, 0 where spheres meet unless signs were asked for; infinity if there is none.
     double distance = std::numeric_limits<double>::infinity();
-    /// What `distance` would be without errors, bounds and stops is no less than this; without them it is the
-    /// same.
+    /// The signed or unsigned distance of the nearest pair is no less than this: the same as `distance`, unless an error
+    /// was allowed, or upperBound, stopBelow or maxBlocks ended the search.
     double lowerBound = 0;
     /// @name That of the objects' voxel cubes is between these
     /// @{
@@ -60,7 +60,7 @@ struct DistanceResult {
 
 /// @throw openvdb::ValueError for errors below 0, bounds that are no numbers, or bodies more than 10^13 world units
 ///        apart
-/// @throw openvdb::LookupError if the pair of warmStart is none of leaves
+/// @throw openvdb::LookupError if one of the nodes of warmStart is no leaf
 DistanceResult distance(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
     const RigidTransform& poseB, const DistanceRequest& request = {});
 

@@ -66,12 +66,12 @@ CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
 {
     CollisionResult result;
     const SearchLimits limits = limitsOf(request);
+    SearchEnd end;
+    end.pair = bodies.leaves(request.warmStart);
     if (!rootsMeet(bodies, limits.margin)) {
         setApart(result, bodies, bodies.frame.rootGap());
         return result;
     }
-    SearchEnd end;
-    if (request.warmStart.isGiven()) end.pair = bodies.leaves(request.warmStart);
     if (end.pair.a < 0 || end.pair.gap > limits.margin) {
         end = findOverlap(bodies.frame, limits, request.enableDistanceLowerBound);
     }
@@ -82,6 +82,29 @@ CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
     if (result.isCollision() && request.decideObjects)
         decideObjects(result, bodies, limits.maxBlocks);
     return result;
+}
+
+/// The nearest pairs. There is room for a few at first, and sixteen times as many in each search that finds more: how many
+/// there are is not known before.
+/// @param pairs  receives limits.wanted of them at most, the nearest first
+SearchEnd findNearestOf(
+    const BodyPair& bodies, detail::NearestLimits limits, std::vector<LeafPair>& pairs)
+{
+    constexpr int64_t kFirst = 64, kMore = 16;
+    const int64_t wanted = limits.wanted;
+    int64_t blocks = 0;
+    for (int64_t room = std::min(wanted, kFirst);; room = std::min(wanted, kMore * room)) {
+        pairs.assign(std::size_t(room), {});
+        limits.wanted = int(room);
+        int count = 0;
+        SearchEnd end = findNearest(bodies.frame, limits, pairs.data(), count);
+        blocks += end.blocks;
+        if (count < room || room == wanted) {
+            pairs.resize(std::size_t(count));
+            end.blocks = blocks;
+            return end;
+        }
+    }
 }
 
 /// The deepest pairs: the nearest ones with gaps up to the margin.
@@ -98,12 +121,11 @@ CollisionResult deepestContacts(
     limits.wanted = request.maxContacts;
     limits.below = std::nextafter(search.margin + bodies.frame.rounding, INFINITY);
     limits.maxBlocks = search.maxBlocks;
-    std::vector<LeafPair> pairs(std::size_t(request.maxContacts));
-    int count = 0;
-    const SearchEnd end = findNearest(bodies.frame, limits, pairs.data(), count);
+    std::vector<LeafPair> pairs;
+    const SearchEnd end = findNearestOf(bodies, limits, pairs);
     result.blocks = end.blocks;
-    for (int i = 0; i < count; ++i) contacts.push_back(bodies.contact(pairs[i]));
-    if (count > 0) setTouching(result, bodies, pairs[0], request.enableContact);
+    for (const LeafPair& pair : pairs) contacts.push_back(bodies.contact(pair));
+    if (!pairs.empty()) setTouching(result, bodies, pairs[0], request.enableContact);
     else if (end.isDecided) setApart(result, bodies, search.margin);
     if (result.isCollision() && request.decideObjects)
         decideObjects(result, bodies, limits.maxBlocks);

@@ -35,7 +35,8 @@ enum class Verdict : uint8_t { Apart, Touching, Undecided };
 struct CollisionRequest {
     /// Bodies nearer than this touch: world units, 0 or more.
     double securityMargin = 0;
-    /// Up to so many contacts go to the list of collide(); more than one: those of the deepest pairs.
+    /// Up to so many contacts go to the list of collide(); more than one: those of the deepest pairs. Memory and time go by
+    /// those that are found.
     int maxContacts = 1;
     /// Also say where the pair of the result meets.
     bool enableContact = false;
@@ -43,21 +44,24 @@ struct CollisionRequest {
     bool enableDistanceLowerBound = false;
     /// Also decide about the objects where the spheres touch: a second search may follow.
     bool decideObjects = false;
-    /// No more blocks than this are tested, then the verdict is Undecided. -1: any number.
+    /// No more blocks than this are tested, then the verdict is Undecided. -1: any number. Each search of more than 64
+    /// contacts has this many.
     int64_t maxBlocks = -1;
-    /// The pair that touched a moment ago, looked at first.
+    /// The pair that touched a moment ago, looked at first. It takes no part where several contacts are asked for.
     NodePair warmStart;
 };
 
 struct CollisionResult {
-    /// Of the unions of leaf spheres.
+    /// Touching: two leaf spheres do. Apart: objects are, of trees that hold theirs (holdsObject()); and leaf spheres
+    /// are, of trees that hold those (holdsLeaves()). With cover=voxels leaf spheres may still meet beside the objects.
     Verdict verdict = Verdict::Undecided;
-    /// Of the objects' voxel cubes. Touching only as far as the contact found says so, unless decideObjects.
+    /// Of the objects' voxel cubes. Without decideObjects they are Touching only if the pair in `nodes` shows it.
     Verdict objects = Verdict::Undecided;
     /// Of bodies that touch: any two leaf spheres that do, or the deepest ones of several.
     NodePair nodes;
     std::optional<Contact> contact; ///< of these, if asked for
-    /// Of leaf spheres that are apart: their distance is no less; nor is that of the objects. 0 if not asked for.
+    /// Of bodies that are apart: the distance of the objects, or of the leaf spheres, is no less, each where `verdict` is
+    /// about them. 0 if not asked for.
     double distanceLowerBound = 0;
     int64_t blocks = 0; ///< tested; the same on every machine
 
@@ -66,9 +70,9 @@ struct CollisionResult {
 
 /// @param contacts  may be null; receives up to request.maxContacts of them, the deepest first. Its memory is
 ///                  used again.
-/// @throw openvdb::ValueError for a margin, a number of contacts or blocks that is none, or bodies so far apart
-///        that floats do not square it (10^13 world units) with a margin as large
-/// @throw openvdb::LookupError if the pair of warmStart is none of leaves
+/// @throw openvdb::ValueError for a margin below 0 or not finite, for contacts or blocks below 1, and for bodies that
+///        only so large a margin could have touch that floats cannot square it (10^13 world units)
+/// @throw openvdb::LookupError if one of the nodes of warmStart is no leaf
 CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
     const RigidTransform& poseB, const CollisionRequest& request = {},
     std::vector<Contact>* contacts = nullptr);
@@ -76,7 +80,8 @@ CollisionResult collide(const QueryTree& a, const RigidTransform& poseA, const Q
 /// Called with pairs of leaf spheres that touch, some at a time, in a fixed order. False: no more.
 using ContactCallback = std::function<bool(const NodePair* pairs, int count)>;
 
-/// @brief Calls @a callback with all pairs of leaf spheres that are within @a securityMargin, each once.
+/// @brief Calls @a callback with all pairs of leaf spheres that are within @a securityMargin, each once. With cover=voxels
+/// pairs may be missing where no voxel cubes are within it: ask trees of Exactness::LeafUnion for all.
 /// @return the verdict; Touching also if the callback ended it. `nodes` is one of the pairs.
 /// @throw openvdb::ValueError as above
 CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, const QueryTree& b,
@@ -84,7 +89,7 @@ CollisionResult collideAll(const QueryTree& a, const RigidTransform& poseA, cons
 
 /// @brief Many poses of one pair, in parallel: where b is in the frame of a.
 /// @param request   maxContacts, the bound of the distance and warmStart take no part
-/// @param verdicts  room for one a pose
+/// @param verdicts  room for one a pose: CollisionResult::verdict, or with decideObjects CollisionResult::objects
 /// @throw openvdb::ValueError as collide(); Interrupted if the interrupter (may be null) said so: verdicts are then
 ///        not all there
 void collideBatch(const QueryTree& a, const QueryTree& b, const std::vector<RigidTransform>& poses,

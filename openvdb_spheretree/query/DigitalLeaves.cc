@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DigitalLeaves.h"
 
+#include "LeafIdentity.h"
 #include "PointFrame.h"
 #include "PointKernel.h"
 #include "QueryData.h"
@@ -49,6 +50,7 @@ DigitalLeaves::DigitalLeaves(const SphereTree& tree, const QueryTreeSettings& se
 {
     requireObject(tree, settings);
     const SphereTreeLevel& leaves = tree.level(0);
+    mIdentity = detail::identityOf(tree, leaves, settings.scale);
     mBalls.reserve(std::size_t(leaves.size()));
     for (int32_t id = leaves.begin; id < leaves.end; ++id) {
         if (tree.radiusSq[id] <= 0) refuse("a sphere of level 0 is no ball of voxels");
@@ -69,7 +71,10 @@ Coord DigitalLeaves::voxelOf(const Vec3d& point) const
     const Vec3d index = mTransform->worldToIndex(point / mScale);
     Coord voxel;
     for (int axis = 0; axis < 3; ++axis) { // those beyond all voxels stay beyond them
-        voxel[axis] = int32_t(std::min(std::max(std::floor(index[axis] + 0.5), kLowest), kHighest));
+        const double below =
+            std::floor(index[axis]); // the difference to it is exact, a sum with 0.5 is not
+        const double nearest = index[axis] - below < 0.5 ? below : below + 1;
+        voxel[axis] = int32_t(std::min(std::max(nearest, kLowest), kHighest));
     }
     return voxel;
 }
@@ -87,11 +92,10 @@ bool DigitalLeaves::isInPlane(const Coord& voxel) const
 bool contains(const QueryTree& tree, const DigitalLeaves& leaves, const Vec3d& point)
 {
     const detail::QueryData& data = tree.data();
-    if (leaves.balls().size() != std::size_t(tree.leafCount())) {
+    if (leaves.identity() != data.identity) {
         OPENVDB_THROW(openvdb::ValueError,
-            "the digital leaves are " << leaves.balls().size()
-                                      << " and those of the tree of queries " << tree.leafCount()
-                                      << ": make both of the same tree");
+            "these digital leaves are not those of the tree of queries: make both of the same "
+            "sphere-tree, with the same settings");
     }
     const Coord voxel = leaves.voxelOf(point);
     if (!leaves.isInPlane(voxel)) return false;

@@ -22,6 +22,7 @@
 #include <openvdb/math/Vec3.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -40,6 +41,8 @@ public:
     ///        coordinates.
     /// @throw openvdb::ValueError for coordinates that are not finite
     openvdb::Coord voxelOf(const openvdb::Vec3d& point) const;
+    /// That of the QueryTree with these leaves.
+    uint64_t identity() const { return mIdentity; }
     openvdb::Vec3d center(const openvdb::Coord& voxel) const;
     /// @return whether a voxel lies in the plane of an object with dim = 2; else true.
     bool isInPlane(const openvdb::Coord& voxel) const;
@@ -50,6 +53,7 @@ private:
     std::vector<MedialBall> mBalls;
     openvdb::SharedPtr<const openvdb::math::Transform> mTransform;
     double mScale;
+    uint64_t mIdentity;
     int mFlatAxis = -1; ///< with dim = 2
 };
 

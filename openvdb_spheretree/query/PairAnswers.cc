@@ -36,6 +36,7 @@ Contact BodyPair::contact(const LeafPair& pair) const
 LeafPair BodyPair::leaves(const NodePair& nodes) const
 {
     LeafPair pair;
+    if (nodes == NodePair()) return pair;
     pair.a = a.leafOf(nodes.a);
     pair.b = b.leafOf(nodes.b);
     pair.gap = frame.leafGap(pair.a, pair.b);

@@ -20,8 +20,8 @@ struct BodyPair {
         const RigidTransform& inWorldB);
 
     Contact contact(const LeafPair& pair) const;
-    /// @return the leaves of a pair of nodes.
-    /// @throw openvdb::LookupError if these are none
+    /// @return the leaves of a pair of nodes that a search may begin with, and how far they are apart; none of no pair.
+    /// @throw openvdb::LookupError if these are no leaves, or only one of both is given
     LeafPair leaves(const NodePair& nodes) const;
     /// @return whether the leaves show that the objects meet: they do so when shrunk to lie in them.
     bool objectsMeet(const LeafPair& pair) const;

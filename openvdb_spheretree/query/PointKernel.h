@@ -28,9 +28,8 @@ constexpr std::size_t kMostFiltered = 32; ///< spheres at a time
 
 /// @param spheres  x, y, z, radius of each; not aligned
 /// @param count    kMostFiltered at most
-/// @return a bit for each sphere that may be within reach, by its surface; and for each that has a
-///        number which is not finite, for the caller to see. Not for those whose radius is
-///        negative.
+/// @return a bit for each sphere of radius 0 or more whose surface may be within reach; and for each with a number
+///        that is not finite, so that the caller looks at it.
 uint32_t spheresWithin(const BallAround& around, const float* spheres, std::size_t count);
 
 struct PointQuestion {

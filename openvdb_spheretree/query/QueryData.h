@@ -9,6 +9,7 @@
 
 #include <openvdb/math/Transform.h>
 
+#include <cstdint>
 #include <limits>
 
 namespace openvdb_spheretree::detail {
@@ -17,6 +18,7 @@ struct QueryData {
     SphereBlocks spheres;
     openvdb::Vec3d origin;    ///< of the blocks' coordinates, in the world
     int32_t firstLeafId = 0;  ///< node id of leaf 0; those of others follow
+    uint64_t identity = 0;    ///< of the leaves: LeafIdentity.h
     bool holdsObject = false; ///< the chains of QueryTree.h
     bool holdsLeaves = false;
     double leafReach = std::numeric_limits<double>::infinity(); ///< world units

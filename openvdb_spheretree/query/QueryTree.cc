@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QueryTree.h"
 
+#include "LeafIdentity.h"
 #include "QueryData.h"
 #include "SphereForest.h"
 #include <openvdb_spheretree/base/TextStream.h>
@@ -167,7 +168,9 @@ void requireSize(const SphereForest& forest)
     refuse(text.str());
 }
 
-/// Fills in what the leaves promise: docs/queries.md, "Leaves and the object".
+/// Fills in what the leaves promise: docs/queries.md, "Leaves and the object". Leaves of blocks are larger than those of
+/// the tree by what floats round: a center is off by sqrt(3) 2^-24 of the extent, its radius grows by as much and is
+/// rounded up, so no point of a leaf is farther out than 2^-21 of the extent.
 void setPromises(
     QueryData& data, const SphereTree& tree, const SphereTreeLevel& leaves, double scale)
 {
@@ -178,12 +181,13 @@ void setPromises(
     const auto begin = tree.radiusSq.begin();
     const bool areDigital = leaves.level == 0
         && std::all_of(begin + leaves.begin, begin + leaves.end, [](int32_t r) { return r > 0; });
+    const double rounding = 0x1p-21 * double(data.spheres.extent);
     if (isOuter && areDigital) {
-        data.leafReach = data.leafInset = (padding + kCubeRadius) * voxel * (1 + 1e-6);
+        data.leafReach = data.leafInset = (padding + kCubeRadius) * voxel * (1 + 1e-6) + rounding;
     } else if (isOuter && leaves.stored) {
-        data.leafReach = scale * leaves.stored->reachWorld;
+        data.leafReach = scale * leaves.stored->reachWorld + rounding;
     } else if (const auto* inner = tree.settings.find<InnerOptions>()) {
-        data.leafInset = inner->strict ? 0 : kCubeRadius * voxel * (1 + 1e-6);
+        data.leafInset = (inner->strict ? 0 : kCubeRadius * voxel * (1 + 1e-6)) + rounding;
         data.leafReach = data.leafInset;
     }
 }
@@ -205,6 +209,7 @@ QueryTree makeQueryTree(const SphereTree& tree, const QueryTreeSettings& setting
     data->spheres = detail::blocksOf(forest, leaves.size());
     data->origin = maker.origin();
     data->firstLeafId = leaves.begin;
+    data->identity = detail::identityOf(tree, leaves, settings.scale);
     setPromises(*data, tree, leaves, settings.scale);
     return QueryTree(data);
 }

@@ -6,7 +6,7 @@
 ///     if (collide(dragon, poseA, dragon, poseB).verdict == Verdict::Touching) ...
 ///
 /// It is made in memory in milliseconds, and never stored: the children of a node stand side by side in a
-/// block, so that one vector operation tests them all. Some 45 bytes a leaf sphere, all levels
+/// block, so that one vector operation tests them all. Some 40 bytes a leaf sphere, all levels
 /// included.
 ///
 /// *What answers are about.* Let L be the union of the leaf spheres as files have them (padded, in
@@ -50,16 +50,17 @@ struct QueryTreeSettings {
     double scale = 1;
 };
 
-/// Immutable; copies share it, and any number of threads may ask at the same time.
+/// Immutable; copies share it, and any number of threads may ask at the same time. makeQueryTree() makes it.
 class QueryTree {
 public:
+    /// @param data  not null
     explicit QueryTree(std::shared_ptr<const detail::QueryData> data) : mData(std::move(data)) {}
 
     int32_t leafCount() const;
     /// @return the id of a leaf's sphere in the sphere-tree that this was made of.
     int32_t nodeId(int32_t leaf) const;
-    /// @return the leaf of a node of the sphere-tree's level.
-    /// @throw openvdb::LookupError if that is no leaf here
+    /// @return the number of the leaf that was made of this node of the sphere-tree.
+    /// @throw openvdb::LookupError if no leaf was
     int32_t leafOf(int32_t nodeId) const;
 
     /// @name A leaf's sphere in world units, before any pose

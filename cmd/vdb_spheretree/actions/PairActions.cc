@@ -110,6 +110,12 @@ std::vector<OptionSpec> pairOptions(const std::vector<OptionSpec>& own)
     return questionOptions(2, options);
 }
 
+void checkPair(const ActionCall& call, Plan& plan, const std::string& columns)
+{
+    checkQuestion(call, plan, 2, "poses", columns);
+    checkPoses(call, plan);
+}
+
 // -collide
 
 spheretree::CollisionRequest collisionRequest(const ActionCall& call)
@@ -183,7 +189,9 @@ void requireExpected(const ActionCall& call, const std::vector<CollisionResult>&
 /// Says what spheres cannot tell of the objects, where it is asked.
 void noteWhatIsUnknown(const ActionCall& call, const PairQuestion& question, Session& session)
 {
+    const bool isOne = question.bodies[0].spheres == question.bodies[1].spheres;
     for (const QueryBody& body : question.bodies) {
+        if (isOne && &body != &question.bodies[0]) return; // asked against itself
         if (call.flag("objects") && std::isinf(body.tree.leafInset())) {
             session.note("objects=1: spheres of " + body.name
                 + " are not known to hold a part of the object, so it touches in no pose for "
@@ -219,11 +227,7 @@ void runCollide(const ActionCall& call, Session& session)
     requireExpected(call, results);
 }
 
-void checkCollide(const ActionCall& call, Plan& plan)
-{
-    checkQuestion(call, plan, 2, "poses", "pose,spheres");
-    checkPoses(call, plan);
-}
+void checkCollide(const ActionCall& call, Plan& plan) { checkPair(call, plan, "pose,spheres"); }
 
 // -distance
 
@@ -284,19 +288,15 @@ void runDistance(const ActionCall& call, Session& session)
     giveAnswers(call, session, sheet);
 }
 
-void checkDistance(const ActionCall& call, Plan& plan)
-{
-    checkQuestion(call, plan, 2, "poses", "pose,distance");
-    checkPoses(call, plan);
-}
+void checkDistance(const ActionCall& call, Plan& plan) { checkPair(call, plan, "pose,distance"); }
 
 } // namespace
 
 ActionSpec collideAction()
 {
     ActionSpec action{"collide", "", "files",
-        "whether two sphere-trees touch, the second one moved: never apart where the objects "
-        "meet; where they touch; exit code 6 if that is not what is expected"};
+        "whether two sphere-trees touch, the second one moved, and where; spheres that hold their "
+        "objects are never apart where these meet; exit code 6 if that is not what is expected"};
     OptionSpec expect = choice("expect", {"apart", "touching"},
         "fail with exit code 6 unless the spheres are so in every pose; with objects=1, unless the "
         "objects are so for certain");

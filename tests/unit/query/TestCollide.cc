@@ -188,6 +188,36 @@ TEST(Collide, FindsTheDeepestPairsInTheirOrder)
     });
 }
 
+TEST(Collide, AllContactsAreThoseOfAllPairs)
+{
+    const auto& samples = querySamples();
+    const auto most = std::max_element(
+        samples.begin(), samples.end(), [](const QuerySample& a, const QuerySample& b) {
+            return a.tree.level(0).size() < b.tree.level(0).size();
+        });
+    const QueryTree tree = makeQueryTree(most->tree, Exactness::LeafUnion);
+    CollisionRequest request;
+    request.maxContacts = std::numeric_limits<int>::max();
+    request.securityMargin = tree.radius();
+    std::vector<Contact> contacts;
+    collide(tree, {}, tree, {}, request, &contacts);
+    std::size_t pairs = 0;
+    collideAll(tree, {}, tree, {}, request.securityMargin, [&](const NodePair*, int count) {
+        pairs += std::size_t(count);
+        return true;
+    });
+    EXPECT_GT(pairs, 64u); // more than one search finds
+    EXPECT_EQ(contacts.size(), pairs);
+    EXPECT_TRUE(std::is_sorted(contacts.begin(), contacts.end(),
+        [](const Contact& a, const Contact& b) { return a.distance < b.distance; }));
+    request.maxContacts = 70;
+    const double deepest = contacts.front().distance, last = contacts[69].distance;
+    collide(tree, {}, tree, {}, request, &contacts);
+    ASSERT_EQ(contacts.size(), 70u);
+    EXPECT_EQ(contacts.front().distance, deepest);
+    EXPECT_EQ(contacts.back().distance, last);
+}
+
 TEST(Collide, CallsBackForEveryPairOnce)
 {
     forEachPosePair(Exactness::LeafUnion, 2000, [&](const PosePair& pair) {
@@ -398,8 +428,13 @@ TEST(Collide, AWarmStartIsLookedAtFirst)
     const auto away =
         RigidTransform::fromTranslation(Vec3d(0.9 * tree.leafRadius(0) + 2 * tree.radius(), 0, 0));
     EXPECT_EQ(collide(tree, {}, tree, away, request).verdict, Verdict::Apart);
-    request.warmStart = {0, tree.nodeId(tree.leafCount())};
-    EXPECT_THROW(collide(tree, {}, tree, {}, request), openvdb::LookupError);
+    for (const NodePair wrong :
+        {NodePair{0, tree.nodeId(tree.leafCount())}, {tree.nodeId(0), -1}}) {
+        request.warmStart = wrong;
+        EXPECT_THROW(collide(tree, {}, tree, {}, request), openvdb::LookupError);
+        const auto far = RigidTransform::fromTranslation(Vec3d(1e6, 0, 0));
+        EXPECT_THROW(collide(tree, {}, tree, far, request), openvdb::LookupError);
+    }
 }
 
 TEST(Collide, ContactsAreWhereTheSpheresMeet)

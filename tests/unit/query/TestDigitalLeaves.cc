@@ -127,6 +127,9 @@ TEST(DigitalLeaves, BetweenVoxelsTheOneWithTheLargerCoordinatesCounts)
     EXPECT_TRUE(contains(tree, leaves, Vec3d(1.5, -0.5, -0.5)));
     EXPECT_FALSE(contains(tree, leaves, Vec3d(std::nextafter(1.5, 0), 0, 0)));
     EXPECT_FALSE(contains(tree, leaves, Vec3d(2.5, 0, 0)));
+    const double justBelowHalf = std::nextafter(0.5, 0); // its sum with a half is rounded to 1
+    EXPECT_EQ(leaves.voxelOf(Vec3d(justBelowHalf, 0.5, -0.5)), Coord(0, 1, 0));
+    EXPECT_EQ(leaves.voxelOf(Vec3d(-justBelowHalf, -1e-300, -1.5)), Coord(0, 0, -1));
     EXPECT_FALSE(contains(tree, leaves, Vec3d(2, 0, 0.5)));
 }
 
@@ -181,8 +184,17 @@ TEST(DigitalLeaves, RefuseTreesWhoseLeavesAreNotTheObject)
 
     const QueryTree other = makeQueryTree(querySamples()[4].tree);
     const DigitalLeaves leaves(sample.tree);
-    EXPECT_TRUE(mentions(
-        messageOf<openvdb::ValueError>([&] { contains(other, leaves, Vec3d(0.0)); }), "same tree"));
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { contains(other, leaves, Vec3d(0.0)); }),
+            "with the same settings"));
+    const QuerySample one = querySample("one voxel"),
+                      moved = querySample("", {Coord(50, 0, 0)}, TightOptions());
+    const DigitalLeaves ofOne(one.tree);
+    EXPECT_NO_THROW(contains(makeQueryTree(one.tree), ofOne, Vec3d(0.0)));
+    EXPECT_THROW(contains(makeQueryTree(moved.tree), ofOne, Vec3d(0.0)), openvdb::ValueError);
+    QueryTreeSettings twice;
+    twice.scale = 2;
+    EXPECT_THROW(contains(makeQueryTree(one.tree, twice), ofOne, Vec3d(0.0)), openvdb::ValueError);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(
         contains(makeQueryTree(sample.tree), leaves, Vec3d(0, nan, 0)), openvdb::ValueError);

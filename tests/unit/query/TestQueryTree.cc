@@ -229,6 +229,29 @@ TEST(QueryTree, AScaleScalesEverySphereAboutTheOriginOfTheWorld)
     EXPECT_NEAR(three.leafInset(), 3 * one.leafInset(), 1e-9);
 }
 
+TEST(QueryTree, InsetAndReachHaveRoomForTheRoundingOfLeaves)
+{
+    // Two voxels far apart, at places that no float has: little is left for each.
+    const QuerySample sample =
+        querySample("", {Coord(0, 0, 0), Coord(20003, 7, -5)}, TightOptions());
+    const SphereTree& tree = sample.tree;
+    QueryTreeSettings settings;
+    settings.scale = 1.1;
+    const QueryTree query = makeQueryTree(tree, settings);
+    const double exact =
+        settings.scale * (tree.settings.paddingVoxels() + std::sqrt(0.75)) * tree.voxelSize();
+    for (int32_t leaf = 0; leaf < query.leafCount(); ++leaf) {
+        const int32_t id = query.nodeId(leaf);
+        const double moved =
+            (query.leafCenter(leaf) - settings.scale * tree.centerWorld(id)).length();
+        const double grown =
+            moved + query.leafRadius(leaf) - settings.scale * double(tree.spheres.radiusWorld[id]);
+        EXPECT_GT(grown, 1e-5 * exact); // else this test shows nothing
+        EXPECT_GE(query.leafInset(), exact + grown);
+        EXPECT_GE(query.leafReach(), exact + grown);
+    }
+}
+
 TEST(QueryTree, ACoarserLevelHoldsTheObjectToo)
 {
     const QuerySample& sample = querySamples().front();
