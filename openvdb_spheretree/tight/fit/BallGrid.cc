@@ -28,34 +28,29 @@ Coord cellOf(const int64_t center[3], int log2)
 
 Coord clusterOf(const Coord& cell) { return cell >> 2; }
 
-uint64_t bitOf(const Coord& cell)
-{
-    return uint64_t(1) << ((cell[0] & 3) << 4 | (cell[1] & 3) << 2 | (cell[2] & 3));
-}
-
-/// Calls body(cluster, cells) for the clusters in a box.
+/// Calls body(entries) for the clusters in a box.
 template <typename Clusters, typename Body>
 void forEachCluster(const Clusters& clusters, const CoordBBox& box, const Body& body)
 {
     const Coord size = box.dim();
     if (double(size[0]) * size[1] * size[2] > double(clusters.size())) {
-        for (const auto& [cluster, cells] : clusters) {
-            if (box.isInside(cluster)) body(cluster, cells);
+        for (const auto& [cluster, entries] : clusters) {
+            if (box.isInside(cluster)) body(entries);
         }
         return;
     }
     for (const Coord& at : box) {
         const auto cluster = clusters.find(at);
-        if (cluster != clusters.end()) body(cluster->first, cluster->second);
+        if (cluster != clusters.end()) body(cluster->second);
     }
 }
 
 } // namespace
 
-std::size_t BallGrid::CellHash::operator()(const Coord& cell) const
+std::size_t BallGrid::CoordHash::operator()(const Coord& at) const
 {
-    const uint64_t xy = uint64_t(uint32_t(cell[0])) << 32 | uint32_t(cell[1]);
-    return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(cell[2])));
+    const uint64_t xy = uint64_t(uint32_t(at[0])) << 32 | uint32_t(at[1]);
+    return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(at[2])));
 }
 
 BallGrid::BallGrid(const std::vector<ExactSphere>& balls)
@@ -68,54 +63,40 @@ BallGrid::BallGrid(const std::vector<ExactSphere>& balls)
 void BallGrid::add(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
-    const Coord at = cellOf(ball.center, log2);
-    Grid& grid = mGrids[log2];
-    grid.cells[at].push_back({id, ball, ball.radius()});
-    grid.clusters[clusterOf(at)] |= bitOf(at);
-    ++grid.size;
+    const Coord cell = cellOf(ball.center, log2);
+    mGrids[log2][clusterOf(cell)].push_back({ball, ball.radius(), id, cell});
     ++mSize;
 }
 
 void BallGrid::remove(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
-    const Coord at = cellOf(ball.center, log2);
     const auto grid = mGrids.find(log2);
-    const auto cell = grid->second.cells.find(at);
-    auto& entries = cell->second;
-    entries.erase(std::find_if(
-        entries.begin(), entries.end(), [&](const Entry& entry) { return entry.id == id; }));
-    if (entries.empty()) {
-        grid->second.cells.erase(cell);
-        const auto cluster = grid->second.clusters.find(clusterOf(at));
-        cluster->second &= ~bitOf(at);
-        if (!cluster->second) grid->second.clusters.erase(cluster);
-    }
-    if (--grid->second.size == 0) mGrids.erase(grid);
+    const auto cluster = grid->second.find(clusterOf(cellOf(ball.center, log2)));
+    std::vector<Entry>& entries = cluster->second;
+    *std::find_if(entries.begin(), entries.end(),
+        [&](const Entry& entry) { return entry.id == id; }) = entries.back();
+    entries.pop_back();
+    if (entries.empty()) grid->second.erase(cluster);
+    if (grid->second.empty()) mGrids.erase(grid);
     --mSize;
 }
 
 template <typename Body>
 void BallGrid::forEachNear(const FineBox& box, const Body& body) const
 {
-    for (const auto& [log2, grid] : mGrids) {
+    for (const auto& [log2, clusters] : mGrids) {
         const int64_t width = int64_t(1) << log2; // no ball of this grid has a larger radius
         CoordBBox near;
         for (int a = 0; a < 3; ++a) {
             near.min()[a] = int32_t((box.lo[a] - width) >> log2);
             near.max()[a] = int32_t((box.hi[a] + width) >> log2);
         }
-        const auto& cells = grid.cells;
-        forEachCluster(
-            grid.clusters, near >> std::size_t(2), [&](const Coord& cluster, uint64_t bits) {
-                for (; bits; bits &= bits - 1) {
-                    const int bit = __builtin_ctzll(bits);
-                    const Coord at(4 * cluster[0] + (bit >> 4), 4 * cluster[1] + (bit >> 2 & 3),
-                        4 * cluster[2] + (bit & 3));
-                    if (!near.isInside(at)) continue;
-                    for (const Entry& entry : cells.find(at)->second) body(entry);
-                }
-            });
+        forEachCluster(clusters, near >> std::size_t(2), [&](const std::vector<Entry>& entries) {
+            for (const Entry& entry : entries) {
+                if (near.isInside(entry.cell)) body(entry);
+            }
+        });
     }
 }
 

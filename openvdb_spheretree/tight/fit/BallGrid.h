@@ -6,10 +6,9 @@
 /// as wide as its radius or wider, in the cell of its center. Adding and removing take constant time,
 /// so the grids live as long as the cover does.
 ///
-/// A large ball reaches many cells of the grids of small ones, and nearly all are empty. So each
-/// cluster of 4^3 cells has a mask of its cells that are not empty, and an empty cluster takes one
-/// look-up. (Without clusters, and with cells of one voxel, hairball-256 spent 90 % of its time on
-/// empty cells.)
+/// A large ball reaches many cells of the grids of small ones, and nearly all are empty. So balls are
+/// listed by clusters of 4^3 cells, one look-up each, and those of other cells are passed over. (Without
+/// clusters, and with cells of one voxel, hairball-256 spent 90 % of its time on empty cells.)
 
 #pragma once
 
@@ -45,19 +44,16 @@ public:
 
 private:
     struct Entry {
-        int32_t id;
         ExactSphere ball;
         double radius;
+        int32_t id;
+        openvdb::Coord cell;
     };
-    struct CellHash {
-        std::size_t operator()(const openvdb::Coord& cell) const;
+    struct CoordHash {
+        std::size_t operator()(const openvdb::Coord& at) const;
     };
-    struct Grid {
-        std::unordered_map<openvdb::Coord, std::vector<Entry>, CellHash> cells; ///< none is empty
-        /// For each cluster the mask of its cells that are not empty.
-        std::unordered_map<openvdb::Coord, uint64_t, CellHash> clusters;
-        std::size_t size = 0;
-    };
+    /// The balls in each cluster; none is empty.
+    using Grid = std::unordered_map<openvdb::Coord, std::vector<Entry>, CoordHash>;
 
     /// Calls body(entry) for at least all balls whose boxes meet the box.
     template <typename Body>

@@ -114,12 +114,12 @@ private:
 
     CoverChange tryMove(const Move& move) const
     {
-        VoxelRegion less; // of the old parent's other children
+        std::vector<const VoxelRegion*> others; // of the old parent's children
         for (std::size_t c = 0; c < mRegions.size(); ++c) {
             if (mFiner.parent[c] != move.from || int32_t(c) == move.child) continue;
-            less.insert(less.end(), mRegions[c].begin(), mRegions[c].end());
+            others.push_back(&mRegions[c]);
         }
-        joinLeaves(less);
+        const VoxelRegion less = unionOf(others);
         const VoxelRegion more = unionOf(mBelow[move.to], mRegions[move.child]);
         std::vector<const VoxelRegion*> regions;
         for (const VoxelRegion& region : mBelow) regions.push_back(&region);
@@ -166,12 +166,11 @@ std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
     const std::vector<int32_t>& parents, std::size_t count,
     openvdb::util::NullInterrupter* interrupter)
 {
+    std::vector<std::vector<const VoxelRegion*>> children(count);
+    for (std::size_t i = 0; i < regions.size(); ++i) children[parents[i]].push_back(&regions[i]);
     std::vector<VoxelRegion> below(count);
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        VoxelRegion& region = below[parents[i]];
-        region.insert(region.end(), regions[i].begin(), regions[i].end());
-    }
-    detail::parallelFor(count, interrupter, [&](std::size_t p) { joinLeaves(below[p]); });
+    detail::parallelFor(
+        count, interrupter, [&](std::size_t p) { below[p] = unionOf(children[p]); });
     return below;
 }
 

@@ -77,8 +77,9 @@ StrictMerging::StrictMerging(const SampledObject& object, const std::vector<Cove
     openvdb::util::NullInterrupter* interrupter)
     : mObject(object), mEffort(effort), mFlat(flat), mVoxels(held.areVoxels),
       mInterrupter(interrupter), mBalls(ballsOf(leafBalls)), mGroups(groupsOf(leafBalls)),
-      mHeld(held.held), mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
+      mExtreme(std::move(held.held)), mCost(mBalls.size(), 0.0)
 {
+    if (!mVoxels) mHeld = mExtreme;
     if (held.areInside) return;
     detail::parallelFor(mBalls.size(), interrupter, [&](std::size_t i) {
         thread_local CoveringFit fit;
@@ -90,7 +91,9 @@ StrictMerging::StrictMerging(const SampledObject& object, const std::vector<Cove
 MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 {
     thread_local CoveringFit fit;
-    const Held targets = joined(mExtreme[a], mExtreme[b]);
+    thread_local Held targets;
+    targets = mExtreme[a];
+    targets.insert(targets.end(), mExtreme[b].begin(), mExtreme[b].end());
     if (targets.empty()) return {-mCost[b], a, b, mBalls[a], 0}; // either would do
     fit.open(mObject, targets, {mBalls[a], mBalls[b]}, mEffort.samples);
     const FittedBall fitted = fit.best(mEffort, mFlat);
@@ -99,6 +102,7 @@ MergeCandidate StrictMerging::evaluate(int32_t a, int32_t b) const
 
 void StrictMerging::complete(MergeCandidate& merge) const
 {
+    if (mVoxels) return;
     for (const int32_t node : {merge.a, merge.b}) {
         for (const ExactSphere& held : mHeld[node]) {
             merge.ball.radiusSq = std::max(merge.ball.radiusSq, radiusSqToHold(merge.ball, held));
@@ -108,21 +112,20 @@ void StrictMerging::complete(MergeCandidate& merge) const
 
 void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node)
 {
-    mHeld.resize(std::size_t(node) + merges.size());
-    mExtreme.resize(mHeld.size());
+    mExtreme.resize(std::size_t(node) + merges.size());
+    if (!mVoxels) mHeld.resize(mExtreme.size());
     detail::parallelFor(merges.size(), mInterrupter, [&](std::size_t i) {
         const MergeCandidate& c = merges[i];
         const std::size_t m = std::size_t(node) + i;
-        mHeld[m] = joined(mHeld[c.a], mHeld[c.b]);
         if (mVoxels) {
-            mHeld[m] = extremeVoxels(mHeld[m]);
-            mExtreme[m] = mHeld[m];
+            mExtreme[m] = extremeVoxels(joined(mExtreme[c.a], mExtreme[c.b]));
         } else {
+            mHeld[m] = joined(mHeld[c.a], mHeld[c.b]);
             mExtreme[m] = extremeBalls(mHeld[m]);
         }
         for (const int32_t child : {c.a, c.b}) {
-            Held().swap(mHeld[child]);
             Held().swap(mExtreme[child]);
+            if (!mVoxels) Held().swap(mHeld[child]);
         }
     });
     for (const MergeCandidate& c : merges) {

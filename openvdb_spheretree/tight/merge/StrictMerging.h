@@ -54,9 +54,10 @@ private:
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<ExactSphere> mBalls;
     std::vector<int32_t> mGroups; ///< of leaf balls
-    std::vector<Held> mHeld;      ///< of living nodes: all balls, or all extreme voxels
-    std::vector<Held> mExtreme;   ///< of living nodes: the part that a new ball is fitted to
-    std::vector<double> mCost;    ///< outside voxels in a node's ball
+    std::vector<Held>
+        mHeld; ///< of living nodes: all balls; of voxels, mExtreme has all that matter
+    std::vector<Held> mExtreme; ///< of living nodes: the part that a new ball is fitted to
+    std::vector<double> mCost;  ///< outside voxels in a node's ball
 };
 
 /// @param points  extreme points of each leaf ball's power cell

@@ -88,6 +88,7 @@ std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const Sa
         object.forEachLeaf(ballBox(balls[ball]), [&](std::size_t leaf) {
             const auto& last = lastHeld[leaf];
             if (last.empty() || last.front().ball <= int32_t(ball)) return; // is not read again
+            if ((object.mask(leaf) - inKept[leaf]).none()) return;
             inKept[leaf] |= detail::voxelsOf(balls[ball], kFineShift, object.origin(leaf));
         });
     }

@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace openvdb_spheretree::tight {
 
@@ -49,18 +50,6 @@ VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const Sa
     return inside;
 }
 
-void joinLeaves(VoxelRegion& parts)
-{
-    std::sort(parts.begin(), parts.end(),
-        [](const RegionLeaf& a, const RegionLeaf& b) { return a.leaf < b.leaf; });
-    std::size_t size = 0;
-    for (const RegionLeaf& part : parts) {
-        if (size > 0 && parts[size - 1].leaf == part.leaf) parts[size - 1].mask |= part.mask;
-        else parts[size++] = part;
-    }
-    parts.resize(size);
-}
-
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
 {
     VoxelRegion region;
@@ -68,6 +57,29 @@ VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
         region.push_back({leaf, inA | inB});
     });
     return region;
+}
+
+VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions)
+{
+    // Pointers are sorted, as masks are large.
+    thread_local std::vector<std::pair<uint32_t, const LeafMask*>> parts;
+    parts.clear();
+    for (const VoxelRegion* region : regions) {
+        for (const RegionLeaf& part : *region) parts.emplace_back(part.leaf, &part.mask);
+    }
+    std::sort(
+        parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::size_t leaves = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        leaves += i == 0 || parts[i].first != parts[i - 1].first;
+    }
+    VoxelRegion united;
+    united.reserve(leaves);
+    for (const auto& [leaf, mask] : parts) {
+        if (!united.empty() && united.back().leaf == leaf) united.back().mask |= *mask;
+        else united.push_back({leaf, *mask});
+    }
+    return united;
 }
 
 VoxelRegion intersectionOf(const VoxelRegion& a, const VoxelRegion& b)

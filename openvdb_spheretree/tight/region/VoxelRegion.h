@@ -50,10 +50,8 @@ void forEachLeafOfBoth(const VoxelRegion& a, const VoxelRegion& b, const Body& b
 /// @return the voxels of a region that lie in @a ball.
 VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object);
 
-/// Makes a region of parts that come in any order, and of which several may lie in one leaf.
-void joinLeaves(VoxelRegion& parts);
-
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b);
+VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions);
 VoxelRegion intersectionOf(const VoxelRegion& a, const VoxelRegion& b);
 /// @return the voxels of @a a that are not in @a b.
 VoxelRegion differenceOf(const VoxelRegion& a, const VoxelRegion& b);

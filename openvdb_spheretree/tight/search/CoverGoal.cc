@@ -111,18 +111,26 @@ private:
         return mOneGroup && ball.group == mRemoved.front().group;
     }
 
+    static LeafMask voxelsIn(const Coord& leaf, const CoverBall& ball)
+    {
+        return detail::voxelsOf(ball.ball, kFineShift, leaf);
+    }
+
     void visit(const Leaves& leaves, const std::vector<const CoverBall*>& near, std::size_t begin)
     {
         for (const uint32_t* leaf = leaves.begin; leaf != leaves.end; ++leaf) {
             const Coord& origin = mObject.origin(*leaf);
             LeafMask uncovered{};
             for (const CoverBall& ball : mRemoved) {
-                if (!ball.empty() && mayReach(ball.ball, origin)) {
-                    uncovered |= mGoal.heldIn(*leaf, ball);
-                }
+                if (!ball.empty())
+                    uncovered |= voxelsIn(origin, ball) & mGoal.counting(*leaf, ball.group);
             }
             for (std::size_t i = begin; i < near.size() && !uncovered.none(); ++i) {
-                if (mayReach(near[i]->ball, origin)) uncovered -= mGoal.heldIn(*leaf, *near[i]);
+                const LeafMask held = voxelsIn(origin, *near[i]) & uncovered;
+                if (held.none()) continue;
+                uncovered -= countsLikeRemoved(*near[i])
+                    ? held
+                    : held & mGoal.counting(*leaf, near[i]->group);
             }
             if (!uncovered.none()) mFound.push_back({*leaf, uncovered});
         }
@@ -138,12 +146,9 @@ private:
 
 } // namespace
 
-LeafMask VoxelGoal::heldIn(std::size_t leaf, const CoverBall& ball) const
+const LeafMask& VoxelGoal::counting(std::size_t leaf, int32_t group) const
 {
-    const LeafMask& counts =
-        mRegions.empty() ? mObject.mask(leaf) : maskIn(*mRegions[ball.group], uint32_t(leaf));
-    if (counts.none()) return counts;
-    return detail::voxelsOf(ball.ball, kFineShift, mObject.origin(leaf)) & counts;
+    return mRegions.empty() ? mObject.mask(leaf) : maskIn(*mRegions[group], uint32_t(leaf));
 }
 
 void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,

@@ -44,8 +44,8 @@ public:
     void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
-    /// @return the voxels of a leaf that count as held by the ball.
-    LeafMask heldIn(std::size_t leaf, const CoverBall& ball) const;
+    /// @return the voxels of a leaf that count where a ball of the group holds them.
+    const LeafMask& counting(std::size_t leaf, int32_t group) const;
 
 private:
     const SampleLevel& mObject;
