@@ -428,11 +428,12 @@ TEST_F(CommandQueries, ExpressionsAndLoopsAskPoseByPose)
 
 TEST_F(CommandQueries, ContactsAreTheDeepestPairsOfSpheres)
 {
-    writeText(path("poses.csv"), "x,y,z\n50,0,0\n1,0,0\n");
+    writeText(path("poses.csv"), "x,y,z\n12,1,2\n1,0,0\n");
     const json all = answers("-collide vdb=0,0 poses=poses.csv contacts=5");
     ASSERT_EQ(all.size(), 6u);
     EXPECT_EQ(all[0]["spheres"], "apart");
     EXPECT_TRUE(all[0]["contact"].is_null());
+    EXPECT_EQ(all[0]["lower"], answer("-collide vdb=0,0 translate=12,1,2")["lower"]);
     EXPECT_GT(double(all[0]["lower"]), 0);
     std::vector<double> gaps;
     for (const Ball& a : mBalls) {
