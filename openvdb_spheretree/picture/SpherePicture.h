@@ -8,15 +8,16 @@
 ///    space about the middle of the object, where doubles are finest.
 /// 2. *Colours*: a sphere has one, by PictureColor.
 /// 3. *Rays*: every pixel is the mean of a square of samples, of more where shapes meet. A sample
-///    shows the shape that its ray hits first, found in closed form. It is lit by a lamp with soft
+///    shows the shape that its ray hits first, found in closed form (spheres by the kernel of query/, where
+///    that is sooner: BallScene.h). It is lit by a lamp with soft
 ///    shadow, by a sky with ambient occlusion, and by a little light from behind.
 /// 4. *Blur*: where a pixel shows one smooth surface, it takes the mean light of those of the 25
 ///    pixels around it that show nearly the same plane. So shadows lose their grain, and no edge is
 ///    blurred.
 ///
 /// Random numbers depend on the pixel alone: the same input gives the same picture, for any number
-/// of threads. Cost: O(pixels log shapes), whatever the bounding box: 10.5 s of CPU time for the
-/// 138,157 leaf balls of dragon-512 at 1280 x 960, on a busy Xeon with AVX-512.
+/// of threads. Cost: O(pixels log shapes), whatever the bounding box: 7.3 s of CPU time for the
+/// 138,157 leaf balls of dragon-512 at 1280 x 960, on a busy Xeon with AVX-512 (9.5 s without the kernel).
 /// Tests: TestSpherePicture.cc.
 
 #pragma once

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 
 namespace openvdb_spheretree {
@@ -40,9 +41,27 @@ int QueryScene::add(const QueryTree& tree, const RigidTransform& pose)
     return size() - 1;
 }
 
+bool QueryScene::has(int body) const
+{
+    return body >= 0 && body < size() && mBodies[std::size_t(body)];
+}
+
+void QueryScene::remove(int number)
+{
+    body(number);
+    mBodies[std::size_t(number)].reset();
+    for (auto pair = mIgnored.begin(); pair != mIgnored.end();) {
+        const bool isOf = pair->first == number || pair->second == number;
+        pair = isOf ? mIgnored.erase(pair) : std::next(pair);
+    }
+}
+
 const QueryScene::Body& QueryScene::body(int number) const
 {
-    if (number >= 0 && number < size()) return mBodies[std::size_t(number)];
+    if (has(number)) return *mBodies[std::size_t(number)];
+    if (number >= 0 && number < size()) {
+        OPENVDB_THROW(openvdb::IndexError, "body " << number << " of the scene was removed");
+    }
     OPENVDB_THROW(openvdb::IndexError,
         "the scene has no body " << number << ": it has " << size() << ", counted from 0");
 }
@@ -71,10 +90,15 @@ bool QueryScene::isIgnored(int a, int b) const
 /// The axis along which centers spread most: by their variance.
 int QueryScene::widestAxis() const
 {
+    const auto count = std::count_if(
+        mBodies.begin(), mBodies.end(), [](const auto& body) { return body.has_value(); });
     Vec3d mean(0.0), variance(0.0);
-    for (const Body& body : mBodies) mean += body.center / double(size());
-    for (const Body& body : mBodies) {
-        const Vec3d off = body.center - mean;
+    for (const auto& body : mBodies) {
+        if (body) mean += body->center / double(count);
+    }
+    for (const auto& body : mBodies) {
+        if (!body) continue;
+        const Vec3d off = body->center - mean;
         variance += off * off;
     }
     return int(
@@ -86,8 +110,10 @@ std::vector<Pair> QueryScene::nearPairs(double margin) const
     detail::requireLength(margin, "the margin");
     const int axis = widestAxis();
     const auto low = [&](int i) { return body(i).center[axis] - body(i).radius; };
-    std::vector<int> order(mBodies.size());
-    for (int i = 0; i < size(); ++i) order[std::size_t(i)] = i;
+    std::vector<int> order;
+    for (int i = 0; i < size(); ++i) {
+        if (has(i)) order.push_back(i);
+    }
     std::sort(order.begin(), order.end(),
         [&](int a, int b) { return std::make_pair(low(a), a) < std::make_pair(low(b), b); });
     std::vector<Pair> pairs;

@@ -28,6 +28,7 @@
 #include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -44,7 +45,10 @@ class QueryScene {
 public:
     /// @return the number of the body: 0, 1, 2 ... as they are added.
     int add(const QueryTree& tree, const RigidTransform& pose = {});
+    /// @return how many bodies were added: one more than the last number. Those that were removed count.
     int size() const { return int(mBodies.size()); }
+    /// @return whether there is a body of this number, which was not removed.
+    bool has(int body) const;
 
     /// @name A body by its number
     /// @throw openvdb::IndexError if there is none
@@ -52,6 +56,8 @@ public:
     void setPose(int body, const RigidTransform& pose);
     const RigidTransform& pose(int body) const;
     const QueryTree& tree(int body) const;
+    /// Its number is not given again, and pairs that were ignored for it are forgotten.
+    void remove(int body);
     /// The pair is never among the answers; or again, with @a isIgnored = false.
     void ignore(int a, int b, bool isIgnored = true);
     bool isIgnored(int a, int b) const;
@@ -81,7 +87,7 @@ private:
     const Body& body(int number) const;
     int widestAxis() const;
 
-    std::vector<Body> mBodies;
+    std::vector<std::optional<Body>> mBodies; ///< by number; none where it was removed
     std::set<std::pair<int, int>> mIgnored;
 };
 

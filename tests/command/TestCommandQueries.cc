@@ -426,11 +426,91 @@ TEST_F(CommandQueries, ExpressionsAndLoopsAskPoseByPose)
     EXPECT_EQ(run("-config actions.txt").exitCode, 0);
 }
 
+TEST_F(CommandQueries, ContactsAreTheDeepestPairsOfSpheres)
+{
+    writeText(path("poses.csv"), "x,y,z\n12,1,2\n1,0,0\n");
+    const json all = answers("-collide vdb=0,0 poses=poses.csv contacts=5");
+    ASSERT_EQ(all.size(), 6u);
+    EXPECT_EQ(all[0]["spheres"], "apart");
+    EXPECT_TRUE(all[0]["contact"].is_null());
+    EXPECT_EQ(all[0]["lower"], answer("-collide vdb=0,0 translate=12,1,2")["lower"]);
+    EXPECT_GT(double(all[0]["lower"]), 0);
+    std::vector<double> gaps;
+    for (const Ball& a : mBalls) {
+        for (const Ball& b : mBalls) {
+            gaps.push_back((a.center - b.center - Vec3d(1, 0, 0)).length() - a.radius - b.radius);
+        }
+    }
+    std::sort(gaps.begin(), gaps.end());
+    for (int k = 0; k < 5; ++k) {
+        EXPECT_EQ(all[k + 1]["pose"], 1);
+        EXPECT_EQ(all[k + 1]["contact"], k);
+        EXPECT_NEAR(double(all[k + 1]["distance"]), gaps[std::size_t(k)], 1e-4);
+    }
+    const Result table = run("-read t.vdb -collide vdb=0,0 poses=poses.csv contacts=5");
+    EXPECT_TRUE(mentions(table.out, "2 poses: 1 apart, 1 touching")) << table.out;
+    EXPECT_EQ(run("-read t.vdb -collide vdb=0,0 contacts=1").exitCode, 2);
+}
+
+TEST_F(CommandQueries, AMotionTouchesWhereItsSpheresFirstMeet)
+{
+    writeText(path("way.csv"), "x,y,z,rx,ry,rz\n40,1,2,0,0,0\n-40,1,2,0,0,0\n-40,30,2,0,0,1\n");
+    const json hit = answer("-collide vdb=0,0 motion=1 poses=way.csv");
+    EXPECT_EQ(hit["spheres"], "touching");
+    const double time = hit["time"];
+    const auto gapAt = [&](double t) {
+        std::vector<Ball> moved = mBalls;
+        for (Ball& ball : moved) ball.center += Vec3d(40 - 80 * t, 1, 2);
+        return gapOf(mBalls, moved);
+    };
+    EXPECT_NEAR(gapAt(time), 0, 2e-3);
+    for (int i = 0; i < 100; ++i) EXPECT_GT(gapAt(time * i / 100), 0);
+    EXPECT_EQ(hit["free_until"], time);
+
+    const json all = answers("-collide vdb=0,0 motion=1 poses=way.csv");
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[1]["spheres"], "apart");
+    EXPECT_TRUE(all[1]["time"].is_null());
+    EXPECT_EQ(all[1]["free_until"], 1);
+    const Result table = run("-read t.vdb -collide vdb=0,0 motion=1 poses=way.csv expect=apart");
+    EXPECT_EQ(table.exitCode, 6);
+    EXPECT_TRUE(
+        mentions(table.out, "2 motions: 1 apart, 1 touching; the first contact is in motion 0"))
+        << table.out;
+    EXPECT_TRUE(mentions(table.err, "in 1 of 2 motions, the first: motion 0 is touching"))
+        << table.err;
+    EXPECT_EQ(answer("-collide vdb=0,0 motion=1 translate=1,0,0")["time"], 0);
+    const Result few =
+        run("-quiet -read t.vdb -collide vdb=0,0 motion=1 poses=way.csv blocks=1 csv=-");
+    EXPECT_TRUE(mentions(few.out, "motion,spheres,time,free_until,")) << few.out;
+    EXPECT_TRUE(mentions(few.out, "0,undecided,,")) << few.out;
+}
+
+TEST_F(CommandQueries, MotionsThatAreNoneAreRefused)
+{
+    for (const char* other : {"margin=1", "objects=1", "contacts=3"}) {
+        const Result both = run("-read t.vdb -collide vdb=0,0 motion=1 " + std::string(other));
+        EXPECT_EQ(both.exitCode, 2);
+        EXPECT_TRUE(mentions(both.err, "motion and ")) << both.err;
+    }
+    EXPECT_EQ(run("-read t.vdb -collide vdb=0,0 tolerance=0.1").exitCode, 2);
+    EXPECT_EQ(run("-read t.vdb -collide vdb=0,0 motion=1 tolerance=-1").exitCode, 2);
+    writeText(path("one.csv"), "x,y,z\n1,2,3\n");
+    const Result one = run("-read t.vdb -collide vdb=0,0 motion=1 poses=one.csv csv=never.csv");
+    EXPECT_EQ(one.exitCode, 3);
+    EXPECT_TRUE(mentions(one.err, "one.csv: motion=1 goes from pose to pose")) << one.err;
+    writeText(path("short.csv"), "x,y,z\n1,2,3\n4,5\n");
+    const Result cut = run("-read t.vdb -collide vdb=0,0 motion=1 poses=short.csv csv=never.csv");
+    EXPECT_EQ(cut.exitCode, 3);
+    EXPECT_TRUE(mentions(cut.err, "short.csv: line 3")) << cut.err;
+    EXPECT_FALSE(exists("never.csv"));
+}
+
 TEST_F(CommandQueries, HelpHasOptionsAndColumns)
 {
     const Result help = run("-help collide distance raycast contains");
-    for (const char* part : {"translate=", "rotate=", "matrix=", "expect=", "qx,qy,qz,qw",
-             "rays=", "x,y,z,dx,dy,dz", "points="}) {
+    for (const char* part : {"translate=", "rotate=", "matrix=", "expect=", "contacts=", "motion=",
+             "tolerance=", "qx,qy,qz,qw", "rays=", "x,y,z,dx,dy,dz", "points="}) {
         EXPECT_TRUE(mentions(help.out, part)) << part;
     }
 }

@@ -229,3 +229,26 @@ TEST(QueryScene, CanBeInterrupted)
     scene.add(tree);
     EXPECT_THROW(scene.touchingPairs({}, &stop), Interrupted);
 }
+
+TEST(QueryScene, BodiesThatAreRemovedTouchNothing)
+{
+    const QueryTree tree = makeQueryTree(querySamples().front().tree);
+    QueryScene scene;
+    for (int i = 0; i < 4; ++i) scene.add(tree);
+    scene.ignore(0, 1);
+    scene.remove(1);
+    EXPECT_EQ(scene.size(), 4);
+    EXPECT_FALSE(scene.has(1));
+    EXPECT_TRUE(scene.has(2));
+    EXPECT_FALSE(scene.has(4));
+    const auto pairs = scene.nearPairs();
+    EXPECT_EQ(pairs, (std::vector<std::pair<int, int>>{{0, 2}, {0, 3}, {2, 3}}));
+    EXPECT_EQ(scene.touchingPairs().size(), 3u);
+    EXPECT_THROW(scene.setPose(1, {}), openvdb::IndexError);
+    EXPECT_THROW(scene.remove(1), openvdb::IndexError);
+    EXPECT_THROW(scene.isIgnored(0, 1), openvdb::IndexError);
+    EXPECT_EQ(scene.add(tree), 4);
+    EXPECT_EQ(scene.nearPairs().size(), 6u);
+    for (const int body : {0, 2, 3, 4}) scene.remove(body);
+    EXPECT_TRUE(scene.touchingPairs().empty());
+}
