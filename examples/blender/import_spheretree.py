@@ -22,8 +22,11 @@ NUMBERS = {"radius": "FLOAT", "level": "INT", "id": "INT", "parent": "INT"}
 
 def read_table(path):
     """The rows of a tree as `-write x.csv` has them."""
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+    except (UnicodeDecodeError, csv.Error):  # another file, such as the .vdb
+        rows = []
     if not rows or not {"x", "y", "z", *NUMBERS} <= rows[0].keys():
         raise ValueError(f"{path}: no table of a sphere-tree (vdb_spheretree -read tree.vdb -write tree.csv)")
     return rows

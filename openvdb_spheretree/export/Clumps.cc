@@ -18,7 +18,7 @@ void writeRows(
     }
 }
 
-void writeTable(const ExportScene& scene, std::string_view header, std::ostream& out)
+void writeTable(const ExportScene& scene, std::string_view header, const ExportSink& out)
 {
     ExportText text(out, scene.decimals);
     text << header;
@@ -42,7 +42,7 @@ std::vector<double> sharesOf(const ExportLevel& level, double mass)
 } // namespace
 
 /// fix particletemplate/multisphere of LIGGGHTS: as many lines as its nspheres says.
-void writeLiggghts(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeLiggghts(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);
@@ -54,7 +54,7 @@ void writeLiggghts(const std::vector<ExportScene>& samples, std::ostream& out)
 }
 
 /// ymport.textClumps() of YADE: the fifth number is that of the clump. Empty lines would stop it.
-void writeYade(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeYade(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);
@@ -65,20 +65,20 @@ void writeYade(const std::vector<ExportScene>& samples, std::ostream& out)
 }
 
 /// The csv of multisphere and of GEMSS.
-void writeMultisphere(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMultisphere(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     writeTable(samples.front(), "x,y,z,radius\n", out);
 }
 
 /// The csv of DEM-Engine, which takes no column more.
-void writeDeme(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeDeme(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     writeTable(samples.front(), "x,y,z,r\n", out);
 }
 
 /// A molecule of LAMMPS for its rigid fixes, which take mass, center and inertia from here:
 /// https://docs.lammps.org/molecule.html
-void writeLammps(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeLammps(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExportBuffer.h"
 
+#include <openvdb_spheretree/base/Parallel.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <ostream>
@@ -9,16 +11,17 @@ namespace openvdb_spheretree::detail {
 
 void ExportBuffer::flush()
 {
-    mOut.write(mBytes.data(), std::streamsize(mBytes.size()));
-    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
+    checkInterrupt(mSink.interrupter);
+    mSink.stream.write(mBytes.data(), std::streamsize(mBytes.size()));
+    if (!mSink.stream) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
     mBytes.clear();
 }
 
 void ExportBuffer::finish()
 {
     flush();
-    mOut.flush();
-    if (!mOut) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
+    mSink.stream.flush();
+    if (!mSink.stream) OPENVDB_THROW(openvdb::IoError, "cannot write the file: is the disk full?");
 }
 
 } // namespace openvdb_spheretree::detail

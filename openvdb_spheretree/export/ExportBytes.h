@@ -14,7 +14,7 @@ namespace openvdb_spheretree::detail {
 
 class ExportBytes : public ExportBuffer {
 public:
-    explicit ExportBytes(std::ostream& out) : ExportBuffer(out) {}
+    explicit ExportBytes(const ExportSink& out) : ExportBuffer(out) {}
 
     template <typename Number>
     void put(Number number)

@@ -21,7 +21,8 @@ enum Trait : unsigned {
     kMass = 16,          ///< ExportFormat::mass
     kPositiveRadii = 32, ///< ExportFormat::positiveRadii
     kByName = 64,        ///< its extensions mean another format, or nothing, without its name
-    kOrdersIds = 128     ///< ExportFormat::ordersIds
+    kOrdersIds = 128,    ///< ExportFormat::ordersIds
+    kMetres = 256        ///< ExportFormat::metres
 };
 
 struct Row {
@@ -40,12 +41,12 @@ constexpr char kTriangles[] = "a level as triangles";
 
 // clang-format off
 constexpr Row kRows[] = {
-    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kPositiveRadii, detail::writeUrdf},
-    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kPositiveRadii, detail::writeMjcf},
-    {"srdf", ".srdf", "MoveIt", kSpheres, kPositiveRadii, detail::writeSrdf},
-    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kPositiveRadii, detail::writeCurobo},
-    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kPositiveRadii, detail::writeXrdf},
-    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kPositiveRadii | kByName, detail::writeLula},
+    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kMetres | kPositiveRadii, detail::writeUrdf},
+    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kMetres | kPositiveRadii, detail::writeMjcf},
+    {"srdf", ".srdf", "MoveIt", kSpheres, kMetres | kPositiveRadii, detail::writeSrdf},
+    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kMetres | kPositiveRadii, detail::writeCurobo},
+    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kMetres | kPositiveRadii, detail::writeXrdf},
+    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kMetres | kPositiveRadii | kByName, detail::writeLula},
     {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName, detail::writeFoam},
     {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
 
@@ -92,6 +93,7 @@ ExportFormat makeFormat(const Row& row)
     format.allLevels = has(kAllLevels);
     format.samples = has(kSamples);
     format.mass = has(kMass);
+    format.metres = has(kMetres);
     format.positiveRadii = has(kPositiveRadii);
     format.ordersIds = has(kOrdersIds);
     if (format.name == "nanovdb" && !writesNanoVdb()) {

@@ -12,7 +12,8 @@ namespace openvdb_spheretree {
 
 namespace detail {
 struct ExportScene;
-}
+struct ExportSink;
+} // namespace detail
 
 /// What the numbers of a format are. Spheres are rounded to them before they are written.
 enum class ExportNumbers {
@@ -31,11 +32,13 @@ struct ExportFormat {
     bool allLevels = false;     ///< holds more than one level
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia
+    bool metres = false;        ///< its readers take its numbers for metres
     bool ordersIds = false;     ///< its ids count from the top level on: tracks have no place
     bool positiveRadii = false; ///< its readers refuse a radius of 0
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;
-    void (*write)(const std::vector<detail::ExportScene>& samples, std::ostream& out) = nullptr;
+    void (*write)(
+        const std::vector<detail::ExportScene>& samples, const detail::ExportSink& out) = nullptr;
 };
 
 /// @return all of them, in the order in which they are listed.

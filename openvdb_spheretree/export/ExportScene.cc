@@ -132,6 +132,25 @@ void noteGrowth(double worst, const ExportFormat& format, std::vector<std::strin
         + " %; frame=centroid puts the spheres around the origin");
 }
 
+/// A robot of 200 metres was one of 200 millimetres.
+void noteUnits(
+    const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    constexpr double kSmallest = 0.002, kLargest = 20; // metres
+    if (!format.metres) return;
+    if (scene.metersPerUnit != 1) {
+        notes.push_back("readers of " + format.name
+            + " take its numbers for metres, and units= makes them others");
+        return;
+    }
+    const double span = ExportScene::boxOf(scene.finest()).extents().length();
+    if (span > kSmallest && span < kLargest) return;
+    notes.push_back(format.name + " is in metres, and these spheres span " + shortNumber(span)
+        + ": if the tree is in millimetres, read what it is made of with units=mm, or write it "
+          "with "
+          "scale=0.001");
+}
+
 /// Of the finest level.
 MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
@@ -223,6 +242,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
         worst = std::max(worst, roundLevel(tree, frame, round, interrupter, level));
     }
     noteGrowth(worst, format, notes);
+    noteUnits(scene, format, notes);
     if (!tree.track.empty() && !format.ordersIds) {
         for (ExportLevel& level : scene.levels) showTracks(tree, level);
     }

@@ -16,7 +16,7 @@ bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) !
 
 } // namespace
 
-ExportText::ExportText(std::ostream& out, int decimals)
+ExportText::ExportText(const ExportSink& out, int decimals)
     : ExportBuffer(out), mDecimals(decimals), mUnits(std::pow(10.0, decimals))
 {}
 

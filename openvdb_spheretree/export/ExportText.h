@@ -18,7 +18,7 @@ namespace openvdb_spheretree::detail {
 class ExportText : public ExportBuffer {
 public:
     /// @param decimals  at most so many of a length; all lengths must be multiples of 10^-decimals (ExportScene)
-    ExportText(std::ostream& out, int decimals);
+    ExportText(const ExportSink& out, int decimals);
 
     ExportText& operator<<(std::string_view text)
     {

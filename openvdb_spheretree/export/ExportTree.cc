@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExportTree.h"
 
+#include "ExportBuffer.h"
 #include "ExportScene.h"
 
 #include <openvdb/Exceptions.h>
@@ -67,7 +68,7 @@ std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees
             if (!std::count(notes.begin(), notes.end(), note)) notes.push_back(note);
         }
     }
-    format.write(samples, out);
+    format.write(samples, {out, interrupter});
     return notes;
 }
 

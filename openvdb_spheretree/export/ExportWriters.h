@@ -5,54 +5,54 @@
 
 #pragma once
 
+#include "ExportBuffer.h"
 #include "ExportScene.h"
 
-#include <iosfwd>
 #include <vector>
 
 namespace openvdb_spheretree::detail {
 
 /// @name Robots
 /// @{
-void writeUrdf(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeMjcf(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeSrdf(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeCurobo(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeXrdf(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeLula(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeFoam(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeMorphIt(const std::vector<ExportScene>& samples, std::ostream& out);
+void writeUrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeMjcf(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeSrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeCurobo(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeXrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeLula(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeFoam(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeMorphIt(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}
 
 /// @name Film
 /// @{
-void writeUsda(const std::vector<ExportScene>& samples, std::ostream& out);
-void writePly(const std::vector<ExportScene>& samples, std::ostream& out);
-void writePlyAscii(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeGlb(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeNanoVdbPoints(const std::vector<ExportScene>& samples, std::ostream& out);
+void writeUsda(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writePly(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writePlyAscii(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeGlb(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeNanoVdbPoints(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}
 
 /// @name Meshes of spheres
 /// @{
-void writeMeshObj(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeMeshStl(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeMeshGlb(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeUnrealObj(const std::vector<ExportScene>& samples, std::ostream& out);
+void writeMeshObj(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeMeshStl(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeMeshGlb(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeUnrealObj(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}
 
 /// @name Science
 /// @{
-void writeVtp(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeVtk(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeLiggghts(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeYade(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeLammps(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeMultisphere(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeDeme(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeXyz(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeSwc(const std::vector<ExportScene>& samples, std::ostream& out);
-void writeSph(const std::vector<ExportScene>& samples, std::ostream& out);
+void writeVtp(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeVtk(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeLiggghts(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeYade(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeLammps(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeMultisphere(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeDeme(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeXyz(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeSwc(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeSph(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}
 
 } // namespace openvdb_spheretree::detail

@@ -121,7 +121,7 @@ void writeScenes(
 
 } // namespace
 
-void writeGlb(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeGlb(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const UnitSphere shape = unitSphere(2);
@@ -145,7 +145,7 @@ void writeGlb(const std::vector<ExportScene>& samples, std::ostream& out)
         "EXT_mesh_gpu_instancing", out);
 }
 
-void writeMeshGlb(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMeshGlb(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

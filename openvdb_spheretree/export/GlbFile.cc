@@ -89,7 +89,7 @@ std::string GlbFile::json(const std::function<void(JsonWriter&)>& writeScenes,
 }
 
 void GlbFile::write(const std::function<void(JsonWriter&)>& writeScenes,
-    const std::string& extension, std::ostream& out) const
+    const std::string& extension, const ExportSink& out) const
 {
     uint64_t bufferBytes = 0;
     for (const Array& array : mArrays) bufferBytes += array.bytes();

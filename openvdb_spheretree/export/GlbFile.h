@@ -37,7 +37,7 @@ public:
     /// @param extension    that they need; may be empty
     /// @throw openvdb::ValueError if the file would be larger than 4 GiB, which it can't
     void write(const std::function<void(JsonWriter&)>& writeScenes, const std::string& extension,
-        std::ostream& out) const;
+        const ExportSink& out) const;
 
 private:
     enum Target { NoTarget = 0, ArrayBuffer = 34962, ElementArrayBuffer = 34963 };

@@ -19,7 +19,7 @@ void writeInertial(ExportText& text, const ExportScene& scene)
 
 } // namespace
 
-void writeMjcf(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMjcf(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

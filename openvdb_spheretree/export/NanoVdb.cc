@@ -50,14 +50,14 @@ ScenePoints pointsOf(const ExportScene& scene)
 
 } // namespace
 
-void writeNanoVdbPoints(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeNanoVdbPoints(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     constexpr std::size_t kLongestName = 200;
     const ExportScene& scene = samples.front();
     ScenePoints points = pointsOf(scene);
     const double voxelSize = voxelSizeFor(points.centers);
     for (openvdb::Vec3d& center : points.centers) center /= voxelSize; // exact
-    PointWriter writer(points.centers, nullptr);
+    PointWriter writer(points.centers, out.interrupter);
     const auto add = [&](const char* name, const auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         writer.addAttribute<Value>(name, [&](uint32_t i) { return values[i]; });
@@ -68,7 +68,7 @@ void writeNanoVdbPoints(const std::vector<ExportScene>& samples, std::ostream& o
     add("parent", points.parents);
     const auto grid = writer.finish(*openvdb::math::Transform::createLinearTransform(voxelSize));
     grid->setName(onOneLine(scene.name, kLongestName));
-    writeNanoVdb({grid}, out);
+    writeNanoVdb({grid}, out.stream, out.interrupter);
 }
 
 } // namespace openvdb_spheretree::detail

@@ -19,7 +19,7 @@ void writeHeader(ExportText& text, const ExportScene& scene, std::string_view fo
 
 } // namespace
 
-void writePly(const std::vector<ExportScene>& samples, std::ostream& out)
+void writePly(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);
@@ -38,7 +38,7 @@ void writePly(const std::vector<ExportScene>& samples, std::ostream& out)
     bytes.finish();
 }
 
-void writePlyAscii(const std::vector<ExportScene>& samples, std::ostream& out)
+void writePlyAscii(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);

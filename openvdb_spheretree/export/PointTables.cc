@@ -7,7 +7,7 @@
 namespace openvdb_spheretree::detail {
 
 /// https://wiki.fysik.dtu.dk/ase/ase/io/formatoptions.html#extxyz: all spheres are hydrogen (X has no colour).
-void writeXyz(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeXyz(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);
@@ -27,7 +27,7 @@ void writeXyz(const std::vector<ExportScene>& samples, std::ostream& out)
 
 /// http://www.neuronland.org/NLMorphologyConverter/MorphologyFormats/SWC/Spec.html: parents stand before their
 /// children, and -1 is no parent. Numbers begin with 1.
-void writeSwc(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeSwc(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);

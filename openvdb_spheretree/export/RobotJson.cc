@@ -9,7 +9,7 @@ namespace openvdb_spheretree::detail {
 
 /// https://github.com/CoMMALab/foam: an entry a depth, the root first. Its three errors are those of the
 /// program that it wraps; there are none here.
-void writeFoam(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeFoam(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     ExportText text(out, scene.decimals);
@@ -28,7 +28,7 @@ void writeFoam(const std::vector<ExportScene>& samples, std::ostream& out)
 }
 
 /// https://github.com/HIRO-group/MorphIt-1
-void writeMorphIt(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMorphIt(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

@@ -22,7 +22,7 @@ void writeSpheres(ExportText& text, const ExportLevel& level, std::string_view i
 
 /// https://curobo.org: the map of collision_spheres stands in the file itself, because a file of its own is
 /// read by some of its loaders only. Numbers must be floats for it, zeros too.
-void writeCurobo(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeCurobo(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::string link = jsonString(scene.link);
@@ -39,7 +39,7 @@ void writeCurobo(const std::vector<ExportScene>& samples, std::ostream& out)
 
 /// https://nvidia-isaac-ros.github.io/concepts/manipulation/xrdf.html; joints are the robot's, and are left to
 /// be filled in.
-void writeXrdf(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeXrdf(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::string link = jsonString(scene.link), geometry = jsonString(scene.name);
@@ -55,7 +55,7 @@ void writeXrdf(const std::vector<ExportScene>& samples, std::ostream& out)
     text.finish();
 }
 
-void writeLula(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeLula(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::string link = jsonString(scene.link);

@@ -70,7 +70,7 @@ void writePlace(ExportText& text, const ExportLevel& level, int32_t sphere)
 
 } // namespace
 
-void writeSph(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeSph(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::size_t levels = scene.levels.size();

@@ -7,7 +7,10 @@
 #include "ExportWriters.h"
 #include "UnitSphere.h"
 
+#include <openvdb/Exceptions.h>
+
 #include <cstdio>
+#include <limits>
 
 namespace openvdb_spheretree::detail {
 
@@ -15,7 +18,7 @@ namespace {
 
 /// @param nameOf  std::string(std::size_t): of the object that a sphere is
 template <typename NameOf>
-void writeObj(const ExportScene& scene, const NameOf& nameOf, std::ostream& out)
+void writeObj(const ExportScene& scene, const NameOf& nameOf, const ExportSink& out)
 {
     const ExportLevel& level = scene.finest();
     const UnitSphere shape = meshShapeFor(level.size());
@@ -43,7 +46,7 @@ std::string twoDigits(std::size_t number)
 
 } // namespace
 
-void writeMeshObj(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMeshObj(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::string name = oneWord(scene.name);
@@ -54,7 +57,7 @@ void writeMeshObj(const std::vector<ExportScene>& samples, std::ostream& out)
 
 /// Unreal takes a mesh of this name for a sphere collider of the mesh `name`:
 /// https://dev.epicgames.com/documentation/en-us/unreal-engine/fbx-static-mesh-pipeline-in-unreal-engine
-void writeUnrealObj(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeUnrealObj(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::string name = "USP_" + oneWord(scene.name) + "_";
@@ -63,15 +66,21 @@ void writeUnrealObj(const std::vector<ExportScene>& samples, std::ostream& out)
 }
 
 /// Binary, as all readers take it: a header of 80 bytes, and 50 bytes a triangle.
-void writeMeshStl(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeMeshStl(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportLevel& level = samples.front().finest();
     const UnitSphere shape = meshShapeFor(level.size());
+    const uint64_t triangles = uint64_t(level.size()) * shape.triangles.size();
+    if (triangles > std::numeric_limits<uint32_t>::max()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "a .stl counts its triangles in 32 bits, and here are "
+                << triangles << ": choose a coarser level with level= or spheres=");
+    }
     ExportBytes bytes(out);
     std::string header = "spheres of " + oneWord(samples.front().name);
     header.resize(80, ' ');
     bytes.put(header);
-    bytes.put(uint32_t(level.size() * shape.triangles.size()));
+    bytes.put(uint32_t(triangles));
     const auto put = [&](const openvdb::Vec3d& vector) {
         for (int axis = 0; axis < 3; ++axis) bytes.put(float(vector[axis]));
     };

@@ -6,7 +6,7 @@
 
 namespace openvdb_spheretree::detail {
 
-void writeSrdf(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeSrdf(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

@@ -28,7 +28,7 @@ void writeInertial(ExportText& text, const ExportScene& scene)
 
 } // namespace
 
-void writeUrdf(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeUrdf(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const ExportLevel& level = scene.finest();

@@ -154,7 +154,7 @@ void writeStage(ExportText& text, const Samples& samples, const std::string& pri
 
 } // namespace
 
-void writeUsda(const Samples& samples, std::ostream& out)
+void writeUsda(const Samples& samples, const ExportSink& out)
 {
     const std::string prim = identifier(samples.front().name);
     const std::vector<int> numbers = levelNumbers(samples);

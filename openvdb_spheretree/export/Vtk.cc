@@ -6,7 +6,7 @@
 
 namespace openvdb_spheretree::detail {
 
-void writeVtk(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeVtk(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::size_t count = scene.sphereCount();

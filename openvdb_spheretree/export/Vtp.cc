@@ -34,7 +34,7 @@ void declare(ExportText& text, const Array& array, uint64_t& offset)
 
 } // namespace
 
-void writeVtp(const std::vector<ExportScene>& samples, std::ostream& out)
+void writeVtp(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
     const std::size_t count = scene.sphereCount();

@@ -41,7 +41,7 @@ def _text(name: str, value: object) -> str:
 
 
 def _count_text(value: Counts) -> str:
-    items = [value] if isinstance(value, (int, np.integer)) else list(value)
+    items = list(value) if isinstance(value, (Sequence, np.ndarray)) and np.ndim(value) == 1 else [value]
     for item in items:
         if isinstance(item, (bool, np.bool_)) or not isinstance(item, (int, np.integer)):
             raise TypeError(f"spheres must be a whole number, or several, not {type(item).__name__}")

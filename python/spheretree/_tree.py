@@ -200,6 +200,16 @@ class Tree:
         """
         _spheretree.save(self._handle, os.fsencode(path), progress)
 
+    def export(self, path: str | os.PathLike[str], **options: Any) -> None:
+        """`spheretree.export()` of this tree: the files of other tools.
+
+        >>> import numpy, spheretree
+        >>> spheretree.build(numpy.ones((9, 9, 9), bool), spheres=8, quality="fast").export("cube.ply")
+        """
+        from ._export import export  # which knows trees
+
+        export(self, path, **options)
+
     def check(self, volume: VolumeLike, **keywords: Any) -> list[Fault]:
         """`check()` of this tree."""
         return check(self, volume, **keywords)

@@ -165,6 +165,24 @@ TEST_F(CommandFrames, TwoFramesToOneFileAreRefusedBeforeAnyWork)
     EXPECT_FALSE(exists("tree.vdb"));
 }
 
+TEST_F(CommandFrames, AFileThatHoldsAllFramesIsWrittenBehindTheLoop)
+{
+    writeFrames({8, 9});
+    const Result result = run("-read smoke_####.vdb -spheretree -write shot.usda");
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(holds(result.err, "-end -write shot.usda")) << result.err;
+}
+
+TEST_F(CommandFrames, FilesThatTheShellHasNamedAreTakenForASequence)
+{
+    writeFrames({8, 9, 10});
+    const Result result =
+        run("-read smoke_0008.vdb smoke_0009.vdb smoke_0010.vdb -spheretree -write t.vdb");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(holds(result.err, "; -read smoke_####.vdb takes them one by one, as frames"))
+        << result.err;
+}
+
 TEST_F(CommandFrames, AFrameThatFailsIsNamedAndTheOthersAreThere)
 {
     writeFrames({8, 9, 10});

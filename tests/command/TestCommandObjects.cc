@@ -150,7 +150,7 @@ TEST_F(CommandObjects, UnitsBecomeMetres)
         path("huge.obj"), "v 0 0 0\nv 1e20 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n");
     expectError(3, "-read huge.obj scale=1e30 -mesh2ls dim=9 -write t.vdb", "a smaller scale");
     ASSERT_EQ(run("-read a.vol -spheretree quality=fast -write tree.vdb").exitCode, 0);
-    expectError(3, "-read tree.vdb units=mm -write t.vdb", "build the tree anew");
+    expectError(3, "-read tree.vdb units=mm -write t.vdb", "read the tree by a -read of its own");
 }
 
 TEST_F(CommandObjects, VoxelsThatAreNoCubesAreMadeCubes)

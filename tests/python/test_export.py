@@ -66,3 +66,10 @@ def test_what_is_wrong_is_said_and_leaves_the_old_file(tree, tmp_path, words, wh
         spheretree.export(tree, path, **words)
     assert path.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_tree_exports_itself(tmp_path):
+    tree = spheretree.build(np.ones((9, 9, 9), bool), spheres=[8, 1], quality="fast")
+    spheretree.export(tree, tmp_path / "a.ply", level=1)
+    tree.export(tmp_path / "b.ply", level=1)
+    assert (tmp_path / "a.ply").read_bytes() == (tmp_path / "b.ply").read_bytes()

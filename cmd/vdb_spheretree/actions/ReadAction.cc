@@ -156,9 +156,8 @@ void scaleItem(const StackItem& item, std::optional<double> scale)
     if (!scale) return;
     if (item.tree) {
         throwInput("sphere-tree '" + oneLine(item.name(), 60)
-            + "' is not scaled: scale= and units= are for meshes, grids and volumes; build the "
-              "tree "
-              "anew of what it was made of");
+            + "' is not scaled: scale= and units= are for meshes, grids and volumes; read the "
+              "tree by a -read of its own without them, or build it anew of what it was made of");
     }
     if (item.mesh) scaleMesh(*item.mesh, *scale);
     if (item.grid) openvdb_spheretree::scaleGrid(*item.grid, *scale);

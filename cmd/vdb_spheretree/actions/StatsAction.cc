@@ -9,7 +9,9 @@
 #include "ReportFiles.h"
 
 #include <openvdb/Grid.h>
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <iostream>
@@ -52,6 +54,18 @@ void printGrid(std::ostream& out, const openvdb::GridBase& grid)
         << size[2] << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
 }
 
+/// Its sides tell in which unit it is.
+void printMesh(std::ostream& out, const openvdb_spheretree::TriangleMesh& mesh)
+{
+    using openvdb_spheretree::detail::shortNumber;
+    out << ", " << counted(int64_t(mesh.points.size()), "point") << ", "
+        << counted(int64_t(mesh.triangles.size()), "triangle");
+    if (mesh.points.empty()) return;
+    const openvdb::Vec3d sides = boxOf(mesh).extents();
+    out << ", " << shortNumber(sides[0]) << " x " << shortNumber(sides[1]) << " x "
+        << shortNumber(sides[2]) << " world units";
+}
+
 void printItem(std::ostream& out, const StackItem& item)
 {
     out << item.description();
@@ -61,8 +75,7 @@ void printItem(std::ostream& out, const StackItem& item)
         out << ", " << counted(item.tree->size(), "sphere") << " on "
             << counted(int64_t(item.tree->levels.size()), "level");
     } else {
-        out << ", " << counted(int64_t(item.mesh->points.size()), "point") << ", "
-            << counted(int64_t(item.mesh->triangles.size()), "triangle");
+        printMesh(out, *item.mesh);
     }
     out << (item.written ? ", written" : "") << "\n";
 }

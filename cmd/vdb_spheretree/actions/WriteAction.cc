@@ -10,6 +10,7 @@
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 #include "session/Session.h"
+#include "WriteAdvice.h"
 #include "WriteChart.h"
 #include "WriteExport.h"
 #include "WritePage.h"
@@ -64,6 +65,22 @@ FileKind writtenKind(const ActionCall& call, const std::string& path)
     return exportFormatOf(call, path) ? FileKind::Export : fileKind(path);
 }
 
+[[noreturn]] void refuseToWrite(const std::string& path, const std::string& extension)
+{
+    const std::string formats = formatsOf(extension), advice = writeAdvice(extension);
+    if (!formats.empty()) {
+        throwUsage(path + ": " + extension + " does not say what to write: " + formats + " does");
+    }
+    throwUsage(path + ": "
+        + (extension.empty() ? "a name without an extension says not what to write"
+                             : extension + " files are not written")
+        + (advice.empty() ? "" : "; " + advice)
+        + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
+          "sphere-tree), .png and .jpg (a picture), .html (a page that shows a sphere-tree), .svg "
+          "(curves of errors), and files of other tools such as .urdf, .usda, .ply and .obj (-help "
+          "write lists them)");
+}
+
 void check(const ActionCall& call, Plan& plan)
 {
     if (!call.given("files")) throwUsage("names no file");
@@ -73,15 +90,7 @@ void check(const ActionCall& call, Plan& plan)
         const std::string extension = openvdb_spheretree::detail::lowerExtension(path);
         if ((kind == FileKind::Vol && extension != ".vol") || kind == FileKind::Mesh
             || kind == FileKind::Unknown) {
-            throwUsage(path + ": "
-                + (extension.empty() ? "a name without an extension says not what "
-                                       "to write"
-                                     : extension + " files are not written")
-                + "; it writes .vdb (grids and sphere-trees), .vol (an object), .csv and .json (a "
-                  "sphere-tree), .png and .jpg (a picture), .html (a page that shows a "
-                  "sphere-tree), .svg (curves of errors), and files of other tools such as .urdf, "
-                  ".usda, .ply and .obj "
-                  "(-help write lists them)");
+            refuseToWrite(path, extension);
         }
         if (kind == FileKind::Jpeg && !openvdb_spheretree::writesJpeg()) {
             throwUsage(path + ": this build has no libjpeg, so it writes pictures as .png only");

@@ -123,6 +123,34 @@ std::string withFrame(const std::string& name, int64_t frame)
     return result + name.substr(begin);
 }
 
+std::string patternOf(const std::vector<std::string>& names)
+{
+    if (names.size() < 2) return {};
+    const std::string& first = names.front();
+    std::size_t begin = first.size(),
+                end = first.size(); // of the number, the end counted from behind
+    for (const std::string& name : names) {
+        const std::size_t least = std::min(name.size(), first.size());
+        const auto differs = std::mismatch(name.begin(), name.begin() + long(least), first.begin());
+        begin = std::min(begin, std::size_t(differs.first - name.begin()));
+        const auto fromBehind =
+            std::mismatch(name.rbegin(), name.rbegin() + long(least), first.rbegin());
+        end = std::min(end, std::size_t(fromBehind.first - name.rbegin()));
+    }
+    while (begin > 0 && isDigit(first[begin - 1])) --begin;
+    while (end > 0 && isDigit(first[first.size() - end])) --end;
+    bool sameWidth = true;
+    for (const std::string& name : names) {
+        if (begin + end >= name.size()) return {};
+        const auto number = name.begin() + long(begin), behind = name.end() - long(end);
+        if (!std::all_of(number, behind, isDigit)) return {};
+        sameWidth &= name.size() == first.size();
+    }
+    const std::size_t width = first.size() - begin - end;
+    return first.substr(0, begin) + (sameWidth && width > 1 ? std::string(width, '#') : "%d")
+        + first.substr(first.size() - end);
+}
+
 std::vector<int64_t> framesOnDisk(const std::string& path)
 {
     namespace fs = std::filesystem;

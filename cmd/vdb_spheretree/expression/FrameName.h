@@ -19,6 +19,10 @@ bool hasFrame(const std::string& name);
 /// @return the name with the number in each of its places.
 std::string withFrame(const std::string& name, int64_t frame);
 
+/// @return a name with a placeholder that has all of these: that of names that differ by one number alone. Empty if
+///         they do not.
+std::string patternOf(const std::vector<std::string>& names);
+
 /// @return the frames for which there is a file, in order. Folders are taken as they are.
 std::vector<int64_t> framesOnDisk(const std::string& name);
 

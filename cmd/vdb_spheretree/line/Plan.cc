@@ -63,6 +63,17 @@ bool isExported(const std::string& extension)
     });
 }
 
+/// @return how all frames go to one file, if it has room for them.
+std::string allInOne(const std::string& path)
+{
+    const auto* const format = openvdb_spheretree::findExportFormat(extensionOf(path));
+    if (!format || !format->samples) return {};
+    return "; for all frames in one file write it behind the loop: -for i=1,25 -read a_####.vdb "
+           "... "
+           "-end -write "
+        + path;
+}
+
 [[noreturn]] void refuseToRead(const std::string& path)
 {
     const std::string kinds =
@@ -121,7 +132,10 @@ void checkReadable(const std::string& path)
 {
     struct stat info;
     if (stat(path.c_str(), &info) != 0) throwInput("cannot read " + systemError(path));
-    if (S_ISDIR(info.st_mode)) throwInput("cannot read " + path + ": it is a folder");
+    if (S_ISDIR(info.st_mode))
+        throwInput("cannot read " + path
+            + ": it is a folder (-files reads all files of one, and slice_####.png a stack of "
+              "slices)");
     if (access(path.c_str(), R_OK) != 0) throwInput("cannot read " + systemError(path));
 }
 
@@ -198,7 +212,8 @@ void Plan::addOutput(const std::string& path)
         const std::string other = output->second.empty() ? "an action before" : output->second;
         throwUsage(path + " would be written by " + other + " and by " + mFrame
             + ": put what tells them apart into its name, such as tree_####.vdb or 'tree_{$i}.vdb' "
-              "(in single quotes)");
+              "(in single quotes)"
+            + allInOne(path));
     }
     if (!isNew) throwUsage(path + " is written more than once");
     AtomicFile::checkTarget(path);

@@ -2,6 +2,9 @@
 #include "Stack.h"
 
 #include "base/Errors.h"
+#include "expression/FrameName.h"
+
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 
 #include <openvdb/points/PointDataGrid.h>
 
@@ -15,6 +18,29 @@ bool isNumber(const std::string& text)
 {
     return !text.empty() && text.size() < 6
         && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::string namesOf(const std::vector<StackItem*>& items)
+{
+    constexpr std::size_t kNamed = 6;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(kNamed, items.size()); ++i) {
+        names += (i ? ", " : "") + items[i]->description();
+    }
+    if (items.size() > kNamed) names += " and " + std::to_string(items.size() - kNamed) + " more";
+    return names;
+}
+
+/// What a shell has made of `smoke_*.vdb` was seldom meant to be taken all at once.
+std::string asSequence(const std::vector<StackItem*>& items)
+{
+    std::vector<std::string> sources;
+    for (const StackItem* item : items) sources.push_back(item->source);
+    const std::string pattern = patternOf(sources);
+    if (pattern.empty()) return {};
+    return std::string("; -read ") + pattern
+        + (openvdb_spheretree::isStackName(pattern) ? " takes them as slices of one volume"
+                                                    : " takes them one by one, as frames");
 }
 
 } // namespace
@@ -132,12 +158,9 @@ StackItem& Stack::select(
     }
     if (found.empty()) throwInput("needs " + what + "; " + listing());
     if (found.size() == 1) return *found.front();
-    std::string names;
-    for (const StackItem* item : found) {
-        names += (names.empty() ? "" : ", ") + item->description();
-    }
-    throwInput("there is more than one that suits: " + names + "; choose one"
-        + (meshes ? " with geo=" : ": here with vdb=, or with grids= of -read"));
+    throwInput("there is more than one that suits: " + namesOf(found) + "; choose one"
+        + (meshes ? " with geo=" : ": here with vdb=, or with grids= of -read")
+        + asSequence(found));
 }
 
 StackItem& Stack::selectTree(const std::string& ageOrName)

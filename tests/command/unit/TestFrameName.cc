@@ -36,6 +36,22 @@ TEST(FrameName, AllElseIsAPartOfTheName)
     }
 }
 
+TEST(FrameName, APatternHasAllNamesThatDifferByOneNumber)
+{
+    using command::patternOf;
+    EXPECT_EQ(patternOf({"a_0001.vdb", "a_0002.vdb"}), "a_####.vdb");
+    EXPECT_EQ(
+        patternOf({"s/a_0999.v2.png", "s/a_1000.v2.png", "s/a_0998.v2.png"}), "s/a_####.v2.png");
+    EXPECT_EQ(patternOf({"a9.png", "a10.png", "a11.png"}), "a%d.png");
+    EXPECT_EQ(patternOf({"1", "2"}), "%d");
+    EXPECT_EQ(patternOf({"a_19", "a_11"}), "a_##");
+    EXPECT_EQ(patternOf({"a_1.vdb", "b_2.vdb"}), "");
+    EXPECT_EQ(patternOf({"a_1.vdb", "a_1.vdb"}), "");
+    EXPECT_EQ(patternOf({"a_1.vdb", "a_.vdb"}), "");
+    EXPECT_EQ(patternOf({"a_1.vdb"}), "");
+    EXPECT_EQ(patternOf({"a_1_1.vdb", "a_2_2.vdb"}), "");
+}
+
 TEST(FrameName, RangesAreThoseOfRenderFarms)
 {
     EXPECT_EQ(framesOfRange("7"), Frames({7}));

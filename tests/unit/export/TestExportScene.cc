@@ -134,6 +134,27 @@ TEST(ExportScene, UnitsScaleCentersAndRadii)
 }
 
 /// A body is what it is in any frame: distances stay, and the mass is where the frame says.
+TEST(ExportScene, RobotsAreInMetres)
+{
+    const auto notesOf = [](const char* extension, double scale, double metersPerUnit) {
+        ExportSettings settings;
+        settings.level = 0;
+        settings.scale = scale / metersPerUnit;
+        settings.metersPerUnit = metersPerUnit;
+        std::string all;
+        for (const std::string& note :
+            sceneOf(turnedTree(), *findExportFormat(extension), settings).notes) {
+            all += note + "; ";
+        }
+        return all;
+    };
+    EXPECT_TRUE(mentions(notesOf(".urdf", 1, 1), "urdf is in metres, and these spheres span"));
+    EXPECT_TRUE(mentions(notesOf(".yml", 1e-6, 1), "curobo is in metres"));
+    EXPECT_EQ(notesOf(".urdf", 0.01, 1), "");
+    EXPECT_TRUE(mentions(notesOf(".srdf", 0.01, 0.001), "take its numbers for metres"));
+    EXPECT_EQ(notesOf(".vtp", 1, 0.001), "");
+}
+
 TEST(ExportScene, FramesOfTheBody)
 {
     const SphereTree tree = turnedTree();
