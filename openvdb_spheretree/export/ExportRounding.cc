@@ -109,4 +109,13 @@ int decimalsFor(double smallestRadius, double largestNumber)
     return decimals;
 }
 
+void requireDecimals(double largestNumber)
+{
+    if (largestNumber <= kExact) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "the largest coordinate or radius would be "
+            << largestNumber << " in the file, where numbers are at most " << kExact
+            << ": choose another scale= or units=");
+}
+
 } // namespace openvdb_spheretree::detail

@@ -48,4 +48,7 @@ private:
 /// @return 0 to 22
 int decimalsFor(double smallestRadius, double largestNumber);
 
+/// @throw openvdb::ValueError if a number is too large to be written without an exponent, digit by digit: 2^52
+void requireDecimals(double largestNumber);
+
 } // namespace openvdb_spheretree::detail

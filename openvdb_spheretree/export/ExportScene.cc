@@ -235,6 +235,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
         scene.levels.push_back(placed(tree, *level, frame, interrupter));
     }
     const LengthRange range = rangeOf(scene.levels);
+    if (format.numbers == ExportNumbers::Decimal) requireDecimals(range.largestNumber);
     scene.decimals = decimalsFor(range.smallestRadius, range.largestNumber);
     const SphereRounding round(format.numbers, scene.decimals, keepOf(tree.settings));
     double worst = 0;

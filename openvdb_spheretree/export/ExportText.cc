@@ -3,6 +3,9 @@
 
 #include <openvdb_spheretree/store/JsonWriter.h>
 
+#include <openvdb/Exceptions.h>
+
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -13,6 +16,24 @@ namespace openvdb_spheretree::detail {
 namespace {
 
 bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+constexpr std::size_t kLongestYamlKey = 1000; ///< readers look for the colon within 1024
+
+/// What JSON may hold as it is, and YAML 1.1 may not, or takes for the end of a line.
+struct NotInYaml {
+    std::string_view bytes, escape;
+};
+constexpr std::array<NotInYaml, 6> kNotInYaml = {
+    {{"\x7f", "\\u007f"}, {"\xe2\x80\xa8", "\\u2028"}, {"\xe2\x80\xa9", "\\u2029"},
+        {"\xef\xbb\xbf", "\\ufeff"}, {"\xef\xbf\xbe", "\\ufffe"}, {"\xef\xbf\xbf", "\\uffff"}}};
+
+/// @return the number of the control letter U+0080 to U+009F that stands at @a i in UTF-8; 0 if none does.
+int controlAt(const std::string& text, std::size_t i)
+{
+    if (text[i] != '\xc2' || i + 1 >= text.size()) return 0;
+    const auto byte = static_cast<unsigned char>(text[i + 1]);
+    return byte >= 0x80 && byte < 0xa0 ? byte : 0;
+}
 
 } // namespace
 
@@ -32,7 +53,7 @@ ExportText& ExportText::operator<<(double length)
 {
     const double units = std::nearbyint(length * mUnits);
     std::array<char, 24> digits;
-    const auto whole = uint64_t(std::abs(units)); // at most 2^53: decimalsFor()
+    const auto whole = uint64_t(std::abs(units)); // at most 2^53: requireDecimals()
     const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), whole).ptr;
     const auto count = int(end - digits.data());
     if (units < 0) mBytes += '-';
@@ -105,12 +126,42 @@ std::string xmlText(std::string_view text)
     return escaped;
 }
 
-std::string jsonString(const std::string& text)
+std::string yamlString(const std::string& text)
 {
     JsonWriter json;
     json.beginArray({}, /*onOneLine=*/true);
     json.value({}, text);
-    return json.text().substr(1);
+    const std::string quoted = json.text().substr(1);
+    std::string escaped;
+    for (std::size_t i = 0; i < quoted.size();) {
+        const auto found =
+            std::find_if(kNotInYaml.begin(), kNotInYaml.end(), [&](const NotInYaml& letter) {
+                return quoted.compare(i, letter.bytes.size(), letter.bytes) == 0;
+            });
+        if (found != kNotInYaml.end()) {
+            escaped += found->escape;
+            i += found->bytes.size();
+        } else if (const int control = controlAt(quoted, i); control != 0) {
+            constexpr char kHex[] = "0123456789abcdef";
+            escaped += {'\\', 'u', '0', '0', kHex[control / 16], kHex[control % 16]};
+            i += 2;
+        } else {
+            escaped += quoted[i++];
+        }
+    }
+    return escaped;
+}
+
+std::string yamlKey(const std::string& text)
+{
+    std::string key = yamlString(text);
+    if (key.size() > kLongestYamlKey) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the name that begins with '" << oneWord(text.substr(0, 20)) << "' has " << text.size()
+                                          << " bytes, and a key in YAML has at most "
+                                          << kLongestYamlKey << " letters: give a shorter one");
+    }
+    return key;
 }
 
 std::string identifier(std::string_view text)

@@ -59,9 +59,11 @@ private:
 /// @name Names as formats take them
 /// @{
 std::string xmlText(std::string_view text); ///< with entities; what XML cannot hold becomes `?`
-std::string jsonString(const std::string& text); ///< in double quotes; YAML reads it as well
-std::string identifier(std::string_view text);   ///< letters, digits and `_`, and no digit first
-std::string oneWord(std::string_view text);      ///< on one line, without spaces
+std::string yamlString(const std::string& text); ///< in double quotes, as JSON writes it as well
+std::string yamlKey(
+    const std::string& text); ///< the same. @throw openvdb::ValueError if it is too long for one
+std::string identifier(std::string_view text); ///< letters, digits and `_`, and no digit first
+std::string oneWord(std::string_view text);    ///< on one line, without spaces
 /// @}
 
 } // namespace openvdb_spheretree::detail

@@ -25,10 +25,10 @@ void writeSpheres(ExportText& text, const ExportLevel& level, std::string_view i
 void writeCurobo(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
-    const std::string link = jsonString(scene.link);
+    const std::string link = yamlKey(scene.link);
     ExportText text(out, scene.decimals);
     text << "robot_cfg:\n  kinematics:\n    format_version: 2.0\n    urdf_path: "
-         << jsonString(scene.name + ".urdf") << "\n    base_link: " << link
+         << yamlString(scene.name + ".urdf") << "\n    base_link: " << link
          << "\n    tool_frames: [" << link << "]\n    collision_link_names: [" << link
          << "]\n    collision_sphere_buffer: 0.0\n    self_collision_buffer: {" << link
          << ": 0.0}\n    self_collision_ignore: {}\n    collision_spheres:\n      " << link
@@ -42,7 +42,7 @@ void writeCurobo(const std::vector<ExportScene>& samples, const ExportSink& out)
 void writeXrdf(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
-    const std::string link = jsonString(scene.link), geometry = jsonString(scene.name);
+    const std::string link = yamlKey(scene.link), geometry = yamlKey(scene.name);
     ExportText text(out, scene.decimals);
     text << "format: xrdf\nformat_version: 1.0\ngeometry:\n  " << geometry
          << ":\n    spheres:\n      " << link << ":\n";
@@ -58,7 +58,7 @@ void writeXrdf(const std::vector<ExportScene>& samples, const ExportSink& out)
 void writeLula(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportScene& scene = samples.front();
-    const std::string link = jsonString(scene.link);
+    const std::string link = yamlKey(scene.link);
     ExportText text(out, scene.decimals);
     text << "api_version: 1.0\ncspace: []\nroot_link: " << link
          << "\ndefault_q: []\ncspace_to_urdf_rules: []\ncollision_spheres:\n  - " << link << ":\n";

@@ -132,6 +132,24 @@ TEST(ExportFormats, NamesCannotBreakOutOfTheirPlace)
     }
 }
 
+TEST(ExportFormats, NamesInYamlHoldWhatYamlMayHold)
+{
+    const SphereTree tree = someTree(3);
+    ExportSettings settings;
+    settings.link = "a\x7f\xc2\x85\xe2\x80\xa8z\xc3\xa9";
+    ExportSettings tooLong;
+    tooLong.link = std::string(2000, 'x');
+    for (const ExportFormat& format : exportFormats()) {
+        if (std::set<std::string>{"curobo", "xrdf", "lula"}.count(format.name) == 0) continue;
+        EXPECT_TRUE(
+            mentions(written(tree, format, settings), "\"a\\u007f\\u0085\\u2028z\xc3\xa9\""))
+            << format.name;
+        EXPECT_TRUE(
+            mentions(messageOf<openvdb::ValueError>([&] { written(tree, format, tooLong); }),
+                "a shorter one"));
+    }
+}
+
 TEST(ExportFormats, SettingsOutOfRangeAreRefused)
 {
     const SphereTree tree = someTree();

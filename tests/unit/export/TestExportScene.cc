@@ -206,6 +206,18 @@ TEST(ExportScene, FarFromTheOriginFloatsAreSaidToBeCoarse)
     }
 }
 
+TEST(ExportScene, NumbersThatTextCannotHoldAreRefused)
+{
+    const SphereTree tree = turnedTree();
+    ExportSettings settings;
+    settings.scale = 1e20;
+    const auto text = [&] { return sceneOf(tree, format(true, ExportNumbers::Decimal), settings); };
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>(text), "choose another scale= or units="));
+    EXPECT_NO_THROW(sceneOf(tree, format(true), settings));
+    settings.scale = 1e10;
+    EXPECT_NO_THROW(text());
+}
+
 TEST(ExportScene, SpheresOfNoSizeAreRefusedWhereReadersRefuseThem)
 {
     SphereTree tree = turnedTree();
