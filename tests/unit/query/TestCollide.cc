@@ -3,6 +3,7 @@
 /// @brief Verdicts and contacts of two bodies against all pairs of their leaf spheres; that nothing that meets is
 /// missed, in any rounding; the same answers for swapped bodies, a moved world, threads and vectors.
 
+#include "ObjectReference.h"
 #include "PosePairs.h"
 #include "QuerySamples.h"
 #include "support/Messages.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -78,6 +80,23 @@ long double exactSmallestGap(
     return smallest;
 }
 
+/// All turns that map axes to axes.
+std::vector<openvdb::Mat3d> turnsOfAxes()
+{
+    std::vector<openvdb::Mat3d> turns;
+    for (int order = 0; order < 6; ++order) {
+        const int x = order / 2, y = (x + 1 + order % 2) % 3, z = 3 - x - y;
+        for (int signs = 0; signs < 8; ++signs) {
+            openvdb::Mat3d turn = openvdb::Mat3d::zero();
+            turn(0, x) = signs & 1 ? -1 : 1;
+            turn(1, y) = signs & 2 ? -1 : 1;
+            turn(2, z) = signs & 4 ? -1 : 1;
+            if (turn.det() > 0) turns.push_back(turn);
+        }
+    }
+    return turns;
+}
+
 std::string refusal(const CollisionRequest& request)
 {
     const QueryTree tree = makeQueryTree(querySamples().front().tree);
@@ -134,6 +153,38 @@ TEST(Collide, NoTwoVoxelCubesMeetThatAreSaidToBeApart)
     });
     EXPECT_GT(met, 500);
     EXPECT_GT(apart, 4000);
+}
+
+/// Quarters of a voxel in every place near contact, in every turn of the axes, alone and with one more turn: faces, edges
+/// and corners that touch exactly, too.
+TEST(Collide, NoTwoCubesOfSmallObjectsThatMeetAreApartInAnyPlaceNearContact)
+{
+    TightOptions fast;
+    fast.quality = Quality::Fast;
+    const QuerySample dot = querySample("a dot", {Coord(0)}, fast);
+    const QuerySample corner =
+        querySample("a corner", {Coord(0), Coord(1, 0, 0), Coord(0, 1, 0)}, fast);
+    const QueryBody a{dot, makeQueryTree(dot.tree, Exactness::Object), dot.tree};
+    const QueryBody b{corner, makeQueryTree(corner.tree, Exactness::Object), corner.tree};
+    const double quarter = dot.tree.voxelSize() / 4;
+    constexpr int kReach = 9; // quarters
+    int met = 0, apart = 0;
+    for (const RigidTransform& more :
+        {RigidTransform(), RigidTransform::fromRotation(Vec3d(1, 2, 3), 0.7)}) {
+        for (const openvdb::Mat3d& turn : turnsOfAxes()) {
+            const RigidTransform turned = more * RigidTransform(turn, Vec3d(0.0));
+            const Vec3d middle = a.query.center() - turned * b.query.center();
+            for (const Coord& at : openvdb::CoordBBox(Coord(-kReach), Coord(kReach))) {
+                const auto place = RigidTransform::fromTranslation(middle + quarter * at.asVec3d());
+                const PosePair pair{a, b, {}, place * turned};
+                const bool isApart = pair.collide().verdict == Verdict::Apart;
+                ASSERT_FALSE(isApart && pair.cubesMeet()) << at << turn;
+                (isApart ? apart : met) += 1;
+            }
+        }
+    }
+    EXPECT_GT(met, 50000);
+    EXPECT_GT(apart, 50000);
 }
 
 TEST(Collide, SpheresInsideAreCertainOfTouchingAlone)
@@ -338,6 +389,26 @@ TEST(Collide, AMovedWorldGivesTheSameVerdict)
         const auto world =
             RigidTransform::fromTranslation(1e6 * randomDirection(random)) * randomRotation(random);
         ASSERT_EQ(pair.collide().verdict, pair.movedBy(world).collide().verdict);
+    });
+}
+
+TEST(Collide, AxesInAnotherOrderGiveTheSameVerdict)
+{
+    const openvdb::Mat3d order(0, 1, 0, 0, 0, 1, 1, 0, 0); // as turnedTree()
+    const RigidTransform turn(order, Vec3d(0.0)), back(order.transpose(), Vec3d(0.0));
+    std::map<const QueryBody*, QueryTree> turned;
+    const auto turnedOf = [&](const QueryBody& body) -> const QueryTree& {
+        const auto found = turned.find(&body);
+        if (found != turned.end()) return found->second;
+        const SphereTree tree = turnedTree(body.tree, Vec3d(0.0));
+        return turned.emplace(&body, makeQueryTree(tree, Exactness::LeafUnion)).first->second;
+    };
+    forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
+        if (std::abs(pair.smallestGap()) < 1e-4) return;
+        const auto verdict = collide(
+            turnedOf(pair.a), turn * pair.poseA * back, turnedOf(pair.b), turn * pair.poseB * back)
+                                 .verdict;
+        ASSERT_EQ(pair.collide().verdict, verdict);
     });
 }
 
