@@ -6,8 +6,8 @@
 #                                          vdb vol longvol npy nrrd nii png pgm obj off ply stl csv json
 #                                          poses points rays config line settings text expression
 #
-# Inputs that found something new are kept in build/fuzz/corpus/TARGET, findings in
-# build/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
+# Inputs that found something new are kept in build/asan/fuzz/corpus/TARGET, findings in
+# build/asan/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
 # with the time that is left.
 set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
@@ -35,7 +35,7 @@ run_once() {
     for seed in "$folder/seeds/$target" "$project_root/tests/fuzz/seeds/$target"; do
         if [ -d "$seed" ]; then seeds+=("$seed"); fi
     done
-    "$folder/bin/spheretree_fuzz_$target" "$corpus" "${seeds[@]}" \
+    "$programs/spheretree_fuzz_$target" "$corpus" "${seeds[@]}" \
         -max_total_time="$2" -max_len="$(longest_of "$target")" -timeout=20 \
         -rss_limit_mb=2048 -malloc_limit_mb=1024 -print_final_stats=1 \
         -artifact_prefix="$findings/" </dev/null >"$3" 2>&1
@@ -77,6 +77,8 @@ esac
 # The compiler cache does not know that this file is part of what is compiled.
 export CCACHE_EXTRAFILES="$project_root/scripts/sanitizers/clang.ignore"
 export LSAN_OPTIONS="suppressions=$project_root/scripts/sanitizers/leaks.supp:print_suppressions=0"
+export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+UBSAN_OPTIONS+=":suppressions=$project_root/scripts/sanitizers/undefined.supp"
 
 seconds=$(($1 * 60))
 shift
@@ -86,10 +88,11 @@ for target in "${targets[@]}"; do
     if [[ " ${all_targets[*]} " != *" $target "* ]]; then fail "there is no target '$target'"; fi
 done
 
-folder="$project_root/build/fuzz"
+folder="$project_root/build/asan/fuzz"
+programs="$project_root/build/asan/bin"
 install_packages "${build_packages[@]}" clang
-build_preset fuzz spheretree_fuzzers
-"$folder/bin/spheretree_fuzz_seeds" "$folder/seeds"
+build_preset asan spheretree_fuzzers
+"$programs/spheretree_fuzz_seeds" "$folder/seeds"
 status=0
 for target in "${targets[@]}"; do
     run_target "$target" || status=1

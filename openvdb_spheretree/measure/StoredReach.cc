@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 #include <array>
@@ -335,7 +336,8 @@ void ReachSearch::shareOut(std::vector<PlacedNode>::iterator begin,
         begin->spheres = std::move(near);
         return;
     }
-    const int axis = int(box.maxExtent());
+    const auto sides = sidesOf(box);
+    const auto axis = int(std::max_element(sides.begin(), sides.end()) - sides.begin());
     const auto middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [axis](const PlacedNode& a, const PlacedNode& b) {
         return a.box.min()[axis] < b.box.min()[axis];

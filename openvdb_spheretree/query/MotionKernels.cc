@@ -47,9 +47,10 @@ HWY_INLINE Moving MovingOf(const Screw<float>& screw, const FloatSphere& start)
         m.slide[i] = screw.slide * n[i];
         radiusSq += m.v[i] * m.v[i];
     }
-    const float radius = std::sqrt(radiusSq) * 1.00001f; // no less, whatever rounding did
-    m.acceleration = m.turn * m.turn * radius;
-    m.speed = std::sqrt(m.turn * m.turn * radius * radius + screw.slide * screw.slide);
+    // Whatever rounding did, the acceleration is no less than the true one, and the speed no more: on the same line
+    // at a speed that is too small, a sphere enters too soon (its speed is divided by), never too late.
+    m.acceleration = 1.00001f * m.turn * m.turn * std::sqrt(radiusSq);
+    m.speed = 0.99999f * std::sqrt(m.turn * m.turn * radiusSq + screw.slide * screw.slide);
     return m;
 }
 

@@ -96,13 +96,16 @@ def part_of(progress: Progress, begin: float, end: float) -> Progress:
     return lambda done, stage: tell(begin + (end - begin) * done, stage)
 
 
+MOST_THREADS = 1024  # as of the command
+
+
 def thread_count(threads: int | None) -> int:
     if threads is None:
         return 0
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
         raise TypeError(f"threads must be a whole number or None, not {type(threads).__name__}")
-    if threads < 1:
-        raise InputError(f"threads={threads} is out of range: it takes 1 or more, or None for all cores")
+    if not 1 <= threads <= MOST_THREADS:
+        raise InputError(f"threads={threads} is out of range: it takes 1 to {MOST_THREADS}, or None for all cores")
     return int(threads)
 
 

@@ -4,8 +4,9 @@
 
 #include "CommandRunner.h"
 
+#include "support/PointGrids.h"
+
 #include <openvdb/io/File.h>
-#include <openvdb/points/PointConversion.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
@@ -253,10 +254,7 @@ TEST_F(CommandInput, TheOnlyGridThatSuitsIsTaken)
 
 TEST_F(CommandInput, PointsThatAreNoSphereTree)
 {
-    const std::vector<openvdb::Vec3f> positions = {{0, 0, 0}, {3, 1, 2}};
-    const auto transform = openvdb::math::Transform::createLinearTransform(1);
-    auto points = openvdb::points::createPointDataGrid<openvdb::points::NullCodec, PointDataGrid>(
-        positions, *transform);
+    const auto points = spheretree_test::pointsAt({{0, 0, 0}, {3, 1, 2}});
     points->setName("dust");
     writeGrids("points.vdb", {points});
     expectInputError("-read points.vdb -stats", "'dust'");

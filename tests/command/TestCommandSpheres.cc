@@ -3,9 +3,11 @@
 
 #include "CommandRunner.h"
 
+#include "support/PointGrids.h"
+
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
-#include <openvdb/points/PointConversion.h>
+#include <openvdb/points/PointAttribute.h>
 
 #include <cmath>
 #include <string>
@@ -119,9 +121,7 @@ TEST_F(CommandSpheres, AreDrawnAndWrittenAndReadBack)
 TEST_F(CommandSpheres, PointsAreSpheresWhereThatIsAskedFor)
 {
     using namespace openvdb::points;
-    const std::vector<openvdb::Vec3f> places = {{4, 3, 2.5f}, {1, 1, 1}};
-    const auto grid = createPointDataGrid<NullCodec, PointDataGrid>(
-        places, *openvdb::math::Transform::createLinearTransform(0.5));
+    const auto grid = spheretree_test::pointsAt({{4, 3, 2.5}, {1, 1, 1}}, /*voxelSize=*/0.5);
     grid->setName("dots");
     appendAttribute<float>(grid->tree(), "pscale", 5.7f);
     writeGrids("p.vdb", {grid});

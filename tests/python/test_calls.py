@@ -94,3 +94,9 @@ def test_too_little_memory_is_said_and_python_lives_on(bone):
     with pytest.raises(spheretree.InputError, match="memory"):
         spheretree.build(np.ones((200, 200, 200), bool), [1000], memory="1MB")
     assert spheretree.build(bone, [4])
+
+
+@pytest.mark.parametrize("threads", [0, 1025, 10**7, 2**31 - 1, 2**70])
+def test_more_threads_than_the_command_takes_are_refused(bone, threads):
+    with pytest.raises(spheretree.InputError, match="1 to 1024"):
+        spheretree.build(bone, [64, 8], threads=threads)

@@ -74,8 +74,8 @@ QueryTreeSettings settingsOf(const ActionCall& call, const StackItem& item, int 
     const auto& tree = *item.tree;
     const auto level = levelOf(call, std::size_t(place));
     if (level && !tree.hasLevel(*level)) {
-        throwInput("the tree has no level " + std::to_string(*level) + ": it has levels "
-            + std::to_string(tree.levels.front().level) + " to "
+        throwInput(item.description() + " has no level " + std::to_string(*level)
+            + ": it has levels " + std::to_string(tree.levels.front().level) + " to "
             + std::to_string(tree.root().level));
     }
     settings.level = level.value_or(-1);
@@ -83,8 +83,10 @@ QueryTreeSettings settingsOf(const ActionCall& call, const StackItem& item, int 
     const bool isReversible =
         tree.settings.type() == spheretree::TreeType::Reversible && tree.levels.size() > 1;
     if (isReversible && !call.flag("exact")) {
-        throwInput("spheres of a reversible tree do not hold those below them: add exact=1, which "
-                   "makes a hierarchy over its leaves, or build a tight tree");
+        throwInput(item.description()
+            + ": spheres of a reversible tree do not hold those below them: add exact=1, which "
+              "makes a "
+              "hierarchy over its leaves, or build a tight tree");
     }
     if (isLast && call.spec().option("scale")) settings.scale = call.real("scale");
     return settings;

@@ -3,24 +3,17 @@
 /// @brief Reader of mesh files.
 ///
 /// 1. Polygons of the file: OBJ, OFF, PLY, STL by MeshFormats.h, which says why; others by
-///    assimp. Of assimp only the importers are used: its own post-processing aborts the process on
-///    empty meshes in builds with assertions (Debian's), joins points that are merely near, and
-///    flattens the scene by rules of its own.
-/// 2. placedSoup():  the scene's nodes, each with its transform, as one set of polygons.
-/// 3. toTriangles(): polygons cut up, points at the same place joined, what is unused dropped.
+///    AssimpReader.h.
+/// 2. toTriangles(): polygons cut up, points at the same place joined, what is unused dropped.
 
 #include "MeshFile.h"
 
+#include "AssimpReader.h"
 #include "MeshFormats.h"
 #include "Polygon.h"
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
-
-#ifdef SPHERETREE_WITH_ASSIMP
-#include <assimp/Importer.hpp>
-#include <assimp/scene.h>
-#endif
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +37,6 @@ using openvdb::IoError;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
 using openvdb::Vec3s;
-
-constexpr std::size_t kMaxMessage = 200;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -78,90 +69,6 @@ std::string contentsOf(const std::string& path)
     throw IoError("ends after " + std::to_string(count) + " of its " + std::to_string(size)
         + " bytes: it was cut while it was read");
 }
-
-#ifdef SPHERETREE_WITH_ASSIMP
-
-bool assimpKnows(const std::string& extension)
-{
-    // Names that are grids here, whatever a future assimp makes of them.
-    if (extension == ".vdb" || extension == ".vol" || extension == ".longvol") return false;
-    return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
-}
-
-void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup)
-{
-    const std::size_t base = soup.points.size();
-    if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) {
-        throw IoError("more points than 32 bits can number");
-    }
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const aiVector3D p = transform * mesh.mVertices[i];
-        const Vec3s& point = soup.points.emplace_back(p.x, p.y, p.z);
-        if (!point.isFinite()) throw IoError("a coordinate is not finite");
-    }
-    const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-        const aiFace& face = mesh.mFaces[i];
-        if (face.mNumIndices < 3) continue; // a point or a line: holds nothing
-        for (unsigned k = 0; k < face.mNumIndices; ++k) {
-            const unsigned index = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
-            if (index >= mesh.mNumVertices) throw IoError("a face names a point that is not there");
-            soup.corners.push_back(std::uint32_t(base + index));
-        }
-        soup.counts.push_back(face.mNumIndices);
-    }
-}
-
-PolygonSoup placedSoup(const aiScene& scene)
-{
-    PolygonSoup soup;
-    std::vector<std::pair<const aiNode*, aiMatrix4x4>>
-        nodes; // a scene may nest deeper than a stack
-    if (scene.mRootNode) nodes.emplace_back(scene.mRootNode, scene.mRootNode->mTransformation);
-    while (!nodes.empty()) {
-        const auto [node, transform] = nodes.back();
-        nodes.pop_back();
-        for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-            addMesh(*scene.mMeshes[node->mMeshes[i]], transform, soup);
-        }
-        for (unsigned i = 0; i < node->mNumChildren; ++i) {
-            const aiNode* child = node->mChildren[i];
-            nodes.emplace_back(child, transform * child->mTransformation);
-        }
-    }
-    return soup;
-}
-
-PolygonSoup readByAssimp(const std::string& path)
-{
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(path, 0);
-    if (!scene) {
-        const std::string_view why = importer.GetErrorString(); // any text
-        throw IoError("not a mesh file that assimp can read, or damaged ("
-            + detail::onOneLine(why.substr(0, why.find('\n')), kMaxMessage) + ")");
-    }
-    return placedSoup(*scene);
-}
-
-#else
-
-bool assimpKnows(const std::string& extension)
-{
-    for (const char* known : {".gltf", ".glb", ".fbx", ".dae", ".3ds", ".x", ".lwo", ".3mf"}) {
-        if (extension == known) return true;
-    }
-    return false;
-}
-
-PolygonSoup readByAssimp(const std::string&)
-{
-    throw IoError(
-        "this build reads .obj, .off, .ply and .stl meshes only; for other formats "
-        "install assimp (Debian: libassimp-dev) and configure with -DSPHERETREE_WITH_ASSIMP=ON");
-}
-
-#endif
 
 struct ExactHash {
     std::size_t operator()(const Vec3s& p) const
@@ -216,19 +123,12 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
 
 } // namespace
 
-bool readsOtherMeshFormats()
-{
-#ifdef SPHERETREE_WITH_ASSIMP
-    return true;
-#else
-    return false;
-#endif
-}
+bool readsOtherMeshFormats() { return detail::hasAssimp(); }
 
 bool isMeshFileName(const std::string& path)
 {
     const std::string extension = detail::lowerExtension(path);
-    return detail::isStrictFormat(extension) || assimpKnows(extension);
+    return detail::isStrictFormat(extension) || detail::assimpKnows(extension);
 }
 
 TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs)
@@ -240,7 +140,7 @@ TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs)
     try {
         mesh = toTriangles(detail::isStrictFormat(extension)
                 ? detail::parseMesh(extension, contentsOf(path))
-                : readByAssimp(path));
+                : detail::readByAssimp(path));
     } catch (const std::bad_alloc&) {
         fail(name, "not enough memory for the mesh");
     } catch (const std::ios_base::failure& error) {

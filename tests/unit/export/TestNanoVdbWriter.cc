@@ -5,10 +5,11 @@
 #include <openvdb_spheretree/export/NanoVdbWriter.h>
 
 #include "support/Messages.h"
+#include "support/PointGrids.h"
 #include "support/SampleTrees.h"
 
 #include <openvdb/openvdb.h>
-#include <openvdb/points/PointConversion.h>
+#include <openvdb/points/PointAttribute.h>
 
 #include <gtest/gtest.h>
 
@@ -62,13 +63,7 @@ TEST_F(NanoVdbWriter, GridsOfOtherTypesAreRefusedByName)
 
 TEST_F(NanoVdbWriter, AttributesOfOtherTypesAreRefusedByType)
 {
-    const auto transform = openvdb::math::Transform::createLinearTransform(1);
-    const std::vector<openvdb::Vec3f> positions = {{0, 0, 0}, {5, 5, 5}};
-    const openvdb::points::PointAttributeVector<openvdb::Vec3f> wrapper(positions);
-    const auto index =
-        openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(wrapper, *transform);
-    const auto points = openvdb::points::createPointDataGrid<openvdb::points::NullCodec,
-        openvdb::points::PointDataGrid>(*index, wrapper, *transform);
+    const auto points = spheretree_test::pointsAt({{0, 0, 0}, {5, 5, 5}});
     EXPECT_FALSE(written({points}).empty());
     openvdb::points::appendAttribute<double>(points->tree(), "mass");
     EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { written({points}); }), "double"));

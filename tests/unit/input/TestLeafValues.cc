@@ -6,11 +6,10 @@
 #include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
+#include "support/PointGrids.h"
+
 #include <openvdb/io/File.h>
-#include <openvdb/points/PointConversion.h>
-#include <openvdb/points/PointDataGrid.h>
 #include <openvdb/tools/LevelSetSphere.h>
-#include <openvdb/tools/PointIndexGrid.h>
 
 #include <gtest/gtest.h>
 
@@ -104,9 +103,7 @@ openvdb::points::PointDataGrid::Ptr scatteredPoints()
     for (int i = 0; i < 1000; ++i) {
         positions.push_back({random() % 400 / 8.0, random() % 400 / 8.0, random() % 400 / 8.0});
     }
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    return openvdb::points::createPointDataGrid<openvdb::points::NullCodec,
-        openvdb::points::PointDataGrid>(positions, *transform);
+    return spheretree_test::pointsAt(positions);
 }
 
 template <typename GridT>

@@ -9,10 +9,7 @@
 
 #include "support/Messages.h"
 #include "support/ObjectGrids.h"
-
-#include <openvdb/points/PointConversion.h>
-#include <openvdb/points/PointDataGrid.h>
-#include <openvdb/tools/PointIndexGrid.h>
+#include "support/PointGrids.h"
 
 #include <gtest/gtest.h>
 
@@ -43,16 +40,6 @@ BoolGrid::Ptr dotWith(const openvdb::math::Transform::Ptr& transform)
 openvdb::math::Transform::Ptr mapped(const openvdb::math::MapBase::Ptr& map)
 {
     return std::make_shared<openvdb::math::Transform>(map);
-}
-
-openvdb::points::PointDataGrid::Ptr pointsAt(const std::vector<openvdb::Vec3d>& positions)
-{
-    openvdb::initialize();
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    const auto grid = openvdb::points::createPointDataGrid<openvdb::points::NullCodec,
-        openvdb::points::PointDataGrid>(positions, *transform);
-    grid->setName("points");
-    return grid;
 }
 
 class AlwaysInterrupted : public openvdb::util::NullInterrupter {
@@ -163,9 +150,7 @@ TEST(Object, AVoxelOfAPointGridCountsWhenItHoldsAPoint)
 TEST(Object, AVoxelOfAPointIndexGridCountsWhenItHoldsAPoint)
 {
     const std::vector<openvdb::Vec3d> positions{{0.2, 0, 0}, {0.1, 0.1, 0}, {-7, 3, 100}};
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    const auto grid = openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(
-        openvdb::points::PointAttributeVector<openvdb::Vec3d>(positions), *transform);
+    const auto grid = pointIndicesOf(positions);
     EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{0, 0, 0}, {-7, 3, 100}}));
 }
 

@@ -419,7 +419,8 @@ TEST(OrderOfMean, AgreesWithWholeNumbersOnRandomDoubles)
         std::vector<double> values;
         __int128 sum = 0;
         for (int i = 0; i < count; ++i) {
-            const __int128 large = __int128(int64_t(random()) >> 12) << (random() % 60);
+            const __int128 large =
+                __int128(int64_t(random()) >> 12) * (__int128(1) << random() % 60);
             const __int128 small = int64_t(random()) >> (12 + random() % 52);
             const __int128 number = random() % 2 ? large : small;
             sum += i + 1 == count && random() % 2 ? -sum : number;

@@ -7,11 +7,11 @@
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include "support/Messages.h"
+#include "support/PointGrids.h"
 #include "support/PointsFiles.h"
 #include "support/SampleTrees.h"
 
 #include <openvdb/points/PointAttribute.h>
-#include <openvdb/points/PointConversion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,9 +52,7 @@ std::string whyDamagedMeta(const char* key, const T& value, const SphereTree& tr
 
 TEST(DamagedPoints, OrdinaryPointsAreNoSphereTree)
 {
-    openvdb::initialize();
-    const auto grid = points::createPointDataGrid<points::NullCodec, PointDataGrid>(
-        std::vector<openvdb::Vec3d>{{1, 2, 3}}, *math::Transform::createLinearTransform(1.0));
+    const auto grid = pointsAt({{1, 2, 3}});
     grid->setName("dust");
     EXPECT_TRUE(mentions(whyDamaged(*grid), "is no sphere-tree"));
 }
@@ -103,8 +101,8 @@ TEST(DamagedPoints, CompressedPositionsAreAnError)
     SphereTree tree = oneVoxelTree();
     tree.spheres.center[0] = {0, 0, 0};
     const PointDataGrid::Ptr grid = toPoints(tree);
-    const auto lossy = points::createPointDataGrid<points::FixedPointCodec<false>, PointDataGrid>(
-        std::vector<openvdb::Vec3d>{{0, 0, 0}}, grid->transform());
+    const auto lossy = packedPointsAt({{0, 0, 0}});
+    lossy->setTransform(grid->transformPtr());
     lossy->insertMeta(*grid);
     points::appendAttribute<int32_t>(lossy->tree(), "id", 0);
     EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { fromPoints(*lossy); }), "'P'"));

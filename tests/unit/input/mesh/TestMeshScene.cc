@@ -5,11 +5,18 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
 #include "support/MeshFiles.h"
+#include "support/Messages.h"
+#include "support/Sanitizers.h"
+#include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <string>
+
+#include <sys/stat.h>
 
 namespace {
 
@@ -28,9 +35,8 @@ std::string base64(const std::string& bytes)
     return text;
 }
 
-/// A scene that shows one tetrahedron, facing outwards, three times: moved, mirrored in a moved
-/// node, and nowhere at all (a mesh no node shows is no part of the scene).
-std::string gltfScene()
+/// Three corners for each side of a tetrahedron, as floats.
+std::string cornersOfTetrahedron()
 {
     std::string bytes;
     for (const char* face : {"021", "013", "032", "123"}) {
@@ -38,13 +44,20 @@ std::string gltfScene()
             for (int axis = 0; axis < 3; ++axis) bytes += bytesOf(float(face[k] == '1' + axis));
         }
     }
+    return bytes;
+}
+
+/// A scene that shows one tetrahedron, facing outwards, three times: moved, mirrored in a moved
+/// node, and nowhere at all (a mesh no node shows is no part of the scene).
+std::string gltfScene()
+{
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[
 {"mesh":0,"translation":[10,0,0]},{"translation":[0,20,0],"children":[2]},
 {"mesh":0,"scale":[-2,1,1]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},
 {"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,
 "count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],"bufferViews":[{"buffer":0,
 "byteLength":144}],"buffers":[{"byteLength":144,"uri":"data:application/octet-stream;base64,)"
-        + base64(bytes) + "\"}]}";
+        + base64(cornersOfTetrahedron()) + "\"}]}";
 }
 
 TEST(MeshScene, PlacesTheMeshesOfASceneByItsTransforms)
@@ -68,6 +81,96 @@ TEST(MeshScene, RejectsEveryTruncationOfAScene)
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         ASSERT_NE("", errorOf("cut.gltf", bytes.substr(0, length))) << length;
     }
+}
+
+/// A cube, of which one word after another is changed below to what crashes assimp 5.2.
+std::string colladaCube()
+{
+    return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="pa" count="24">0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1</float_array>
+<technique_common><accessor source="#pa" count="8" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 3 2 0 2 1 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s">
+<node id="n"><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+std::string replaced(std::string text, const std::string& word, const std::string& by)
+{
+    return text.replace(text.find(word), word.size(), by);
+}
+
+std::string repeated(int count, const std::string& text)
+{
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+}
+
+TEST(MeshScene, WhatCrashesItsReaderIsAnErrorOfTheFile)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const std::string cube = colladaCube(), instance = R"(<instance_geometry url="#g"/>)";
+    ASSERT_EQ("", errorOf("cube.dae", cube));
+    const std::string deep = repeated(200000, "<node>") + instance + repeated(200000, "</node>");
+    for (const std::string& damaged : {replaced(cube, "count=\"24\"", "count=\"-1\""),
+             replaced(cube, "stride=\"3\"", "stride=\"1000000000\""),
+             replaced(cube, instance, R"(<instance_node url="#n"/>)"), // a node within itself
+             replaced(cube, instance, deep)}) {
+        const std::string why = errorOf("cube.dae", damaged);
+        EXPECT_TRUE(mentions(why, "cube.dae"));
+        EXPECT_TRUE(mentions(why, "damaged"));
+    }
+}
+
+TEST(MeshScene, AReaderThatTakesFarMoreMemoryThanItsFileIsStopped)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    if (kSanitized) GTEST_SKIP() << "its allocator ends the process";
+    const std::string instance = R"(<instance_geometry url="#g"/>)";
+    std::string many; // ten times ten times ...
+    for (int i = 0; i < 9; ++i) {
+        const std::string next = "<instance_node url=\"#n" + std::to_string(i + 1) + "\"/>";
+        many += "<node id=\"n" + std::to_string(i) + "\">" + repeated(10, next) + "</node>";
+    }
+    const std::string node = "<node id=\"n\">" + instance + "</node>";
+    const std::string laugh =
+        replaced(colladaCube(), node, many + "<node id=\"n9\">" + instance + "</node>");
+    EXPECT_TRUE(mentions(errorOf("laugh.dae", laugh), "more memory"));
+    // A word among the corners makes assimp 5.2 add one for ever.
+    EXPECT_TRUE(
+        mentions(errorOf("word.dae", replaced(colladaCube(), "0 1 5 0", "0 x 5 0")), "memory"));
+}
+
+TEST(MeshScene, BuffersAreRegularFilesBelowTheFolderOfTheFile)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const std::string scene = gltfScene();
+    const auto save = [&](const std::string& name, const std::string& bytes) {
+        fs::create_directories(fs::path(folder.path() + "/" + name).parent_path());
+        std::ofstream(folder.path() + "/" + name, std::ios::binary) << bytes;
+    };
+    const std::size_t begin = scene.find("data:"), end = scene.find('"', begin);
+    const auto whyNot = [&](const std::string& uri) {
+        save("in/a.gltf", scene.substr(0, begin) + uri + scene.substr(end));
+        return errorOf(folder.path() + "/in/a.gltf");
+    };
+    for (const char* name : {"in/b.bin", "in/c/b.bin", "b.bin"}) save(name, cornersOfTetrahedron());
+    ASSERT_EQ(0, mkfifo((folder.path() + "/in/pipe.bin").c_str(), 0600));
+    EXPECT_EQ("", whyNot("b.bin"));
+    EXPECT_EQ("", whyNot("c/b.bin"));
+    for (const std::string uri : {"../b.bin", "pipe.bin", "/dev/zero", "http://127.0.0.1:1/b.bin",
+             "%2e%2e/b.bin", "none.bin"}) {
+        EXPECT_TRUE(mentions(whyNot(uri), "in its folder")) << uri;
+    }
+    EXPECT_TRUE(mentions(whyNot(folder.path() + "/b.bin"), "in its folder"));
 }
 
 TEST(MeshScene, SaysHowToGetWhatABuildWithoutAssimpLacks)

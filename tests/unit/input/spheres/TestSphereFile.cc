@@ -6,12 +6,13 @@
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
 
 #include "support/Messages.h"
+#include "support/PointGrids.h"
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/Exceptions.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/points/PointConversion.h>
+#include <openvdb/points/PointAttribute.h>
 
 #include <fstream>
 #include <string>
@@ -173,18 +174,16 @@ TEST_F(SphereFile, WhatIsWrongInJsonIsNamedWithItsEntry)
 TEST_F(SphereFile, PointsAreSpheresByTheirRadius)
 {
     using namespace openvdb::points;
-    const std::vector<openvdb::Vec3f> places = {{1, 2.5f, -3}, {0.25f, 0, 8}};
-    const PointAttributeVector<openvdb::Vec3f> positions(places);
-    const auto transform = openvdb::math::Transform::createLinearTransform(0.5);
-    const auto grid = createPointDataGrid<NullCodec, PointDataGrid>(places, *transform);
+    const std::vector<Vec3d> places = {{1, 2.5, -3}, {0.25, 0, 8}};
+    const auto grid = spheretree_test::pointsAt(places, /*voxelSize=*/0.5);
     EXPECT_TRUE(
         mentions(messageOf<openvdb::ValueError>([&] { spheresOfPoints(*grid); }), "neither"));
     appendAttribute<float>(grid->tree(), "radius", 0.5f);
     WorldSpheres spheres = spheresOfPoints(*grid);
     ASSERT_EQ(spheres.size(), 2u);
     EXPECT_EQ(spheres.radius, std::vector<double>(2, 0.5));
-    for (const openvdb::Vec3f& place : places) {
-        EXPECT_TRUE(spheres.center[0] == Vec3d(place) || spheres.center[1] == Vec3d(place));
+    for (const Vec3d& place : places) {
+        EXPECT_TRUE(spheres.center[0] == place || spheres.center[1] == place);
     }
     appendAttribute<double>(grid->tree(), "pscale", 0.25);
     EXPECT_EQ(spheresOfPoints(*grid).radius, std::vector<double>(2, 0.25));

@@ -3,6 +3,7 @@
 /// @brief Leaves of points, written by hand: OpenVDB writes none in which one number contradicts another.
 
 #include "support/GuardedVdb.h"
+#include "support/PointGrids.h"
 #include "support/VdbBytes.h"
 #include "support/VdbSamples.h"
 
@@ -10,7 +11,6 @@
 
 #include <openvdb/io/Compression.h>
 #include <openvdb/points/AttributeGroup.h>
-#include <openvdb/points/PointConversion.h>
 #include <openvdb/points/PointCount.h>
 
 #include <gtest/gtest.h>
@@ -353,9 +353,7 @@ TEST_F(PointWalk, ReadsAttributesOfMoreThanOnePage)
     for (int i = 0; i < 100000; ++i) { // 1.2 MB, and a page has one
         places.emplace_back(random() % 64, random() % 64, random() % 997 / 16.0);
     }
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    const auto grid =
-        points::createPointDataGrid<points::NullCodec, points::PointDataGrid>(places, *transform);
+    const auto grid = pointsAt(places);
     std::stringbuf source(spheretree_test::vdbBytes(
         {grid}, openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK));
     const auto read = openvdb::gridPtrCast<points::PointDataGrid>(readVdbGrids(source).at(0));

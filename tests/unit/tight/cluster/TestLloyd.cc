@@ -13,11 +13,13 @@ namespace {
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-int64_t distanceSq(const VoxelBlock& point, const FineCenter& center)
+/// In doubles: squares of the largest objects do not fit 64 bits.
+double distanceSq(const VoxelBlock& point, const FineCenter& center)
 {
-    int64_t sum = 0;
+    double sum = 0;
     for (int a = 0; a < 3; ++a) {
-        sum += (point.center[a] - center[a]) * (point.center[a] - center[a]);
+        const auto apart = double(point.center[a] - center[a]);
+        sum += apart * apart;
     }
     return sum;
 }

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file AssimpReader.cc
+/// @brief Of assimp only the importers are used: its own post-processing aborts the process on empty meshes in builds
+/// with assertions (Debian's), joins points that are merely near, and flattens the scene by rules of its own.
+///
+/// In the child: the importer, by way of NearbyFiles; then placedSoup(), the scene's nodes, each with its transform, as
+/// one set of polygons; its bytes come back.
+
+#include "AssimpReader.h"
+
+#include <openvdb/Exceptions.h>
+
+#ifdef SPHERETREE_WITH_ASSIMP
+#include <openvdb_spheretree/base/ChildProcess.h>
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Text.h>
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+#endif
+
+namespace openvdb_spheretree::detail {
+
+#ifdef SPHERETREE_WITH_ASSIMP
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxMessage = 200;
+
+/// Address space of a reader: so much for each byte of its files (text in trees of nodes takes some 30 times its
+/// length), and this to begin with.
+constexpr uint64_t kMemoryPerByte = 64, kMemoryOfReader = uint64_t(256) << 20;
+
+/// The mesh's file, and regular files in its folder or below. Others are not opened, and noted.
+class NearbyFiles : public Assimp::DefaultIOSystem {
+public:
+    explicit NearbyFiles(const std::string& path)
+        : mFolder(fs::weakly_canonical(fs::absolute(path)).parent_path())
+    {}
+
+    bool Exists(const char* name) const override
+    {
+        std::error_code error;
+        const fs::path path = fs::weakly_canonical(fs::absolute(name), error);
+        const bool isBelow = !error
+            && std::mismatch(mFolder.begin(), mFolder.end(), path.begin(), path.end()).first
+                == mFolder.end();
+        if (isBelow && fs::is_regular_file(path, error)) return true;
+        if (mRefused.empty()) mRefused = name;
+        return false;
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override
+    {
+        if (!Exists(name)) return nullptr;
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(name, error);
+        if (!error) allowMoreMemory(kMemoryPerByte * uint64_t(size));
+        return DefaultIOSystem::Open(name, mode);
+    }
+
+    /// @return the first file that was asked for in vain.
+    const std::string& refused() const { return mRefused; }
+
+private:
+    fs::path mFolder;
+    mutable std::string mRefused;
+};
+
+void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup)
+{
+    const std::size_t base = soup.points.size();
+    if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) {
+        throw openvdb::IoError("more points than 32 bits can number");
+    }
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D p = transform * mesh.mVertices[i];
+        const openvdb::Vec3s& point = soup.points.emplace_back(p.x, p.y, p.z);
+        if (!point.isFinite()) throw openvdb::IoError("a coordinate is not finite");
+    }
+    const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices < 3) continue; // a point or a line: holds nothing
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            const unsigned index = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
+            if (index >= mesh.mNumVertices)
+                throw openvdb::IoError("a face names a point that is not there");
+            soup.corners.push_back(std::uint32_t(base + index));
+        }
+        soup.counts.push_back(face.mNumIndices);
+    }
+}
+
+PolygonSoup placedSoup(const aiScene& scene)
+{
+    PolygonSoup soup;
+    std::vector<std::pair<const aiNode*, aiMatrix4x4>>
+        nodes; // a scene may nest deeper than a stack
+    if (scene.mRootNode) nodes.emplace_back(scene.mRootNode, scene.mRootNode->mTransformation);
+    while (!nodes.empty()) {
+        const auto [node, transform] = nodes.back();
+        nodes.pop_back();
+        for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+            addMesh(*scene.mMeshes[node->mMeshes[i]], transform, soup);
+        }
+        for (unsigned i = 0; i < node->mNumChildren; ++i) {
+            const aiNode* child = node->mChildren[i];
+            nodes.emplace_back(child, transform * child->mTransformation);
+        }
+    }
+    return soup;
+}
+
+template <typename T>
+void append(std::string& bytes, const std::vector<T>& values)
+{
+    const uint64_t count = values.size();
+    bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
+}
+
+/// What append() has written; a crashed reader may have written anything.
+template <typename T>
+void take(std::string_view& bytes, std::vector<T>& values)
+{
+    uint64_t count = 0;
+    const bool hasCount = bytes.size() >= sizeof(count);
+    if (hasCount) std::memcpy(&count, bytes.data(), sizeof(count));
+    if (!hasCount || count > (bytes.size() - sizeof(count)) / sizeof(T)) {
+        throw openvdb::IoError("damaged: its reader crashed on it");
+    }
+    bytes.remove_prefix(sizeof(count));
+    values.resize(count);
+    if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
+    bytes.remove_prefix(count * sizeof(T));
+}
+
+/// In the child.
+std::string bytesOfScene(const std::string& path)
+{
+    Assimp::Importer importer;
+    auto* const files = new NearbyFiles(path); // the importer deletes it
+    importer.SetIOHandler(files);
+    const aiScene* scene = importer.ReadFile(path, 0);
+    // Without what it names, assimp takes a file of the same name from elsewhere.
+    const std::string extension = lowerExtension(path);
+    const bool needsAll = extension == ".gltf" || extension == ".glb";
+    if (needsAll && !files->refused().empty()) {
+        throw openvdb::IoError("it needs the file " + onOneLine(files->refused(), kMaxMessage)
+            + ", which is no regular file in its folder or below");
+    }
+    if (!scene) {
+        const std::string_view why = importer.GetErrorString(); // any text
+        if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
+        throw openvdb::IoError("not a mesh file that assimp can read, or damaged ("
+            + onOneLine(why.substr(0, why.find('\n')), kMaxMessage) + ")");
+    }
+    const PolygonSoup soup = placedSoup(*scene);
+    std::string bytes;
+    append(bytes, soup.points);
+    append(bytes, soup.corners);
+    append(bytes, soup.counts);
+    return bytes;
+}
+
+/// @throw openvdb::IoError unless each polygon has three corners or more, and each corner its point
+void requireWhole(const PolygonSoup& soup)
+{
+    uint64_t corners = 0;
+    bool isWhole = true;
+    for (const uint32_t count : soup.counts) {
+        isWhole = isWhole && count >= 3;
+        corners += count;
+    }
+    for (const uint32_t corner : soup.corners) isWhole = isWhole && corner < soup.points.size();
+    if (!isWhole || corners != soup.corners.size()) {
+        throw openvdb::IoError("damaged: its reader crashed on it");
+    }
+}
+
+} // namespace
+
+bool hasAssimp() { return true; }
+
+bool assimpKnows(const std::string& extension)
+{
+    // Names that are grids here, whatever a future assimp makes of them.
+    if (extension == ".vdb" || extension == ".vol" || extension == ".longvol") return false;
+    return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
+}
+
+PolygonSoup readByAssimp(const std::string& path)
+{
+    std::string bytes;
+    try {
+        bytes = resultOfChild([&] { return bytesOfScene(path); }, kMemoryOfReader);
+    } catch (const std::bad_alloc&) {
+        throw openvdb::IoError("it takes more memory than " + asText(kMemoryOfReader) + " and "
+            + std::to_string(kMemoryPerByte)
+            + " times its size: damaged, or one mesh shown very many times; write each as "
+              "triangles, as .ply or .stl");
+    }
+    std::string_view left = bytes;
+    PolygonSoup soup;
+    take(left, soup.points);
+    take(left, soup.corners);
+    take(left, soup.counts);
+    requireWhole(soup);
+    return soup;
+}
+
+#else
+
+bool hasAssimp() { return false; }
+
+bool assimpKnows(const std::string& extension)
+{
+    for (const char* known : {".gltf", ".glb", ".fbx", ".dae", ".3ds", ".x", ".lwo", ".3mf"}) {
+        if (extension == known) return true;
+    }
+    return false;
+}
+
+PolygonSoup readByAssimp(const std::string&)
+{
+    throw openvdb::IoError(
+        "this build reads .obj, .off, .ply and .stl meshes only; for other formats "
+        "install assimp (Debian: libassimp-dev) and configure with -DSPHERETREE_WITH_ASSIMP=ON");
+}
+
+#endif
+
+} // namespace openvdb_spheretree::detail
