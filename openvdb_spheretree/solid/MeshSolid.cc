@@ -19,8 +19,10 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
+#include <vector>
 
 namespace openvdb_spheretree {
 
@@ -30,20 +32,41 @@ using openvdb::MaskTree;
 using openvdb::Vec3d;
 using openvdb::util::NullInterrupter;
 
+/// @return how many nodes of so many voxels along a side the mesh has points in.
+double nodesWithPoints(const TriangleMesh& mesh, double voxelSize, double side)
+{
+    using Place = std::array<double, 3>;
+    std::vector<Place> places;
+    for (const openvdb::Vec3s& point : mesh.points) {
+        Place place;
+        for (int a = 0; a < 3; ++a) {
+            place[std::size_t(a)] = std::floor(double(point[a]) / (side * voxelSize));
+        }
+        if (places.empty() || places.back() != place)
+            places.push_back(place); // neighbours follow each other
+    }
+    std::sort(places.begin(), places.end());
+    return double(std::unique(places.begin(), places.end()) - places.begin());
+}
+
 /// A surface has a leaf of 8^3 voxels for each 64 faces of voxels of its area, and as many as an edge is long,
-/// at the least, and three trees of them are held at a time; by its box it cannot have more.
+/// at the least, and three trees of them are held at a time; by its box it cannot have more. Nodes above the
+/// leaves count where parts are far apart.
 void requireRoomForSurface(const TriangleMesh& mesh, double voxelSize)
 {
-    constexpr double kBytes = 300;
+    constexpr double kTrees = 3, kLeafBytes = 100, kLowerBytes = 34e3, kUpperBytes = 270e3;
     const double leaf = 8 * voxelSize;
     const Vec3d sides = boxOf(mesh).extents() / leaf + Vec3d(1);
     const double leaves = std::min(std::max(areaOf(mesh) / (leaf * leaf), longestEdge(mesh) / leaf),
         sides[0] * sides[1] * sides[2]);
+    const double lower = nodesWithPoints(mesh, voxelSize, 128);
+    const double upper = nodesWithPoints(mesh, voxelSize, 4096);
+    const double bytes = kTrees * (leaves * kLeafBytes + lower * kLowerBytes + upper * kUpperBytes);
     const Vec3d voxels = boxOf(mesh).extents() / voxelSize + Vec3d(1);
     detail::TextStream what;
     what << "the voxels at the surface of mesh '" << mesh.name << "', in a box of "
          << std::setprecision(2) << voxels[0] * voxels[1] * voxels[2] << " voxels,";
-    detail::requireMemory(leaves * kBytes, what.str(), "use a larger voxel");
+    detail::requireMemory(bytes, what.str(), "use a larger voxel");
 }
 
 /// @return the radius of the ball that closes holes of this width, in voxels.

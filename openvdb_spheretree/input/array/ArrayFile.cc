@@ -47,6 +47,8 @@ openvdb::GridBase::Ptr readArrayFile(
         return read(file, bytes);
     } catch (const IoError& error) {
         fail(name, messageOf(error));
+    } catch (const openvdb::ValueError& error) {
+        fail(name, messageOf(error));
     } catch (const std::bad_alloc&) {
         fail(name, "not enough memory for the volume that its header asks for");
     } catch (const std::ios_base::failure& error) {

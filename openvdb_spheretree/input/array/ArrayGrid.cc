@@ -2,6 +2,7 @@
 #include "ArrayGrid.h"
 
 #include "NumberDecoder.h"
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/Text.h>
@@ -177,6 +178,7 @@ GridBase::Ptr readGrid(ByteSource& source, const ArrayLayout& layout,
 
     const uint64_t slices = layout.dim[layout.slow()];
     const uint64_t slabBytes = layout.sliceBytes() * std::min(kSide, slices);
+    requireMemory(double(slabBytes) * (slices > kSide ? 2 : 1), "its slices", "make them smaller");
     // Not value-initialised: pages are first touched by what the file really holds.
     std::unique_ptr<uint8_t[]> slab(new uint8_t[slabBytes]);
     std::unique_ptr<uint8_t[]> next(new uint8_t[slices > kSide ? slabBytes : 0]);

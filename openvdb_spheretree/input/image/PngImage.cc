@@ -8,6 +8,7 @@
 
 #include "GrayImage.h"
 
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -39,7 +40,14 @@ void onError(png_structp png, png_const_charp message)
     png_longjmp(png, 1);
 }
 
-void onWarning(png_structp, png_const_charp) {}
+/// More data than the header says is a warning of libpng; other warnings are of what is not read here.
+void onWarning(png_structp png, png_const_charp message)
+{
+    for (const char* surplus : {"Extra compressed data", "Too much image data"}) {
+        if (std::strstr(message, surplus))
+            png_error(png, "there is more image data than its header says");
+    }
+}
 
 void onRead(png_structp png, png_bytep out, std::size_t bytes)
 {
@@ -184,6 +192,9 @@ GrayImage readPng(const std::vector<uint8_t>& file)
         throw IoError("has a transparent color; make it a gray picture first (ImageMagick: convert "
                       "in.png -alpha off -colorspace Gray out.png)");
     }
+    const double pixels = double(head.rowBytes) * head.height;
+    requireMemory(
+        2 * pixels, "its pixels", "make smaller pictures of it"); // as they come, and gray
     std::vector<uint8_t> bytes(head.rowBytes * head.height);
     std::vector<png_bytep> rows(head.height);
     for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = bytes.data() + y * head.rowBytes;

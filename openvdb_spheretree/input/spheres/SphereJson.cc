@@ -53,6 +53,7 @@ public:
     bool string(string_t& text) override
     {
         if (mPlace == Place::Columns && mDepth == 2) addColumn(text);
+        if (mDepth == 1 && mMember == "format") requireKnown(text);
         return value({});
     }
 
@@ -110,7 +111,8 @@ private:
         if (mPlace == Place::Outside && isArray && (mDepth == 1 || (mDepth == 2 && !mIsArray))) {
             openList();
         } else if (mPlace == Place::List && mDepth == mListDepth + 1) {
-            if (mSkipped || (isArray && mColumns.empty())) return;
+            if (mSkipped) return;
+            if (isArray && mColumns.empty()) return passOver();
             mPlace = isArray ? Place::Row : Place::Entry;
             ++mEntries;
             mEntry = {};
@@ -175,6 +177,7 @@ private:
     {
         if (mPlace == Place::Center && mDepth == mListDepth + 2) {
             if (!number) fail("a coordinate of the centre is no number");
+            if (mColumn < 3 && mEntry.values[mColumn]) fail("it has a centre twice");
             if (mColumn < 3) mEntry.values[mColumn] = *number;
             ++mColumn;
         } else if (mPlace == Place::Row && mDepth == mListDepth + 1) {
@@ -182,8 +185,22 @@ private:
             ++mColumn;
         } else if (isInEntry()) {
             set(mField, number);
+        } else if (mPlace == Place::List && mDepth == mListDepth) {
+            passOver();
         }
         return true;
+    }
+
+    /// An entry of a list that is no sphere: among spheres it is an error, and an array of such is something else.
+    void passOver()
+    {
+        if (mSkipped) return;
+        if (mEntries == 0) {
+            mSkipped = true;
+            return;
+        }
+        ++mEntries;
+        fail("it is no sphere");
     }
 
     void set(SphereField field, std::optional<double> number)
@@ -192,6 +209,15 @@ private:
         if (!number) fail("what should be a number is none");
         if (mEntry[field]) fail("it has the same member twice");
         mEntry[field] = number;
+    }
+
+    /// Our own trees say which version of the format they have.
+    static void requireKnown(const std::string& format)
+    {
+        const std::string ours = "vdb_spheretree.tree.", known = ours + "1";
+        if (format.compare(0, ours.size(), ours) != 0 || format == known) return;
+        throw openvdb::IoError(
+            "its format is " + inQuotes(format) + ", and this version reads " + known);
     }
 
     void addColumn(const std::string& name)

@@ -177,10 +177,11 @@ void forEachPosePair(
         }
         const QueryBody &a = bodies[pairOf[0]], &b = bodies[pairOf[1]];
         RigidTransform poseB = near;
-        if (i % 3 == 0)
-            poseB = RigidTransform::fromTranslation(
-                        uniform(random, -0.01, 0.01) * randomDirection(random))
-                * near;
+        // One after the other, here and below: samples are the same for all compilers.
+        if (i % 3 == 0) {
+            const double apart = uniform(random, -0.01, 0.01);
+            poseB = RigidTransform::fromTranslation(apart * randomDirection(random)) * near;
+        }
         if (i % 3 == 1) {
             const double far = uniform(random, 0, 1.2) * (a.query.radius() + b.query.radius());
             const RigidTransform turn = randomRotation(random);
@@ -188,14 +189,15 @@ void forEachPosePair(
                         - turn.rotate(b.query.center()))
                 * turn;
         }
-        if (i % 3 == 2)
-            poseB =
-                RigidTransform::fromTranslation(uniform(random, 0, 0.5) * randomDirection(random))
-                * near;
-        const RigidTransform world = i % 2
-            ? RigidTransform()
-            : RigidTransform::fromTranslation(30.0 * randomDirection(random))
-                * randomRotation(random);
+        if (i % 3 == 2) {
+            const double apart = uniform(random, 0, 0.5);
+            poseB = RigidTransform::fromTranslation(apart * randomDirection(random)) * near;
+        }
+        RigidTransform world;
+        if (i % 2 == 0) {
+            const Vec3d direction = randomDirection(random);
+            world = RigidTransform::fromTranslation(30.0 * direction) * randomRotation(random);
+        }
         test({a, b, world, world * poseB});
     }
 }

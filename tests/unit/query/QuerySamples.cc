@@ -77,7 +77,8 @@ Vec3d randomDirection(Random& random)
 RigidTransform randomRotation(Random& random)
 {
     // Any axis by any angle is not uniform over rotations, but reaches all of them.
-    return RigidTransform::fromRotation(randomDirection(random), uniform(random, 0, 2 * M_PI));
+    const double radians = uniform(random, 0, 2 * M_PI); // arguments would have no order
+    return RigidTransform::fromRotation(randomDirection(random), radians);
 }
 
 std::vector<WorldBall> leafBalls(const SphereTree& tree, const RigidTransform& pose)

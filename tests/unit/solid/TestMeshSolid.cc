@@ -321,6 +321,23 @@ TEST_F(MeshSolid, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
         << message;
 }
 
+TEST_F(MeshSolid, RefusesPartsSoFarApartThatTheirNodesWouldNotFit)
+{
+    std::mt19937 random(1);
+    TriangleMesh dust;
+    const auto number = [&] { return float(random() % (1u << 28)); };
+    for (int i = 0; i < 1000000; ++i) {
+        const Vec3s at(number(), number(), number());
+        const auto first = uint32_t(dust.points.size());
+        for (const Vec3s& off : {Vec3s(0), Vec3s(32, 0, 0), Vec3s(0, 32, 0)}) {
+            dust.points.push_back(at + off);
+        }
+        dust.triangles.push_back({first, first + 1, first + 2});
+    }
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { meshToObject(dust, 1); }), "need about"));
+}
+
 TEST_F(MeshSolid, StopsWhenAskedTo)
 {
     struct Stop : openvdb::util::NullInterrupter {

@@ -129,6 +129,10 @@ TEST(GrayImage, PngThatIsNoneIsRefused)
         has(png(damaged), "is no sound .png");
     }
     has(png(pngOf(1 << 20, 1 << 20, 16, 6, "x")), "cannot be in a file that small");
+    for (const std::size_t surplus : {1, 100000}) {
+        const std::string rows = std::string("\0\5", 2) + std::string(surplus, '\0');
+        has(png(pngOf(1, 1, 8, 0, rows)), "more image data than its header says");
+    }
     const std::string longer = chunk("tEXt", "a text");
     const std::string tooLong = big(0x7c000025) + longer.substr(4); // no memory is taken for it
     has(png(pngOf(1, 1, 8, 0, std::string("\0\5", 2), tooLong)), "does not end in the file");

@@ -155,6 +155,10 @@ TEST_F(SphereFile, WhatIsWrongInJsonIsNamedWithItsEntry)
         {R"({"x": 1, "y": 2, "z": 3, "r": "4"}])", "entry 2", "number"},
         {R"({"x": 1, "x": 1, "y": 2, "z": 3, "r": 4}])", "entry 2", "twice"},
         {R"({"x": 1, "y": 2, "z": 3, "r": 4, "d": 8}])", "entry 2", "diameter"},
+        {R"({"x": 1, "center": [1, 2, 3], "r": 4}])", "entry 2", "centre twice"},
+        {R"({"center": [1, 2, 3], "y": 1, "r": 4}])", "entry 2", "twice"},
+        {R"(5])", "entry 2", "no sphere"}, {R"(null])", "entry 2", "no sphere"},
+        {R"("junk"])", "entry 2", "no sphere"}, {R"([1, 2, 3, 4]])", "entry 2", "no sphere"},
         {R"({"x": 1, "y": 2, "z": 3, "r": -4}])", "entry 2", "not above 0"},
         {R"({"x": 1, "y": 2, "z": 3, "r": 1e999}])", "byte", "JSON"}, {"", "byte", "JSON"}};
     for (const Case& broken : cases) {
@@ -163,6 +167,9 @@ TEST_F(SphereFile, WhatIsWrongInJsonIsNamedWithItsEntry)
         EXPECT_TRUE(mentions(why, broken.what)) << broken.text;
     }
     EXPECT_TRUE(mentions(whyNot("a.json", "[]"), "no sphere"));
+    EXPECT_TRUE(
+        mentions(whyNot("a.json", "[1, {\"x\": 1, \"y\": 2, \"z\": 3, \"r\": 4}]"), "no sphere"));
+    EXPECT_TRUE(mentions(whyNot("a.json", R"({"format": "vdb_spheretree.tree.2"})"), "tree.2"));
     EXPECT_TRUE(mentions(whyNot("a.json", "7"), "no sphere"));
     EXPECT_TRUE(mentions(whyNot("a.json", "[[1, 2, 3, 4]]"), "no sphere"));
     EXPECT_TRUE(mentions(whyNot("a.json", std::string(100000, '[')), "nested"));
