@@ -54,6 +54,8 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
         const LeafMask& mask = samples.mask(leaf);
         const int x0 = std::max(0, at[0]), x1 = std::min(mSize[0], at[0] + 8);
         const int y0 = std::max(0, at[1]), y1 = std::min(mSize[1], at[1] + 8);
+        // At the end of coordinates, leaves are met by windows that lie beyond it.
+        if (y0 >= y1 || at[2] < 0 || at[2] >= mSize[2]) return;
         for (int x = x0; x < x1; ++x) {
             uint64_t* row = &mBits[(std::size_t(x) * mSize[1] + y0) * mWords + (at[2] >> 6)];
             uint64_t rows = mask[x - at[0]] >> (8 * (y0 - at[1]));
