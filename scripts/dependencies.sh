@@ -86,6 +86,15 @@ build_preset() {
             "${targets[@]}") </dev/null >&2
 }
 
+# What every run of a program with clang's sanitizers needs, and the compiler cache, which does not know that
+# the list of what is ignored is part of what is compiled.
+use_sanitizer_options() {
+    local folder="$project_root/scripts/sanitizers"
+    export CCACHE_EXTRAFILES="$folder/clang.ignore"
+    export LSAN_OPTIONS="suppressions=$folder/leaks.supp:print_suppressions=0"
+    export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1:suppressions=$folder/undefined.supp"
+}
+
 # Real inputs, which are not part of the project: those of the folder SPHERETREE_DATA. What needs them
 # is left out without.
 find_data() {

@@ -74,11 +74,7 @@ case "${1:-}" in
 -h | --help) usage 0 ;;
 '' | *[!0-9]*) usage 2 >&2 ;;
 esac
-# The compiler cache does not know that this file is part of what is compiled.
-export CCACHE_EXTRAFILES="$project_root/scripts/sanitizers/clang.ignore"
-export LSAN_OPTIONS="suppressions=$project_root/scripts/sanitizers/leaks.supp:print_suppressions=0"
-export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
-UBSAN_OPTIONS+=":suppressions=$project_root/scripts/sanitizers/undefined.supp"
+use_sanitizer_options
 
 seconds=$(($1 * 60))
 shift

@@ -10,12 +10,8 @@ set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
 
-# The compiler cache does not know that this file is part of what is compiled.
-export CCACHE_EXTRAFILES="$project_root/scripts/sanitizers/clang.ignore"
+use_sanitizer_options
 export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
-export LSAN_OPTIONS="suppressions=$project_root/scripts/sanitizers/leaks.supp:print_suppressions=0"
-export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
-UBSAN_OPTIONS+=":suppressions=$project_root/scripts/sanitizers/undefined.supp"
 
 # The same lines as a user's. They stop at the first report.
 run_lines() {

@@ -42,8 +42,8 @@ double nodesWithPoints(const TriangleMesh& mesh, double voxelSize, double side)
         for (int a = 0; a < 3; ++a) {
             place[std::size_t(a)] = std::floor(double(point[a]) / (side * voxelSize));
         }
-        if (places.empty() || places.back() != place)
-            places.push_back(place); // neighbours follow each other
+        // Most points follow one of the same node.
+        if (places.empty() || places.back() != place) places.push_back(place);
     }
     std::sort(places.begin(), places.end());
     return double(std::unique(places.begin(), places.end()) - places.begin());

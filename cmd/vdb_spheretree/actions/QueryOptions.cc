@@ -85,8 +85,7 @@ QueryTreeSettings settingsOf(const ActionCall& call, const StackItem& item, int 
     if (isReversible && !call.flag("exact")) {
         throwInput(item.description()
             + ": spheres of a reversible tree do not hold those below them: add exact=1, which "
-              "makes a "
-              "hierarchy over its leaves, or build a tight tree");
+              "makes a hierarchy over its leaves, or build a tight tree");
     }
     if (isLast && call.spec().option("scale")) settings.scale = call.real("scale");
     return settings;

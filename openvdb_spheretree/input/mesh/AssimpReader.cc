@@ -134,6 +134,8 @@ void append(std::string& bytes, const std::vector<T>& values)
     bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
 }
 
+[[noreturn]] void failCrashed() { throw openvdb::IoError("damaged: its reader crashed on it"); }
+
 /// What append() has written; a crashed reader may have written anything.
 template <typename T>
 void take(std::string_view& bytes, std::vector<T>& values)
@@ -142,7 +144,7 @@ void take(std::string_view& bytes, std::vector<T>& values)
     const bool hasCount = bytes.size() >= sizeof(count);
     if (hasCount) std::memcpy(&count, bytes.data(), sizeof(count));
     if (!hasCount || count > (bytes.size() - sizeof(count)) / sizeof(T)) {
-        throw openvdb::IoError("damaged: its reader crashed on it");
+        failCrashed();
     }
     bytes.remove_prefix(sizeof(count));
     values.resize(count);
@@ -189,7 +191,7 @@ void requireWhole(const PolygonSoup& soup)
     }
     for (const uint32_t corner : soup.corners) isWhole = isWhole && corner < soup.points.size();
     if (!isWhole || corners != soup.corners.size()) {
-        throw openvdb::IoError("damaged: its reader crashed on it");
+        failCrashed();
     }
 }
 

@@ -177,8 +177,10 @@ private:
     {
         if (mPlace == Place::Center && mDepth == mListDepth + 2) {
             if (!number) fail("a coordinate of the centre is no number");
-            if (mColumn < 3 && mEntry.values[mColumn]) fail("it has a centre twice");
-            if (mColumn < 3) mEntry.values[mColumn] = *number;
+            if (mColumn < 3) {
+                if (mEntry.values[mColumn]) fail("it has a centre twice");
+                mEntry.values[mColumn] = *number;
+            }
             ++mColumn;
         } else if (mPlace == Place::Row && mDepth == mListDepth + 1) {
             if (mColumn < mColumns.size()) set(mColumns[mColumn], number);

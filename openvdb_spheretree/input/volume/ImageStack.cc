@@ -145,6 +145,8 @@ GrayImage StackBytes::imageOf(const std::string& file) const
         return readGrayImage(file, file);
     } catch (const IoError& error) {
         throw IoError("slice " + file + ": " + messageOf(error));
+    } catch (const openvdb::ValueError& error) { // more pixels than there is memory for
+        throw IoError("slice " + file + ": " + messageOf(error));
     }
 }
 

@@ -312,6 +312,10 @@ TEST_F(MeshSolid, RefusesWhatIsOutOfRange)
     EXPECT_THROW(meshToObject(TriangleMesh(), 1), openvdb::ValueError);
 }
 
+struct Stop : openvdb::util::NullInterrupter {
+    bool wasInterrupted(int) override { return true; }
+};
+
 TEST_F(MeshSolid, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
 {
     const TriangleMesh mesh = boxMesh(Vec3d(0), Vec3d(5e5));
@@ -334,15 +338,14 @@ TEST_F(MeshSolid, RefusesPartsSoFarApartThatTheirNodesWouldNotFit)
         }
         dust.triangles.push_back({first, first + 1, first + 2});
     }
-    EXPECT_TRUE(
-        mentions(messageOf<openvdb::ValueError>([&] { meshToObject(dust, 1); }), "need about"));
+    Stop stop; // before any work
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::ValueError>([&] { meshToObject(dust, 1, {}, &stop); }), "need about"));
 }
 
 TEST_F(MeshSolid, StopsWhenAskedTo)
 {
-    struct Stop : openvdb::util::NullInterrupter {
-        bool wasInterrupted(int) override { return true; }
-    } stop;
+    Stop stop;
     EXPECT_THROW(meshToObject(boxMesh(Vec3d(0), Vec3d(9)), 1, {}, &stop), Interrupted);
 }
 
