@@ -5,20 +5,23 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <vector>
 
 namespace {
 
 using namespace openvdb_spheretree::detail;
 
-/// Takes notes of what it is told, and stops the work if it is to.
+/// Takes notes of what it is told, by any thread, and stops the work if it is to.
 struct Listener : openvdb::util::NullInterrupter {
     bool wasInterrupted(int percent = -1) override
     {
+        const std::lock_guard<std::mutex> lock(mutex);
         if (told.empty() || told.back() != percent) told.push_back(percent);
         return stops;
     }
     std::vector<int> told;
+    std::mutex mutex;
     bool stops = false;
 };
 
