@@ -71,13 +71,7 @@ Cells cellsOf(const CollisionResult& result, const Contact* contact, int64_t num
     if (number >= 0) cells.push_back(contact ? Cell(number) : Cell());
     cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
     cells.push_back(isApart ? Cell(result.distanceLowerBound / unit) : Cell());
-    if (contact) {
-        addCells(cells, contact->point(), unit);
-        addCells(cells, contact->normal);
-        cells.insert(cells.end(), {int64_t(contact->nodes.a), int64_t(contact->nodes.b)});
-    } else {
-        addNothing(cells, 8);
-    }
+    addContact(cells, contact, unit);
     cells.push_back(result.blocks);
     return cells;
 }

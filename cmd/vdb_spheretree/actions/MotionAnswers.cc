@@ -48,14 +48,9 @@ Cells cellsOf(const ContinuousCollisionResult& result, double unit)
 {
     Cells cells = {nameOf(verdictOf(result)),
         result.isCollide ? Cell(result.timeOfContact) : Cell(), result.freeUntil};
-    if (const auto& contact = result.contact) {
-        cells.push_back(lengthCell(contact->distance, unit));
-        addCells(cells, contact->point(), unit);
-        addCells(cells, contact->normal);
-        cells.insert(cells.end(), {int64_t(contact->nodes.a), int64_t(contact->nodes.b)});
-    } else {
-        addNothing(cells, 9);
-    }
+    const auto& contact = result.contact;
+    cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
+    addContact(cells, contact ? &*contact : nullptr, unit);
     cells.push_back(result.blocks);
     return cells;
 }

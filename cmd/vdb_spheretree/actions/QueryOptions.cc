@@ -239,6 +239,14 @@ void addCells(Cells& cells, const openvdb::Vec3d& vec, double unit)
 
 void addNothing(Cells& cells, int count) { cells.insert(cells.end(), std::size_t(count), Cell()); }
 
+void addContact(Cells& cells, const spheretree::Contact* contact, double unit)
+{
+    if (!contact) return addNothing(cells, 8);
+    addCells(cells, contact->point(), unit);
+    addCells(cells, contact->normal);
+    cells.insert(cells.end(), {int64_t(contact->nodes.a), int64_t(contact->nodes.b)});
+}
+
 void giveAnswers(const ActionCall& call, Session& session, const AnswerSheet& sheet)
 {
     if (!hasReportFiles(call)) {

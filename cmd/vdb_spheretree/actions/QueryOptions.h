@@ -9,6 +9,7 @@
 #include "report/AnswerSheet.h"
 #include "session/Session.h"
 
+#include <openvdb_spheretree/query/Contact.h>
 #include <openvdb_spheretree/query/QueryTables.h>
 #include <openvdb_spheretree/query/QueryTree.h>
 
@@ -67,6 +68,8 @@ std::vector<Row> rowsOf(const ActionCall& call, const std::string& name, Session
 Cell lengthCell(double length, double unit); ///< nothing where it is infinite
 void addCells(Cells& cells, const openvdb::Vec3d& vec, double unit = 1);
 void addNothing(Cells& cells, int count);
+/// Where two spheres meet, and which: the columns from `x` to `b`. Nothing for null.
+void addContact(Cells& cells, const openvdb_spheretree::Contact* contact, double unit);
 /// @}
 
 /// @brief Print the answers, or write them to the files that were asked for.
