@@ -36,6 +36,7 @@ public:
 
     /// Of the line, without blanks and quotes around them: until the next one.
     const std::vector<std::string_view>& fields() const { return mFields; }
+    std::uint64_t lineNumber() const { return mNumber; } ///< from 1, of all lines of the file
     /// @throw openvdb::IoError if the field is no number
     double number(std::size_t column) const;
     /// @throw openvdb::IoError that says which line it is

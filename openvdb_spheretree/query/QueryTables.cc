@@ -27,6 +27,8 @@ const Names kQuaternion = {"qx", "qy", "qz", "qw"};
 const Names kAngles = {"rx", "ry", "rz"};
 const Names kRollPitchYaw = {"roll", "pitch", "yaw"}; // the same three angles, as ROS names them
 const Names kTime = {"time"};
+const Names kFrame = {"frame"};
+const Names kBody = {"body"};
 const Names kDirection = {"dx", "dy", "dz"};
 const Names kMatrix = {
     "m00", "m01", "m02", "m03", "m10", "m11", "m12", "m13", "m20", "m21", "m22", "m23"};
@@ -82,7 +84,8 @@ public:
         constexpr std::size_t kMost = 5;
         Names names;
         for (std::size_t i = 0; i < mHeader.size(); ++i) {
-            if (!std::count(mColumns.begin(), mColumns.end(), i)) names.push_back(mHeader[i]);
+            const bool isTaken = std::count(mColumns.begin(), mColumns.end(), i) || i == mText;
+            if (!isTaken) names.push_back(mHeader[i]);
         }
         const std::size_t more = names.size() - std::min(names.size(), kMost);
         names.resize(names.size() - more);
@@ -93,21 +96,15 @@ public:
     /// @throw openvdb::IoError if one is missing, or there twice
     void take(const Names& names)
     {
-        for (const std::string& name : names) {
-            std::optional<std::size_t> found;
-            if (!hasHeader()) found = mColumns.size();
-            for (std::size_t i = 0; hasHeader() && i < count(); ++i) {
-                if (lowerName(i) != name) continue;
-                if (found) fail("the header names more than one column '" + name + "'");
-                found = i;
-            }
-            if (!found) {
-                fail("the header names no column '" + name + "', and " + mWhat + " have "
-                    + listOf(names));
-            }
-            mColumns.push_back(*found);
-        }
+        for (const std::string& name : names) mColumns.push_back(place(name, names));
     }
+
+    /// Takes a column of texts, which text() has of each line. Only of a table with a header.
+    /// @param all  that such a table has, for the message
+    /// @throw openvdb::IoError as take()
+    void takeText(const std::string& name, const Names& all) { mText = place(name, all); }
+    std::string_view text() const { return mTable.fields()[mText.value()]; }
+    std::uint64_t lineNumber() const { return mTable.lineNumber(); }
 
     /// @return what people are told of a table without a header.
     std::string assumption(const Names& names) const
@@ -140,10 +137,24 @@ public:
     [[noreturn]] void fail(const std::string& what) const { mTable.fail(what); }
 
 private:
+    std::size_t place(const std::string& name, const Names& all) const
+    {
+        if (!hasHeader()) return mColumns.size();
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < count(); ++i) {
+            if (lowerName(i) != name) continue;
+            if (found) fail("the header names more than one column '" + name + "'");
+            found = i;
+        }
+        if (found) return *found;
+        fail("the header names no column '" + name + "', and " + mWhat + " have " + listOf(all));
+    }
+
     std::string mWhat;
     CsvTable mTable;
     Names mHeader;                     ///< as messages show it; empty without one
     std::vector<std::size_t> mColumns; ///< of the numbers that are taken
+    std::optional<std::size_t> mText;  ///< of the texts
 };
 
 Vec3d vecOf(const Numbers& numbers, std::size_t first)
@@ -224,6 +235,31 @@ RigidTransform poseOf(const Numbers& numbers, const Names& columns)
         move);
 }
 
+/// @return what people are told where columns of a turn may have been meant; empty else.
+std::string notedMoves(const NamedColumns& table, const Names& names)
+{
+    const std::string leftOver = table.leftOver();
+    if (names != kPlace || leftOver.empty()) return {};
+    return "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
+}
+
+/// @throw openvdb::ValueError unless a line says which body, and frames ascend
+BodyPose bodyPoseOf(const NamedColumns& table, double frame, const std::vector<BodyPose>& before)
+{
+    constexpr double kMost = 1e15; // doubles hold all whole numbers up to there
+    if (table.text().empty()) OPENVDB_THROW(openvdb::ValueError, "the line names no body");
+    if (!(std::abs(frame) <= kMost) || frame != std::floor(frame)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "frame " << detail::shortNumber(frame) << ": frames are whole numbers");
+    }
+    if (!before.empty() && int64_t(frame) < before.back().frame) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "frame " << int64_t(frame) << " stands behind frame " << before.back().frame
+                     << ": put frames in ascending order");
+    }
+    return {int64_t(frame), std::string(table.text()), {}, table.lineNumber()};
+}
+
 /// @throw openvdb::IoError for a table without a header that has not as many columns
 void requireColumns(const NamedColumns& table, const Names& names, const char* what)
 {
@@ -275,14 +311,33 @@ QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::str
         columns.take(names);
         columns.forEach(
             [&](const Numbers& numbers) { table.rows.push_back(poseOf(numbers, names)); });
-        const std::string leftOver = columns.leftOver();
-        if (names == kPlace && !leftOver.empty()) {
-            table.assumption =
-                "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
-        }
+        table.assumption = notedMoves(columns, names);
         return names;
     };
     return readTable<RigidTransform>(path, shownAs, "poses", fill);
+}
+
+QueryTable<BodyPose> readBodyPoseTable(const std::string& path, const std::string& shownAs)
+{
+    const auto fill = [](NamedColumns& columns, QueryTable<BodyPose>& table) {
+        if (!columns.hasHeader()) {
+            columns.fail("a table of poses of bodies has a header, which names the column 'body' "
+                         "among those of poses: put one before it");
+        }
+        const Names names = poseColumns(columns);
+        columns.takeText(kBody.front(), kBody + names);
+        columns.take(names);
+        const bool hasFrames = columns.namesAny(kFrame);
+        if (hasFrames) columns.take(kFrame);
+        columns.forEach([&](const Numbers& numbers) {
+            table.rows.push_back(bodyPoseOf(columns, hasFrames ? numbers.back() : 0, table.rows));
+            table.rows.back().pose =
+                poseOf({numbers.begin(), numbers.begin() + std::ptrdiff_t(names.size())}, names);
+        });
+        table.assumption = notedMoves(columns, names);
+        return names;
+    };
+    return readTable<BodyPose>(path, shownAs, "poses of bodies", fill);
 }
 
 QueryTable<Vec3d> readPointTable(const std::string& path, const std::string& shownAs)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file QueryTables.h
-/// @brief Tables (`.csv`) of poses, points and rays: what a batch of questions is read from, one a line.
+/// @brief Tables (`.csv`) of poses, of one body or of several, of points and rays: what a batch of questions is read from, one a line.
 ///
 /// A header names the columns, in any order and among any others; or there is none, and the number of columns
 /// says what they are. Columns are separated by commas, semicolons, tabs or blanks. Empty lines are skipped,
@@ -14,6 +14,7 @@
 /// |        | x y z rx ry rz, radians: rotationOfAngles()   |                                         |
 /// |        | x y z roll pitch yaw, the same three angles   |                                         |
 /// |        | m00 m01 m02 m03 m10 ... m23 (m30 ... m33)     | 12 or 16: rows of a matrix, as KITTI    |
+/// | bodies | body (frame), and the columns of poses        |                                         |
 /// | points | x y z                                         | 3: x y z                                |
 /// | rays   | x y z dx dy dz (tnear tfar)                   | 6: origin and direction                 |
 ///
@@ -28,10 +29,20 @@
 
 #include <openvdb/Types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace openvdb_spheretree {
+
+/// Where one of several bodies is.
+struct BodyPose {
+    int64_t frame =
+        0; ///< of the column `frame`, where there is one: lines of a frame stand together, in ascending order
+    std::string body; ///< as the line has it, without the blanks and quotes around it; never empty
+    RigidTransform pose;
+    uint64_t line = 0; ///< of the file, from 1: for messages
+};
 
 template <typename Row>
 struct QueryTable {
@@ -45,6 +56,7 @@ struct QueryTable {
 ///        the line
 /// @{
 QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::string& shownAs = {});
+QueryTable<BodyPose> readBodyPoseTable(const std::string& path, const std::string& shownAs = {});
 QueryTable<openvdb::Vec3d> readPointTable(const std::string& path, const std::string& shownAs = {});
 QueryTable<QueryRay> readRayTable(const std::string& path, const std::string& shownAs = {});
 /// @}

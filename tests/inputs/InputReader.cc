@@ -100,6 +100,7 @@ bool InputReader::read(const std::string& bytes, bool delayed)
         if (mExtension == ".vdb") readVdb(delayed);
         else if (isConfig) command::parseLine({"-config", path});
         else if (mExtension == ".poses") openvdb_spheretree::readPoseTable(path);
+        else if (mExtension == ".bodies") openvdb_spheretree::readBodyPoseTable(path);
         else if (mExtension == ".points") openvdb_spheretree::readPointTable(path);
         else if (mExtension == ".rays") openvdb_spheretree::readRayTable(path);
         else if (isVolFileName(path)) readVolFile(path);

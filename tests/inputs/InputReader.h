@@ -13,7 +13,7 @@ namespace spheretree_test {
 
 class InputReader {
 public:
-    /// @param extension  `.vdb`, `.vol`, `.longvol`, another volume's, a mesh's, `.csv`, `.json`; `.poses`, `.points` or
+    /// @param extension  `.vdb`, `.vol`, `.longvol`, another volume's, a mesh's, `.csv`, `.json`; `.poses`, `.bodies`, `.points` or
     ///                   `.rays` for a table of questions; `.cfg` for a file of -config; or `.expression` for the
     ///                   value of an option, which is in no file
     explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}

@@ -12,7 +12,7 @@ namespace spheretree_test {
 
 struct SampleFile {
     std::string name; ///< such as `tight_blosc`; no other sample has it
-    /// With its dot. `.cfg` is a file of -config; `.poses`, `.points` and `.rays` are tables of questions;
+    /// With its dot. `.cfg` is a file of -config; `.poses`, `.bodies`, `.points` and `.rays` are tables of questions;
     /// `.expression` is the value of an option.
     std::string extension;
     /// Whether a part of the file is never a sound file: true of formats that say how much they hold.

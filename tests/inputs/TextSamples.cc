@@ -160,6 +160,12 @@ std::string posesNamed()
            "trajectory\ntime;x;y;z;qx;qy;qz;qw\n0.5;1;-2;3e-1;0;0;0;1\n1.5;.5;2e3;0;0;0.6;0;0.8\n";
 }
 
+std::string posesOfBodies()
+{
+    return "frame,body,x,y,z,rx,ry,rz\n-1,0,1,2,3,0,0,1.5\n4,\"a "
+           "b\",1,2,3,0,0,0\n4,hand,0,0,1,0,0,0\n";
+}
+
 std::string posesAsMatrices() { return "0 -1 0 20 1 0 0 1 0 0 1 2\n1 0 0 0 0 1 0 0 0 0 1 0\n"; }
 
 std::string points() { return "z,\"y\",x\n1,2,3\n+4,-5,6e-3\n"; }
@@ -204,6 +210,7 @@ const std::vector<SampleMaker>& textSamples()
         {"spheres_json", ".json", spheresJson, false},
         {"spheres_rows", ".json", spheresRows, false},
         {"poses_named", ".poses", posesNamed, false},
+        {"poses_of_bodies", ".bodies", posesOfBodies, false},
         {"poses_matrices", ".poses", posesAsMatrices, false},
         {"points", ".points", points, false},
         {"rays", ".rays", rays, false},

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CollideAction.cc
-/// @brief -collide: whether two trees touch, in one pose or in many, and where; and on the way between poses.
+/// @brief -collide: whether two trees touch, in one pose or in many, and where; and on the way between poses; and which of
+/// many trees do.
 
 #include "line/Actions.h"
 #include "base/Terminal.h"
 #include "MotionAnswers.h"
 #include "PairQuestion.h"
 #include "PoseOptions.h"
+#include "SceneAnswers.h"
 #include "Verdicts.h"
 
 #include <openvdb_spheretree/query/Collide.h>
@@ -104,11 +106,12 @@ std::string poseSummary(const std::vector<PoseAnswer>& answers)
 }
 
 /// Says what spheres cannot tell of the objects, where it is asked.
-void noteWhatIsUnknown(const ActionCall& call, const PairQuestion& question, Session& session)
+void noteWhatIsUnknown(
+    const ActionCall& call, const std::vector<QueryBody>& bodies, Session& session)
 {
-    const bool isOne = question.bodies[0].spheres == question.bodies[1].spheres;
-    for (const QueryBody& body : question.bodies) {
-        if (isOne && &body != &question.bodies[0]) return; // asked against itself
+    const bool isOne = bodies[0].spheres == bodies[1].spheres;
+    for (const QueryBody& body : bodies) {
+        if (isOne && &body != &bodies[0]) return; // asked against itself
         if (call.flag("objects") && std::isinf(body.tree.leafInset())) {
             session.note("objects=1: spheres of " + body.name
                 + " are not known to hold a part of the object, so it touches in no pose for "
@@ -148,16 +151,23 @@ void givePoseAnswers(const ActionCall& call, Session& session, const PairQuestio
 
 void runCollide(const ActionCall& call, Session& session)
 {
+    if (call.flag("scene")) {
+        const std::vector<QueryBody> bodies = bodiesOf(call, session, kAnyTrees);
+        noteWhatIsUnknown(call, bodies, session);
+        return giveSceneAnswers(call, session, bodies, collisionRequest(call));
+    }
     const PairQuestion question(call, session);
-    noteWhatIsUnknown(call, question, session);
+    noteWhatIsUnknown(call, question.bodies, session);
     if (call.flag("motion")) giveMotionAnswers(call, session, question);
     else givePoseAnswers(call, session, question);
 }
 
 void checkCollide(const ActionCall& call, Plan& plan)
 {
-    checkPair(call, plan, call.flag("motion") ? "motion,spheres" : "pose,spheres");
     checkMotion(call);
+    checkScene(call, plan);
+    if (call.flag("scene")) return;
+    checkPair(call, plan, call.flag("motion") ? "motion,spheres" : "pose,spheres");
 }
 
 } // namespace
@@ -165,13 +175,14 @@ void checkCollide(const ActionCall& call, Plan& plan)
 ActionSpec collideAction()
 {
     ActionSpec action{"collide", "", "files",
-        "whether two sphere-trees touch, the second one moved, and where; spheres that hold their "
-        "objects are never apart where these meet; exit code 6 if that is not what is expected"};
+        "whether two sphere-trees touch, the second one moved, and where, or which of many do; "
+        "spheres that hold their objects are never apart where these meet; exit code 6 if that is "
+        "not what is expected"};
     OptionSpec expect = choice("expect", {"apart", "touching"},
         "fail with exit code 6 unless the spheres are so in every pose; with objects=1, unless the "
         "objects are so for certain");
     expect.fallback.clear();
-    action.options = pairOptions({expect,
+    std::vector<OptionSpec> own = {expect,
         length("margin", "0", 0, 1e30, "spheres nearer than this touch, in world units"),
         flag("objects", false,
             "search on, until it is known of the objects too, the voxels themselves, whether they "
@@ -185,8 +196,11 @@ ActionSpec collideAction()
             "turns a screw, by half a turn at most; time runs from 0 to 1, and nothing is sampled"),
         length("tolerance", "0", 0, 1e30,
             "with motion=1: how far apart spheres may be at the time of contact; 0: a "
-            "ten-thousandth of the smaller tree's radius")});
+            "ten-thousandth of the smaller tree's radius")};
+    for (const OptionSpec& option : sceneOptions()) own.push_back(option);
+    action.options = pairOptions(own);
     action.more = poseColumnDocs();
+    for (const auto& column : sceneColumnDocs()) action.more.push_back(column);
     action.givesOut = true;
     action.check = checkCollide;
     action.run = runCollide;

@@ -23,9 +23,36 @@ using openvdb_spheretree::QueryTreeSettings;
 
 namespace {
 
+/// All trees, or those of vdb=, each once.
+std::vector<const StackItem*> anyItemsOf(const ActionCall& call, Session& session)
+{
+    std::vector<const StackItem*> items;
+    const std::vector<std::string> names = call.list("vdb");
+    if (names.empty() || names == std::vector<std::string>{"*"}) {
+        for (const auto& item : session.stack.items()) {
+            if (item->tree) items.push_back(item.get());
+        }
+    } else {
+        for (const std::string& name : names) {
+            const StackItem* const item = &session.stack.selectTree(name);
+            if (std::count(items.begin(), items.end(), item)) {
+                throwInput(item->description()
+                    + " is named twice by vdb=: read it twice to have two of it");
+            }
+            items.push_back(item);
+        }
+    }
+    if (items.size() < 2) {
+        throwInput("asks two sphere-trees or more, and there "
+            + std::string(items.empty() ? "is none" : "is one") + ": read others");
+    }
+    return items;
+}
+
 /// Items of the stack, the first body first.
 std::vector<const StackItem*> itemsOf(const ActionCall& call, Session& session, int trees)
 {
+    if (trees == kAnyTrees) return anyItemsOf(call, session);
     std::vector<const StackItem*> items;
     if (call.given("vdb") || trees == 1) {
         const std::vector<std::string> names = call.list("vdb");
@@ -43,7 +70,9 @@ std::vector<const StackItem*> itemsOf(const ActionCall& call, Session& session, 
     if (items.size() != 2) {
         throwInput("asks two sphere-trees, and there are " + std::to_string(items.size())
             + (items.empty() ? ""
-                             : ": choose with vdb=, the one that stays first, such as vdb=1,0"));
+                             : ": choose with vdb=, the one that stays first, such as vdb=1,0"
+                        + std::string(
+                            call.spec().option("scene") ? ", or ask all with scene=1" : "")));
     }
     return items;
 }
@@ -63,7 +92,7 @@ void checkLevels(const ActionCall& call, int trees)
         if (number && *number >= 0 && *number <= 1000) continue;
         throwUsage("level=" + call.text("level") + ": a level is a whole number, 0 to 1000");
     }
-    if (int(levels.size()) > trees) {
+    if (trees != kAnyTrees && int(levels.size()) > trees) {
         throwUsage("level=" + call.text("level") + " names more levels than there are trees");
     }
 }
@@ -161,7 +190,11 @@ void checkQuestion(const ActionCall& call, Plan& plan, int trees, const std::str
 std::vector<QueryBody> bodiesOf(const ActionCall& call, Session& session, int trees)
 {
     std::vector<QueryBody> bodies;
-    for (const StackItem* item : itemsOf(call, session, trees)) {
+    const auto items = itemsOf(call, session, trees);
+    if (call.list("level").size() > items.size()) {
+        throwInput("level=" + call.text("level") + " names more levels than there are trees");
+    }
+    for (const StackItem* item : items) {
         session.noteIfUnverified(*item);
         const int place = int(bodies.size());
         bodies.push_back(bodyOf(*item, settingsOf(call, *item, place, place + 1 == trees)));
@@ -222,6 +255,8 @@ std::vector<Row> rowsOf(const ActionCall& call, const std::string& name, Session
 
 template std::vector<spheretree::RigidTransform> rowsOf(const ActionCall&, const std::string&,
     Session&, QueryTable<spheretree::RigidTransform> (*)(const std::string&, const std::string&));
+template std::vector<spheretree::BodyPose> rowsOf(const ActionCall&, const std::string&, Session&,
+    QueryTable<spheretree::BodyPose> (*)(const std::string&, const std::string&));
 template std::vector<openvdb::Vec3d> rowsOf(const ActionCall&, const std::string&, Session&,
     QueryTable<openvdb::Vec3d> (*)(const std::string&, const std::string&));
 template std::vector<spheretree::QueryRay> rowsOf(const ActionCall&, const std::string&, Session&,

@@ -26,9 +26,12 @@ struct QueryBody {
     openvdb_spheretree::QueryTree tree;
 };
 
+/// Of a question that is put to as many trees as there are: two or more.
+constexpr int kAnyTrees = -1;
+
 /// @name Options of all questions: files of answers, the trees, their level and unit
 /// @{
-/// @param trees  how many a question is put to
+/// @param trees  how many a question is put to, or kAnyTrees
 /// @param own    those of the action alone, which come first behind files=
 std::vector<OptionSpec> questionOptions(int trees, const std::vector<OptionSpec>& own);
 /// @param columns  how the header of the action's own tables begins: a table of another kind is not taken for one of
@@ -36,7 +39,8 @@ std::vector<OptionSpec> questionOptions(int trees, const std::vector<OptionSpec>
 /// @throw CommandError (usage or output)
 void checkQuestion(const ActionCall& call, Plan& plan, int trees, const std::string& table,
     const std::string& columns);
-/// @return the trees that a question is put to, the first body first. The last one is scaled, if `scale` is an option.
+/// @return the trees that a question is put to, the first body first. The second one is scaled, if `scale` is an option.
+/// @param trees  kAnyTrees: all of the stack, the oldest first, or those of vdb=, each once
 /// @throw CommandError (input)
 std::vector<QueryBody> bodiesOf(const ActionCall& call, Session& session, int trees);
 

@@ -30,7 +30,8 @@ std::string summaryOf(const Verdicts& verdicts, const char* noun)
     return text;
 }
 
-void requireExpected(const ActionCall& call, const Verdicts& verdicts, const char* noun)
+void requireExpected(const ActionCall& call, const Verdicts& verdicts, const char* noun,
+    const std::vector<int64_t>& numbers)
 {
     if (!call.given("expect")) return;
     const bool expectsApart = call.text("expect") == "apart";
@@ -39,10 +40,12 @@ void requireExpected(const ActionCall& call, const Verdicts& verdicts, const cha
     const auto other = std::find_if(verdicts.begin(), verdicts.end(), isOther);
     if (other == verdicts.end()) return;
     const int64_t count = std::count_if(verdicts.begin(), verdicts.end(), isOther);
+    const auto place = other - verdicts.begin();
+    const int64_t number = numbers.empty() ? place : numbers[std::size_t(place)];
     throw CommandError(kCheckFailed,
         "expect=" + call.text("expect") + " does not hold in " + withCommas(count) + " of "
             + counted(int64_t(verdicts.size()), noun) + ", the first: " + noun + " "
-            + std::to_string(other - verdicts.begin()) + " is " + nameOf(*other));
+            + std::to_string(number) + " is " + nameOf(*other));
 }
 
 } // namespace command

@@ -8,6 +8,7 @@
 
 #include <openvdb_spheretree/query/Collide.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ const char* nameOf(openvdb_spheretree::Verdict verdict);
 /// @return how many there are of each, such as `3 poses: 1 apart, 2 touching`.
 std::string summaryOf(const Verdicts& verdicts, const char* noun);
 
+/// @param numbers  what questions are called; empty: 0, 1, 2 ...
 /// @throw CommandError (check failed) that names the first question whose verdict is not that of expect=, if it is given
-void requireExpected(const ActionCall& call, const Verdicts& verdicts, const char* noun);
+void requireExpected(const ActionCall& call, const Verdicts& verdicts, const char* noun,
+    const std::vector<int64_t>& numbers = {});
 
 } // namespace command

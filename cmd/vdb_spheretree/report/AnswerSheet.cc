@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "AnswerSheet.h"
 
+#include "base/Errors.h"
 #include "base/Terminal.h"
 #include "TextTable.h"
 
@@ -30,12 +31,24 @@ std::string tableText(const Cell& cell)
     }
     if (const auto* number = std::get_if<int64_t>(&cell)) return std::to_string(*number);
     if (const auto* truth = std::get_if<bool>(&cell)) return *truth ? "yes" : "no";
-    if (const auto* word = std::get_if<const char*>(&cell)) return *word;
+    if (const auto* word = std::get_if<const char*>(&cell)) return oneLine(*word, 60);
     return "-";
+}
+
+/// In quotes, where it would be taken for more than one field, or for none of the kind.
+std::string csvText(const char* word)
+{
+    std::string text = word;
+    if (text.find_first_of(",;\"\t\r\n ") == text.npos) return text;
+    for (std::size_t i = text.find('"'); i != text.npos; i = text.find('"', i + 2)) {
+        text.insert(i, 1, '"');
+    }
+    return '"' + text + '"';
 }
 
 std::string csvText(const Cell& cell)
 {
+    if (const auto* word = std::get_if<const char*>(&cell)) return csvText(*word);
     if (const auto* truth = std::get_if<bool>(&cell)) return *truth ? "1" : "0";
     const auto* number = std::get_if<double>(&cell);
     if (!number) return cell.index() == 0 ? "" : tableText(cell);

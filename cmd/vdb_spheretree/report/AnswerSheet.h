@@ -17,7 +17,7 @@
 
 namespace command {
 
-/// A number, a truth or a word (one of those in the program, which stay); nothing is an empty cell of a CSV, null in JSON, and - in a table.
+/// A number, a truth or a word (which stays as long as its sheet); nothing is an empty cell of a CSV, null in JSON, and - in a table.
 using Cell = std::variant<std::monostate, int64_t, double, bool, const char*>;
 using Cells = std::vector<Cell>;
 

@@ -77,6 +77,39 @@ TEST_F(QueryTables, APoseIsReadInEveryWayToWriteIt)
     expectNear(moves.rows[1] * Vec3d(0.0), Vec3d(4, 5, 6));
 }
 
+TEST_F(QueryTables, APoseOfABodyIsAPoseWithAName)
+{
+    const auto table = readBodyPoseTable(
+        save("# who\nX,Body,y,z,rx,ry,rz,Frame,note\n1,hand,2,3,0,0,1.5707963267948966,-2,7\n"
+             "\n4,\"two words\",5,6,0,0,0,-2,x\n4, 0 ,5,6,0,0,0,3,x\n"));
+    ASSERT_EQ(table.rows.size(), 3u);
+    EXPECT_TRUE(table.assumption.empty());
+    const auto& hand = table.rows[0];
+    EXPECT_EQ(hand.body, "hand");
+    EXPECT_EQ(hand.frame, -2);
+    EXPECT_EQ(hand.line, 3u);
+    expectNear(hand.pose * Vec3d(1, 0, 0), Vec3d(1, 3, 3));
+    EXPECT_EQ(table.rows[1].body, "two words");
+    EXPECT_EQ(table.rows[1].line, 5u);
+    EXPECT_EQ(table.rows[2].body, "0");
+    EXPECT_EQ(table.rows[2].frame, 3);
+
+    const auto moves = readBodyPoseTable(save("body x y z turn\na 1 2 3 4\n"));
+    EXPECT_EQ(moves.rows[0].frame, 0);
+    EXPECT_TRUE(mentions(moves.assumption, "moves without a turn")) << moves.assumption;
+    EXPECT_TRUE(mentions(moves.assumption, "not used: 'turn'")) << moves.assumption;
+    const auto why = [&](const std::string& text) { return whyNot(readBodyPoseTable, text); };
+    EXPECT_TRUE(mentions(why("1,2,3\n"), "has a header"));
+    EXPECT_TRUE(mentions(why("x,y,z\n1,2,3\n"), "no column 'body', and poses of bodies have body"));
+    EXPECT_TRUE(mentions(why("body,Body,x,y,z\na,b,1,2,3\n"), "more than one column 'body'"));
+    EXPECT_TRUE(mentions(why("body,x,y,z\na,1,2,3\n,1,2,3\n"), "line 3: the line names no body"));
+    EXPECT_TRUE(mentions(
+        why("frame,body,x,y,z\n2,a,1,2,3\n1,a,1,2,3\n"), "line 3: frame 1 stands behind frame 2"));
+    EXPECT_TRUE(mentions(why("frame,body,x,y,z\n0.5,a,1,2,3\n"), "line 2: frame 0.5"));
+    EXPECT_TRUE(mentions(why("frame,body,x,y,z\n1e16,a,1,2,3\n"), "frames are whole numbers"));
+    EXPECT_TRUE(mentions(why("body,x,y,z\n"), "holds no poses of bodies"));
+}
+
 TEST_F(QueryTables, AQuaternionTurnsAboutItsAxis)
 {
     const Vec3d axis = Vec3d(1, -2, 3).unit();
