@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ContinuousCollide.h
-/// @brief When a body that moves first meets another one.
+/// @brief When a body that moves first meets another one, which stands still or moves as well.
 ///
 ///     const auto first = continuousCollide(room, poseOfRoom, robot, RigidMotion::screw(from, to));
 ///     if (first.isCollide) ... first.timeOfContact ...
+///     const auto both = continuousCollide(arm, motionOfArm, robot, motionOfRobot);
 ///
 /// Nothing is sampled. Before the time that is found no voxel cubes of the two meet, where both trees hold their objects
 /// (QueryTree::holdsObject()); and no leaf spheres, where both hold their leaves (holdsLeaves()). At that time the bodies are `tolerance` apart at most. That a motion is free is as
 /// certain. (A pair that passes within the tolerance without meeting may count as contact.)
 ///
-/// For two bodies that move, give the motion of one as seen from the other, where that is a line or a screw; or divide the time.
+/// Of two bodies that move at the same time each goes along its own line or screw. As one sees the other that is no screw, so
+/// a step of time is shorter and takes more; where neither turns, or the first one stands still, it is the question to one that moves.
 ///
 /// How: MotionKernels.h. Nothing is allocated. Results are the same on every instruction set, and calls are thread-safe.
 /// Tests: TestContinuousCollide.cc, at 300 instants before each contact.
@@ -52,6 +54,11 @@ struct ContinuousCollisionResult {
 /// @throw openvdb::ValueError for a tolerance, a time or a number of blocks that is none, or bodies that come to lie too
 ///        far away (10^12 world units)
 ContinuousCollisionResult continuousCollide(const QueryTree& a, const RigidTransform& poseA,
+    const QueryTree& b, const RigidMotion& motionB, const ContinuousCollisionRequest& request = {});
+
+/// @param motionA,motionB  of both, in the world, at the same time
+/// @throw openvdb::ValueError as above
+ContinuousCollisionResult continuousCollide(const QueryTree& a, const RigidMotion& motionA,
     const QueryTree& b, const RigidMotion& motionB, const ContinuousCollisionRequest& request = {});
 
 } // namespace openvdb_spheretree

@@ -13,8 +13,11 @@ namespace {
 
 using openvdb::Vec3d;
 
-std::array<double, 3> numbers(const Vec3d& v) { return {v[0], v[1], v[2]}; }
 Vec3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+} // namespace
+
+std::array<double, 3> numbers(const Vec3d& v) { return {v[0], v[1], v[2]}; }
 
 Screw<float> rounded(const Screw<double>& screw)
 {
@@ -28,7 +31,13 @@ Screw<float> rounded(const Screw<double>& screw)
     return result;
 }
 
-} // namespace
+void requireWay(double way)
+{
+    if (way <= kMostExtent) return;
+    OPENVDB_THROW(openvdb::ValueError,
+        "a motion goes " << way << " world units, and times of contact are computed up to "
+                         << kMostExtent << ": choose another unit");
+}
 
 MotionFrame::MotionFrame(const QueryData& dataA, const RigidTransform& poseA,
     const QueryData& dataB, const RigidMotion& motionB)
@@ -49,23 +58,19 @@ double MotionFrame::longestWay() const
 void MotionFrame::enterFloats()
 {
     const double way = longestWay();
-    if (way > kMostExtent) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "a motion goes " << way << " world units, and times of contact are computed up to "
-                             << kMostExtent << ": choose another unit");
-    }
+    requireWay(way);
     pair.enterFloats();
     const RigidTransform back = pair.pose.inverse();
     toA = rounded(ofB);
     toB = rounded({numbers(back * vector(ofB.point)), numbers(back.rotate(vector(ofB.axis))),
         -ofB.turn, -ofB.slide});
     // Of sines, their products and sums, and of the rounding of the axis, for both bodies: 64 roundings of
-    // the way that a point goes, or of twice the radius of the helix where that is less.
+    // the way that a point goes, or of twice the radius of the helix where that is less. And 16 roundings of the distance that it
+    // comes from: how far a way goes by is known no better.
     const double points = vector(ofB.point).length() + (back * vector(ofB.point)).length();
-    const double lengths =
-        pair.a->extent + pair.b->extent + pair.pose.translation().length() + points;
+    const double lengths = pair.reach() + points;
     const double ways = std::min(2.0, std::abs(ofB.turn)) * lengths + std::abs(ofB.slide);
-    pad = toFloatUp(double(pair.pad) + 64 * 0x1p-24 * ways);
+    pad = toFloatUp(double(pair.pad) + 0x1p-24 * (80 * ways + 16 * pair.reach()));
 }
 
 } // namespace openvdb_spheretree::detail

@@ -16,6 +16,10 @@
 #include "PairFrame.h"
 #include "RigidMotion.h"
 
+#include <openvdb/Types.h>
+
+#include <array>
+
 namespace openvdb_spheretree::detail {
 
 /// How spheres of the other body move in the frame of a block.
@@ -24,6 +28,11 @@ struct Screw {
     std::array<Real, 3> point, axis; ///< of the axis; unit
     Real turn, slide;                ///< per time
 };
+
+Screw<float> rounded(const Screw<double>& screw);
+std::array<double, 3> numbers(const openvdb::Vec3d& v);
+/// @throw openvdb::ValueError for a way that is too long to square distances in floats
+void requireWay(double way);
 
 struct MotionFrame {
     PairFrame pair;                  ///< at time 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file MotionKernels.h
-/// @brief The search for the first time at which leaves of two bodies meet, of which one moves.
+/// @brief The search for the first time at which leaves of two bodies meet, of which one moves, or both.
 ///
 /// One descent of both trees, keyed by time: a pair waits with a time before which it cannot meet, the soonest of a block on
 /// top, and ends where that is not before the best contact so far. For leaves that time is found to the tolerance in doubles.
@@ -9,10 +9,14 @@
 /// acceleration of the center. For a time H the center stays within s = a H^2 / 2 of the straight way along its
 /// velocity. With H = sqrt(g / a), s is g / 2 at most. So nothing meets before the straight way comes within the
 /// radii plus s, which a quadratic equation tells, or before H. A sphere of an inner node takes two steps: any number is safe.
+///
+/// *Where both move* all this is of the vector between their centers, in a frame that does not turn: its velocity is the difference of
+/// both, at that time, and its acceleration is the sum of theirs at most.
 
 #pragma once
 
 #include "MotionFrame.h"
+#include "MutualFrame.h"
 #include "PairKernels.h"
 
 namespace openvdb_spheretree::detail {
@@ -33,10 +37,13 @@ struct MotionEnd {
 
 /// @param frame  in floats
 MotionEnd findFirstContact(const MotionFrame& frame, const MotionLimits& limits);
+MotionEnd findFirstContact(const MutualFrame& frame, const MotionLimits& limits);
 
 /// @return where a gap first is `tolerance` or less, from @a from on, and that gap in @a gap; more than
 ///         @a end if it never is.
 double timeOfContact(const MotionFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
+    double from, double end, double tolerance, double& gap);
+double timeOfContact(const MutualFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
     double from, double end, double tolerance, double& gap);
 
 } // namespace openvdb_spheretree::detail

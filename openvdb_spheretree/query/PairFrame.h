@@ -52,6 +52,8 @@ struct PairFrame {
     {
         return gap(a->leaf(leafA), b->leaf(leafB));
     }
+    /// @return no less than the distance of any two centers.
+    double reach() const { return double(a->extent) + b->extent + pose.translation().length(); }
     double rootGap() const { return gap(a->root, b->root); }
 };
 

@@ -49,8 +49,7 @@ void axisAndAngle(const Mat3d& m, Vec3d& axis, double& radians)
 RigidMotion RigidMotion::line(const RigidTransform& start, const Vec3d& translation)
 {
     RigidTransform::fromTranslation(translation); // checks the numbers
-    RigidMotion motion;
-    motion.mStart = start;
+    RigidMotion motion(start);
     motion.mSlide = translation.length();
     if (motion.mSlide > 0) motion.mAxis = translation / motion.mSlide;
     return motion;
@@ -59,12 +58,11 @@ RigidMotion RigidMotion::line(const RigidTransform& start, const Vec3d& translat
 RigidMotion RigidMotion::screw(const RigidTransform& start, const RigidTransform& end)
 {
     const RigidTransform change = end * start.inverse();
-    RigidMotion motion;
+    RigidMotion motion(start);
     axisAndAngle(change.rotation(), motion.mAxis, motion.mRadians);
     if (motion.mRadians < kLeastTurn) return line(start, end.translation() - start.translation());
     // The point of the axis next to the body's start: far points would lose digits.
     const Vec3d from = start.translation(), moved = end.translation() - from;
-    motion.mStart = start;
     motion.mSlide = moved.dot(motion.mAxis);
     const Vec3d across = moved - motion.mSlide * motion.mAxis;
     motion.mPoint =
@@ -81,8 +79,7 @@ RigidMotion RigidMotion::screw(const RigidTransform& start, const Vec3d& point, 
         OPENVDB_THROW(openvdb::ValueError,
             "a screw turns by " << radians << " radians, more than once around: divide the motion");
     }
-    RigidMotion motion;
-    motion.mStart = start;
+    RigidMotion motion(start);
     motion.mPoint = point;
     motion.mAxis = axis / std::max({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])});
     motion.mAxis /= motion.mAxis.length();

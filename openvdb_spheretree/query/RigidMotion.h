@@ -44,6 +44,9 @@ public:
     /// @}
 
 private:
+    /// Stands still. (None without arguments: `{}` would be a pose as well as a motion.)
+    explicit RigidMotion(const RigidTransform& start) : mStart(start) {}
+
     RigidTransform mStart;
     openvdb::Vec3d mPoint = openvdb::Vec3d(0, 0, 0), mAxis = openvdb::Vec3d(0, 0, 1);
     double mRadians = 0, mSlide = 0;

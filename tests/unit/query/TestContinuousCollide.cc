@@ -75,6 +75,29 @@ std::string refusal(const ContinuousCollisionRequest& request)
         [&] { continuousCollide(tree, {}, tree, RigidMotion::line({}, Vec3d(1, 0, 0)), request); });
 }
 
+/// Of both bodies: each from somewhere near to where they are in the pair, or through there; or anywhere at all.
+struct Motions {
+    RigidMotion a, b;
+
+    double gap(const PosePair& pair, double time) const
+    {
+        return smallestGap(leafBalls(pair.a.tree, a.at(time)), leafBalls(pair.b.tree, b.at(time)));
+    }
+};
+
+Motions motionsOf(const PosePair& pair, int i, Random& random)
+{
+    const RigidMotion first = motionOf(pair.swapped(), i % 5, random);
+    const RigidMotion second = motionOf(pair, i / 5 % 5, random);
+    return {first, second};
+}
+
+ContinuousCollisionResult ask(
+    const PosePair& pair, const Motions& motions, const ContinuousCollisionRequest& request = {})
+{
+    return continuousCollide(pair.a.query, motions.a, pair.b.query, motions.b, request);
+}
+
 } // namespace
 
 /// More seeds than one: an error that a rounding makes is rare (about 1 in 1000 motions, when it was found).
@@ -112,6 +135,38 @@ TEST_P(MotionsOf, NothingMeetsBeforeTheTimeAndBodiesAreWithinTheToleranceThen)
     EXPECT_GT(free, 100);
 }
 
+TEST_P(MotionsOf, NothingMeetsBeforeTheTimeWhereBothMove)
+{
+    Random random(GetParam());
+    int i = 0, met = 0, free = 0;
+    forEachPosePair(Exactness::LeafUnion, 1000, [&](const PosePair& pair) {
+        if (pair.a.query.leafCount() * pair.b.query.leafCount() > 4000) return;
+        const Motions motions = motionsOf(pair, i++, random);
+        ContinuousCollisionRequest request;
+        request.tolerance = kTolerance;
+        const ContinuousCollisionResult result = ask(pair, motions, request);
+        ASSERT_TRUE(result.isDecided);
+        ASSERT_EQ(result.freeUntil, result.timeOfContact);
+        (result.isCollide ? met : free) += 1;
+        for (int k = 0; k < 300 && result.timeOfContact > 0; ++k) {
+            const double time = result.timeOfContact * k / 300;
+            ASSERT_GT(motions.gap(pair, time), -kRounding)
+                << pair.name() << i << " at " << time << " of " << result.timeOfContact;
+        }
+        if (!result.isCollide) return;
+        const double gap = motions.gap(pair, result.timeOfContact);
+        ASSERT_LE(gap, kTolerance + kRounding) << pair.name() << i;
+        ASSERT_LE(result.contact->distance, kTolerance + kRounding);
+        if (result.timeOfContact == 0) return;
+        ASSERT_GE(gap, -kRounding) << pair.name() << i;
+        const PosePair then = {
+            pair.a, pair.b, motions.a.at(result.timeOfContact), motions.b.at(result.timeOfContact)};
+        ASSERT_NEAR(then.gapOf(result.contact->nodes), result.contact->distance, kRounding);
+    });
+    EXPECT_GT(met, 200);
+    EXPECT_GT(free, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(ContinuousCollide, MotionsOf, testing::Range(1u, 6u));
 
 TEST(ContinuousCollide, NoTwoCubesMeetBeforeTheTime)
@@ -129,6 +184,119 @@ TEST(ContinuousCollide, NoTwoCubesMeetBeforeTheTime)
         }
     });
     EXPECT_GT(met, 100);
+}
+
+TEST(ContinuousCollide, NoTwoCubesMeetBeforeTheTimeWhereBothMove)
+{
+    Random random(3);
+    int i = 0, met = 0;
+    forEachPosePair(Exactness::Object, 300, [&](const PosePair& pair) {
+        const Motions motions = motionsOf(pair, i++, random);
+        const ContinuousCollisionResult result = ask(pair, motions);
+        met += result.isCollide;
+        for (int k = 0; k < 20 && result.timeOfContact > 0; ++k) {
+            const double time = result.timeOfContact * k / 20;
+            const PosePair then = {pair.a, pair.b, motions.a.at(time), motions.b.at(time)};
+            ASSERT_FALSE(then.cubesMeet()) << pair.name() << i;
+        }
+    });
+    EXPECT_GT(met, 70);
+}
+
+TEST(ContinuousCollide, WhereTheFirstBodyStandsStillOneThatMovesIsAsked)
+{
+    Random random(8);
+    int i = 0, met = 0;
+    forEachPosePair(Exactness::LeafUnion, 300, [&](const PosePair& pair) {
+        const RigidMotion motion = motionOf(pair, i++, random);
+        const auto one = ask(pair, motion);
+        const auto still = ask(pair, Motions{RigidMotion::line(pair.poseA, Vec3d(0.0)), motion});
+        ASSERT_EQ(still.timeOfContact, one.timeOfContact);
+        ASSERT_EQ(still.blocks, one.blocks);
+        // And where only the first one moves, the time is that of the same question asked the other way round.
+        ContinuousCollisionRequest request;
+        request.tolerance = 1e-9;
+        const auto exact = ask(pair, motion, request);
+        const auto turned = continuousCollide(
+            pair.b.query, motion, pair.a.query, RigidMotion::line(pair.poseA, Vec3d(0.0)), request);
+        ASSERT_EQ(turned.isCollide, exact.isCollide) << pair.name() << i;
+        if (!exact.isCollide) return;
+        ++met;
+        // Where spheres graze each other a tolerance is a time that is not small.
+        const double gap = gapAt(pair, motion, turned.timeOfContact);
+        if (exact.timeOfContact == 0) return;
+        ASSERT_NEAR(gap, 0, kRounding) << pair.name() << i;
+    });
+    EXPECT_GT(met, 70);
+}
+
+TEST(ContinuousCollide, TwoBallsThatMoveMeetWhenTheyShould)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    const double r = dot.leafRadius(0);
+    const Vec3d center = dot.center();
+    const auto placed = [&](double x, double y) {
+        return RigidTransform::fromTranslation(Vec3d(x * r, y * r, 0) - center);
+    };
+    ContinuousCollisionRequest request;
+    request.tolerance = 1e-9;
+    // Towards each other, each 8 of the 16 radii.
+    const auto lines = continuousCollide(dot, RigidMotion::line(placed(0, 0), Vec3d(8 * r, 0, 0)),
+        dot, RigidMotion::line(placed(10, 0), Vec3d(-8 * r, 0, 0)), request);
+    EXPECT_NEAR(lines.timeOfContact, 0.5, 1e-7);
+    EXPECT_LT((lines.contact->point() - Vec3d(5 * r, 0, 0)).length(), 1e-6);
+    // On one circle of radius 10 about the origin: half a turn behind, and twice as quick.
+    const auto around = [&](double x, double radians) {
+        return RigidMotion::screw(placed(x, 0), Vec3d(0.0), Vec3d(0, 0, 1), radians, 0);
+    };
+    const double touching = 2 * std::asin(0.1); // the angle between centers two radii apart
+    const auto circles = continuousCollide(dot, around(10, 6), dot, around(-10, 2), request);
+    EXPECT_NEAR(circles.timeOfContact, (M_PI - touching) / 4, 1e-7);
+    // As quick, and the other way round: they stay where they are to each other, however far they go.
+    EXPECT_FALSE(continuousCollide(dot, around(10, 6), dot, around(-10, 6), request).isCollide);
+    const auto meeting = continuousCollide(dot, around(10, 6), dot, around(-10, -6), request);
+    EXPECT_NEAR(meeting.timeOfContact, (M_PI - touching) / 12, 1e-7);
+    // A cycloid: one turns about its place, which leaves the line that the other goes along.
+    const auto cycloid = continuousCollide(
+        dot, RigidMotion::line(placed(0, -30), Vec3d(0, 60 * r, 0)), dot, around(10, 6), request);
+    EXPECT_FALSE(cycloid.isCollide);
+    // Whoever goes along with another one at a great speed is as near to it as at rest.
+    const Vec3d quick(1e6 * r, 0, 0);
+    const auto along = continuousCollide(dot, RigidMotion::line(placed(0, 0), quick), dot,
+        RigidMotion::screw(placed(0, 2.01), placed(0, 2.01) * center, Vec3d(1, 0, 0), 6, quick[0]),
+        request);
+    EXPECT_FALSE(along.isCollide);
+    const auto far = continuousCollide(dot, RigidMotion::line(placed(0, 0), quick), dot,
+        RigidMotion::screw(
+            placed(0, 2.01), placed(0, 2.01) * center, Vec3d(1, 0, 0), 6, 1.001 * quick[0]),
+        request);
+    EXPECT_FALSE(far.isCollide);
+}
+
+/// From so far off that roundings of a squared distance are larger than the balls.
+TEST(ContinuousCollide, ABallThatComesFromAfarAndGrazesIsMet)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    const double r = dot.leafRadius(0);
+    Random random(5);
+    const auto spin = RigidMotion::screw({}, dot.center(), Vec3d(1, 0, 0), 1, 0);
+    int met = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3d direction = randomDirection(random);
+        const Vec3d side = direction.cross(randomDirection(random)).unit();
+        const double away = std::pow(10.0, uniform(random, 1, 4)),
+                     depth = uniform(random, -0.2, 0.2);
+        if (std::abs(depth) < 1e-5 * away) continue; // that near is contact
+        const auto from =
+            RigidTransform::fromTranslation(r * (away * direction + (2 - depth) * side));
+        const auto line = RigidMotion::line(from, -2 * away * r * direction);
+        const auto one = continuousCollide(dot, {}, dot, line);
+        const auto both = continuousCollide(dot, spin, dot, line);
+        ASSERT_EQ(one.isCollide, depth > 0) << away << " " << depth;
+        ASSERT_EQ(both.isCollide, depth > 0) << away << " " << depth;
+        met += one.isCollide;
+    }
+    EXPECT_GT(met, 300);
 }
 
 TEST(ContinuousCollide, ABodyThatMeetsAtTheStartMeetsAtTimeZero)
@@ -183,6 +351,8 @@ TEST(ContinuousCollide, ABudgetOfBlocksSaysHowFarTheWayIsFree)
         const auto result = ask(pair, motion, request);
         ASSERT_LE(result.freeUntil, whole.timeOfContact);
         ASSERT_GE(result.timeOfContact, whole.timeOfContact);
+        const Motions both{RigidMotion::line(pair.poseA, Vec3d(0.1, 0, 0)), motion};
+        ASSERT_LE(ask(pair, both, request).freeUntil, ask(pair, both).timeOfContact);
         undecided += !result.isDecided;
         if (result.isDecided) {
             ASSERT_EQ(result.timeOfContact, whole.timeOfContact);
@@ -200,10 +370,13 @@ TEST(ContinuousCollide, EveryVectorTargetGivesTheSameAnswersToTheLastBit)
         Random random(6);
         int i = 0;
         forEachPosePair(Exactness::Object, 500, [&](const PosePair& pair) {
-            const auto result = ask(pair, motionOf(pair, i++, random));
-            all.insert(
-                all.end(), {result.timeOfContact, double(result.isCollide), double(result.blocks)});
-            if (result.contact) all.push_back(result.contact->nodes.a);
+            const RigidMotion motion = motionOf(pair, i, random);
+            const Motions motions = motionsOf(pair, i++, random);
+            for (const auto& result : {ask(pair, motion), ask(pair, motions)}) {
+                all.insert(all.end(),
+                    {result.timeOfContact, double(result.isCollide), double(result.blocks)});
+                if (result.contact) all.push_back(result.contact->nodes.a);
+            }
         });
         answers.push_back(all);
         EXPECT_EQ(answers.front(), answers.back()) << targetName(target);
@@ -230,4 +403,9 @@ TEST(ContinuousCollide, RefusesRequestsThatMeanNothing)
     const std::string message = messageOf<openvdb::ValueError>(
         [&] { continuousCollide(tree, {}, tree, RigidMotion::line({}, Vec3d(1e13, 0, 0))); });
     EXPECT_TRUE(mentions(message, "choose another unit"));
+    const std::string ofBoth = messageOf<openvdb::ValueError>([&] {
+        continuousCollide(tree, RigidMotion::screw({}, Vec3d(0.0), Vec3d(0, 0, 1), 1, 0), tree,
+            RigidMotion::line({}, Vec3d(1e13, 0, 0)));
+    });
+    EXPECT_TRUE(mentions(ofBoth, "choose another unit"));
 }
