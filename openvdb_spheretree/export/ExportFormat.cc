@@ -22,7 +22,12 @@ enum Trait : unsigned {
     kPositiveRadii = 32, ///< ExportFormat::positiveRadii
     kByName = 64,        ///< its extensions mean another format, or nothing, without its name
     kOrdersIds = 128,    ///< ExportFormat::ordersIds
-    kMetres = 256        ///< ExportFormat::metres
+    kMetres = 256,       ///< ExportFormat::metres
+    kLink = 512,         ///< ExportFormat::link
+    kUtf8 = 1024,        ///< ExportNames::Utf8, and so on
+    kXml = 2048,
+    kWord = 4096,
+    kIdentifier = 8192
 };
 
 struct Row {
@@ -41,38 +46,38 @@ constexpr char kTriangles[] = "a level as triangles";
 
 // clang-format off
 constexpr Row kRows[] = {
-    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kMetres | kPositiveRadii, detail::writeUrdf},
-    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kMetres | kPositiveRadii, detail::writeMjcf},
-    {"srdf", ".srdf", "MoveIt", kSpheres, kMetres | kPositiveRadii, detail::writeSrdf},
-    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kMetres | kPositiveRadii, detail::writeCurobo},
-    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kMetres | kPositiveRadii, detail::writeXrdf},
-    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kMetres | kPositiveRadii | kByName, detail::writeLula},
+    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeUrdf},
+    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeMjcf},
+    {"srdf", ".srdf", "MoveIt", kSpheres, kMetres | kPositiveRadii | kLink | kXml, detail::writeSrdf},
+    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeCurobo},
+    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeXrdf},
+    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kMetres | kPositiveRadii | kByName | kLink | kUtf8, detail::writeLula},
     {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName, detail::writeFoam},
     {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
 
     {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
-        kFloats | kAllLevels | kSamples, detail::writeUsda},
-    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels, detail::writePly},
-    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName, detail::writePlyAscii},
-    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels, detail::writeGlb},
+        kFloats | kAllLevels | kSamples | kIdentifier, detail::writeUsda},
+    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels | kWord, detail::writePly},
+    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord, detail::writePlyAscii},
+    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels | kUtf8, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
-    {"mesh", ".obj", "all that read meshes", kTriangles, kFloats, detail::writeMeshObj},
-    {"mesh", ".stl", "all that read meshes", kTriangles, kFloats, detail::writeMeshStl},
-    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName, detail::writeMeshGlb},
-    {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName,
+    {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshObj},
+    {"mesh", ".stl", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshStl},
+    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8, detail::writeMeshGlb},
+    {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName | kWord,
         detail::writeUnrealObj},
 
     {"vtp", ".vtp", "ParaView, VTK", kTree, kDoubles | kAllLevels, detail::writeVtp},
-    {"vtk", ".vtk", "ParaView, VTK, multisphere, GEMSS", kTree, kAllLevels, detail::writeVtk},
-    {"liggghts", ".txt .multisphere", "LIGGGHTS", kSpheres, kPositiveRadii | kByName, detail::writeLiggghts},
-    {"yade", ".txt", "YADE", kSpheres, kPositiveRadii | kByName, detail::writeYade},
-    {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName, detail::writeLammps},
+    {"vtk", ".vtk", "ParaView, VTK, multisphere, GEMSS", kTree, kAllLevels | kWord, detail::writeVtk},
+    {"liggghts", ".txt .multisphere", "LIGGGHTS", kSpheres, kPositiveRadii | kByName | kWord, detail::writeLiggghts},
+    {"yade", ".txt", "YADE", kSpheres, kPositiveRadii | kByName | kWord, detail::writeYade},
+    {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName | kWord, detail::writeLammps},
     {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName, detail::writeMultisphere},
     {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName, detail::writeDeme},
     {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels, detail::writeXyz},
-    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds, detail::writeSwc},
+    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds | kWord, detail::writeSwc},
     {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
         kAllLevels | kOrdersIds, detail::writeSph},
 };
@@ -90,6 +95,11 @@ ExportFormat makeFormat(const Row& row)
     format.keeps = row.keeps;
     if (has(kFloats)) format.numbers = ExportNumbers::Float;
     if (has(kDoubles)) format.numbers = ExportNumbers::Double;
+    if (has(kUtf8)) format.names = ExportNames::Utf8;
+    if (has(kXml)) format.names = ExportNames::Xml;
+    if (has(kWord)) format.names = ExportNames::Word;
+    if (has(kIdentifier)) format.names = ExportNames::Identifier;
+    format.link = has(kLink);
     format.allLevels = has(kAllLevels);
     format.samples = has(kSamples);
     format.mass = has(kMass);

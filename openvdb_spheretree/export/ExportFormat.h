@@ -22,6 +22,16 @@ enum class ExportNumbers {
     Double   ///< 8 bytes
 };
 
+/// Which letters the names in a format may have. What a name has besides is refused where the file's readers look
+/// for that name, and is said in a note where it is for people.
+enum class ExportNames {
+    Bytes,      ///< any, or the format holds no names
+    Utf8,       ///< those of Unicode
+    Xml,        ///< those of Unicode that XML 1.0 can hold: but few control letters
+    Word,       ///< those of ASCII but blanks; others become `_`
+    Identifier, ///< letters of ASCII, digits and `_`; others become `_`
+};
+
 struct ExportFormat {
     std::string name;                    ///< as it is asked for by name
     std::vector<std::string> extensions; ///< with their dots, in lower case
@@ -29,6 +39,8 @@ struct ExportFormat {
     std::string readers;                 ///< tools that read it
     std::string keeps;                   ///< of a tree
     ExportNumbers numbers = ExportNumbers::Decimal;
+    ExportNames names = ExportNames::Bytes;
+    bool link = false;          ///< holds the name of a link
     bool allLevels = false;     ///< holds more than one level
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia

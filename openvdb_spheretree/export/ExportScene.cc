@@ -2,6 +2,7 @@
 #include "ExportScene.h"
 
 #include "ExportFrame.h"
+#include "ExportNames.h"
 #include "ExportRounding.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Text.h>
@@ -227,6 +228,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     ExportScene scene;
     scene.name = settings.name.empty() ? tree.settings.name : settings.name;
     scene.link = settings.link;
+    requireNames(scene, format, notes);
     scene.metersPerUnit = settings.metersPerUnit;
     scene.up = settings.up;
     scene.density = settings.density;

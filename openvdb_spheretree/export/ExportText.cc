@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExportText.h"
 
+#include <openvdb_spheretree/base/Utf8.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
 
 #include <openvdb/Exceptions.h>
@@ -26,6 +27,24 @@ struct NotInYaml {
 constexpr std::array<NotInYaml, 6> kNotInYaml = {
     {{"\x7f", "\\u007f"}, {"\xe2\x80\xa8", "\\u2028"}, {"\xe2\x80\xa9", "\\u2029"},
         {"\xef\xbb\xbf", "\\ufeff"}, {"\xef\xbf\xbe", "\\ufffe"}, {"\xef\xbf\xbf", "\\uffff"}}};
+
+/// @return what stands for a letter in XML 1.0, which has no place for most control letters and for two others.
+std::string_view xmlLetter(std::string_view letter)
+{
+    switch (letter.front()) {
+    case '&': return "&amp;";
+    case '<': return "&lt;";
+    case '>': return "&gt;";
+    case '"': return "&quot;";
+    case '\t': return "&#9;"; // as they are they would be read as blanks
+    case '\n': return "&#10;";
+    case '\r': return "&#13;";
+    default: break;
+    }
+    const bool isControl = static_cast<unsigned char>(letter.front()) < 32;
+    if (isControl || letter == "\xef\xbf\xbe" || letter == "\xef\xbf\xbf") return kNoLetter;
+    return letter;
+}
 
 /// @return the number of the control letter U+0080 to U+009F that stands at @a i in UTF-8; 0 if none does.
 int controlAt(const std::string& text, std::size_t i)
@@ -110,18 +129,24 @@ ExportText& ExportText::reals(const double* numbers, std::size_t count)
     return *this;
 }
 
+bool isXmlText(std::string_view text)
+{
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view letter = text.substr(i, utf8Length(text, i));
+        if (letter.empty() || (letter != kNoLetter && xmlLetter(letter) == kNoLetter)) return false;
+        i += letter.size();
+    }
+    return true;
+}
+
 std::string xmlText(std::string_view text)
 {
     std::string escaped;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        switch (c) {
-        case '&': escaped += "&amp;"; break;
-        case '<': escaped += "&lt;"; break;
-        case '>': escaped += "&gt;"; break;
-        case '"': escaped += "&quot;"; break;
-        default: escaped += byte < 32 || byte >= 127 ? '?' : c;
-        }
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = utf8Length(text, i);
+        const std::string_view letter = text.substr(i, std::max<std::size_t>(length, 1));
+        escaped += length == 0 ? kNoLetter : xmlLetter(letter);
+        i += letter.size();
     }
     return escaped;
 }

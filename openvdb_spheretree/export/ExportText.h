@@ -58,7 +58,8 @@ private:
 
 /// @name Names as formats take them
 /// @{
-std::string xmlText(std::string_view text); ///< with entities; what XML cannot hold becomes `?`
+std::string xmlText(std::string_view text); ///< with entities; what XML cannot hold becomes U+FFFD
+bool isXmlText(std::string_view text);      ///< whether XML can hold all of it
 std::string yamlString(const std::string& text); ///< in double quotes, as JSON writes it as well
 std::string yamlKey(
     const std::string& text); ///< the same. @throw openvdb::ValueError if it is too long for one

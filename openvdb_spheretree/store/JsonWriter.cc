@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "JsonWriter.h"
 
+#include <openvdb_spheretree/base/Utf8.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 
 namespace openvdb_spheretree {
-
-namespace {
-
-/// @return the length of the well-formed UTF-8 character at @a at, 0 if there is none.
-size_t utf8Length(const std::string& text, size_t at)
-{
-    const auto byte = [&](size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-    };
-    const unsigned first = byte(at);
-    if (first < 0x80) return 1;
-    const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4) return 0;
-    for (size_t i = 1; i < length; ++i) {
-        if ((byte(at + i) & 0xc0) != 0x80) return 0;
-    }
-    // Overlong forms, surrogates, and what lies beyond Unicode.
-    const unsigned second = byte(at + 1);
-    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f)) return 0;
-    if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f)) return 0;
-    return length;
-}
-
-} // namespace
 
 void JsonWriter::item(const std::string& key)
 {
@@ -63,7 +41,7 @@ void JsonWriter::quote(const std::string& text)
 {
     mText += '"';
     for (size_t i = 0; i < text.size();) {
-        const size_t length = utf8Length(text, i);
+        const size_t length = detail::utf8Length(text, i);
         const auto byte = static_cast<unsigned char>(text[i]);
         if (length == 0) {
             mText += "\\ufffd";

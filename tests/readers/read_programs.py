@@ -41,7 +41,7 @@ def read_mujoco(trees):
     if not program:
         raise Missing("MuJoCo (Debian: libmujoco-dev)")
     for name in ("robot.mjcf", "robot.urdf"):
-        path = trees.write("turned.vdb", name, "link=gripper", "density=1000")
+        path = trees.write("turned.vdb", name, "link=große 手", "density=1000")
         lines = [line.split() for line in output_of(program, path, cwd=trees.folder).splitlines()]
         found = [Sphere(*map(float, line[1:])) for line in lines if line[0] == "sphere"]
         require_covered(found, trees.finest("turned.vdb"))
@@ -56,8 +56,8 @@ def read_mujoco(trees):
 
 def read_urdfdom(trees):
     need("check_urdf")
-    text = output_of("check_urdf", trees.write("turned.vdb", "robot.urdf", "name=arm"), cwd=trees.folder)
-    assert "robot name is: arm" in text and "Error" not in text, text
+    text = output_of("check_urdf", trees.write("turned.vdb", "robot.urdf", "name=ärm", "link=große 手"), cwd=trees.folder)
+    assert "robot name is: ärm" in text and "große 手" in text and "Error" not in text, text
 
 
 def points_of(polydata):

