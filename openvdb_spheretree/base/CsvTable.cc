@@ -6,6 +6,8 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <istream>
 #include <optional>
 
@@ -32,6 +34,28 @@ std::optional<double> numberIn(std::string_view text)
 {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     return parseNumber<double>(text);
+}
+
+/// @return whether a field looks like a name, and not like a number that is damaged or left out.
+bool isName(std::string_view field)
+{
+    if (field.empty() || numberIn(field)) return false;
+    const auto first = static_cast<unsigned char>(field.front());
+    return std::isalpha(first) != 0 || first == '_' || first >= 0x80;
+}
+
+/// @return what is wrong with a field that is no number, and what to do.
+std::string whyNoNumber(std::string_view field, std::size_t column)
+{
+    if (field.empty())
+        return "column " + std::to_string(column + 1) + " is empty, and holds a number elsewhere";
+    double number = 0;
+    const std::string_view digits = field.substr(field.front() == '+' ? 1 : 0);
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, number);
+    if (error == std::errc::result_out_of_range && stop == end)
+        return inQuotes(field) + " is beyond the range of doubles, 5e-324 to 1.8e308";
+    return inQuotes(field) + " is no number: write it in decimal, as 0.5 or 5e-1";
 }
 
 /// @return where the first of some characters is that stands in no quotes.
@@ -62,8 +86,7 @@ CsvTable::CsvTable(std::istream& in, const std::string& noLines)
     mSeparator = separatorOf(mLine);
     split();
     mColumns = mFields.size();
-    mHasHeader = std::any_of(
-        mFields.begin(), mFields.end(), [](std::string_view field) { return !numberIn(field); });
+    mHasHeader = std::any_of(mFields.begin(), mFields.end(), isName);
 }
 
 bool CsvTable::next()
@@ -80,7 +103,7 @@ bool CsvTable::next()
 double CsvTable::number(std::size_t column) const
 {
     const auto value = numberIn(mFields[column]);
-    if (!value) fail(inQuotes(mFields[column]) + " is no number");
+    if (!value) fail(whyNoNumber(mFields[column], column));
     return *value;
 }
 
@@ -108,6 +131,10 @@ bool CsvTable::readLine()
     if (mIn.fail() && count + 1 == mBuffer.size()) fail("it is longer than 65536 characters");
     if (count == 0 || mIn.bad()) return false;
     mLine.assign(mBuffer.data(), mIn.eof() ? count : count - 1);
+    if (mLine.find('\0') != mLine.npos || mLine.compare(0, 2, "\xFF\xFE") == 0
+        || mLine.compare(0, 2, "\xFE\xFF") == 0) {
+        fail("it is not the text of a table; if that is in UTF-16, save it as UTF-8");
+    }
     if (mNumber == 1 && mLine.compare(0, 3, "\xEF\xBB\xBF") == 0) mLine.erase(0, 3);
     return true;
 }

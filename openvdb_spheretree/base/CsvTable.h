@@ -3,8 +3,8 @@
 /// @brief Strict reader of tables of numbers, line by line, from whatever wrote them.
 ///
 /// The first line that is not skipped decides: its first semicolon, comma or tab is what separates
-/// columns, in this order, or else blanks; and it is a header if one of its fields is no number. Empty lines
-/// are skipped, and those that begin with '#'. Fields may stand in quotes.
+/// columns, in this order, or else blanks; and it is a header if one of its fields begins with a letter and is no
+/// number. Empty lines are skipped, and those that begin with '#'. Fields may stand in quotes.
 ///
 /// Memory: a line of 65536 characters at most. Tests: TestCsvTable.cc.
 

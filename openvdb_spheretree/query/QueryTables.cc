@@ -210,6 +210,10 @@ Names poseColumns(const NamedColumns& table)
     if (table.hasHeader()) {
         const Names rotation = rotationColumns(table);
         if (rotation != kMatrix) return kPlace + rotation;
+        if (table.namesAny(kPlace)) {
+            table.fail("the header names two places, by " + listOf(kPlace)
+                + " and by m03, m13, m23 of a matrix: leave one of them out");
+        }
         return kMatrix + (table.namesAny(kLastRow) ? kLastRow : Names());
     }
     for (const Names& names :

@@ -18,7 +18,7 @@
 /// | points | x y z                                         | 3: x y z                                |
 /// | rays   | x y z dx dy dz (tnear tfar)                   | 6: origin and direction                 |
 ///
-/// A header names one rotation at most; one that names none makes poses of moves alone, which is noted if it has
+/// A header names one rotation at most, and no place beside a matrix; one that names none makes poses of moves alone, which is noted if it has
 /// columns beside them. A quaternion may be off a length of 1 by 1 %, and is made one; a matrix may be off a rotation by what
 /// RigidTransform takes for rounding. Tests: TestQueryTables.cc.
 

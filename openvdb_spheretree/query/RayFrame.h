@@ -29,6 +29,15 @@ namespace openvdb_spheretree::detail {
 
 struct LocalRay {
     static constexpr double kFarthestStart = 0x1p26; ///< times the extent
+    /// Directions whose squared length is beyond these are scaled first.
+    static constexpr double kLeastSq = 1e-300, kMostSq = 1e300;
+
+    static double largestOf(const openvdb::Vec3d& v)
+    {
+        return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    }
+    /// @return t 2^exponent; most rays have no exponent, and need no call.
+    static double scaled(double t, int exponent) { return exponent ? std::ldexp(t, exponent) : t; }
 
     /// @param ray  as intersect() takes it
     LocalRay(const QueryData& tree, const QueryRay& ray)
@@ -36,17 +45,26 @@ struct LocalRay {
         const FloatSphere& root = tree.spheres.root;
         const openvdb::Vec3d center(root.x, root.y, root.z), from = ray.origin - tree.origin;
         const double extent = tree.spheres.extent, slack = 32 * kFloatError * extent;
-        const double lengthSq = ray.direction.lengthSqr(), length = std::sqrt(lengthSq);
-        shift = (center - from).dot(ray.direction) / lengthSq;
+        openvdb::Vec3d direction = ray.direction;
+        double lengthSq = direction.lengthSqr();
+        if (!(lengthSq >= kLeastSq && lengthSq <= kMostSq)) {
+            exponent = std::ilogb(largestOf(direction));
+            for (int axis = 0; axis < 3; ++axis)
+                direction[axis] = std::ldexp(direction[axis], -exponent);
+            lengthSq = direction.lengthSqr();
+        }
+        const double length = std::sqrt(lengthSq);
+        shift = (center - from).dot(direction) / lengthSq;
         perWorld = 1 / length;
-        const openvdb::Vec3d middle = from + shift * ray.direction;
+        const openvdb::Vec3d middle = from + shift * direction;
         const double reach = root.r + 2 * slack;
-        const double near = (ray.tNear - shift) * length, far = (ray.tFar - shift) * length;
+        const double near = (scaled(ray.tNear, exponent) - shift) * length;
+        const double far = (scaled(ray.tFar, exponent) - shift) * length;
         misses = (middle - center).lengthSqr() > reach * reach || near > reach || far < -reach
             || near > far;
         for (int axis = 0; axis < 3; ++axis) {
             question.origin[axis] = float(middle[axis]);
-            question.direction[axis] = float(ray.direction[axis] * perWorld);
+            question.direction[axis] = float(direction[axis] * perWorld);
         }
         // Nothing is beyond `reach`, but empty lanes are.
         question.near = float(std::max(near, -2 * reach) - slack);
@@ -59,14 +77,16 @@ struct LocalRay {
     /// @return where the ray enters what a kernel found.
     double entry(float key, const QueryRay& ray) const
     {
-        const double t = shift + (double(key) - question.slack) * perWorld;
+        const double t = scaled(shift + (double(key) - question.slack) * perWorld, -exponent);
         return std::min(std::max(t, ray.tNear), ray.tFar);
     }
 
     RayQuestion question;
     double shift;    ///< of the ray, where the kernel's numbers along it are 0
     double perWorld; ///< of the ray, for one world unit
-    bool misses;     ///< the root's sphere: then there is no question
+    int exponent =
+        0; ///< shift and perWorld count by 2^exponent, so that no square leaves the range of doubles
+    bool misses; ///< the root's sphere: then there is no question
 };
 
 } // namespace openvdb_spheretree::detail

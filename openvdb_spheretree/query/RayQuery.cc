@@ -31,12 +31,19 @@ constexpr std::size_t kSingle = std::size_t(-1); ///< in place of the number of 
 
 void requireSound(const detail::QueryData& tree, const QueryRay& ray, std::size_t which)
 {
-    constexpr double kLeastSq = 1e-300, kMostSq = 1e300;
-    const double lengthSq = ray.direction.lengthSqr();
-    if (!(lengthSq >= kLeastSq && lengthSq <= kMostSq)) {
-        refuse(ray, which, "points nowhere: its direction must be finite, and not of length 0");
-    }
     const double farthest = LocalRay::kFarthestStart * tree.spheres.extent;
+    const double lengthSq = ray.direction.lengthSqr();
+    if (!(lengthSq >= LocalRay::kLeastSq && lengthSq <= LocalRay::kMostSq)) {
+        const openvdb::Vec3d& direction = ray.direction;
+        const double largest = LocalRay::largestOf(direction);
+        if (!direction.isFinite() || largest == 0)
+            refuse(ray, which, "points nowhere: its direction must be finite, and not of length 0");
+        if (!std::isfinite(4 * farthest / largest)) {
+            refuse(ray, which,
+                "has so short a direction that t, which counts by its length, is beyond doubles: "
+                "give a longer one");
+        }
+    }
     if (!((ray.origin - tree.origin).lengthSqr() <= farthest * farthest)) {
         refuse(ray, which,
             "starts too far from the tree to hit it by doubles: its origin must be finite, and "

@@ -61,8 +61,8 @@ struct RayHit {
 
 /// @return the leaf sphere that a ray enters first.
 /// @throw openvdb::ValueError for an origin that is not finite, or further from the tree than 2^26
-///        times its size; for a direction without length or not finite; for a tNear or tFar that is
-///        NaN, or an infinite tNear
+///        times its size; for a direction without length or not finite, or so short that t is beyond
+///        doubles; for a tNear or tFar that is NaN, or an infinite tNear
 /// @note Cost: O(log leaves) for most rays, 0.1 to 0.4 microseconds. Thread-safe.
 RayHit intersect(const QueryTree& tree, const QueryRay& ray);
 

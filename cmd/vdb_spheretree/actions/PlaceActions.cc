@@ -89,6 +89,18 @@ AnswerSheet sheetOf(const QueryBody& body, const std::string& format, std::size_
     return sheet;
 }
 
+/// Calls @a cast, whose errors name a ray, and not where it is from.
+template <typename Cast>
+void namingTable(const ActionCall& call, const Cast& cast)
+{
+    try {
+        cast();
+    } catch (const openvdb::ValueError& error) {
+        if (!call.given("rays")) throw;
+        throwInput(call.text("rays") + ": " + spheretree::detail::messageOf(error));
+    }
+}
+
 void runRaycast(const ActionCall& call, Session& session)
 {
     const QueryBody body = bodiesOf(call, session, 1).front();
@@ -97,12 +109,17 @@ void runRaycast(const ActionCall& call, Session& session)
     std::vector<RayHit> hits(call.flag("any") ? 0 : rays.size());
     std::vector<uint8_t> blocked(rays.size());
     if (call.flag("any")) {
-        spheretree::occluded(
-            body.tree, rays.data(), rays.size(), blocked.data(), &session.progress);
+        namingTable(call, [&] {
+            spheretree::occluded(
+                body.tree, rays.data(), rays.size(), blocked.data(), &session.progress);
+        });
         sheet.columns = {"ray", "hit"};
         sheet.row = [&](std::size_t i) { return Cells{int64_t(i), bool(blocked[i])}; };
     } else {
-        spheretree::intersect(body.tree, rays.data(), rays.size(), hits.data(), &session.progress);
+        namingTable(call, [&] {
+            spheretree::intersect(
+                body.tree, rays.data(), rays.size(), hits.data(), &session.progress);
+        });
         for (std::size_t i = 0; i < hits.size(); ++i) blocked[i] = bool(hits[i]);
         sheet.columns = {"ray", "hit", "t", "x", "y", "z", "nx", "ny", "nz", "node", "blocks"};
         sheet.row = [&](std::size_t i) {

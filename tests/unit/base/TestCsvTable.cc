@@ -60,11 +60,39 @@ TEST(CsvTable, QuotesHoldSeparatorsAndAreDropped)
     EXPECT_EQ(linesOf("\xEF\xBB\xBF\"x\" y"), (Lines{{"x", "y"}}));
 }
 
-TEST(CsvTable, AHeaderHasAFieldThatIsNoNumber)
+TEST(CsvTable, AHeaderHasAFieldThatIsAName)
 {
     EXPECT_TRUE(hasHeader("x,1"));
+    EXPECT_TRUE(hasHeader(",_x,1"));
+    EXPECT_TRUE(hasHeader("\xc3\xa9,1"));
     EXPECT_FALSE(hasHeader("+1,-2e3"));
-    EXPECT_TRUE(hasHeader("+-1,2"));
+    for (const char* const damaged : {"+-1,2", "1e999,2", "1e-999,2", "0x1p3,2", ",2", "nan,-inf"})
+        EXPECT_FALSE(hasHeader(damaged)) << damaged;
+}
+
+TEST(CsvTable, ADamagedNumberOfTheFirstLineIsNamedThere)
+{
+    const auto why = [](const std::string& field) {
+        std::istringstream in("\n7," + field + "\n");
+        const CsvTable table(in, "nothing");
+        return messageOf<openvdb::IoError>([&] { table.number(1); });
+    };
+    EXPECT_TRUE(mentions(why("1e999"), "line 2: '1e999' is beyond the range"));
+    EXPECT_TRUE(mentions(why("+1e-999"), "line 2: '+1e-999' is beyond the range"));
+    EXPECT_TRUE(mentions(why(""), "line 2: column 2 is empty"));
+    EXPECT_TRUE(mentions(why("0x1p3"), "line 2: '0x1p3' is no number: write it in decimal"));
+    EXPECT_TRUE(mentions(why("1e999x"), "line 2: '1e999x' is no number"));
+}
+
+TEST(CsvTable, WhatIsInUtf16IsSaidToBe)
+{
+    using namespace std::string_literals;
+    for (const std::string& text : {"\xff\xfe"s + "x\0,\0y\0\n\0"s, "\xfe\xff"s + "\0x\0,\0y\0\n"s,
+             "\xff\xfe\x31"s, "1\0,\0"s}) {
+        EXPECT_TRUE(mentions(whyNot(text), "line 1: it is not the text of a table"));
+        EXPECT_TRUE(mentions(whyNot(text), "UTF-16"));
+    }
+    EXPECT_TRUE(mentions(whyNot("1,2\n3,\0 4\n"s), "line 2: it is not the text"));
 }
 
 TEST(CsvTable, NumbersAreReadOrNamed)

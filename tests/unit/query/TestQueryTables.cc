@@ -193,6 +193,28 @@ TEST_F(QueryTables, AShortOrWrongLineIsNamed)
         messageOf<openvdb::IoError>([] { readPoseTable("/nowhere/x.csv"); }), "no such file"));
 }
 
+TEST_F(QueryTables, ADamagedFirstLineIsNotTakenForAHeader)
+{
+    const auto why = [this](const std::string& text) { return whyNot(readPointTable, text); };
+    EXPECT_TRUE(mentions(why("1e999,0,0\n"), "line 1: '1e999' is beyond the range"));
+    EXPECT_TRUE(mentions(why("1,,0\n1,2,3\n"), "line 1: column 2 is empty"));
+    EXPECT_TRUE(mentions(why("0x1p3 0 0\n"), "line 1: '0x1p3' is no number"));
+    EXPECT_TRUE(mentions(why("x,y,z\n1,,0\n"), "line 2: column 2 is empty"));
+    EXPECT_TRUE(mentions(why(std::string("\xff\xfe") + "1\0,\0"), "UTF-16"));
+    EXPECT_TRUE(mentions(whyNot(readRayTable, "0,0,0,1,,0\n"), "line 1: column 5 is empty"));
+    EXPECT_TRUE(mentions(noPoses("0,0,1e-999\n"), "line 1: '1e-999' is beyond the range"));
+}
+
+TEST_F(QueryTables, APlaceBesideAMatrixIsRefused)
+{
+    const std::string matrix = "m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23";
+    const std::string row = "1,0,0,5,0,1,0,6,0,0,1,7";
+    EXPECT_EQ(poses(matrix + "\n" + row).rows.size(), 1u);
+    EXPECT_TRUE(mentions(noPoses("x,y,z," + matrix + "\n1,2,3," + row),
+        "line 1: the header names two places, by x, y, z and by m03, m13, m23"));
+    EXPECT_TRUE(mentions(noPoses(matrix + ",Y\n" + row + ",1"), "leave one of them out"));
+}
+
 TEST_F(QueryTables, AMatrixThatIsNotRigidIsRefusedAtItsLine)
 {
     EXPECT_TRUE(mentions(noPoses("1 0 0 0 0 1 0 0 0 0 1 0\n2 0 0 0 0 2 0 0 0 0 2 0\n"),

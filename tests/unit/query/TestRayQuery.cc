@@ -318,6 +318,29 @@ TEST(RayQuery, ManyCanBeInterrupted)
     EXPECT_THROW(intersect(tree, rays.data(), rays.size(), hits.data(), &stop), Interrupted);
 }
 
+TEST(RayQuery, HitsTheSamePointByADirectionOfAnyLength)
+{
+    const QueryTree tree = makeQueryTree(querySamples()[0].tree);
+    const Vec3d start = tree.center() - Vec3d(100, 70, 40);
+    const Vec3d towards = tree.leafCenter(0) - start;
+    const RayHit unit = intersect(tree, QueryRay{start, towards});
+    ASSERT_TRUE(unit);
+    for (const double length : {1e-290, 1e-200, 1e-152, 1e-148, 1e148, 1e152, 1e200, 1e305}) {
+        QueryRay ray{start, towards * length};
+        const RayHit hit = intersect(tree, ray);
+        ASSERT_TRUE(hit && occluded(tree, ray)) << length;
+        EXPECT_EQ(hit.leaf, unit.leaf) << length;
+        EXPECT_NEAR(hit.t * length, unit.t, 1e-9) << length;
+        ray.tFar = 0.5 * unit.t / length;
+        EXPECT_FALSE(intersect(tree, ray)) << length;
+        ray.tFar = 2 * unit.t / length;
+        ray.tNear = 0.5 * unit.t / length;
+        EXPECT_TRUE(occluded(tree, ray)) << length;
+        ray = {start, -ray.direction};
+        EXPECT_FALSE(occluded(tree, ray)) << length;
+    }
+}
+
 TEST(RayQuery, RefusesWhatIsNoRay)
 {
     const QueryTree tree = makeQueryTree(querySamples()[0].tree);
@@ -327,12 +350,14 @@ TEST(RayQuery, RefusesWhatIsNoRay)
         EXPECT_THROW(occluded(tree, ray), openvdb::ValueError);
         return messageOf<openvdb::ValueError>([&] { intersect(tree, ray); });
     };
-    for (const Vec3d& bad :
-        {Vec3d(0.0), Vec3d(1, nan, 0), Vec3d(kInfinity, 0, 0), Vec3d(1e-200, 0, 0)}) {
+    for (const Vec3d& bad : {Vec3d(0.0), Vec3d(1, nan, 0), Vec3d(nan), Vec3d(kInfinity, 0, 0)}) {
         QueryRay ray = sound;
         ray.direction = bad;
         EXPECT_TRUE(mentions(whyNot(ray), "points nowhere"));
     }
+    QueryRay shortest = sound;
+    shortest.direction = Vec3d(5e-324, 0, 0);
+    EXPECT_TRUE(mentions(whyNot(shortest), "so short a direction"));
     for (const Vec3d& bad : {Vec3d(nan, 0, 0), Vec3d(0, kInfinity, 0), Vec3d(0, 0, 1e100)}) {
         QueryRay ray = sound;
         ray.origin = bad;

@@ -124,7 +124,7 @@ TEST_F(SphereFile, WhatIsWrongIsNamedWithItsLine)
         {"\nx,y,z,r\n1,2,3,4\n1,2,3\n", "line 4", "3 columns"},
         {"x,y,z,r\n1,2,3,4,\n", "line 2", "5 columns"},
         {"x,y,z,r\n1,2,3,four\n", "line 2", "'four' is no number"},
-        {"x,y,z,r\n1,2,,4\n", "line 2", "'' is no number"},
+        {"x,y,z,r\n1,2,,4\n", "line 2", "column 3 is empty"},
         {"x,y,z,r\n1,2,3,0\n", "line 2", "not above 0"},
         {"x,y,z,r\n1,2,3,-1\n", "line 2", "not above 0"},
         {"x,y,z,r\n1,2,3,nan\n", "line 2", "not finite"},
