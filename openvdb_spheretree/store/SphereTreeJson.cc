@@ -3,6 +3,7 @@
 
 #include "JsonWriter.h"
 #include "SphereTreeCsv.h"
+#include <openvdb_spheretree/base/FormatNames.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
 
 #include <openvdb/math/Transform.h>
@@ -228,7 +229,7 @@ void writeJson(const SphereTree& tree, std::ostream& out)
 {
     JsonWriter json;
     json.beginObject();
-    json.value("format", "vdb_spheretree.tree.1");
+    json.value("format", detail::treeJsonFormat());
     writeObject(json, tree);
     json.beginObject("settings");
     writeSettings(json, tree);

@@ -6,9 +6,12 @@
 /// The array of spheres is the file itself, or a member of the object that the file is. Its first
 /// entry decides whether it is one: an object with a member of a sphere, or a row of numbers below
 /// `columns`, which our own trees have. All that is nested deeper is passed over.
+///
+/// Our own trees also announce in `levels` how many spheres each level has: one that has others is damaged.
 
 #include "SphereFormats.h"
 
+#include <openvdb_spheretree/base/FormatNames.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -17,7 +20,11 @@
 #include <nlohmann/json.hpp>
 #endif
 
+#include <array>
+#include <cmath>
 #include <istream>
+#include <limits>
+#include <map>
 #include <vector>
 
 namespace openvdb_spheretree {
@@ -38,6 +45,58 @@ namespace detail {
 namespace {
 
 using Json = nlohmann::json;
+
+/// How many spheres a tree's levels have, as the file announces it and as they come.
+class LevelCounts {
+public:
+    /// A member of an entry of `levels`.
+    void key(const std::string& name)
+    {
+        mMember = kMembers.size();
+        for (std::size_t i = 0; i < kMembers.size(); ++i) {
+            if (name == kMembers[i]) mMember = i;
+        }
+    }
+    void value(std::optional<double> number)
+    {
+        if (mMember < kMembers.size()) mEntry[mMember] = number;
+        mMember = kMembers.size();
+    }
+    void endEntry()
+    {
+        constexpr double kMost = std::numeric_limits<int32_t>::max();
+        for (const auto& number : mEntry) {
+            if (number && *number >= 0 && *number <= kMost && *number == std::floor(*number))
+                continue;
+            throw openvdb::IoError("an entry of 'levels' does not say which spheres the level has, "
+                                   "by level, begin and end: the file is damaged");
+        }
+        mAnnounced[int64_t(*mEntry[0])] += int64_t(*mEntry[2]) - int64_t(*mEntry[1]);
+        mEntry = {};
+    }
+    void add(double level) { ++mFound[int64_t(level)]; }
+
+    /// @throw openvdb::IoError if the two differ
+    void require() const
+    {
+        std::map<int64_t, int64_t> all = mAnnounced;
+        for (const auto& level : mFound) all.emplace(level.first, 0);
+        for (const auto& [level, announced] : all) {
+            const auto it = mFound.find(level);
+            const int64_t found = it == mFound.end() ? 0 : it->second;
+            if (found == announced) continue;
+            throw openvdb::IoError("level " + std::to_string(level) + " has "
+                + std::to_string(found) + " spheres in the file, and 'levels' announces "
+                + std::to_string(announced) + ": the file is damaged or cut, write it anew");
+        }
+    }
+
+private:
+    static constexpr std::array<const char*, 3> kMembers = {"level", "begin", "end"};
+    std::array<std::optional<double>, 3> mEntry;
+    std::size_t mMember = 3;
+    std::map<int64_t, int64_t> mAnnounced, mFound; ///< SphereList::add() takes few levels
+};
 
 /// What the parser calls, one function a token. Depth counts the arrays and objects that are open.
 class JsonHandler : public nlohmann::json_sax<Json> {
@@ -79,6 +138,7 @@ public:
     }
     bool key(string_t& name) override
     {
+        if (mDepth == 3 && mMember == "levels") mCounts.key(name);
         if (mDepth == 1) {
             mMember = onOneLine(name, 60);
             mIsColumns = name == "columns";
@@ -94,6 +154,12 @@ public:
         throw openvdb::IoError("byte " + std::to_string(at) + ": this is no sound JSON ("
             + onOneLine(why.substr(why.find("] ") == why.npos ? 0 : why.find("] ") + 2), 200)
             + ")");
+    }
+
+    /// To be called when all is read.
+    void requireCounts() const
+    {
+        if (mIsOurs) mCounts.require();
     }
 
 private:
@@ -142,6 +208,7 @@ private:
     void close()
     {
         const int depth = mDepth--;
+        if (mIsOurs && depth == 3 && mMember == "levels") mCounts.endEntry();
         if (mPlace == Place::Center && depth == mListDepth + 2) {
             if (mColumn != 3) fail("the centre has " + std::to_string(mColumn) + " coordinates");
             mPlace = Place::Entry;
@@ -168,6 +235,7 @@ private:
         if (mEntries == 1 && mSpheres.size() > 0) fail("there is more than one array of spheres");
         try {
             mSpheres.add(mEntry);
+            if (const auto level = mEntry[SphereField::Level]) mCounts.add(*level);
         } catch (const openvdb::IoError& error) {
             fail(messageOf(error));
         }
@@ -175,6 +243,7 @@ private:
 
     bool value(std::optional<double> number)
     {
+        if (mDepth == 3 && mMember == "levels") mCounts.value(number);
         if (mPlace == Place::Center && mDepth == mListDepth + 2) {
             if (!number) fail("a coordinate of the centre is no number");
             if (mColumn < 3) {
@@ -214,10 +283,11 @@ private:
     }
 
     /// Our own trees say which version of the format they have.
-    static void requireKnown(const std::string& format)
+    void requireKnown(const std::string& format)
     {
-        const std::string ours = "vdb_spheretree.tree.", known = ours + "1";
-        if (format.compare(0, ours.size(), ours) != 0 || format == known) return;
+        const std::string ours = std::string(kTreeJsonName) + '.', known = treeJsonFormat();
+        mIsOurs = format == known;
+        if (format.compare(0, ours.size(), ours) != 0 || mIsOurs) return;
         throw openvdb::IoError(
             "its format is " + inQuotes(format) + ", and this version reads " + known);
     }
@@ -247,7 +317,9 @@ private:
     Place mPlace = Place::Outside;
     std::vector<SphereField> mColumns;
     std::uint64_t mEntries = 0; ///< of the array so far, counted from 1
-    bool mSkipped = false;      ///< the array is of something else
+    bool mIsOurs = false;       ///< does the file say that it is a tree of ours?
+    LevelCounts mCounts;
+    bool mSkipped = false; ///< the array is of something else
     SphereEntry mEntry;
     SphereField mField = SphereField::None; ///< of the entry's member
     bool mIsCenter = false;
@@ -260,6 +332,7 @@ void parseSphereJson(std::istream& in, SphereList& spheres)
 {
     JsonHandler handler(spheres);
     Json::sax_parse(in, &handler);
+    handler.requireCounts();
 }
 
 #else

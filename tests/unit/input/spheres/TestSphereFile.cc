@@ -178,6 +178,44 @@ TEST_F(SphereFile, WhatIsWrongInJsonIsNamedWithItsEntry)
         mentions(whyNot("a.json", "{\"a\": " + two + ", \"b\": " + two + "}"), "more than one"));
 }
 
+TEST_F(SphereFile, ATreeOfOursHasAsManySpheresAsItAnnounces)
+{
+    if (!readsSphereJson()) GTEST_SKIP() << "this build reads no .json";
+    const std::string levels =
+        R"("levels": [{"level": 0, "begin": 1, "end": 3, "topology": {"end": 9}},
+        {"level": 1, "begin": 0, "end": 1}], )";
+    const std::string columns = R"("columns": ["level", "x", "y", "z", "radius"], )";
+    const std::string rows[] = {"[1, 0, 0, 0, 9]", "[0, 1, 2.5, -3, 0.1]", "[0, 4e5, 0, 0.125, 7]"};
+    const auto tree = [&](const std::string& format, const std::string& announced,
+                          const std::string& nodes) {
+        return "{\"format\": \"" + format + "\", " + announced + columns + "\"nodes\": [" + nodes
+            + "]}";
+    };
+    const std::string ours = "vdb_spheretree.tree.1";
+    const std::string all = rows[0] + ", " + rows[1] + ", " + rows[2];
+    expectTheTwo(read("a.json", tree(ours, levels, all)));
+    EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, levels, rows[0] + ", " + rows[1])),
+        "level 0 has 1 spheres in the file, and 'levels' announces 2"));
+    EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, levels, rows[1] + ", " + rows[2])),
+        "level 1 has 0 spheres in the file, and 'levels' announces 1"));
+    EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, levels, "")), "announces 2"));
+    EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, levels, all + ", [2, 0, 0, 0, 1]")),
+        "level 2 has 1 spheres in the file, and 'levels' announces 0"));
+    EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, "", all)), "announces 0"));
+    for (const char* const damaged :
+        {R"({"level": 0, "begin": 1})", R"({"level": 0, "begin": 1, "end": 1e30})",
+            R"({"level": 0, "begin": 1, "end": "3"})", R"({"level": 0.5, "begin": 0, "end": 3})"}) {
+        const std::string announced = "\"levels\": [" + std::string(damaged) + "], ";
+        EXPECT_TRUE(mentions(whyNot("a.json", tree(ours, announced, all)), "level, begin and end"))
+            << damaged;
+    }
+    // Those of others may mean anything by it.
+    EXPECT_EQ(read("a.json", tree("theirs", levels, rows[1])).size(), 1u);
+    EXPECT_EQ(read("a.json", tree("theirs", R"("levels": [{"level": 0, "begin": -1}], )", rows[1]))
+                  .size(),
+        1u);
+}
+
 TEST_F(SphereFile, PointsAreSpheresByTheirRadius)
 {
     using namespace openvdb::points;
