@@ -281,6 +281,8 @@ const BadLoop kBadLoops[] = {
     {"TooManyOfReals", {"-for", "i=0,1,1e-9", "-end"}, "more than 100000 turns"},
     {"TooManyOfAll", {"-for", "i=0,1000", "-for", "j=0,1000", "-eval", "x", "-end", "-end"},
         "come to more than 100000 actions"},
+    {"TooManyBeforeTheFirstTurn", {"-for", "i=0,40000", "-eval", "{", "-eval", "x", "-end"},
+        "come to more than 100000 actions"},
     {"BadName", {"-for", "3i=0,3", "-end"}, "'3i' is no name of a variable"},
     {"SameName", {"-for", "i=0,3", "-for", "i=0,3", "-end", "-end"}, "is that of a loop around"},
     {"EmptyValue", {"-each", "s=a,,b", "-end"}, "a value of s is empty"},

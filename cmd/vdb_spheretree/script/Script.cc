@@ -62,9 +62,11 @@ private:
     }
 
     /// Of actions and of turns.
-    void countStep()
+    void countStep() { requireSteps(++mSteps); }
+
+    void requireSteps(size_t steps) const
     {
-        if (++mSteps <= kMostSteps) return;
+        if (steps <= kMostSteps) return;
         throwUsage(
             "the loops of this line come to more than " + std::to_string(kMostSteps) + " actions");
     }
@@ -170,8 +172,20 @@ private:
         }
     }
 
+    /// @return how many steps a turn has at least: itself, and one an action or block.
+    size_t leastSteps(size_t begin, size_t end) const
+    {
+        size_t steps = 1;
+        for (size_t i = begin; i < end; ++i, ++steps) {
+            if (mLine[i].spec().block != Block::None) i = mEnds[i];
+        }
+        return steps;
+    }
+
     void addTurns(Step& step, const LoopValues& loop, size_t begin, size_t end)
     {
+        // Files of every turn are looked up on the way: seconds, where the loop is too long anyway.
+        requireSteps(mSteps + loop.values.size() * leastSteps(begin, end));
         step.variable = loop.variable;
         for (const std::string& value : loop.values) {
             countStep();
