@@ -97,6 +97,7 @@ void addRange(const std::string& part, const std::string& typed, std::vector<int
 }
 
 /// @return the number that stands in the place of a name, if it is that of a file.
+/// @throw CommandError (input) if only its size keeps it from being one: the file would be passed over without a word
 std::optional<int64_t> frameOf(
     const std::string& file, const std::string& name, const Placeholder& place)
 {
@@ -104,8 +105,13 @@ std::optional<int64_t> frameOf(
     const std::size_t begin = std::min(file.find_first_not_of(' ', place.begin), file.size());
     const char* at = file.data() + begin;
     const auto number = readNumber(at, file.data() + file.size());
-    if (!number || withFrame(name, *number) != file) return {};
-    return number;
+    if (number) return withFrame(name, *number) == file ? number : std::nullopt;
+    const std::size_t first = begin + (file.compare(begin, 1, "-") == 0 ? 1 : 0);
+    const std::size_t last = std::min(file.find_first_not_of("0123456789", first), file.size());
+    const std::string after = withFrame(name.substr(place.begin + place.size), 0);
+    if (last - first > 15 && file.compare(last, std::string::npos, after) == 0)
+        throwInput(oneLine(file, 200) + ": its number is too large for a frame: rename this file");
+    return {};
 }
 
 } // namespace

@@ -56,7 +56,10 @@ std::optional<StackPattern> patternOf(const std::string& name)
 }
 
 /// @return the number of a file's name; nothing if it is none of the pattern's.
-std::optional<uint64_t> numberOf(const std::string& name, const StackPattern& pattern)
+/// @param stack  the name with the place for a number, for messages
+/// @throw IoError if it has more than 64 bits: passed over, its slice would be missing without a word
+std::optional<uint64_t> numberOf(
+    const std::string& name, const StackPattern& pattern, const std::string& stack)
 {
     const std::size_t around = pattern.before.size() + pattern.after.size();
     if (name.size() <= around || name.compare(0, pattern.before.size(), pattern.before) != 0
@@ -68,7 +71,12 @@ std::optional<uint64_t> numberOf(const std::string& name, const StackPattern& pa
     const bool isLonger = digits.size() > pattern.digits;
     if (digits.size() < pattern.digits || (isLonger && digits[0] == '0')) return std::nullopt;
     if (digits.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-    return detail::parseNumber<uint64_t>(digits);
+    const auto number = detail::parseNumber<uint64_t>(digits);
+    if (!number) {
+        throw IoError(
+            stack + ": the number of " + name + " is too large for a slice: rename that file");
+    }
+    return number;
 }
 
 std::string withNumber(const StackPattern& pattern, uint64_t number)
@@ -97,7 +105,7 @@ std::vector<std::string> stackFiles(const std::string& name)
     std::filesystem::directory_iterator files(folder.empty() ? "." : folder, error);
     for (; pattern && !error && files != std::filesystem::directory_iterator();
          files.increment(error)) {
-        if (const auto number = numberOf(files->path().filename().string(), *pattern)) {
+        if (const auto number = numberOf(files->path().filename().string(), *pattern, name)) {
             numbers.push_back(*number);
         }
     }

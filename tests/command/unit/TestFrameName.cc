@@ -85,6 +85,15 @@ TEST(FrameName, FramesOnDiskAreThoseWithExactlySuchNames)
     EXPECT_EQ(command::framesOnDisk(folder / "a_%d.vdb"), Frames({2, 12345}));
     EXPECT_EQ(command::framesOnDisk(folder / "c_####.vdb"), Frames());
     EXPECT_EQ(command::framesOnDisk(folder / "none" / "a_####.vdb"), Frames());
+    // Numbers that are no frame's: passed over, the file would be missing without a word.
+    for (const char* const number :
+        {"99999999999999999999", "-9223372036854775808", "1000000000000001"}) {
+        const fs::path file = folder / ("a_" + std::string(number) + ".vdb");
+        std::ofstream(file) << "x";
+        EXPECT_THROW(command::framesOnDisk(folder / "a_####.vdb"), command::CommandError) << number;
+        EXPECT_EQ(command::framesOnDisk(folder / "b_####.vdb"), Frames({5}));
+        fs::remove(file);
+    }
     fs::remove_all(folder);
 }
 

@@ -225,6 +225,9 @@ TEST(VolumeFile, RefusesStacksThatAreNone)
     put("slice_010.png", "a010.png"); // another number of digits: none of the stack
     put("slice_011.png", "a11.png");
     const std::string stack = folder.path() + "/a%02d.png";
+    put("slice_012.png", "a99999999999999999999.png");
+    EXPECT_TRUE(mentions(errorOf(stack), "the number of a99999999999999999999.png is too large"));
+    std::filesystem::remove(folder.path() + "/a99999999999999999999.png");
     EXPECT_TRUE(mentions(errorOf(stack), "a10.png, but"));
     put("wide.png", "a10.png");
     EXPECT_TRUE(mentions(errorOf(stack), "a10.png is 4 x 3 of 16 bits"));
