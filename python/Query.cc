@@ -4,6 +4,7 @@
 
 #include "Call.h"
 #include "Errors.h"
+#include "ForbidNew.h"
 #include "Tree.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
@@ -278,15 +279,16 @@ py::tuple sphereDistances(
 
 void bindQuery(py::module_& module)
 {
-    py::class_<Query, QueryPtr>(module, "Query")
-        .def(py::init([](const TreePtr& tree, bool exact, int level, double scale) {
-            spheretree::QueryTreeSettings settings;
-            if (exact) settings.exactness = spheretree::Exactness::LeafUnion;
-            settings.level = level;
-            settings.scale = scale;
-            return std::make_shared<Query>(tree, settings);
-        }))
-        .def_property_readonly("leaf_count", [](const Query& q) { return q.tree().leafCount(); })
+    py::class_<Query, QueryPtr> query(module, "Query");
+    forbidNew(query);
+    module.def("make_query", [](const TreePtr& tree, bool exact, int level, double scale) {
+        spheretree::QueryTreeSettings settings;
+        if (exact) settings.exactness = spheretree::Exactness::LeafUnion;
+        settings.level = level;
+        settings.scale = scale;
+        return std::make_shared<Query>(tree, settings);
+    });
+    query.def_property_readonly("leaf_count", [](const Query& q) { return q.tree().leafCount(); })
         .def("collide",
             [](const Query& a, const Query& b, const Doubles& poses, double margin, bool objects,
                 const py::object& progress, int threads) {

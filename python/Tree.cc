@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Tree.h"
 
+#include "ForbidNew.h"
+
 #include <openvdb_spheretree/store/JsonWriter.h>
 #include <openvdb_spheretree/tree/SphereCuts.h>
 
@@ -113,6 +115,7 @@ Tree::Tree(SphereTree tree) : mTree(std::move(tree))
 void bindTree(py::module_& module)
 {
     py::class_<Tree, TreePtr> tree(module, "Tree");
+    forbidNew(tree);
     defineView(tree, "centers", [](const Tree& t, const py::handle& owner) {
         return rowsOf<double>(t.centersWorld(), owner);
     });

@@ -4,6 +4,7 @@
 #include "Call.h"
 #include "DenseArray.h"
 #include "Errors.h"
+#include "ForbidNew.h"
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/Resample.h>
@@ -131,6 +132,7 @@ FileRequest fileRequestOf(const py::dict& keywords)
         const std::string name = py::str(key);
         if (name == "grid") file.grid = py::cast<std::string>(value);
         else if (name == "voxel") file.voxel = py::cast<double>(value);
+        else if (name == "units") file.units = py::cast<std::string>(value);
         else if (name == "resolution") file.resolution = py::cast<int>(value);
         else if (name == "gap") file.gap = py::cast<double>(value);
     }
@@ -314,7 +316,9 @@ std::vector<py::ssize_t> Volume::shape() const
 
 void bindVolume(py::module_& module)
 {
-    py::class_<Volume, std::shared_ptr<Volume>>(module, "Volume")
+    py::class_<Volume, std::shared_ptr<Volume>> handle(module, "Volume");
+    forbidNew(handle);
+    handle
         .def_property_readonly("voxels",
             [](const Volume& volume) { return int64_t(volume.object->activeVoxelCount()); })
         .def_property_readonly("shape", [](const Volume& volume) { return volume.shape(); })

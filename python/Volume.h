@@ -39,7 +39,8 @@ struct ObjectRequest {
 
 /// What a file is read with.
 struct FileRequest {
-    std::string grid;            ///< of a .vdb; empty: the only one
+    std::string grid;  ///< of a .vdb; empty: the only one
+    std::string units; ///< of a mesh: its points become metres; empty: they stay as they are
     std::optional<double> voxel; ///< of a mesh: world units
     int resolution = 256;        ///< of a mesh, in place of that: voxels along its longest side
     std::optional<double> gap;   ///< of a mesh: width of holes to close, world units

@@ -5,7 +5,9 @@
 #include "Errors.h"
 #include "Volume.h"
 
+#include "files/ScaleMesh.h"
 #include "files/VdbStream.h"
+#include "line/Length.h"
 #include "line/Plan.h"
 
 #include <openvdb_spheretree/base/Text.h>
@@ -130,10 +132,23 @@ void warnOfMesh(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& o
         + " (world units): coverage=\"cubes\" takes every voxel that the mesh meets");
 }
 
+/// @return how many metres a unit of the mesh is; 1 where none is named.
+double metresOf(const std::string& units)
+{
+    if (units.empty()) return 1;
+    if (const auto metres = command::metresOfUnit(units)) return *metres;
+    std::string known;
+    for (const auto& unit : command::unitsOfLength())
+        known += (known.empty() ? "" : ", ") + unit.first;
+    throw InputError("units=" + inQuotes(units) + " is unknown: it takes one of " + known);
+}
+
 Volume volumeOfMesh(const std::string& path, const FileRequest& file, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
+    const double metres = metresOf(file.units);
+    spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
+    if (!file.units.empty()) command::scaleMesh(mesh, metres);
     const double voxel =
         file.voxel ? *file.voxel : spheretree::voxelSizeForDim(mesh, file.resolution);
     const Coverage coverage = request.settings.coverage;

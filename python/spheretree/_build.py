@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _spheretree
 from ._spheretree import InputError
 from ._tree import Tree
-from ._volume import Axes, Coverage, Number, Numbers, Progress, VolumeLike, part_of, thread_count
+from ._volume import Axes, Coverage, Number, Numbers, Progress, Units, VolumeLike, part_of, thread_count
 from ._volume import volume as as_volume
 
 Counts = Union[int, Sequence[int], "npt.NDArray[Any]"]
@@ -68,6 +68,7 @@ def build(
     largest: bool = False,
     fill: bool = False,
     grid: str | None = None,
+    units: Units | None = None,
     voxel: Number | None = None,
     resolution: int | None = None,
     gap: Number | None = None,
@@ -114,8 +115,8 @@ def build(
     ----------
     volume
         An array of shape (x, y, z), a path, a grid of pyopenvdb or a `Volume`: see `volume()`, which also has
-        anisotropy, origin, axes, matrix, threshold, above, below, label, iso, coverage, largest, fill, grid, voxel,
-        resolution and gap.
+        anisotropy, origin, axes, matrix, threshold, above, below, label, iso, coverage, largest, fill, grid, units,
+        voxel, resolution and gap.
     spheres
         How many spheres levels have, at most, such as ``[512, 64, 8]``. With `error` or `distance` one number, the most
         that these may take. By default levels of 1, `branching`, `branching` squared, ... spheres, and all leaves.
@@ -197,7 +198,7 @@ def build(
     own = as_volume(
         volume, axes=axes, anisotropy=anisotropy, origin=origin, matrix=matrix, threshold=threshold, above=above,
         below=below, label=label, iso=iso, coverage=_coverage(coverage, strict), largest=largest, fill=fill,
-        grid=grid, voxel=voxel, resolution=resolution, gap=gap, progress=part_of(progress, 0, _READING), threads=threads)
+        grid=grid, units=units, voxel=voxel, resolution=resolution, gap=gap, progress=part_of(progress, 0, _READING), threads=threads)
     settings = {_OTHER_NAMES.get(key, key): _text(key, keywords[key])
                 for key in _DEFAULTS if keywords[key] != _DEFAULTS[key]}
     if spheres is not None:

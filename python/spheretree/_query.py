@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._spheretree import InputError
-from ._volume import Progress, thread_count
+from ._volume import Progress, real_array, thread_count
 
 if TYPE_CHECKING:
     from ._tree import Tree
@@ -74,7 +74,7 @@ class Hits(NamedTuple):
 
 def _rows(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: Any = np.float64) -> tuple[Any, Any]:
     """The values as rows that C++ takes, and the shape in front of the columns."""
-    array = np.ascontiguousarray(values, dtype=dtype)
+    array = np.ascontiguousarray(real_array(name, values), dtype=dtype)
     if array.shape[array.ndim - len(columns):] != columns or array.ndim < len(columns):
         wanted = ", ".join(["...", *map(str, columns)])
         raise InputError(f"{name} has shape {array.shape}: it takes ({wanted})")
@@ -98,7 +98,7 @@ class Query:
         if level is not None and level < 0:
             raise InputError(f"level={level}: levels are counted from 0, the finest")
         self.tree = tree
-        self._handle = _spheretree.Query(tree._handle, bool(exact), -1 if level is None else level, float(scale))
+        self._handle = _spheretree.make_query(tree._handle, bool(exact), -1 if level is None else level, float(scale))
 
     def __repr__(self) -> str:
         return f"<spheretree.Query of {self._handle.leaf_count:,} spheres>"
@@ -167,6 +167,8 @@ class Query:
         True
         """
         poses, shape = self._pair(other, pose)
+        if not upto >= 0:
+            raise InputError(f"upto={upto} is out of range: it takes numbers from 0 on")
         answers = self._handle.distance(other._handle, poses, signed, upto, progress, thread_count(threads))
         return Distances(*_shaped(shape, answers))
 
@@ -271,7 +273,7 @@ class Query:
 
     @staticmethod
     def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[tuple[Any, Any], Any]:
-        for name, array in (("origins", np.asarray(origins)), ("directions", np.asarray(directions))):
+        for name, array in (("origins", real_array("origins", origins)), ("directions", real_array("directions", directions))):
             if array.shape[-1:] != (3,):
                 raise InputError(f"{name} has shape {array.shape}: it takes (..., 3)")
         try:

@@ -57,8 +57,9 @@ class Tree:
 _Doubles = npt.NDArray[np.float64]
 _Ids = npt.NDArray[np.int32]
 
+def make_query(tree: Tree, exact: bool, level: int, scale: float) -> Query: ...
+
 class Query:
-    def __init__(self, tree: Tree, exact: bool, level: int, scale: float) -> None: ...
     @property
     def leaf_count(self) -> int: ...
     def collide(

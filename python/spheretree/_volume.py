@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Callable, Literal, Optional, Union
 
 import numpy as np
@@ -19,6 +19,7 @@ from ._spheretree import InputError
 Progress = Optional[Callable[[float, str], object]]
 Axes = Literal["xyz", "zyx", "xy", "yx"]
 Coverage = Literal["centers", "cubes", "whole"]
+Units = Literal["mm", "cm", "m", "in", "ft", "um", "km"]
 Number = Union[int, float]
 Numbers = Union[Number, Sequence[Number], "npt.NDArray[Any]"]
 
@@ -117,6 +118,8 @@ def readable(path: str | os.PathLike[str]) -> bytes:
 
 def _number(name: str, value: object) -> int | float:
     """A finite number as Python has it: integers stay whole."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f"{name} must be a number, not {type(value).__name__}")
     number = int(value) if isinstance(value, (int, np.integer)) else float(value)
@@ -127,11 +130,28 @@ def _number(name: str, value: object) -> int | float:
     return number
 
 
+def _items(name: str, value: object) -> list[Any] | None:
+    """What stands in a sequence or an array of one axis; None of a number."""
+    if isinstance(value, (int, float, np.integer, np.floating)) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        return None
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise TypeError(f"{name} must be a number or several, not {type(value).__name__}")
+    return list(value)
+
+
+def real_array(name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
+    """The values as they are. numpy would drop the imaginary parts of complex ones, with a warning at most."""
+    array = np.asarray(values)
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name} must hold real numbers, not {array.dtype}: .real are those of a complex array")
+    return array
+
+
 def _vector(name: str, value: Numbers, length: int) -> list[float]:
     """`length` numbers; one number stands for all of them."""
-    if isinstance(value, (int, float, np.integer, np.floating)):
+    items = _items(name, value)
+    if items is None:
         return [float(_number(name, value))] * length
-    items = list(value)
     if len(items) != length:
         raise InputError(f"{name} has {len(items)} numbers: it takes one, or {length}")
     return [float(_number(name, item)) for item in items]
@@ -214,14 +234,14 @@ def _of_array(
         spacing += [min(spacing)] * (3 - len(spacing))
     place = [0.0] * 3
     if origin is not None:
-        place = ([float(_number("origin", origin))] * 3 if isinstance(origin, (int, float)) else
-                 _vector("origin", list(origin) + [0] if flat and len(list(origin)) == 2 else origin, 3))
+        items = _items("origin", origin)
+        place = _vector("origin", [*items, 0] if items is not None and flat and len(items) == 2 else origin, 3)
     rows: list[float] | None = None
     edges = np.array(spacing)
     if matrix is not None:
         if anisotropy is not None or origin is not None:
             raise InputError("matrix says where all voxels are: it excludes anisotropy and origin")
-        given = np.asarray(matrix, dtype=np.float64)
+        given = real_array("matrix", matrix).astype(np.float64)
         if given.shape != (4, 4) or not np.isfinite(given).all() or (given[3] != (0, 0, 0, 1)).any():
             raise InputError("matrix must be an array of shape (4, 4) of finite numbers, with 0, 0, 0, 1 for its last row")
         rows = given.ravel().tolist()
@@ -266,6 +286,7 @@ def volume(
     largest: bool = False,
     fill: bool = False,
     grid: str | None = None,
+    units: Units | None = None,
     voxel: Number | None = None,
     resolution: int | None = None,
     gap: Number | None = None,
@@ -308,6 +329,8 @@ def volume(
         Keep the largest part alone; fill cavities.
     grid
         Which grid of a `.vdb` that holds several.
+    units
+        Of meshes: the unit that the file is in, such as ``"mm"``; its points become metres, and so does the world.
     voxel, resolution
         Of meshes: the edge of a voxel in world units; or how many voxels the longest side has, 256 by default.
     gap
@@ -338,7 +361,7 @@ def volume(
     array([ 0.5,  0. ,  0. , 10. ])
     """
     of_arrays = {"anisotropy": anisotropy, "origin": origin, "matrix": matrix}
-    of_files = {"grid": grid, "voxel": voxel, "resolution": resolution, "gap": gap}
+    of_files = {"grid": grid, "units": units, "voxel": voxel, "resolution": resolution, "gap": gap}
     of_objects = {"threshold": threshold, "above": above, "below": below, "label": label, "iso": iso}
     wanted = _object_keywords(threshold, above, below, label, iso, coverage, largest, fill)
     is_file = isinstance(volume, (str, os.PathLike))
@@ -378,11 +401,17 @@ def _of_file(
 ) -> Volume:
     given = {name: value for name, value in of_files.items() if value is not None}
     is_mesh = not os.fspath(path).lower().endswith((".vdb", ".vol", ".longvol"))
-    for name in ("voxel", "resolution", "gap"):
+    for name in ("units", "voxel", "resolution", "gap"):
         if name not in given:
             continue
         if not is_mesh:
             raise InputError(f"{name} is of meshes, and {os.fspath(path)} is none")
+        if name == "units":
+            if not isinstance(given[name], str):
+                raise TypeError(f"units must be a str, not {type(given[name]).__name__}")
+            if not given[name]:
+                raise InputError("units='' names no unit")
+            continue
         if _number(name, given[name]) <= 0:
             raise InputError(f"{name}={given[name]} is out of range: it takes numbers above 0")
     if "voxel" in given and "resolution" in given:

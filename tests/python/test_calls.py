@@ -100,3 +100,12 @@ def test_too_little_memory_is_said_and_python_lives_on(bone):
 def test_more_threads_than_the_command_takes_are_refused(bone, threads):
     with pytest.raises(spheretree.InputError, match="1 to 1024"):
         spheretree.build(bone, [64, 8], threads=threads)
+
+
+@pytest.mark.parametrize("name", ["Tree", "Volume", "Query"])
+def test_a_handle_that_nobody_has_made_is_refused(name):
+    handle = getattr(spheretree._spheretree, name)
+    for make in (handle, lambda: handle.__new__(handle), lambda: handle.__mro__[1].__new__(handle),
+                 lambda: object.__new__(handle), lambda: type("Mine", (handle,), {})()):
+        with pytest.raises(TypeError):
+            make()

@@ -169,6 +169,29 @@ def test_bad_points_and_rays_are_errors(tree):
         query.sphere_distances(np.zeros((2, 3)), 1)
 
 
+@pytest.mark.parametrize("upto", [-1, -1e-9, float("nan"), -np.inf])
+def test_a_distance_below_zero_is_no_bound(tree, upto):
+    query = tree.query()
+    with pytest.raises(spheretree.InputError, match="upto="):
+        query.distance(query, upto=upto)
+    assert query.distance(query, upto=0).distance == 0
+
+
+def test_complex_numbers_are_no_poses_points_or_rays(tree):
+    query = tree.query()
+    pose, point = np.eye(4) * (1 + 0j), np.zeros(3, dtype=complex)
+    for ask in (lambda: query.collide(query, pose), lambda: query.distance(query, pose.tolist())):
+        with pytest.raises(TypeError, match="pose must hold real numbers, not complex128"):
+            ask()
+    for ask in (lambda: query.contains(point), lambda: query.nearest(point)):
+        with pytest.raises(TypeError, match="points must hold real"):
+            ask()
+    with pytest.raises(TypeError, match="origins must hold real"):
+        query.intersect(point, [1, 0, 0])
+    with pytest.raises(TypeError, match="directions must hold real"):
+        query.occluded([0, 0, 0], point)
+
+
 def test_trees_without_answers_are_refused_with_the_reason(bone):
     few = spheretree.build(bone, 8, quality="fast").query()
     with pytest.raises(spheretree.InputError, match="cannot say what its object is"):

@@ -210,6 +210,26 @@ def test_a_keyword_of_another_type_is_a_type_error(keywords):
         spheretree.volume(np.ones((3, 3, 3)), **keywords)
 
 
+@pytest.mark.parametrize("name", ["anisotropy", "origin"])
+@pytest.mark.parametrize("value", [object(), "one", 1j, (1, 2, "3"), [[1, 2, 3]], {1: 2}.__len__, np.array("a")])
+def test_where_voxels_are_is_said_by_numbers_and_the_argument_is_named(name, value):
+    for shape in (3, 3, 3), (3, 3):
+        with pytest.raises((TypeError, spheretree.InputError), match=name):
+            spheretree.volume(np.ones(shape), **{name: value})
+
+
+@pytest.mark.parametrize("two", [2, 2.0, np.int8(2), np.float32(2), np.array(2), np.array(2.0)])
+def test_one_number_of_any_type_stands_for_all(two):
+    for shape in (3, 3, 3), (3, 3):
+        place = spheretree.volume(np.ones(shape), anisotropy=two, origin=two).matrix
+        assert np.array_equal(place[:3, :3], 2 * np.eye(3)) and np.array_equal(place[:3, 3], [2, 2, 2])
+
+
+def test_a_complex_matrix_is_refused():
+    with pytest.raises(TypeError, match="matrix must hold real"):
+        spheretree.volume(np.ones((3, 3, 3)), matrix=np.eye(4, dtype=complex))
+
+
 def test_threshold_of_a_bool_array_is_refused(bone):
     with pytest.raises(spheretree.InputError, match="dtype bool"):
         spheretree.volume(bone, threshold=1)
@@ -235,6 +255,31 @@ def test_a_mesh_becomes_its_solid(tmp_path):
         spheretree.volume(path, voxel=1, resolution=5)
     with pytest.raises(spheretree.InputError, match="voxel=-1"):
         spheretree.volume(path, voxel=-1)
+
+
+@pytest.mark.parametrize("units", ["mm", "cm", "m", "in", "ft", "um", "km"])
+def test_units_of_a_mesh_are_those_of_the_command(tmp_path, command, units):
+    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1e4 0 0\nv 0 1.5e4 0\nv 0 0 3e4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    command("-read", "t.obj", f"units={units}", "-mesh2ls", "dim=32", "-spheretree", "spheres=8,1", "quality=fast",
+            "-write", "theirs.vdb")
+    theirs = spheretree.load(tmp_path / "theirs.vdb")
+    ours = spheretree.build(tmp_path / "t.obj", [8, 1], quality="fast", units=units, resolution=32)
+    for mine, other in zip(ours.levels, theirs.levels):
+        assert np.array_equal(mine.centers, other.centers) and np.array_equal(mine.radii, other.radii)
+
+
+def test_units_that_are_none_are_refused(tmp_path, bone):
+    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    for units in "inch", "", "MM":
+        with pytest.raises(spheretree.InputError, match="units="):
+            spheretree.volume(tmp_path / "t.obj", units=units)
+    with pytest.raises(TypeError, match="units must be a str"):
+        spheretree.volume(tmp_path / "t.obj", units=0.001)
+    with pytest.raises(spheretree.InputError, match="units is of files"):
+        spheretree.volume(bone, units="mm")
+    write_vol(tmp_path / "bone.vol", bone * 7)
+    with pytest.raises(spheretree.InputError, match="units is of meshes"):
+        spheretree.volume(tmp_path / "bone.vol", units="mm")
 
 
 def test_an_open_mesh_is_warned_of(tmp_path):

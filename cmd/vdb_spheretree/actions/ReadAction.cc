@@ -3,6 +3,7 @@
 /// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again, and spheres
 /// of other tools a tree of one level.
 
+#include "files/ScaleMesh.h"
 #include "files/SpooledInput.h"
 #include "files/VdbStream.h"
 #include "line/Actions.h"
@@ -130,18 +131,6 @@ std::optional<double> scaleOf(const ActionCall& call)
 {
     if (call.given("scale")) return call.real("scale");
     return call.given("units") ? metresOfUnit(call.text("units")) : std::nullopt;
-}
-
-void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
-{
-    for (auto& point : mesh.points) {
-        const openvdb::Vec3d scaled = openvdb::Vec3d(point) * scale;
-        point = openvdb::Vec3s(scaled);
-        if (!point.isFinite()) {
-            throwInput("mesh '" + oneLine(mesh.name, 60)
-                + "' would have points beyond the largest number: choose a smaller scale");
-        }
-    }
 }
 
 void scaleSpheres(openvdb_spheretree::WorldSpheres& spheres, double scale)

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScaleMesh.h"
+
+#include "base/Errors.h"
+
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
+
+namespace command {
+
+void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
+{
+    for (auto& point : mesh.points) {
+        const openvdb::Vec3d scaled = openvdb::Vec3d(point) * scale;
+        point = openvdb::Vec3s(scaled);
+        if (!point.isFinite()) {
+            throwInput("mesh '" + oneLine(mesh.name, 60)
+                + "' would have points beyond the largest number: choose a smaller scale");
+        }
+    }
+}
+
+} // namespace command
