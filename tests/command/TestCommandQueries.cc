@@ -259,6 +259,13 @@ TEST_F(CommandQueries, RaysEnterTheNearestSphere)
     const Result table = run("-read t.vdb -raycast rays=rays.csv");
     EXPECT_TRUE(mentions(table.out, "2 rays: 1 hit")) << table.out;
     EXPECT_TRUE(mentions(table.err, "no header")) << table.err;
+
+    writeText(path("far.csv"), "0 0 0 1 0 0\n1e100 0 0 -1 0 0\n");
+    for (const char* const question : {"-raycast rays=far.csv", "-raycast rays=far.csv any=1"}) {
+        const Result far = run("-read t.vdb " + std::string(question));
+        EXPECT_EQ(far.exitCode, 3);
+        EXPECT_TRUE(mentions(far.err, "far.csv: ray 1 from")) << far.err;
+    }
 }
 
 TEST_F(CommandQueries, PointsAreInTheObjectExactlyWhereItsVoxelsAre)
