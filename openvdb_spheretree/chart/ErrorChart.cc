@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ErrorChart.h"
 
+#include <openvdb_spheretree/base/CsvCell.h>
 #include <openvdb_spheretree/export/ExportText.h>
 
 #include <algorithm>
@@ -8,19 +9,6 @@
 #include <tuple>
 
 namespace openvdb_spheretree {
-
-namespace {
-
-/// As in RFC 4180: in double quotes where it has to be, and these doubled.
-std::string csvCell(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == text.npos) return text;
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-    return cell + "\"";
-}
-
-} // namespace
 
 ErrorCurve errorCurve(const SphereTree& tree)
 {
@@ -55,7 +43,8 @@ void writeChartCsv(const std::vector<ErrorCurve>& curves, std::ostream& out)
     text << "tree,level,spheres,hamming_percent,hausdorff\n";
     for (const ErrorCurve& curve : curves) {
         for (const ErrorCurve::Point& point : curve.points) {
-            text << csvCell(curve.name) << ',' << point.level << ',' << point.spheres << ',';
+            text << detail::csvCell(curve.name) << ',' << point.level << ',' << point.spheres
+                 << ',';
             text.real(point.hammingPercent) << ',';
             text.real(point.hausdorff) << '\n';
         }

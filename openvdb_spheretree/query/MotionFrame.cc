@@ -9,15 +9,17 @@
 #include <cmath>
 
 namespace openvdb_spheretree::detail {
-namespace {
 
 using openvdb::Vec3d;
 
+std::array<double, 3> numbers(const Vec3d& v) { return {v[0], v[1], v[2]}; }
 Vec3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-} // namespace
-
-std::array<double, 3> numbers(const Vec3d& v) { return {v[0], v[1], v[2]}; }
+Screw<double> moved(const RigidTransform& pose, const Screw<double>& screw)
+{
+    return {numbers(pose * vector(screw.point)), numbers(pose.rotate(vector(screw.axis))),
+        screw.turn, screw.slide};
+}
 
 Screw<float> rounded(const Screw<double>& screw)
 {
@@ -60,14 +62,13 @@ void MotionFrame::enterFloats()
     const double way = longestWay();
     requireWay(way);
     pair.enterFloats();
-    const RigidTransform back = pair.pose.inverse();
+    const Screw<double> ofBInB = moved(pair.pose.inverse(), ofB);
     toA = rounded(ofB);
-    toB = rounded({numbers(back * vector(ofB.point)), numbers(back.rotate(vector(ofB.axis))),
-        -ofB.turn, -ofB.slide});
+    toB = rounded({ofBInB.point, ofBInB.axis, -ofBInB.turn, -ofBInB.slide});
     // Of sines, their products and sums, and of the rounding of the axis, for both bodies: 64 roundings of
     // the way that a point goes, or of twice the radius of the helix where that is less. And 16 roundings of the distance that it
     // comes from: how far a way goes by is known no better.
-    const double points = vector(ofB.point).length() + (back * vector(ofB.point)).length();
+    const double points = vector(ofB.point).length() + vector(ofBInB.point).length();
     const double lengths = pair.reach() + points;
     const double ways = std::min(2.0, std::abs(ofB.turn)) * lengths + std::abs(ofB.slide);
     pad = toFloatUp(double(pair.pad) + 0x1p-24 * (80 * ways + 16 * pair.reach()));

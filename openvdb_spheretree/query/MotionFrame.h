@@ -30,7 +30,10 @@ struct Screw {
 };
 
 Screw<float> rounded(const Screw<double>& screw);
+/// The same way, of what the pose takes there.
+Screw<double> moved(const RigidTransform& pose, const Screw<double>& screw);
 std::array<double, 3> numbers(const openvdb::Vec3d& v);
+openvdb::Vec3d vector(const std::array<double, 3>& v);
 /// @throw openvdb::ValueError for a way that is too long to square distances in floats
 void requireWay(double way);
 

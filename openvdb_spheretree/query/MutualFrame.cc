@@ -11,19 +11,11 @@ namespace {
 
 using openvdb::Vec3d;
 
-Vec3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
 /// Of a body's screw, without its slide.
 Screw<double> turnOf(const RigidMotion& motion, const RigidTransform& toFrame, const Vec3d& origin)
 {
     return {numbers(toFrame * motion.point() - origin), numbers(toFrame.rotate(motion.axis())),
         motion.radians(), 0};
-}
-
-Screw<double> moved(const RigidTransform& pose, const Screw<double>& screw)
-{
-    return {numbers(pose * vector(screw.point)), numbers(pose.rotate(vector(screw.axis))),
-        screw.turn, screw.slide};
 }
 
 std::array<float, 3> rounded(const Vec3d& v) { return {float(v[0]), float(v[1]), float(v[2])}; }

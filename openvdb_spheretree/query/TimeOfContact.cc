@@ -17,10 +17,10 @@ struct Helix {
     double turn;
 
     Helix(const Screw<double>& screw, const Vec3d& start)
-        : slide(screw.slide * Vec3d(screw.axis[0], screw.axis[1], screw.axis[2])), turn(screw.turn)
+        : slide(screw.slide * vector(screw.axis)), turn(screw.turn)
     {
-        const Vec3d axis(screw.axis[0], screw.axis[1], screw.axis[2]);
-        const Vec3d q = start - Vec3d(screw.point[0], screw.point[1], screw.point[2]);
+        const Vec3d axis = vector(screw.axis);
+        const Vec3d q = start - vector(screw.point);
         v = axis.cross(q), k = axis * axis.dot(q) - q;
     }
     double acceleration() const { return turn * turn * v.length(); }

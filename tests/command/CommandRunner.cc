@@ -35,6 +35,11 @@ std::string readText(const std::filesystem::path& path)
     return text.str();
 }
 
+bool mentions(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
 void writeText(const std::filesystem::path& path, const std::string& text)
 {
     std::ofstream(path, std::ios::binary) << text;

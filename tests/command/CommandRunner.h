@@ -34,6 +34,7 @@ std::string program();
 std::string readText(const std::filesystem::path& path);
 
 void writeText(const std::filesystem::path& path, const std::string& text);
+bool mentions(const std::string& text, const std::string& part);
 
 /// A program that has been started, and can be sent a signal before it is waited for.
 class Running {

@@ -19,6 +19,7 @@
 namespace {
 
 using command_test::CommandTest;
+using command_test::mentions;
 using command_test::readText;
 using command_test::Result;
 using command_test::writeText;
@@ -29,11 +30,6 @@ struct Ball {
     Vec3d center;
     double radius;
 };
-
-bool mentions(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 /// The leaf spheres of a tree that -write has written as JSON.
 std::vector<Ball> ballsOf(const json& tree)

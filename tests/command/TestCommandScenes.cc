@@ -17,15 +17,11 @@
 namespace {
 
 using command_test::CommandTest;
+using command_test::mentions;
 using command_test::readText;
 using command_test::Result;
 using command_test::writeText;
 using nlohmann::json;
-
-bool mentions(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 /// About z, then a move.
 struct Place {

@@ -95,9 +95,9 @@ void namingTable(const ActionCall& call, const Cast& cast)
 {
     try {
         cast();
-    } catch (const openvdb::ValueError& error) {
+    } catch (const openvdb::ValueError&) {
         if (!call.given("rays")) throw;
-        throwInput(call.text("rays") + ": " + spheretree::detail::messageOf(error));
+        rethrowNamed(call.text("rays"), kInput);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "base/Terminal.h"
 #include "TextTable.h"
 
+#include <openvdb_spheretree/base/CsvCell.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
 
@@ -35,20 +36,12 @@ std::string tableText(const Cell& cell)
     return "-";
 }
 
-/// In quotes, where it would be taken for more than one field, or for none of the kind.
-std::string csvText(const char* word)
-{
-    std::string text = word;
-    if (text.find_first_of(",;\"\t\r\n ") == text.npos) return text;
-    for (std::size_t i = text.find('"'); i != text.npos; i = text.find('"', i + 2)) {
-        text.insert(i, 1, '"');
-    }
-    return '"' + text + '"';
-}
-
 std::string csvText(const Cell& cell)
 {
-    if (const auto* word = std::get_if<const char*>(&cell)) return csvText(*word);
+    if (const auto* word = std::get_if<const char*>(&cell)) {
+        // In quotes, where it would be taken for more than one field, or for none of the kind.
+        return openvdb_spheretree::detail::csvCell(*word, ",;\"\t\r\n ");
+    }
     if (const auto* truth = std::get_if<bool>(&cell)) return *truth ? "1" : "0";
     const auto* number = std::get_if<double>(&cell);
     if (!number) return cell.index() == 0 ? "" : tableText(cell);
