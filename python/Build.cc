@@ -15,6 +15,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/check/MeshCheck.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/tree/SettingsTable.h>
@@ -146,16 +147,38 @@ TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::o
     });
 }
 
-py::list check(const Tree& tree, const Volume& volume, const CallSettings& call)
+/// Kinds and sentences.
+py::list pairsOf(const std::vector<spheretree::TreeFault>& faults)
 {
-    const auto faults = resultOfCall(call, [&](Interrupter* interrupter) {
-        return spheretree::checkSphereTree(tree.get(), *volume.object, interrupter);
-    });
     py::list pairs;
     for (const auto& fault : faults) {
         pairs.append(py::make_tuple(textOf(toString(fault.kind)), textOf(fault.sentence)));
     }
     return pairs;
+}
+
+py::list check(const Tree& tree, const Volume& volume, const CallSettings& call)
+{
+    return pairsOf(resultOfCall(call, [&](Interrupter* interrupter) {
+        return spheretree::checkSphereTree(tree.get(), *volume.object, interrupter);
+    }));
+}
+
+/// @param volume  null: the object is not known
+py::list checkMesh(const Tree& tree, const std::string& path, const std::string& units,
+    const Volume* volume, const CallSettings& call)
+{
+    return pairsOf(resultOfCall(call, [&](Interrupter* interrupter) {
+        const auto mesh = meshOfFile(path, units);
+        if (!volume) return spheretree::checkMeshCovered(tree.get(), mesh, nullptr, interrupter);
+        // Its cubes count as covered, so that they are must be known first.
+        const openvdb::BoolGrid& object = *volume->object;
+        auto faults = spheretree::checkSphereTree(tree.get(), object, interrupter);
+        for (auto& fault : spheretree::checkMeshCovered(tree.get(), mesh, &object, interrupter)) {
+            faults.push_back(std::move(fault));
+        }
+        return faults;
+    }));
 }
 
 /// The table, for whoever holds the keywords of build() against it.
@@ -185,6 +208,11 @@ void bindBuild(py::module_& module)
     module.def("check",
         [](const Tree& tree, const Volume& volume, const py::object& progress, int threads) {
             return check(tree, volume, {progress, threads});
+        });
+    module.def("check_mesh",
+        [](const Tree& tree, const std::string& path, const std::string& units,
+            const Volume* volume, const py::object& progress, int threads) {
+            return checkMesh(tree, path, units, volume, {progress, threads});
         });
     module.def("settings_table", settingsTable);
 }

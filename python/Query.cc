@@ -11,9 +11,11 @@
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/query/BodyDistance.h>
 #include <openvdb_spheretree/query/Collide.h>
+#include <openvdb_spheretree/query/ContinuousCollide.h>
 #include <openvdb_spheretree/query/DigitalLeaves.h>
 #include <openvdb_spheretree/query/PointQuery.h>
 #include <openvdb_spheretree/query/RayQuery.h>
+#include <openvdb_spheretree/query/RigidMotion.h>
 #include <openvdb_spheretree/query/SphereDistances.h>
 
 #include <openvdb/Exceptions.h>
@@ -38,6 +40,7 @@ namespace binding {
 namespace spheretree = openvdb_spheretree;
 using openvdb::Vec3d;
 using spheretree::QueryTree;
+using spheretree::RigidMotion;
 using spheretree::RigidTransform;
 using spheretree::Verdict;
 
@@ -112,6 +115,35 @@ int8_t numberOf(Verdict verdict)
     return verdict == Verdict::Touching ? 1 : -1;
 }
 
+/// Where two spheres meet, a question a row: numbers are NaN and ids -1 where none do.
+class ContactRows {
+public:
+    explicit ContactRows(std::size_t count)
+        : distances(py::ssize_t(count)), points(rows<double>(count, 3)),
+          normals(rows<double>(count, 3)), ids(rows<int32_t>(count, 2)),
+          mDistance(distances.mutable_data()), mPoint(points.mutable_data()),
+          mNormal(normals.mutable_data()), mId(ids.mutable_data())
+    {}
+
+    /// Without the GIL; rows may be set at the same time.
+    void set(std::size_t i, const std::optional<spheretree::Contact>& contact) const
+    {
+        const Vec3d none(std::numeric_limits<double>::quiet_NaN());
+        mDistance[i] = contact ? contact->distance : none[0];
+        setRow(mPoint + 3 * i, contact ? contact->point() : none);
+        setRow(mNormal + 3 * i, contact ? contact->normal : none);
+        mId[2 * i] = contact ? contact->nodes.a : -1;
+        mId[2 * i + 1] = contact ? contact->nodes.b : -1;
+    }
+
+    py::array_t<double> distances, points, normals;
+    Ids ids;
+
+private:
+    double *mDistance, *mPoint, *mNormal;
+    int32_t* mId;
+};
+
 py::tuple collide(const Query& a, const Query& b, const Doubles& matrices, double margin,
     bool objects, const CallSettings& call)
 {
@@ -121,28 +153,52 @@ py::tuple collide(const Query& a, const Query& b, const Doubles& matrices, doubl
     request.enableContact = true;
     request.decideObjects = objects;
     py::array_t<int8_t> spheres(py::ssize_t(poses.size())), certain(py::ssize_t(poses.size()));
-    py::array_t<double> depth(py::ssize_t(poses.size()));
-    auto points = rows<double>(poses.size(), 3), normals = rows<double>(poses.size(), 3);
-    auto ids = rows<int32_t>(poses.size(), 2);
+    const ContactRows contacts(poses.size());
     int8_t *const sphere = spheres.mutable_data(), *const object = certain.mutable_data();
-    double *const distance = depth.mutable_data(), *const point = points.mutable_data(),
-                  *const normal = normals.mutable_data();
-    int32_t* const id = ids.mutable_data();
     runCall(call, [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             const auto result = spheretree::collide(a.tree(), {}, b.tree(), poses[i], request);
-            const bool touches = result.contact.has_value();
-            const Vec3d none(std::numeric_limits<double>::quiet_NaN());
             sphere[i] = numberOf(result.verdict);
             object[i] = numberOf(result.objects);
-            distance[i] = touches ? result.contact->distance : none[0];
-            setRow(point + 3 * i, touches ? result.contact->point() : none);
-            setRow(normal + 3 * i, touches ? result.contact->normal : none);
-            id[2 * i] = touches ? result.contact->nodes.a : -1;
-            id[2 * i + 1] = touches ? result.contact->nodes.b : -1;
+            contacts.set(i, result.contact);
         });
     });
-    return py::make_tuple(spheres, certain, depth, points, normals, ids);
+    return py::make_tuple(
+        spheres, certain, contacts.distances, contacts.points, contacts.normals, contacts.ids);
+}
+
+/// The screws from pose to pose, a row each.
+std::vector<RigidMotion> motionsOf(const Doubles& starts, const Doubles& ends)
+{
+    const auto from = posesOf(starts), to = posesOf(ends);
+    std::vector<RigidMotion> motions;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        motions.push_back(RigidMotion::screw(from[i], to[i]));
+    }
+    return motions;
+}
+
+/// @param ways  poses where a starts and ends, and b: as many of each
+py::tuple continuousCollide(const Query& a, const Query& b, const std::array<Doubles, 4>& ways,
+    double tolerance, const CallSettings& call)
+{
+    const auto motionsA = motionsOf(ways[0], ways[1]), motionsB = motionsOf(ways[2], ways[3]);
+    spheretree::ContinuousCollisionRequest request;
+    request.tolerance = tolerance;
+    py::array_t<double> times(py::ssize_t(motionsA.size()));
+    const ContactRows contacts(motionsA.size());
+    double* const time = times.mutable_data();
+    runCall(call, [&](Interrupter* interrupter) {
+        spheretree::detail::parallelFor(motionsA.size(), interrupter, [&](std::size_t i) {
+            const auto result = spheretree::continuousCollide(
+                a.tree(), motionsA[i], b.tree(), motionsB[i], request);
+            time[i] =
+                result.isCollide ? result.timeOfContact : std::numeric_limits<double>::quiet_NaN();
+            contacts.set(i, result.contact);
+        });
+    });
+    return py::make_tuple(
+        times, contacts.distances, contacts.points, contacts.normals, contacts.ids);
 }
 
 py::tuple distance(const Query& a, const Query& b, const Doubles& matrices, bool isSigned,
@@ -293,6 +349,13 @@ void bindQuery(py::module_& module)
             [](const Query& a, const Query& b, const Doubles& poses, double margin, bool objects,
                 const py::object& progress, int threads) {
                 return collide(a, b, poses, margin, objects, CallSettings{progress, threads});
+            })
+        .def("continuous_collide",
+            [](const Query& a, const Query& b, const Doubles& startA, const Doubles& endA,
+                const Doubles& startB, const Doubles& endB, double tolerance,
+                const py::object& progress, int threads) {
+                return continuousCollide(
+                    a, b, {startA, endA, startB, endB}, tolerance, CallSettings{progress, threads});
             })
         .def("distance",
             [](const Query& a, const Query& b, const Doubles& poses, bool isSigned, double upTo,

@@ -7,6 +7,7 @@
 #include "ArrayVoxels.h"
 
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/openvdb.h>
@@ -50,6 +51,10 @@ struct FileRequest {
 /// @throw InputError for a setting that says nothing about such a grid; what the library throws
 openvdb::BoolGrid::Ptr objectOfGrid(const openvdb::GridBase::ConstPtr& grid,
     const ObjectRequest& request, openvdb::util::NullInterrupter* interrupter);
+
+/// @param units  that the file is in: its points become metres; empty: they stay as they are
+/// @throw what readMeshFile() throws; InputError for a unit that is none
+openvdb_spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& units);
 
 /// @throw command::CommandError naming the file; InputError for arguments that do not suit it
 Volume volumeOfFile(const std::string& path, const FileRequest& file, const ObjectRequest& request,

@@ -146,9 +146,7 @@ double metresOf(const std::string& units)
 Volume volumeOfMesh(const std::string& path, const FileRequest& file, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const double metres = metresOf(file.units);
-    spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
-    if (!file.units.empty()) command::scaleMesh(mesh, metres);
+    const spheretree::TriangleMesh mesh = meshOfFile(path, file.units);
     const double voxel =
         file.voxel ? *file.voxel : spheretree::voxelSizeForDim(mesh, file.resolution);
     const Coverage coverage = request.settings.coverage;
@@ -187,6 +185,14 @@ openvdb::BoolGrid::Ptr objectOfGrid(const GridBase::ConstPtr& grid, const Object
     if (request.largest) object = spheretree::largestPart(*object, interrupter);
     if (request.fill) object = spheretree::filledCavities(*object, interrupter);
     return object;
+}
+
+spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& units)
+{
+    const double metres = metresOf(units);
+    spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
+    if (!units.empty()) command::scaleMesh(mesh, metres);
+    return mesh;
 }
 
 Volume volumeOfFile(const std::string& path, const FileRequest& file, const ObjectRequest& request,

@@ -2,9 +2,8 @@
 #include "ContinuousCollide.h"
 
 #include "MotionKernels.h"
+#include "MotionRequest.h"
 #include "PairAnswers.h"
-
-#include <openvdb/Exceptions.h>
 
 #include <algorithm>
 
@@ -14,18 +13,7 @@ namespace {
 detail::MotionLimits limitsOf(
     const QueryTree& a, const QueryTree& b, const ContinuousCollisionRequest& request)
 {
-    detail::requireLength(request.tolerance, "the tolerance");
-    if (!(request.endTime > 0 && request.endTime <= 1)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the end of a motion is at time " << request.endTime
-                                              << ": it must be above 0, and 1 at most");
-    }
-    detail::MotionLimits limits;
-    limits.tolerance =
-        request.tolerance > 0 ? request.tolerance : 1e-4 * std::min(a.radius(), b.radius());
-    limits.end = request.endTime;
-    limits.maxBlocks = detail::blocksOrAny(request.maxBlocks);
-    return limits;
+    return detail::motionLimits(request, std::min(a.radius(), b.radius()));
 }
 
 /// @param frame     MotionFrame or MutualFrame of both

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QueryScene.h"
 
+#include "MotionFrame.h"
+#include "MotionRequest.h"
 #include "PairAnswers.h"
+#include "SweepPairs.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Text.h>
 
@@ -19,25 +22,46 @@ namespace {
 using Pair = std::pair<int, int>;
 using openvdb::Vec3d;
 
-/// What doubles may be off by in a pose and in the comparisons below, a part of the lengths in them: a dozen
-/// roundings of 2^-53, and room to spare.
-constexpr double kRounding = 1.0 / (1ll << 48);
-
 Pair sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Where a body stands.
+detail::BodySphere sphereAround(int number, const QueryTree& tree, const RigidTransform& pose)
+{
+    const double lengths = tree.center().length() + pose.translation().length() + tree.radius();
+    return {number, pose * tree.center(), tree.radius() + detail::kPlaceRounding * lengths};
+}
+
+/// Around all the way of a body until @a end. From the middle of its way, which is a helix, its center is never farther than
+/// half the length of that.
+detail::BodySphere sphereAround(
+    int number, const QueryTree& tree, const RigidMotion& motion, double end)
+{
+    detail::BodySphere sphere = sphereAround(number, tree, motion.at(0.5 * end));
+    const Vec3d start = motion.start() * tree.center();
+    const double turned = motion.radians() * motion.axis().cross(start - motion.point()).length();
+    const double way = end * std::hypot(turned, motion.slide());
+    detail::requireWay(way);
+    sphere.radius += 0.5 * way + detail::kPlaceRounding * (start.length() + way);
+    return sphere;
+}
+
+/// Runs @a ask of two bodies; an error names them.
+template <typename Ask>
+auto naming(int a, int b, const Ask& ask)
+{
+    try {
+        return ask();
+    } catch (const openvdb::ValueError& error) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "bodies " << a << " and " << b << ": " << detail::messageOf(error));
+    }
+}
 
 } // namespace
 
-QueryScene::Body QueryScene::placed(const QueryTree& tree, const RigidTransform& pose)
-{
-    Body body{tree, pose, pose * tree.center(), tree.radius()};
-    const double size = tree.center().length() + pose.translation().length() + tree.radius();
-    body.radius += kRounding * size;
-    return body;
-}
-
 int QueryScene::add(const QueryTree& tree, const RigidTransform& pose)
 {
-    mBodies.push_back(placed(tree, pose));
+    mBodies.push_back(Body{tree, pose});
     return size() - 1;
 }
 
@@ -68,7 +92,8 @@ const QueryScene::Body& QueryScene::body(int number) const
 
 void QueryScene::setPose(int number, const RigidTransform& pose)
 {
-    mBodies[std::size_t(number)] = placed(body(number).tree, pose);
+    body(number);
+    mBodies[std::size_t(number)]->pose = pose;
 }
 
 const RigidTransform& QueryScene::pose(int number) const { return body(number).pose; }
@@ -87,51 +112,21 @@ bool QueryScene::isIgnored(int a, int b) const
     return mIgnored.count(sorted(a, b)) > 0;
 }
 
-/// The axis along which centers spread most: by their variance.
-int QueryScene::widestAxis() const
+QueryScene::Pairs QueryScene::withoutIgnored(Pairs pairs) const
 {
-    const auto count = std::count_if(
-        mBodies.begin(), mBodies.end(), [](const auto& body) { return body.has_value(); });
-    Vec3d mean(0.0), variance(0.0);
-    for (const auto& body : mBodies) {
-        if (body) mean += body->center / double(count);
-    }
-    for (const auto& body : mBodies) {
-        if (!body) continue;
-        const Vec3d off = body->center - mean;
-        variance += off * off;
-    }
-    return int(
-        std::max_element(variance.asPointer(), variance.asPointer() + 3) - variance.asPointer());
+    const auto isOut = [&](const Pair& pair) { return mIgnored.count(pair) > 0; };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isOut), pairs.end());
+    return pairs;
 }
 
 std::vector<Pair> QueryScene::nearPairs(double margin) const
 {
     detail::requireLength(margin, "the margin");
-    const int axis = widestAxis();
-    const auto low = [&](int i) { return body(i).center[axis] - body(i).radius; };
-    std::vector<int> order;
+    std::vector<detail::BodySphere> spheres;
     for (int i = 0; i < size(); ++i) {
-        if (has(i)) order.push_back(i);
+        if (has(i)) spheres.push_back(sphereAround(i, tree(i), pose(i)));
     }
-    std::sort(order.begin(), order.end(),
-        [&](int a, int b) { return std::make_pair(low(a), a) < std::make_pair(low(b), b); });
-    std::vector<Pair> pairs;
-    for (auto first = order.begin(); first != order.end(); ++first) {
-        const Body& a = body(*first);
-        const double end = a.center[axis] + a.radius + margin;
-        const double rounding = kRounding * (std::abs(end) + a.radius + margin);
-        for (auto second = first + 1; second != order.end(); ++second) {
-            if (low(*second) > end + rounding) break;
-            const Body& b = body(*second);
-            const double reach = a.radius + b.radius + margin;
-            if ((a.center - b.center).length() > reach * (1 + kRounding)) continue;
-            const Pair pair = sorted(*first, *second);
-            if (!mIgnored.count(pair)) pairs.push_back(pair);
-        }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
+    return withoutIgnored(detail::sweepPairs(std::move(spheres), margin));
 }
 
 std::vector<ScenePair> QueryScene::touchingPairs(
@@ -143,15 +138,50 @@ std::vector<ScenePair> QueryScene::touchingPairs(
     std::vector<ScenePair> pairs(near.size());
     detail::parallelFor(near.size(), interrupter, [&](std::size_t i) {
         const auto [a, b] = near[i];
-        try {
-            pairs[i] = {a, b, collide(tree(a), pose(a), tree(b), pose(b), ofPair)};
-        } catch (const openvdb::ValueError& error) {
-            OPENVDB_THROW(openvdb::ValueError,
-                "bodies " << a << " and " << b << ": " << detail::messageOf(error));
-        }
+        ScenePair& pair = pairs[i];
+        pair.a = a, pair.b = b;
+        auto* const contacts = request.maxContacts > 1 ? &pair.contacts : nullptr;
+        pair.result = naming(a, b, [&, a = a, b = b] {
+            return collide(tree(a), pose(a), tree(b), pose(b), ofPair, contacts);
+        });
     });
     const auto isApart = [](const ScenePair& p) { return p.result.verdict == Verdict::Apart; };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isApart), pairs.end());
+    return pairs;
+}
+
+std::vector<MovingPair> QueryScene::firstContacts(const std::vector<RigidMotion>& motions,
+    const ContinuousCollisionRequest& request, openvdb::util::NullInterrupter* interrupter) const
+{
+    if (int64_t(motions.size()) != size()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the scene has " << size() << " bodies, and there are " << motions.size()
+                             << " motions: give one a body, by number");
+    }
+    double largestRadius = 0;
+    for (int i = 0; i < size(); ++i) {
+        if (has(i)) largestRadius = std::max(largestRadius, tree(i).radius());
+    }
+    // Bodies that pass within the tolerance may be found to touch. No pair's own is larger than this.
+    const detail::MotionLimits limits = detail::motionLimits(request, largestRadius);
+    std::vector<detail::BodySphere> spheres;
+    for (int i = 0; i < size(); ++i) {
+        if (has(i))
+            spheres.push_back(sphereAround(i, tree(i), motions[std::size_t(i)], limits.end));
+    }
+    const Pairs near = withoutIgnored(detail::sweepPairs(std::move(spheres), limits.tolerance));
+    std::vector<MovingPair> pairs(near.size());
+    detail::parallelFor(near.size(), interrupter, [&](std::size_t i) {
+        const auto [a, b] = near[i];
+        pairs[i] = {a, b, naming(a, b, [&, a = a, b = b] {
+                        return continuousCollide(tree(a), motions[std::size_t(a)], tree(b),
+                            motions[std::size_t(b)], request);
+                    })};
+    });
+    const auto isFree = [](const MovingPair& p) {
+        return !p.result.isCollide && p.result.isDecided;
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isFree), pairs.end());
     return pairs;
 }
 

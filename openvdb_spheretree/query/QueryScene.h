@@ -10,19 +10,20 @@
 /// Bodies of one shape share its QueryTree. Pairs that are never asked about are ignored: neighbouring links of a
 /// robot, or two bodies that do not move.
 ///
-/// *How.* The sphere around each body (QueryTree::center()) is brought to the world. Along the axis on which their
-/// centers spread most, the spheres are intervals; these are sorted by where they begin, and swept (D. Baraff,
-/// "Dynamic Simulation of Non-Penetrating Rigid Bodies", 1992, without his coherence in time). Pairs that overlap there and as spheres may touch, and collide() decides. Sorting anew takes
-/// less than one narrow question a body, so nothing is kept from pose to pose, and answers depend on
-/// the poses alone.
+/// *How.* The sphere around each body (QueryTree::center()), and all the way that it goes, is brought to the world. Pairs
+/// whose spheres overlap (SweepPairs.h) may touch, and collide() or continuousCollide() decides. Finding them anew takes
+/// less than one narrow question a body, so nothing is kept from pose to pose, and answers depend on the poses alone.
 ///
-/// Cost: O(n log n) of n bodies, and the pairs that overlap along the axis; then collide(), in parallel. Results are the same for any
-/// number of threads. Asking is thread-safe, changing is not. Tests: TestQueryScene.cc, against all pairs.
+/// Cost: as SweepPairs.h, then the narrow questions, in parallel. Results are the same for any
+/// number of threads. Asking is thread-safe, changing is not. Tests: TestQueryScene.cc and TestSceneMotions.cc, against
+/// all pairs.
 
 #pragma once
 
 #include "Collide.h"
+#include "ContinuousCollide.h"
 #include "QueryTree.h"
+#include "RigidMotion.h"
 #include "RigidTransform.h"
 
 #include <openvdb/util/NullInterrupter.h>
@@ -39,6 +40,14 @@ namespace openvdb_spheretree {
 struct ScenePair {
     int a = -1, b = -1;
     CollisionResult result;
+    std::vector<Contact>
+        contacts; ///< up to maxContacts of the request, the deepest first, if more than one is asked for
+};
+
+/// Two bodies that move, a < b, and when they first touch.
+struct MovingPair {
+    int a = -1, b = -1;
+    ContinuousCollisionResult result;
 };
 
 class QueryScene {
@@ -75,17 +84,26 @@ public:
     std::vector<ScenePair> touchingPairs(const CollisionRequest& request = {},
         openvdb::util::NullInterrupter* interrupter = nullptr) const;
 
+    /// @brief All bodies move at the same time, each on its own way; their poses take no part.
+    /// @param motions  one a body, by number; that of a body that was removed takes no part
+    /// @return all pairs that touch on their way, each with the time at which it first does, sorted by bodies; and with
+    ///         request.maxBlocks those that are undecided. No voxel cubes of other pairs meet, where trees hold their
+    ///         objects, and no leaf spheres, where they hold their leaves: as continuousCollide() has it.
+    /// @throw openvdb::ValueError if there are not as many motions as size(), and as continuousCollide(), naming the pair;
+    ///        Interrupted
+    std::vector<MovingPair> firstContacts(const std::vector<RigidMotion>& motions,
+        const ContinuousCollisionRequest& request = {},
+        openvdb::util::NullInterrupter* interrupter = nullptr) const;
+
 private:
     struct Body {
         QueryTree tree;
         RigidTransform pose;
-        openvdb::Vec3d center; ///< of the sphere around it, in the world
-        double radius;         ///< of the same, with what rounding may have moved it by
     };
+    using Pairs = std::vector<std::pair<int, int>>;
 
-    static Body placed(const QueryTree& tree, const RigidTransform& pose);
     const Body& body(int number) const;
-    int widestAxis() const;
+    Pairs withoutIgnored(Pairs pairs) const;
 
     std::vector<std::optional<Body>> mBodies; ///< by number; none where it was removed
     std::set<std::pair<int, int>> mIgnored;

@@ -18,17 +18,17 @@ exceptions: `InputError`, which is a ValueError, for arguments; OSError for file
 
 from ._build import build
 from ._export import ExportFormat, export, export_formats
-from ._query import Collisions, Distances, Hits, Nearest, Query
+from ._query import Collisions, Distances, FirstContacts, Hits, Nearest, Query
 from ._spheretree import InputError
 from ._spheretree import version as __version__
 from ._transforms import distance_transform, medial_axis, pyramid
-from ._tree import Fault, Level, Tree, check, load, read_points
+from ._tree import Fault, Level, Tree, check, check_mesh, load, read_points
 from ._volume import Volume, volume
 
 __all__ = [
-    "Collisions", "Distances", "ExportFormat", "Fault", "Hits", "InputError", "Level", "Nearest", "Query", "Tree", "Volume",
-    "build", "check", "distance_transform", "export", "export_formats", "load", "medial_axis", "pyramid", "read_points",
-    "volume", "__version__",
+    "Collisions", "Distances", "ExportFormat", "Fault", "FirstContacts", "Hits", "InputError", "Level", "Nearest",
+    "Query", "Tree", "Volume", "build", "check", "check_mesh", "distance_transform", "export", "export_formats",
+    "load", "medial_axis", "pyramid", "read_points", "volume", "__version__",
 ]
-for _type in (Collisions, Distances, ExportFormat, Fault, Hits, Level, Nearest, Query, Tree, Volume):
+for _type in (Collisions, Distances, ExportFormat, Fault, FirstContacts, Hits, Level, Nearest, Query, Tree, Volume):
     _type.__module__ = __name__

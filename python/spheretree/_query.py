@@ -35,6 +35,21 @@ class Collisions(NamedTuple):
     """Of both spheres in their trees: shape (..., 2)."""
 
 
+class FirstContacts(NamedTuple):
+    """When two trees first touch, for each motion. Where they do not, numbers are NaN and ids -1."""
+
+    time: npt.NDArray[np.float64]
+    """From 0 to 1 along the way. No voxels of the two meet before."""
+    distance: npt.NDArray[np.float64]
+    """Of the two spheres that meet, at that time."""
+    points: npt.NDArray[np.float64]
+    """The middle between them: shape (..., 3)."""
+    normals: npt.NDArray[np.float64]
+    """From the first tree's sphere to the second's, of length 1: shape (..., 3)."""
+    ids: npt.NDArray[np.int32]
+    """Of both spheres in their trees: shape (..., 2)."""
+
+
 class Distances(NamedTuple):
     """How far two trees are apart, for each pose. Where nothing is near enough, points are NaN and ids -1."""
 
@@ -85,6 +100,11 @@ def _shaped(shape: tuple[int, ...], arrays: tuple[Any, ...]) -> list[Any]:
     return [array.reshape(shape + array.shape[1:]) for array in arrays]
 
 
+def _require_query(other: object) -> None:
+    if not isinstance(other, Query):
+        raise TypeError(f"other must be a spheretree.Query, not {type(other).__name__}")
+
+
 class Query:
     """A tree made ready for questions: `Tree.query()` makes it. It never changes, and threads may share it.
 
@@ -104,8 +124,7 @@ class Query:
         return f"<spheretree.Query of {self._handle.leaf_count:,} spheres>"
 
     def _pair(self, other: Query, pose: npt.ArrayLike | None) -> tuple[Any, Any]:
-        if not isinstance(other, Query):
-            raise TypeError(f"other must be a spheretree.Query, not {type(other).__name__}")
+        _require_query(other)
         return _rows("pose", np.eye(4) if pose is None else pose, (4, 4))
 
     def collide(
@@ -140,6 +159,51 @@ class Query:
         poses, shape = self._pair(other, pose)
         answers = self._handle.collide(other._handle, poses, margin, objects, progress, thread_count(threads))
         return Collisions(*_shaped(shape, answers))
+
+    def continuous_collide(
+        self, other: Query, start: npt.ArrayLike, end: npt.ArrayLike, *, own_start: npt.ArrayLike | None = None,
+        own_end: npt.ArrayLike | None = None, tolerance: float = 0, progress: Progress = None,
+        threads: int | None = None,
+    ) -> FirstContacts:
+        """When two trees first touch, as one or both move. Nothing is sampled.
+
+        Parameters
+        ----------
+        other
+            The tree that moves.
+        start, end
+            Its poses in the world, as of `collide()`: it goes from the one to the other along a line, or where it
+            turns along a screw, by half a turn at most.
+        own_start, own_end
+            The same of this tree, at the same time. By default it stands still where it was stored, or at `own_start`.
+            Shapes in front of all these poses are broadcast, as numpy does it.
+        tolerance
+            How far apart the spheres may be at the time that is found. 0: a ten-thousandth of the smaller tree's radius.
+        progress, threads
+            As for `build()`.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query()
+        >>> start, end = numpy.eye(4), numpy.eye(4)
+        >>> start[0, 3], end[0, 3] = -30, 30
+        >>> bool(0.25 < cube.continuous_collide(cube, start, end).time < 22 / 60)
+        True
+        """
+        _require_query(other)
+        own_start = np.eye(4) if own_start is None else own_start
+        own_end = own_start if own_end is None else own_end
+        ways = {"own_start": own_start, "own_end": own_end, "start": start, "end": end}
+        shapes = [_rows(name, poses, (4, 4))[1] for name, poses in ways.items()]
+        try:
+            shape = np.broadcast_shapes(*shapes)
+        except ValueError:
+            told = ", ".join(f"{name} {front}" for name, front in zip(ways, shapes))
+            raise InputError(f"shapes in front of the poses cannot be broadcast: {told}")
+        poses = [_rows(name, np.broadcast_to(pose, (*shape, 4, 4)), (4, 4))[0] for name, pose in ways.items()]
+        answers = self._handle.continuous_collide(other._handle, *poses, tolerance, progress, thread_count(threads))
+        return FirstContacts(*_shaped(shape, answers))
 
     def distance(
         self, other: Query, pose: npt.ArrayLike | None = None, *, signed: bool = False, upto: float = np.inf,

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._query import Query
-from ._volume import Progress, VolumeLike, readable, thread_count
+from ._volume import Progress, VolumeLike, is_mesh_file, readable, thread_count, unit_of_length
 from ._volume import volume as as_volume
 
 
@@ -214,6 +214,10 @@ class Tree:
         """`check()` of this tree."""
         return check(self, volume, **keywords)
 
+    def check_mesh(self, path: str | os.PathLike[str], volume: VolumeLike | None = None, **keywords: Any) -> list[Fault]:
+        """`check_mesh()` of this tree."""
+        return check_mesh(self, path, volume, **keywords)
+
     @functools.cached_property
     def _about(self) -> dict[str, Any]:
         about: dict[str, Any] = json.loads(self._handle.description)
@@ -314,8 +318,55 @@ def check(
     >>> spheretree.check(spheretree.build(cube, [8, 1]), cube)
     []
     """
+    _require_tree(tree)
+    own = as_volume(volume, threads=threads, **keywords)
+    return _faults(_spheretree.check(tree._handle, own._handle, progress, thread_count(threads)))
+
+
+def check_mesh(
+    tree: Tree, path: str | os.PathLike[str], volume: VolumeLike | None = None, *, units: str | None = None,
+    progress: Progress = None, threads: int | None = None, **keywords: Any,
+) -> list[Fault]:
+    """Whether every point of every triangle of a mesh lies in the stored spheres of a tree, on every level.
+
+    Parameters
+    ----------
+    tree
+        Any tree, built or loaded, but those inside the object.
+    path
+        A mesh file, as for `volume()`.
+    volume
+        What the tree was built over, and further keywords, as for `build()`. Then all of `check()` is made first, and
+        voxel cubes count that spheres are known to hold. Without it spheres must hold the triangles by themselves.
+    units
+        That the file is in, such as ``"mm"``: its points become metres; and so do those of a volume that is a mesh
+        file, too.
+    progress, threads
+        As for `build()`.
+
+    Returns
+    -------
+    list of Fault
+        A level that leaves some of the mesh uncovered, with how much and where, and what `check()` finds; empty if there
+        is nothing, which is a proof.
+    """
+    _require_tree(tree)
+    own = None
+    if volume is not None:
+        if units is not None and is_mesh_file(volume):
+            keywords = {"units": units, **keywords}
+        own = as_volume(volume, threads=threads, **keywords)
+    elif keywords:
+        raise TypeError(f"{next(iter(keywords))} is of a volume, and there is none")
+    unit = "" if units is None else unit_of_length(units)
+    handle = None if own is None else own._handle
+    return _faults(_spheretree.check_mesh(tree._handle, readable(path), unit, handle, progress, thread_count(threads)))
+
+
+def _require_tree(tree: object) -> None:
     if not isinstance(tree, Tree):
         raise TypeError(f"tree must be a spheretree.Tree, not {type(tree).__name__}")
-    own = as_volume(volume, threads=threads, **keywords)
-    faults = _spheretree.check(tree._handle, own._handle, progress, thread_count(threads))
-    return [Fault(kind, sentence) for kind, sentence in faults]
+
+
+def _faults(pairs: list[tuple[str, str]]) -> list[Fault]:
+    return [Fault(kind, sentence) for kind, sentence in pairs]

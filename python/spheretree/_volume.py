@@ -395,22 +395,33 @@ def _refuse(keywords: dict[str, Any], why: str) -> None:
             raise InputError(f"{name} is {why}")
 
 
+def is_mesh_file(volume: object) -> bool:
+    """Whether it is a path, and one of a file that is no volume."""
+    return isinstance(volume, (str, os.PathLike)) and not os.fspath(volume).lower().endswith((".vdb", ".vol", ".longvol"))
+
+
+def unit_of_length(units: object) -> str:
+    """The name of a unit; which there are the command knows."""
+    if not isinstance(units, str):
+        raise TypeError(f"units must be a str, not {type(units).__name__}")
+    if not units:
+        raise InputError("units='' names no unit")
+    return units
+
+
 def _of_file(
     path: str | os.PathLike[str], of_files: dict[str, Any], wanted: dict[str, Any], progress: Progress,
     threads: int | None,
 ) -> Volume:
     given = {name: value for name, value in of_files.items() if value is not None}
-    is_mesh = not os.fspath(path).lower().endswith((".vdb", ".vol", ".longvol"))
+    is_mesh = is_mesh_file(path)
     for name in ("units", "voxel", "resolution", "gap"):
         if name not in given:
             continue
         if not is_mesh:
             raise InputError(f"{name} is of meshes, and {os.fspath(path)} is none")
         if name == "units":
-            if not isinstance(given[name], str):
-                raise TypeError(f"units must be a str, not {type(given[name]).__name__}")
-            if not given[name]:
-                raise InputError("units='' names no unit")
+            unit_of_length(given[name])
             continue
         if _number(name, given[name]) <= 0:
             raise InputError(f"{name}={given[name]} is out of range: it takes numbers above 0")

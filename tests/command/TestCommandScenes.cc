@@ -211,11 +211,103 @@ TEST_F(CommandScenes, WhatIsNotExpectedIsExitCodeSix)
     EXPECT_EQ(ask("blocks=1 expect=apart").exitCode, 6);
 }
 
+TEST_F(CommandScenes, ContactsOfPairsAreThoseOfEveryTwo)
+{
+    ASSERT_EQ(
+        run("-quiet -read block.vdb ring.vdb -collide contacts=4 json=pair.json").exitCode, 0);
+    const json pair = json::parse(readText(path("pair.json")))["answers"];
+    ASSERT_EQ(pair.size(), 4u);
+    std::size_t found = 0;
+    for (const json& one : answers("contacts=4")) {
+        if (one["body_a"] != "block" || one["body_b"] != "ring") continue;
+        ASSERT_LT(found, pair.size());
+        EXPECT_EQ(one["contact"], found);
+        for (const char* same : {"distance", "x", "nx", "a", "b"}) {
+            EXPECT_EQ(one[same], pair[found][same]) << same;
+        }
+        ++found;
+    }
+    EXPECT_EQ(found, pair.size());
+    // They are lines, and no pairs.
+    EXPECT_TRUE(mentions(ask("contacts=4").out, "; 3 trees, 3 pairs touching"));
+    writeText(path("one.csv"), "body,x,y,z\nring,90,0,0\nball,190,0,0\n");
+    const Result apart = ask("poses=one.csv contacts=4 csv=-");
+    EXPECT_TRUE(mentions(apart.out, "\n0,,,apart,apart,,,,,,,,,,,\n")) << apart.out;
+}
+
+/// Block stands still, the others go along lines: as one sees the other, one moves.
+TEST_F(CommandScenes, WaysFromFrameToFrameAreThoseOfEveryTwo)
+{
+    const std::vector<std::array<Place, 2>> places = {// of ball and ring
+        {Place{60, 0, 0}, Place{0, 80, 0}}, {Place{0, 1, 0}, Place{0, 60, 3}},
+        {Place{-60, 2, 1}, Place{-50, 0, 3}}, {Place{-90, 0, 0}, Place{90, 0, 0}}};
+    std::string scene = "frame,body,x,y,z,rx,ry,rz\n";
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t b = 0; b < 2; ++b) {
+            scene += std::to_string(10 + i) + "," + kNames[b + 1] + "," + places[i][b].row();
+        }
+    }
+    writeText(path("scene.csv"), scene);
+    std::map<Texts, json> expected; // by frame and names
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+        const auto at = [&](int body, std::size_t i) {
+            return body == 0 ? Place() : places[i][std::size_t(body - 1)];
+        };
+        std::string poses = "x,y,z,rx,ry,rz\n";
+        for (std::size_t i = 0; i < places.size(); ++i) poses += at(b, i).seenFrom(at(a, i)).row();
+        writeText(path("pair.csv"), poses);
+        const Texts names = {kNames[std::size_t(a)], kNames[std::size_t(b)]};
+        const Result result = run("-quiet -read " + names[0] + ".vdb " + names[1]
+            + ".vdb -collide motion=1 poses=pair.csv json=pair.json");
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+        for (const json& one : json::parse(readText(path("pair.json")))["answers"]) {
+            if (one["spheres"] != "touching") continue;
+            expected[{std::to_string(10 + int(one["motion"])), names[0], names[1]}] = one;
+        }
+    }
+    ASSERT_GE(expected.size(), 4u);
+    std::size_t found = 0;
+    for (const json& one : answers("motion=1 poses=scene.csv")) {
+        if (one["body_a"].is_null()) {
+            EXPECT_EQ(one["spheres"], "apart");
+            continue;
+        }
+        const Texts key = {std::to_string(int(one["frame"])), one["body_a"], one["body_b"]};
+        ASSERT_TRUE(expected.count(key)) << key[0] << " " << key[1] << " " << key[2];
+        const json& pair = expected[key];
+        for (const char* same : {"spheres", "a", "b"}) EXPECT_EQ(one[same], pair[same]) << same;
+        EXPECT_NEAR(one["time"], double(pair["time"]), 1e-5);
+        EXPECT_NEAR(one["free_until"], double(pair["free_until"]), 1e-5);
+        ++found;
+    }
+    EXPECT_EQ(found, expected.size());
+    const Result table = ask("motion=1 poses=scene.csv");
+    EXPECT_TRUE(mentions(table.out, "3 motions: ")) << table.out;
+    EXPECT_TRUE(
+        mentions(table.out, "; 3 trees, " + std::to_string(expected.size()) + " pairs touching"))
+        << table.out;
+    // Between frames all are apart: only the ways tell.
+    EXPECT_EQ(ask("poses=scene.csv vdb=ball,ring expect=apart").exitCode, 0);
+    const Result meets = ask("motion=1 poses=scene.csv vdb=ball,ring expect=apart");
+    EXPECT_EQ(meets.exitCode, 6);
+    EXPECT_TRUE(mentions(meets.err, "the first: motion 11 is touching")) << meets.err;
+    EXPECT_EQ(answers("motion=1 poses=scene.csv blocks=1").at(0)["spheres"], "undecided");
+}
+
+TEST_F(CommandScenes, WaysNeedFrames)
+{
+    expectRefusal("motion=1", 2, "motion=1 of a scene needs poses=");
+    writeText(path("one.csv"), "body,x,y,z\nring,90,0,0\n");
+    expectRefusal("motion=1 poses=one.csv", 3, "goes from frame to frame, and the file holds one");
+    for (const char* other : {"margin=1", "contacts=2", "objects=1"}) {
+        expectRefusal(std::string("motion=1 poses=one.csv ") + other, 2, "motion and ");
+    }
+    expectRefusal("poses=one.csv tolerance=1", 2, "add motion=1");
+}
+
 TEST_F(CommandScenes, QuestionsThatAreNoneAreRefusedWithTheReason)
 {
-    for (const char* other : {"motion=1", "contacts=3", "translate=1,0,0", "scale=2"}) {
-        expectRefusal(other, 2, "scene and ");
-    }
+    for (const char* other : {"translate=1,0,0", "scale=2"}) expectRefusal(other, 2, "scene and ");
     const std::string read = "-read block.vdb ball.vdb ring.vdb -collide ";
     EXPECT_TRUE(mentions(run(read + "ignore=0:1 vdb=0,1").err, "ignore is of a scene"));
     EXPECT_TRUE(mentions(run(read).err, "or ask all with scene=1"));

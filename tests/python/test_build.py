@@ -152,6 +152,44 @@ def test_check_finds_nothing_in_a_sound_tree_and_something_in_another_object(bon
     assert "place" in [fault.kind for fault in tree.check(bone, anisotropy=2)]
 
 
+TETRAHEDRON = "v 0 0 0\nv 10 0 0\nv 0 15 0\nv 0 0 30\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+def test_a_mesh_lies_in_the_spheres_of_every_level_or_is_told_where_not(tmp_path):
+    path = tmp_path / "t.obj"
+    path.write_text(TETRAHEDRON)
+    read = {"resolution": 40, "coverage": "cubes"}
+    tree = spheretree.build(path, [16, 2], quality="fast", units="mm", **read)
+    assert tree.check_mesh(path, units="mm") == []
+    assert tree.check_mesh(path, path, units="mm", **read) == [] == spheretree.check_mesh(tree, path, units="mm")
+    assert tree.check_mesh(path, spheretree.volume(path, units="mm", **read), units="mm") == []
+    # Cubes of another object are no proof.
+    assert tree.check_mesh(path, path, units="mm", resolution=60, coverage="cubes")
+    (tmp_path / "more.obj").write_text(TETRAHEDRON + "v 0 0 -9\nf 1 2 5\n")
+    faults = tree.check_mesh(tmp_path / "more.obj", units="mm")
+    assert [fault.kind for fault in faults] == ["surface"] * 2 and "level 0" in faults[0].sentence
+    assert tree.check_mesh(path)  # in metres
+
+
+def test_proofs_of_meshes_that_cannot_be_made(tmp_path, bone):
+    path = tmp_path / "t.obj"
+    path.write_text(TETRAHEDRON)
+    tree = spheretree.build(bone, [8], quality="fast")
+    with pytest.raises(spheretree.InputError, match="units="):
+        tree.check_mesh(path, units="inch")
+    with pytest.raises(TypeError, match="coverage is of a volume"):
+        tree.check_mesh(path, coverage="cubes")
+    with pytest.raises(TypeError, match="tree must be"):
+        spheretree.check_mesh(bone, path)
+    with pytest.raises(FileNotFoundError):
+        tree.check_mesh(tmp_path / "none.obj")
+    (tmp_path / "bad.obj").write_text("v 0 0\n")
+    with pytest.raises(OSError, match="bad.obj"):
+        tree.check_mesh(tmp_path / "bad.obj")
+    with pytest.raises(spheretree.InputError, match="inside"):
+        spheretree.build(bone, [8], side="inner").check_mesh(path)
+
+
 def test_a_level_and_a_cut_are_trees(bone):
     tree = spheretree.build(bone, [32, 8, 1], cuts=True)
     level = tree.level(1)

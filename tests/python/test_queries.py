@@ -49,6 +49,70 @@ def test_distances_are_those_of_all_pairs(tree):
     assert np.isinf(near.distance[found.distance > 1]).all() and np.isnan(near.points_a[found.distance > 1]).all()
 
 
+def on_the_way(start, end, time):
+    """A pose of a motion that does not turn."""
+    return start + time * (end - start)
+
+
+def test_nothing_meets_before_the_first_contact(tree):
+    query = tree.query()
+    start, end = np.tile(np.eye(4), (40, 1, 1)), np.tile(np.eye(4), (40, 1, 1))
+    random = np.random.default_rng(5)
+    start[:, :3, 3] = random.uniform(-40, 40, (40, 3))
+    end[:, :3, 3] = -start[:, :3, 3] + random.uniform(-12, 12, (40, 3))
+    found = query.continuous_collide(query, start, end, tolerance=1e-3)
+    meets = ~np.isnan(found.time)
+    assert meets.sum() > 5 and (found.ids[meets] >= 0).all() and (found.ids[~meets] == -1).all()
+    for i in range(40):
+        for time in np.linspace(0, 1, 9) * (found.time[i] if meets[i] else 1):
+            least = gaps(tree, on_the_way(start[i], end[i], time)).min()
+            assert least > -1e-4
+        if meets[i]:
+            assert gaps(tree, on_the_way(start[i], end[i], found.time[i])).min() < 1e-3 + 1e-4
+    # Where each goes half of the way it is the same, and so it is for a tree that stands elsewhere.
+    middle = 0.5 * (start - end) * [[0, 0, 0, 1]] + np.eye(4)
+    half = query.continuous_collide(
+        query, start, on_the_way(start, end, 0.5), own_end=middle, tolerance=1e-3)
+    assert np.allclose(half.time, found.time, atol=1e-4, equal_nan=True)
+    aside = np.eye(4)
+    aside[:3, 3] = [100, 2, 3]
+    there = query.continuous_collide(query, aside @ start, aside @ end, own_start=aside, tolerance=1e-3)
+    assert np.allclose(there.time, found.time, atol=1e-4, equal_nan=True)
+    turned = poses(1, seed=4)[0]
+    assert query.continuous_collide(query, turned, turned).time.shape == ()
+    assert query.continuous_collide(query, start.reshape(5, 8, 4, 4), turned).points.shape == (5, 8, 3)
+
+
+def turned_about_z(angle):
+    pose = np.eye(4)
+    pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return pose
+
+
+def test_a_turn_meets_what_its_poses_meet(tree):
+    query, start = tree.query(), np.eye(4)
+    start[:3, 3] = [30, -60, 0]
+    found = query.continuous_collide(query, start, turned_about_z(2.5) @ start, tolerance=1e-4)
+    assert 0.05 < found.time < 0.95
+    at = [turned_about_z(2.5 * (found.time + step)) @ start for step in (-1e-3, 1e-3)]
+    assert list(query.collide(query, np.array(at)).spheres) == [-1, 1]
+    # The same, as the other one sees it.
+    own = query.continuous_collide(query, np.eye(4), np.eye(4), own_start=start, own_end=turned_about_z(2.5) @ start)
+    assert own.time == pytest.approx(found.time, abs=1e-3)
+
+
+def test_motions_that_mean_nothing(tree):
+    query = tree.query()
+    with pytest.raises(spheretree.InputError, match="own_end"):
+        query.continuous_collide(query, np.eye(4), np.eye(4), own_end=np.eye(3))
+    with pytest.raises(spheretree.InputError, match="cannot be broadcast"):
+        query.continuous_collide(query, np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1)))
+    with pytest.raises(spheretree.InputError, match="tolerance"):
+        query.continuous_collide(query, np.eye(4), np.eye(4), tolerance=-1)
+    with pytest.raises(TypeError, match="other must be"):
+        query.continuous_collide(tree, np.eye(4), np.eye(4))
+
+
 def test_collisions_are_those_of_all_pairs(tree):
     query, moved = tree.query(), poses(60, seed=2)
     least = np.array([gaps(tree, pose).min() for pose in moved])

@@ -154,6 +154,7 @@ void runCollide(const ActionCall& call, Session& session)
     if (call.flag("scene")) {
         const std::vector<QueryBody> bodies = bodiesOf(call, session, kAnyTrees);
         noteWhatIsUnknown(call, bodies, session);
+        if (call.flag("motion")) return giveSceneMotionAnswers(call, session, bodies);
         return giveSceneAnswers(call, session, bodies, collisionRequest(call));
     }
     const PairQuestion question(call, session);
@@ -188,12 +189,14 @@ ActionSpec collideAction()
             "search on, until it is known of the objects too, the voxels themselves, whether they "
             "touch, or nobody can know by spheres"),
         integer("contacts", "", 2, 1000000,
-            "of a pose that touches, give up to so many pairs of spheres that do, the deepest "
+            "of a pose, or of two trees of a scene, that touch, give up to so many pairs of "
+            "spheres that do, the deepest "
             "first, a line each"),
         flag("motion", false,
             "find when the second tree first touches the first one on its way from each pose of "
             "poses= to the next, or from where it is to the one pose: along a line, or where it "
-            "turns a screw, by half a turn at most; time runs from 0 to 1, and nothing is sampled"),
+            "turns a screw, by half a turn at most; time runs from 0 to 1, and nothing is sampled; "
+            "of a scene, all trees go at the same time, from each frame to the next"),
         length("tolerance", "0", 0, 1e30,
             "with motion=1: how far apart spheres may be at the time of contact; 0: a "
             "ten-thousandth of the smaller tree's radius")};

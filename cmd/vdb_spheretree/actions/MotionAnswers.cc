@@ -38,23 +38,6 @@ std::vector<RigidMotion> motionsOf(const ActionCall& call, const PairQuestion& q
     return motions;
 }
 
-Verdict verdictOf(const ContinuousCollisionResult& result)
-{
-    if (result.isCollide) return Verdict::Touching;
-    return result.isDecided ? Verdict::Apart : Verdict::Undecided;
-}
-
-Cells cellsOf(const ContinuousCollisionResult& result, double unit)
-{
-    Cells cells = {nameOf(verdictOf(result)),
-        result.isCollide ? Cell(result.timeOfContact) : Cell(), result.freeUntil};
-    const auto& contact = result.contact;
-    cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
-    addContact(cells, contact ? &*contact : nullptr, unit);
-    cells.push_back(result.blocks);
-    return cells;
-}
-
 std::string motionSummary(
     const std::vector<ContinuousCollisionResult>& results, const Verdicts& verdicts)
 {
@@ -83,12 +66,35 @@ void checkMotion(const ActionCall& call)
     }
 }
 
-void giveMotionAnswers(const ActionCall& call, Session& session, const PairQuestion& question)
+Verdict verdictOf(const ContinuousCollisionResult& result)
 {
-    const std::vector<RigidMotion> motions = motionsOf(call, question);
+    if (result.isCollide) return Verdict::Touching;
+    return result.isDecided ? Verdict::Apart : Verdict::Undecided;
+}
+
+Cells motionCells(const ContinuousCollisionResult& result, double unit)
+{
+    Cells cells = {nameOf(verdictOf(result)),
+        result.isCollide ? Cell(result.timeOfContact) : Cell(), result.freeUntil};
+    const auto& contact = result.contact;
+    cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
+    addContact(cells, contact ? &*contact : nullptr, unit);
+    cells.push_back(result.blocks);
+    return cells;
+}
+
+spheretree::ContinuousCollisionRequest motionRequest(const ActionCall& call)
+{
     spheretree::ContinuousCollisionRequest request;
     request.tolerance = lengthOf(call, "tolerance");
     request.maxBlocks = blocksOf(call);
+    return request;
+}
+
+void giveMotionAnswers(const ActionCall& call, Session& session, const PairQuestion& question)
+{
+    const std::vector<RigidMotion> motions = motionsOf(call, question);
+    const auto request = motionRequest(call);
     const auto results =
         answersOf<ContinuousCollisionResult>(motions.size(), session, [&](std::size_t i) {
             return spheretree::continuousCollide(
@@ -101,7 +107,7 @@ void giveMotionAnswers(const ActionCall& call, Session& session, const PairQuest
     sheet.columns = {"motion", "spheres", "time", "free_until", "distance", "x", "y", "z", "nx",
         "ny", "nz", "a", "b", "blocks"};
     sheet.row = [&](std::size_t i) {
-        Cells cells = cellsOf(results[i], question.unit);
+        Cells cells = motionCells(results[i], question.unit);
         cells.insert(cells.begin(), int64_t(i));
         return cells;
     };

@@ -3,6 +3,7 @@
 
 #include "base/Errors.h"
 #include "base/Terminal.h"
+#include "MotionAnswers.h"
 #include "PairQuestion.h"
 #include "Verdicts.h"
 
@@ -12,215 +13,132 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace command {
 
 namespace spheretree = openvdb_spheretree;
-using spheretree::BodyPose;
+using spheretree::CollisionRequest;
+using spheretree::CollisionResult;
+using spheretree::Contact;
+using spheretree::MovingPair;
 using spheretree::QueryScene;
-using spheretree::RigidTransform;
+using spheretree::RigidMotion;
 using spheretree::ScenePair;
 using spheretree::Verdict;
-using Bodies = std::vector<QueryBody>;
-using Pair = std::pair<std::string, std::string>;
 
 namespace {
 
-/// All bodies at one time.
-struct SceneFrame {
-    int64_t number = 0;
-    std::vector<RigidTransform> poses; ///< by body
+/// The pairs that do not come out as apart, frame by frame.
+template <typename Pair>
+using FrameAnswers = std::vector<std::vector<Pair>>;
+
+/// A line of answers: in which frame, of which pair of it, and which of its contacts.
+struct SceneRow {
+    std::size_t frame = 0, pair = 0, contact = 0;
 };
 
-/// Names, or ages on the stack, of a pair of ignore=.
-Pair pairOf(const std::string& typed)
+/// @param contacts  of a pair
+/// @return one row for each contact, for each pair without any, and for each frame without pairs.
+template <typename Pair, typename Contacts>
+std::vector<SceneRow> rowsOfFrames(const FrameAnswers<Pair>& answers, const Contacts& contacts)
 {
-    const std::size_t colon = typed.find(':');
-    const bool isPair = colon != typed.npos && colon > 0 && colon + 1 < typed.size()
-        && typed.find(':', colon + 1) == typed.npos;
-    if (!isPair) {
-        throwUsage("ignore=" + typed
-            + ": a pair is two trees with a colon between, by their age on the stack or name, such "
-              "as 1:0");
-    }
-    return {typed.substr(0, colon), typed.substr(colon + 1)};
-}
-
-/// @return the number of the body that is named so.
-/// @throw CommandError (input)
-int bodyOf(Session& session, const Bodies& bodies, const std::string& ageOrName)
-{
-    const StackItem& item = session.stack.selectTree(ageOrName);
-    const auto isIt = [&](const QueryBody& body) { return body.spheres == item.tree.get(); };
-    const auto found = std::find_if(bodies.begin(), bodies.end(), isIt);
-    if (found == bodies.end()) {
-        throwInput(item.description() + " is not in the scene: vdb= chooses others");
-    }
-    return int(found - bodies.begin());
-}
-
-QueryScene sceneOf(const ActionCall& call, Session& session, const Bodies& bodies)
-{
-    QueryScene scene;
-    for (const QueryBody& body : bodies) scene.add(body.tree);
-    for (const std::string& typed : call.list("ignore")) {
-        const Pair names = pairOf(typed);
-        const int a = bodyOf(session, bodies, names.first);
-        const int b = bodyOf(session, bodies, names.second);
-        if (a == b) throwInput("ignore=" + typed + ": that is one tree, not two");
-        scene.ignore(a, b);
-    }
-    return scene;
-}
-
-/// @throw CommandError (input) if there is no such body, or it has a place in this frame already
-void place(
-    const BodyPose& row, int body, double unit, std::vector<int64_t>& lines, SceneFrame& frame)
-{
-    int64_t& line = lines[std::size_t(body)];
-    if (line) {
-        throwInput("the tree '" + oneLine(row.body, 60) + "' is placed twice in frame "
-            + std::to_string(row.frame) + ", by line " + std::to_string(line)
-            + " before: a column 'frame' numbers what is at one time");
-    }
-    line = int64_t(row.line);
-    frame.poses[std::size_t(body)] =
-        RigidTransform(row.pose.rotation(), row.pose.translation() * unit);
-}
-
-/// A body stays where it was until a line places it anew.
-std::vector<SceneFrame> framesOf(const ActionCall& call, Session& session, const Bodies& bodies)
-{
-    SceneFrame frame{0, std::vector<RigidTransform>(bodies.size())};
-    if (!call.given("poses")) return {frame};
-    const double unit = unitOf(call);
-    std::vector<SceneFrame> frames;
-    std::vector<int64_t> lines; // that placed a body in this frame; 0: none
-    for (const BodyPose& row : rowsOf(call, "poses", session, spheretree::readBodyPoseTable)) {
-        if (frames.empty() || frames.back().number != row.frame) {
-            frames.push_back(frames.empty() ? frame : frames.back());
-            frames.back().number = row.frame;
-            lines.assign(bodies.size(), 0);
-        }
-        try {
-            place(row, bodyOf(session, bodies, row.body), unit, lines, frames.back());
-        } catch (...) {
-            rethrowNamed(call.text("poses") + ": line " + std::to_string(row.line), kInput);
+    std::vector<SceneRow> rows;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        if (answers[i].empty()) rows.push_back({i});
+        for (std::size_t k = 0; k < answers[i].size(); ++k) {
+            const std::size_t count = std::max(std::size_t(1), contacts(answers[i][k]));
+            for (std::size_t c = 0; c < count; ++c) rows.push_back({i, k, c});
         }
     }
-    return frames;
+    return rows;
 }
 
-/// Of one frame. @param which  of the spheres or the objects
-Verdict verdictOf(const std::vector<ScenePair>& pairs, Verdict spheretree::CollisionResult::*which)
+/// Of one frame. @param verdict  of a pair
+template <typename Pair, typename VerdictOf>
+Verdict worstOf(const std::vector<Pair>& pairs, const VerdictOf& verdict)
 {
-    Verdict verdict = Verdict::Apart;
-    for (const ScenePair& pair : pairs) {
-        if (pair.result.*which == Verdict::Touching) return Verdict::Touching;
-        if (pair.result.*which == Verdict::Undecided) verdict = Verdict::Undecided;
+    Verdict worst = Verdict::Apart;
+    for (const Pair& pair : pairs) {
+        if (verdict(pair) == Verdict::Touching) return Verdict::Touching;
+        if (verdict(pair) == Verdict::Undecided) worst = Verdict::Undecided;
     }
-    return verdict;
+    return worst;
 }
 
-/// What bodies are called: by their names, and by their ages where two have the same.
-std::vector<std::string> labelsOf(const Session& session, const Bodies& bodies)
+template <typename Pair, typename VerdictOf>
+Verdicts worstOfFrames(const FrameAnswers<Pair>& answers, const VerdictOf& verdict)
 {
-    std::vector<std::string> labels;
-    for (const QueryBody& body : bodies) {
-        const auto isOf = [&](const QueryBody& other) { return other.name == body.name; };
-        if (!body.name.empty() && std::count_if(bodies.begin(), bodies.end(), isOf) == 1) {
-            labels.push_back(body.name);
-            continue;
-        }
-        int age = 0;
-        const auto& items = session.stack.items();
-        for (auto item = items.rbegin(); (*item)->tree.get() != body.spheres; ++item) {
-            age += (*item)->mesh ? 0 : 1;
-        }
-        labels.push_back(std::to_string(age));
-    }
-    return labels;
+    Verdicts verdicts;
+    for (const auto& pairs : answers) verdicts.push_back(worstOf(pairs, verdict));
+    return verdicts;
 }
 
-/// @param pair  null: none touches in this frame
-Cells cellsOf(const SceneFrame& frame, const ScenePair* pair,
-    const std::vector<std::string>& labels, double unit)
+Verdict spheresOf(const ScenePair& pair) { return pair.result.verdict; }
+Verdict spheresOf(const MovingPair& pair) { return verdictOf(pair.result); }
+Verdict objectsOf(const ScenePair& pair) { return pair.result.objects; }
+
+/// How a line begins: the frame and the pair. @param pair  null: none touches in this frame
+template <typename Pair>
+Cells pairCells(const SceneFrame& frame, const Pair* pair, const std::vector<std::string>& labels)
 {
     Cells cells = {frame.number};
-    if (!pair) {
+    if (pair) {
+        cells.push_back(labels[std::size_t(pair->a)].c_str());
+        cells.push_back(labels[std::size_t(pair->b)].c_str());
+    } else {
         addNothing(cells, 2);
-        cells.insert(cells.end(), {nameOf(Verdict::Apart), nameOf(Verdict::Apart)});
-        addNothing(cells, 10);
-        return cells;
     }
-    const auto& result = pair->result;
-    const auto& contact = result.contact;
-    cells.insert(cells.end(),
-        {labels[std::size_t(pair->a)].c_str(), labels[std::size_t(pair->b)].c_str(),
-            nameOf(result.verdict), nameOf(result.objects)});
-    cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
-    addContact(cells, contact ? &*contact : nullptr, unit);
-    cells.push_back(result.blocks);
     return cells;
 }
 
-std::string sceneSummary(const std::vector<std::vector<ScenePair>>& answers,
-    const Verdicts& verdicts, std::size_t bodies)
+/// @param number      which of the contacts
+/// @param isNumbered  whether that has a column of its own
+void addPair(Cells& cells, const ScenePair& pair, std::size_t number, bool isNumbered, double unit)
 {
-    int64_t pairs = 0;
+    const CollisionResult& result = pair.result;
+    const Contact* contact = result.contact ? &*result.contact : nullptr;
+    if (!pair.contacts.empty()) contact = &pair.contacts[number];
+    cells.insert(cells.end(), {nameOf(result.verdict), nameOf(result.objects)});
+    if (isNumbered) cells.push_back(contact ? Cell(int64_t(number)) : Cell());
+    cells.push_back(contact ? lengthCell(contact->distance, unit) : Cell());
+    addContact(cells, contact, unit);
+    cells.push_back(result.blocks);
+}
+
+template <typename Pair>
+std::string sceneSummary(const FrameAnswers<Pair>& answers, const Verdicts& verdicts,
+    const char* noun, std::size_t bodies)
+{
+    int64_t touching = 0;
     for (const auto& frame : answers) {
-        for (const ScenePair& pair : frame) pairs += pair.result.isCollision();
+        for (const Pair& pair : frame) touching += spheresOf(pair) == Verdict::Touching;
     }
-    return summaryOf(verdicts, "frame") + "; " + counted(int64_t(bodies), "tree") + ", "
-        + counted(pairs, "pair") + " touching";
+    return summaryOf(verdicts, noun) + "; " + counted(int64_t(bodies), "tree") + ", "
+        + counted(touching, "pair") + " touching";
+}
+
+std::vector<int64_t> numbersOf(const std::vector<SceneFrame>& frames)
+{
+    std::vector<int64_t> numbers;
+    for (const SceneFrame& frame : frames) numbers.push_back(frame.number);
+    return numbers;
+}
+
+/// The ways of all bodies from one frame to another.
+std::vector<RigidMotion> motionsBetween(const SceneFrame& start, const SceneFrame& end)
+{
+    std::vector<RigidMotion> motions;
+    for (std::size_t b = 0; b < start.poses.size(); ++b) {
+        motions.push_back(RigidMotion::screw(start.poses[b], end.poses[b]));
+    }
+    return motions;
 }
 
 } // namespace
 
-std::vector<OptionSpec> sceneOptions()
-{
-    return {flag("scene", false,
-                "find all pairs that touch of more than two trees, which are where they are, or "
-                "where poses= puts them, frame by frame; a line for each pair"),
-        list("ignore", "",
-            "with scene=1: pairs that are not asked about, as neighbouring links of a robot, such "
-            "as 1:0,base:arm; by their age on the stack or name")};
-}
-
-std::vector<std::pair<std::string, std::string>> sceneColumnDocs()
-{
-    return {{"of scenes",
-        "poses with a header, and body: the tree, by its age on the stack or name; with frame, a "
-        "whole number, lines of a frame are one time, and trees without a line stay where they "
-        "were"}};
-}
-
-void checkScene(const ActionCall& call, Plan& plan)
-{
-    if (!call.flag("scene")) {
-        if (call.given("ignore")) throwUsage("ignore is of a scene: add scene=1");
-        return;
-    }
-    for (const char* other : {"motion", "contacts"}) {
-        if (call.given(other)) {
-            throwUsage(std::string("scene and ") + other + " exclude each other");
-        }
-    }
-    for (const char* other : {"translate", "rotate", "axis", "angle", "matrix", "scale"}) {
-        if (call.given(other)) {
-            throwUsage(std::string("scene and ") + other
-                + " exclude each other: poses= places the trees of a scene");
-        }
-    }
-    for (const std::string& typed : call.list("ignore")) pairOf(typed);
-    checkQuestion(call, plan, kAnyTrees, "poses", "frame,body_a");
-    checkTable(call, plan, "poses", {});
-}
-
-void giveSceneAnswers(const ActionCall& call, Session& session, const Bodies& bodies,
-    const spheretree::CollisionRequest& request)
+void giveSceneAnswers(const ActionCall& call, Session& session, const SceneBodies& bodies,
+    const CollisionRequest& request)
 {
     const QueryScene scene = sceneOf(call, session, bodies);
     const std::vector<SceneFrame> frames = framesOf(call, session, bodies);
@@ -233,32 +151,78 @@ void giveSceneAnswers(const ActionCall& call, Session& session, const Bodies& bo
                 placed.setPose(b, frames[i].poses[std::size_t(b)]);
             return placed.touchingPairs(request, interrupter);
         });
-    std::vector<std::pair<std::size_t, std::size_t>> rows;
-    Verdicts verdicts, asked;
-    const bool asksObjects = call.flag("objects");
-    std::vector<int64_t> numbers;
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-        const std::size_t count = std::max(std::size_t(1), answers[i].size());
-        for (std::size_t k = 0; k < count; ++k) rows.emplace_back(i, k);
-        verdicts.push_back(verdictOf(answers[i], &spheretree::CollisionResult::verdict));
-        asked.push_back(asksObjects ? verdictOf(answers[i], &spheretree::CollisionResult::objects)
-                                    : verdicts.back());
-        numbers.push_back(frames[i].number);
-    }
+    const auto rows = rowsOfFrames(answers, [](const ScenePair& p) { return p.contacts.size(); });
     const std::vector<std::string> labels = labelsOf(session, bodies);
+    const bool isNumbered = call.given("contacts");
     AnswerSheet sheet;
     sheet.format = "vdb_spheretree.scene.1";
     sheet.count = rows.size();
     sheet.columns = {"frame", "body_a", "body_b", "spheres", "objects", "distance", "x", "y", "z",
         "nx", "ny", "nz", "a", "b", "blocks"};
+    if (isNumbered) sheet.columns.insert(sheet.columns.begin() + 5, "contact");
     sheet.row = [&](std::size_t row) {
-        const auto [i, k] = rows[row];
-        return cellsOf(
-            frames[i], answers[i].empty() ? nullptr : &answers[i][k], labels, unitOf(call));
+        const SceneRow& at = rows[row];
+        const ScenePair* const pair =
+            answers[at.frame].empty() ? nullptr : &answers[at.frame][at.pair];
+        Cells cells = pairCells(frames[at.frame], pair, labels);
+        if (pair) {
+            addPair(cells, *pair, at.contact, isNumbered, unitOf(call));
+            return cells;
+        }
+        cells.insert(cells.end(), {nameOf(Verdict::Apart), nameOf(Verdict::Apart)});
+        addNothing(cells, isNumbered ? 11 : 10);
+        return cells;
     };
-    sheet.summary = sceneSummary(answers, verdicts, bodies.size());
+    const auto spheres = [](const ScenePair& pair) { return spheresOf(pair); };
+    const Verdicts verdicts = worstOfFrames(answers, spheres);
+    sheet.summary = sceneSummary(answers, verdicts, "frame", bodies.size());
     giveAnswers(call, session, sheet);
-    requireExpected(call, asked, "frame", numbers);
+    const Verdicts asked = call.flag("objects") ? worstOfFrames(answers, objectsOf) : verdicts;
+    requireExpected(call, asked, "frame", numbersOf(frames));
+}
+
+void giveSceneMotionAnswers(const ActionCall& call, Session& session, const SceneBodies& bodies)
+{
+    const QueryScene scene = sceneOf(call, session, bodies);
+    std::vector<SceneFrame> frames = framesOf(call, session, bodies);
+    if (frames.size() < 2) {
+        throwInput(call.text("poses")
+            + ": motion=1 of a scene goes from frame to frame, and the file holds one: give two "
+              "or more, numbered by a column 'frame'");
+    }
+    const auto request = motionRequest(call);
+    const std::size_t ways = frames.size() - 1;
+    auto* const interrupter = ways == 1 ? &session.progress : nullptr;
+    const auto answers = answersOf<std::vector<MovingPair>>(ways, session, [&](std::size_t i) {
+        return scene.firstContacts(motionsBetween(frames[i], frames[i + 1]), request, interrupter);
+    });
+    frames.pop_back(); // a way is called by the frame where it begins
+    const auto rows = rowsOfFrames(answers, [](const MovingPair&) { return std::size_t(1); });
+    const std::vector<std::string> labels = labelsOf(session, bodies);
+    AnswerSheet sheet;
+    sheet.format = "vdb_spheretree.scene_motion.1";
+    sheet.count = rows.size();
+    sheet.columns = {"frame", "body_a", "body_b", "spheres", "time", "free_until", "distance", "x",
+        "y", "z", "nx", "ny", "nz", "a", "b", "blocks"};
+    sheet.row = [&](std::size_t row) {
+        const SceneRow& at = rows[row];
+        const MovingPair* const pair =
+            answers[at.frame].empty() ? nullptr : &answers[at.frame][at.pair];
+        Cells cells = pairCells(frames[at.frame], pair, labels);
+        if (pair) {
+            const Cells motion = motionCells(pair->result, unitOf(call));
+            cells.insert(cells.end(), motion.begin(), motion.end());
+            return cells;
+        }
+        cells.push_back(nameOf(Verdict::Apart));
+        addNothing(cells, 12);
+        return cells;
+    };
+    const auto spheres = [](const MovingPair& pair) { return spheresOf(pair); };
+    const Verdicts verdicts = worstOfFrames(answers, spheres);
+    sheet.summary = sceneSummary(answers, verdicts, "motion", bodies.size());
+    giveAnswers(call, session, sheet);
+    requireExpected(call, verdicts, "motion", numbersOf(frames));
 }
 
 } // namespace command

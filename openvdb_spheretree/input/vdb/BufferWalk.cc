@@ -93,8 +93,8 @@ private:
             takeOrigin(window);
             buffers = window.value<int8_t>();
         }
-        const ValueBlock block =
-            takeValues(window, mFormat, LeafMask::SIZE, active.countOn(), kMaskBytes);
+        const ValueBlock block = takeValues(
+            window, mFormat, LeafMask::SIZE, active.countOn(), kMaskBytes, ValueCare::Length);
         if (mDelayed) requireSame(window, block);
         for (int extra = 1; extra < buffers; ++extra) { // of early versions, and read by nobody
             const uint32_t zip = mFormat.compression & io::COMPRESS_ZIP;

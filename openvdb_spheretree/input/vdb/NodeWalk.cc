@@ -37,7 +37,7 @@ void takeInternal(ByteWindow& window, const BlockFormat& format, const Coord& or
     const bool leavesGaps =
         format.fileVersion >= openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
     takeValues(window, format, leavesGaps ? Mask::SIZE : children.countOff(), active.countOn(),
-        Mask::SIZE / 8);
+        Mask::SIZE / 8, ValueCare::Unpacked);
     for (auto child = children.beginOn(); child; ++child) {
         const auto x = int32_t(child.pos() >> 2 * Log2Dim);
         const auto y = int32_t(child.pos() >> Log2Dim & (Mask::DIM - 1));
@@ -55,17 +55,10 @@ Coord takeOrigin(ByteWindow& window)
     return Coord(x, y, z);
 }
 
-/// The background, or the value of a tile. A new leaf of points asserts that it has no other value than zero.
+/// The background, or the value of a tile.
 void takeValue(ByteWindow& window, const ValueType& type)
 {
-    const char* bytes = window.take(type.bytes);
-    const bool points = type.leaf == LeafKind::Points;
-    const bool boolean = type.leaf == LeafKind::Bool || type.leaf == LeafKind::Mask;
-    for (uint32_t i = 0; i < type.bytes; ++i) {
-        if ((points && bytes[i] != 0) || (boolean && bytes[i] != 0 && bytes[i] != 1)) {
-            window.fail("the grid's background, or a tile, has a value that it cannot have");
-        }
-    }
+    requireValues(window, type, window.take(type.bytes), type.bytes);
 }
 
 } // namespace

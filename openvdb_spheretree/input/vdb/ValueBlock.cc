@@ -5,8 +5,11 @@
 #include <openvdb/version.h>
 
 #include <blosc.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <map>
+#include <vector>
 
 namespace openvdb_spheretree::detail {
 
@@ -16,6 +19,60 @@ namespace {
 
 // LZ4, by which OpenVDB packs, turns a byte into 255 at the most.
 constexpr uint64_t kLargestRatio = 255;
+
+/// Values where they lie in the window.
+struct StoredValues {
+    const char* data;
+    uint64_t bytes;
+    bool isPacked;
+};
+
+StoredValues takeStored(ByteWindow& window, uint32_t compression, uint64_t bytes)
+{
+    const bool blosc = compression & io::COMPRESS_BLOSC;
+    if (!blosc && !(compression & io::COMPRESS_ZIP)) return {window.take(bytes), bytes, false};
+    const auto length = window.value<int64_t>();
+    if (length <= 0) { // they are not packed
+        if (length != -int64_t(bytes))
+            window.fail("a node has more or fewer values than it stores");
+        return {window.take(bytes), bytes, false};
+    }
+    const StoredValues stored = {window.take(uint64_t(length)), uint64_t(length), true};
+    if (blosc && unpackedBlosc(window, stored.data, stored.bytes) != bytes) {
+        window.fail("a node has more or fewer values than it stores");
+    }
+    return stored;
+}
+
+std::vector<char> unpacked(
+    const ByteWindow& window, const StoredValues& packed, uint32_t compression, uint64_t bytes)
+{
+    std::vector<char> values(bytes);
+    uLongf count = bytes;
+    const bool isWhole = compression & io::COMPRESS_BLOSC
+        ? blosc_decompress_ctx(packed.data, values.data(), bytes, 1) == int64_t(bytes)
+        : uncompress(reinterpret_cast<Bytef*>(values.data()), &count,
+              reinterpret_cast<const Bytef*>(packed.data), packed.bytes)
+                == Z_OK
+            && count == bytes;
+    if (!isWhole) window.fail("packed values cannot be unpacked");
+    return values;
+}
+
+void requireUnpacked(
+    const ByteWindow& window, const BlockFormat& format, const StoredValues& stored, uint64_t bytes)
+{
+    if (!stored.isPacked) return requireValues(window, format.type, stored.data, bytes);
+    const auto values = unpacked(window, stored, format.compression, bytes);
+    requireValues(window, format.type, values.data(), bytes);
+}
+
+/// Of values that are not stored one by one.
+void takeInactive(ByteWindow& window, const BlockFormat& format, uint32_t count)
+{
+    const uint64_t bytes = uint64_t(count) * format.type.bytes;
+    requireValues(window, format.type, window.take(bytes), bytes);
+}
 
 } // namespace
 
@@ -49,26 +106,24 @@ uint64_t unpackedBlosc(const ByteWindow& window, const char* packed, uint64_t co
 
 void takePacked(ByteWindow& window, uint32_t compression, uint64_t bytes)
 {
-    const bool blosc = compression & io::COMPRESS_BLOSC;
-    if (!blosc && !(compression & io::COMPRESS_ZIP)) {
-        window.take(bytes);
-        return;
-    }
-    const auto length = window.value<int64_t>();
-    if (length <= 0) { // they are not packed
-        if (length != -int64_t(bytes))
-            window.fail("a node has more or fewer values than it stores");
-        window.take(bytes);
-        return;
-    }
-    const char* packed = window.take(uint64_t(length));
-    if (blosc && unpackedBlosc(window, packed, uint64_t(length)) != bytes) {
-        window.fail("a node has more or fewer values than it stores");
+    takeStored(window, compression, bytes);
+}
+
+void requireValues(
+    const ByteWindow& window, const ValueType& type, const char* values, uint64_t bytes)
+{
+    const bool isPoints = type.leaf == LeafKind::Points;
+    const bool isBool = type.leaf == LeafKind::Bool || type.leaf == LeafKind::Mask;
+    if (!isPoints && !isBool) return;
+    const char largest = isPoints ? 0 : 1;
+    const auto isNone = [&](char value) { return value < 0 || value > largest; };
+    if (std::any_of(values, values + bytes, isNone)) {
+        window.fail("the grid's background, or a tile, has a value that it cannot have");
     }
 }
 
 ValueBlock takeValues(ByteWindow& window, const BlockFormat& format, uint32_t nodeValues,
-    uint32_t activeValues, uint32_t maskBytes)
+    uint32_t activeValues, uint32_t maskBytes, ValueCare care)
 {
     const bool selects = format.fileVersion >= openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
     const bool activeOnly = format.compression & io::COMPRESS_ACTIVE_MASK;
@@ -78,10 +133,16 @@ ValueBlock takeValues(ByteWindow& window, const BlockFormat& format, uint32_t no
     case io::NO_MASK_OR_INACTIVE_VALS:
     case io::NO_MASK_AND_MINUS_BG:
     case io::NO_MASK_AND_ALL_VALS: break;
-    case io::NO_MASK_AND_ONE_INACTIVE_VAL: window.take(format.type.bytes); break;
+    case io::NO_MASK_AND_ONE_INACTIVE_VAL: takeInactive(window, format, 1); break;
     case io::MASK_AND_NO_INACTIVE_VALS: window.take(maskBytes); break;
-    case io::MASK_AND_ONE_INACTIVE_VAL: window.take(format.type.bytes + maskBytes); break;
-    case io::MASK_AND_TWO_INACTIVE_VALS: window.take(2 * format.type.bytes + maskBytes); break;
+    case io::MASK_AND_ONE_INACTIVE_VAL:
+        takeInactive(window, format, 1);
+        window.take(maskBytes);
+        break;
+    case io::MASK_AND_TWO_INACTIVE_VALS:
+        takeInactive(window, format, 2);
+        window.take(maskBytes);
+        break;
     default: window.fail("a node's values are of no kind that there is");
     }
     const bool allStored = block.selection == io::NO_MASK_AND_ALL_VALS;
@@ -90,8 +151,9 @@ ValueBlock takeValues(ByteWindow& window, const BlockFormat& format, uint32_t no
     const uint64_t stored = allStored ? nodeValues : activeValues;
     const bool half = format.half && format.type.bytesAsHalf != format.type.bytes;
     if (half && stored == 0) return block; // not even a length
-    const uint64_t before = window.position();
-    takePacked(window, format.compression, stored * storedBytes(format));
+    const uint64_t before = window.position(), bytes = stored * storedBytes(format);
+    const StoredValues values = takeStored(window, format.compression, bytes);
+    if (care == ValueCare::Unpacked) requireUnpacked(window, format, values, bytes);
     block.storedBytes = window.position() - before;
     return block;
 }

@@ -54,12 +54,25 @@ struct ValueBlock {
 /// @throw openvdb::IoError if OpenVDB would read anything else but @a bytes bytes
 void takePacked(ByteWindow& window, uint32_t compression, uint64_t bytes);
 
+/// @brief See to it that values are such as their type has. A bool that is neither 0 nor 1 is none, and a new leaf of points
+/// asserts that it has no other value than zero; of all other types any bytes are a value.
+/// @param values  as they are stored, unpacked
+/// @throw openvdb::IoError if they are not
+void requireValues(
+    const ByteWindow& window, const ValueType& type, const char* values, uint64_t bytes);
+
+/// What is looked at of a node's values.
+enum class ValueCare {
+    Length, ///< how long they are, packed: of leaves, which are many
+    Unpacked ///< them all: of nodes above leaves. OpenVDB loses such a node where it fails to unpack its values.
+};
+
 /// @brief Walk over the values of a node.
 /// @param nodeValues    how many the node has: a power of two, or fewer in files before version 222
 /// @param activeValues  how many of them are active
 /// @param maskBytes     of a mask of the node
 ValueBlock takeValues(ByteWindow& window, const BlockFormat& format, uint32_t nodeValues,
-    uint32_t activeValues, uint32_t maskBytes);
+    uint32_t activeValues, uint32_t maskBytes, ValueCare care);
 
 /// @return bytes that a Blosc buffer says it holds.
 /// @throw openvdb::IoError if it is not @a count bytes long, or says that it holds more than LZ4 can

@@ -19,7 +19,8 @@
 /// the walk; and each length was compared with the bytes that are there and with the place that OpenVDB
 /// has for them. What lies in packed values is left to Blosc and zlib, which are told the size of
 /// their buffer and keep to it, given that the lengths in a Blosc header are right: those are looked at
-/// too. Values are not: any number is a value.
+/// too. Values are not: any number is a value. Only those of nodes above leaves, which are few, are unpacked here as well: not
+/// every byte is a bool, and where OpenVDB cannot unpack the values of such a node, it loses the node's memory.
 ///
 /// Memory: the piece in hand; the largest is a grid's nodes without their values, 64 bytes a leaf. What
 /// OpenVDB takes is bounded by what packed bytes can become: 255 times as many by Blosc, and a node of

@@ -3,6 +3,7 @@
 /// @brief Which bodies of a scene touch, against all pairs of bodies and of their leaf spheres.
 
 #include "QuerySamples.h"
+#include "RandomScene.h"
 #include "support/Messages.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
@@ -25,46 +26,6 @@ using Pairs = std::vector<std::pair<int, int>>;
 
 /// Leaves grow by rounding to floats: gaps this near to 0 may be either.
 constexpr double kRounding = 2e-5;
-
-/// Bodies of the samples thrown into a box, and all that naive loops need.
-struct RandomScene {
-    QueryScene scene;
-    std::vector<const QuerySample*> samples;
-
-    RandomScene(Random& random, int count, const Vec3d& box)
-    {
-        static const std::vector<QueryTree> trees = [] {
-            std::vector<QueryTree> made;
-            for (const QuerySample& sample : querySamples()) {
-                made.push_back(makeQueryTree(sample.tree, Exactness::LeafUnion));
-            }
-            return made;
-        }();
-        for (int i = 0; i < count; ++i) {
-            const auto which = std::size_t(uniform(random, 0, double(trees.size()) - 1e-9));
-            samples.push_back(&querySamples()[which]);
-            EXPECT_EQ(scene.add(trees[which]), i);
-        }
-        shake(random, box);
-    }
-
-    void shake(Random& random, const Vec3d& box)
-    {
-        for (int i = 0; i < scene.size(); ++i) {
-            const Vec3d place(uniform(random, -box[0], box[0]), uniform(random, -box[1], box[1]),
-                uniform(random, -box[2], box[2]));
-            const auto toOrigin = RigidTransform::fromTranslation(-scene.tree(i).center());
-            scene.setPose(
-                i, RigidTransform::fromTranslation(place) * randomRotation(random) * toOrigin);
-        }
-    }
-
-    double smallestGap(int a, int b) const
-    {
-        return spheretree_test::smallestGap(leafBalls(samples[std::size_t(a)]->tree, scene.pose(a)),
-            leafBalls(samples[std::size_t(b)]->tree, scene.pose(b)));
-    }
-};
 
 Pairs pairsOf(const std::vector<ScenePair>& found)
 {
@@ -169,6 +130,28 @@ TEST(QueryScene, AnswersAreThoseOfCollideForAnyNumberOfThreads)
             EXPECT_EQ(pair.result.contact->nodes, alone.contact->nodes);
         }
     }
+}
+
+TEST(QueryScene, ContactsOfAPairAreThoseOfCollide)
+{
+    Random random(8);
+    const RandomScene scene(random, 20, Vec3d(4, 4, 4));
+    CollisionRequest request;
+    request.maxContacts = 5;
+    std::size_t several = 0;
+    for (const ScenePair& pair : scene.scene.touchingPairs(request)) {
+        std::vector<Contact> contacts;
+        collide(scene.scene.tree(pair.a), scene.scene.pose(pair.a), scene.scene.tree(pair.b),
+            scene.scene.pose(pair.b), request, &contacts);
+        ASSERT_EQ(pair.contacts.size(), contacts.size());
+        for (std::size_t k = 0; k < contacts.size(); ++k) {
+            EXPECT_EQ(pair.contacts[k].nodes, contacts[k].nodes);
+            EXPECT_EQ(pair.contacts[k].distance, contacts[k].distance);
+        }
+        several += contacts.size() > 1;
+    }
+    EXPECT_GT(several, 10u);
+    for (const ScenePair& pair : scene.scene.touchingPairs()) EXPECT_TRUE(pair.contacts.empty());
 }
 
 TEST(QueryScene, WhatIsUndecidedIsAmongTheAnswers)

@@ -219,6 +219,21 @@ TEST_F(GuardedVdb, FindsATileThatCannotBe)
     expectSaid(active, "a tile is neither active nor inactive");
 }
 
+TEST_F(GuardedVdb, FindsATileInsideANodeThatCannotBe)
+{
+    for (const openvdb::Index level : {1, 2}) {
+        auto grid = openvdb::BoolGrid::create();
+        grid->tree().addTile(level, openvdb::Coord(0, 0, 0), true, true);
+        std::string bytes = vdbBytes({grid}, io::COMPRESS_NONE);
+        EXPECT_EQ(saidOf(bytes), "");
+        // Values stand at the end, behind the masks, but for the node's children.
+        const std::size_t value = bytes.size() - (level == 1 ? 4096 : 32768);
+        ASSERT_EQ(bytes.at(value), 1);
+        bytes[value] = 2;
+        expectSaid(bytes, "has a value that it cannot have");
+    }
+}
+
 TEST_F(GuardedVdb, FindsALeafThatDoesNotSayWhatItStores)
 {
     auto grid = openvdb::FloatGrid::create();
