@@ -201,8 +201,10 @@ class Query:
         except ValueError:
             told = ", ".join(f"{name} {front}" for name, front in zip(ways, shapes))
             raise InputError(f"shapes in front of the poses cannot be broadcast: {told}")
-        poses = [_rows(name, np.broadcast_to(pose, (*shape, 4, 4)), (4, 4))[0] for name, pose in ways.items()]
-        answers = self._handle.continuous_collide(other._handle, *poses, tolerance, progress, thread_count(threads))
+        rows = {name: _rows(name, np.broadcast_to(pose, (*shape, 4, 4)), (4, 4))[0] for name, pose in ways.items()}
+        answers = self._handle.continuous_collide(
+            other._handle, rows["own_start"], rows["own_end"], rows["start"], rows["end"], tolerance, progress,
+            thread_count(threads))
         return FirstContacts(*_shaped(shape, answers))
 
     def distance(

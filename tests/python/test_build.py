@@ -186,7 +186,7 @@ def test_proofs_of_meshes_that_cannot_be_made(tmp_path, bone):
     (tmp_path / "bad.obj").write_text("v 0 0\n")
     with pytest.raises(OSError, match="bad.obj"):
         tree.check_mesh(tmp_path / "bad.obj")
-    with pytest.raises(spheretree.InputError, match="inside"):
+    with pytest.raises(spheretree.InputError, match="side=outer"):
         spheretree.build(bone, [8], side="inner").check_mesh(path)
 
 
