@@ -82,6 +82,20 @@ TEST_F(CommandScarce, AnyRequestForMemoryMayFail)
     EXPECT_GT(refused, 60);
 }
 
+/// Where there are no files without a name, labels that do not fit into memory= go to one that is taken away at once.
+TEST_F(CommandScarce, NoTemporaryFileIsLeftWhereFilesHaveNames)
+{
+    const std::filesystem::path folder = mFolder / "temporary";
+    std::filesystem::create_directory(folder);
+    setenv("TMPDIR", folder.c_str(), 1);
+    const Result result = runWith("-threads 2 -generate ball voxels=270000 -spheretree "
+                                  "tree=extended errors=0 memory=1500000 -write t.csv",
+        namedFilesOnly());
+    unsetenv("TMPDIR");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
 TEST_F(CommandScarce, LimitsOnMemoryInSteps)
 {
     const std::string line =

@@ -311,13 +311,15 @@ TEST(TrilinearCover, TilesBesideTilesAreNotCut)
     EXPECT_EQ(cubes->tree().activeTileCount(), 8u);
 }
 
-/// A leaf node beside a tile is no reason to leave the tile whole.
+/// A leaf node beside a tile is no reason to leave the tile whole; nor are those around it.
 TEST(TrilinearCover, TilesBesideLeafNodesThatAreNotFullAreCut)
 {
     const auto grid = named<FloatGrid>("tile", 1.0f);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     grid->tree().addTile(2, Coord(0), -1.5f, false);
-    grid->tree().setValue(Coord(133, 60, 60), -1.5f);
+    for (const int y : {52, 60, 68}) {
+        for (const int z : {52, 60, 68}) grid->tree().setValue(Coord(133, y, z), -1.5f);
+    }
     const auto whole = objectOf(*grid, covering(iso(-0.9), Coverage::Whole));
     EXPECT_FALSE(whole->tree().isValueOn(Coord(127, 60, 60)));
     EXPECT_EQ(whole->activeVoxelCount(), uint64_t(126) * 126 * 126);

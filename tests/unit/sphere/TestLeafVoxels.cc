@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/kernel/LeafBall.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
 
 #include "support/RandomObjects.h"
@@ -54,6 +55,25 @@ TEST(LeafVoxels, AreThoseInTheSphereWhateverItsSizeAndDistance)
         }
     }
     EXPECT_GT(cut, 500);
+}
+
+/// Spheres that the kernel can hold, beside a leaf whose farthest voxel it cannot (kLeafBallReach, kLeafNormReach).
+TEST(LeafVoxels, AreThoseInTheSphereAtTheEndOfTheKernelsReach)
+{
+    for (const Distance& distance : kDistances) {
+        const int64_t reach =
+            distance.isEuclidean() ? detail::kLeafBallReach : detail::kLeafNormReach;
+        for (int64_t radius = reach - 16; radius <= reach + 1; ++radius) {
+            for (int side = 0; side < 6; ++side) {
+                ExactSphere sphere = ExactSphere::around(Coord(3), 0);
+                sphere.center[side / 2] += side % 2 ? radius : -radius;
+                sphere.radiusSq = distance.lengthSq(radius, 0, 0);
+                const LeafMask mask = detail::voxelsOf(sphere, 1, Coord(0), distance);
+                ASSERT_EQ(mask, voxelsOneByOne(sphere, 1, Coord(0), distance))
+                    << toString(distance) << " radius " << radius << " side " << side;
+            }
+        }
+    }
 }
 
 /// Where the shortcuts for all voxels and for none begin and end.

@@ -263,4 +263,26 @@ TEST(TightLevels, HaveCutsThatAreTheForest)
     }
 }
 
+TEST(TightLevels, BallsWithoutChildrenAreDropped)
+{
+    Random random(12);
+    TightLevel level, finer;
+    for (int b = 0; b < 5; ++b) {
+        level.balls.push_back(randomBall(random, -30, 30, 5));
+        level.parent.push_back(10 + b);
+    }
+    const auto balls = level.balls;
+    finer.parent = {3, 1, 3, 4};
+    dropChildless(level, finer);
+    EXPECT_EQ(finer.parent, (std::vector<int32_t>{1, 0, 1, 2}));
+    EXPECT_EQ(level.parent, (std::vector<int32_t>{11, 13, 14}));
+    ASSERT_EQ(level.balls.size(), 3u);
+    for (const auto& [now, before] : {std::pair(0, 1), std::pair(1, 3), std::pair(2, 4)}) {
+        for (int a = 0; a < 3; ++a) {
+            EXPECT_EQ(level.balls[now].center[a], balls[before].center[a]);
+        }
+        EXPECT_EQ(level.balls[now].radiusSq, balls[before].radiusSq);
+    }
+}
+
 } // namespace
