@@ -170,14 +170,8 @@ py::list checkMesh(const Tree& tree, const std::string& path, const std::string&
 {
     return pairsOf(resultOfCall(call, [&](Interrupter* interrupter) {
         const auto mesh = meshOfFile(path, units);
-        if (!volume) return spheretree::checkMeshCovered(tree.get(), mesh, nullptr, interrupter);
-        // Its cubes count as covered, so that they are must be known first.
-        const openvdb::BoolGrid& object = *volume->object;
-        auto faults = spheretree::checkSphereTree(tree.get(), object, interrupter);
-        for (auto& fault : spheretree::checkMeshCovered(tree.get(), mesh, &object, interrupter)) {
-            faults.push_back(std::move(fault));
-        }
-        return faults;
+        const openvdb::BoolGrid* const object = volume ? volume->object.get() : nullptr;
+        return spheretree::checkAgainst(tree.get(), object, &mesh, interrupter);
     }));
 }
 

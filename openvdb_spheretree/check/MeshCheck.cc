@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace openvdb_spheretree {
 
@@ -303,6 +304,18 @@ std::vector<TreeFault> checkMeshCovered(const SphereTree& tree, const TriangleMe
         for (const Uncovered& part : parts) all += part;
         if (all.pieces == 0) continue;
         faults.push_back({FaultKind::Surface, sentenceOf(all, area, level, tree, mesh)});
+    }
+    return faults;
+}
+
+std::vector<TreeFault> checkAgainst(const SphereTree& tree, const openvdb::BoolGrid* object,
+    const TriangleMesh* mesh, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<TreeFault> faults;
+    if (object) faults = checkSphereTree(tree, *object, interrupter);
+    if (!mesh) return faults;
+    for (TreeFault& fault : checkMeshCovered(tree, *mesh, object, interrupter)) {
+        faults.push_back(std::move(fault));
     }
     return faults;
 }

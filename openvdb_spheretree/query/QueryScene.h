@@ -40,8 +40,8 @@ namespace openvdb_spheretree {
 struct ScenePair {
     int a = -1, b = -1;
     CollisionResult result;
-    std::vector<Contact>
-        contacts; ///< up to maxContacts of the request, the deepest first, if more than one is asked for
+    /// Up to maxContacts of the request, the deepest first, if that is more than one.
+    std::vector<Contact> contacts;
 };
 
 /// Two bodies that move, a < b, and when they first touch.

@@ -195,13 +195,14 @@ class Query:
         own_start = np.eye(4) if own_start is None else own_start
         own_end = own_start if own_end is None else own_end
         ways = {"own_start": own_start, "own_end": own_end, "start": start, "end": end}
-        shapes = [_rows(name, poses, (4, 4))[1] for name, poses in ways.items()]
+        given = {name: _rows(name, poses, (4, 4)) for name, poses in ways.items()}
         try:
-            shape = np.broadcast_shapes(*shapes)
+            shape = np.broadcast_shapes(*(front for _, front in given.values()))
         except ValueError:
-            told = ", ".join(f"{name} {front}" for name, front in zip(ways, shapes))
+            told = ", ".join(f"{name} {front}" for name, (_, front) in given.items())
             raise InputError(f"shapes in front of the poses cannot be broadcast: {told}")
-        rows = {name: _rows(name, np.broadcast_to(pose, (*shape, 4, 4)), (4, 4))[0] for name, pose in ways.items()}
+        rows = {name: np.ascontiguousarray(np.broadcast_to(values.reshape(*front, 16), (*shape, 16))).reshape(-1, 16)
+                for name, (values, front) in given.items()}
         answers = self._handle.continuous_collide(
             other._handle, rows["own_start"], rows["own_end"], rows["start"], rows["end"], tolerance, progress,
             thread_count(threads))

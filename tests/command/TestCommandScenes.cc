@@ -43,6 +43,8 @@ struct Place {
     }
 };
 
+using Texts = std::vector<std::string>;
+
 const std::vector<std::string> kNames = {"block", "ball", "ring"};
 
 class CommandScenes : public CommandTest {
@@ -80,6 +82,43 @@ protected:
         }
         return found;
     }
+    /// Of the second of two trees in each pose, as the first one sees it.
+    json pairAnswers(const Texts& names, const std::string& poses, const std::string& options)
+    {
+        writeText(path("pair.csv"), "x,y,z,rx,ry,rz\n" + poses);
+        const Result result = run("-quiet -read " + names[0] + ".vdb " + names[1]
+            + ".vdb -collide poses=pair.csv json=pair.json " + options);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return json::parse(readText(path("pair.json")))["answers"];
+    }
+    /// Holds a scene against what pairs have answered.
+    /// @param expected  those that touch, by frame and names
+    /// @param exact     columns of which numbers are the same, and @a near within @a tolerance
+    /// @param count     how the summary begins
+    void expectAnswers(const std::string& options, const std::map<Texts, json>& expected,
+        const Texts& exact, const Texts& near, double tolerance, const std::string& count)
+    {
+        std::size_t found = 0;
+        for (const json& one : answers(options)) {
+            if (one["body_a"].is_null()) {
+                EXPECT_EQ(one["spheres"], "apart");
+                continue;
+            }
+            const Texts key = {std::to_string(int(one["frame"])), one["body_a"], one["body_b"]};
+            ASSERT_TRUE(expected.count(key)) << key[0] << " " << key[1] << " " << key[2];
+            const json& pair = expected.at(key);
+            for (const auto& same : exact) EXPECT_EQ(one[same], pair[same]) << same;
+            for (const auto& column : near) {
+                EXPECT_NEAR(one[column], double(pair[column]), tolerance) << column;
+            }
+            ++found;
+        }
+        EXPECT_EQ(found, expected.size());
+        const Result table = ask(options);
+        const std::string pairs = std::to_string(expected.size()) + " pairs touching";
+        EXPECT_TRUE(mentions(table.out, count)) << table.out;
+        EXPECT_TRUE(mentions(table.out, "; 3 trees, " + pairs)) << table.out;
+    }
     void expectRefusal(const std::string& options, int exitCode, const std::string& message)
     {
         const Result result = ask(options + " csv=never.csv");
@@ -88,8 +127,6 @@ protected:
         EXPECT_FALSE(exists("never.csv"));
     }
 };
-
-using Texts = std::vector<std::string>;
 
 TEST_F(CommandScenes, PairsAreThoseThatTouchWhereEveryTwoAreAsked)
 {
@@ -112,45 +149,23 @@ TEST_F(CommandScenes, PairsAreThoseThatTouchWhereEveryTwoAreAsked)
     std::map<Texts, json> expected; // by frame and names
     for (int a = 0; a < 3; ++a) {
         for (int b = a + 1; b < 3; ++b) {
-            const auto& first = kNames[std::size_t(a)];
-            const auto& second = kNames[std::size_t(b)];
-            std::string poses = "x,y,z,rx,ry,rz\n";
+            const Texts names = {kNames[std::size_t(a)], kNames[std::size_t(b)]};
+            std::string poses;
             for (const auto& all : places) {
                 poses += all[std::size_t(b)].seenFrom(all[std::size_t(a)]).row();
             }
-            writeText(path("pair.csv"), poses);
-            const Result result = run("-quiet -read " + first + ".vdb " + second
-                + ".vdb -collide margin=0.5 poses=pair.csv json=pair.json");
-            ASSERT_EQ(result.exitCode, 0) << result.err;
-            const json pair = json::parse(readText(path("pair.json")))["answers"];
+            const json pair = pairAnswers(names, poses, "margin=0.5");
             for (int i = 0; i < kFrames; ++i) {
                 if (pair[std::size_t(i)]["spheres"] == "touching")
-                    expected[{std::to_string(i), first, second}] = pair[std::size_t(i)];
+                    expected[{std::to_string(i), names[0], names[1]}] = pair[std::size_t(i)];
             }
         }
     }
     ASSERT_GT(expected.size(), 20u);
     ASSERT_LT(expected.size(), 100u);
 
-    std::size_t found = 0;
-    for (const json& one : answers("margin=0.5 poses=scene.csv")) {
-        if (one["body_a"].is_null()) {
-            EXPECT_EQ(one["spheres"], "apart");
-            continue;
-        }
-        const Texts key = {std::to_string(int(one["frame"])), one["body_a"], one["body_b"]};
-        ASSERT_TRUE(expected.count(key)) << key[0] << " " << key[1] << " " << key[2];
-        const json& pair = expected[key];
-        for (const char* same : {"spheres", "objects", "a", "b"}) EXPECT_EQ(one[same], pair[same]);
-        EXPECT_NEAR(one["distance"], double(pair["distance"]), 1e-6);
-        ++found;
-    }
-    EXPECT_EQ(found, expected.size());
-    const Result table = ask("margin=0.5 poses=scene.csv");
-    EXPECT_TRUE(mentions(table.out, "60 frames: ")) << table.out;
-    EXPECT_TRUE(
-        mentions(table.out, "; 3 trees, " + std::to_string(expected.size()) + " pairs touching"))
-        << table.out;
+    expectAnswers("margin=0.5 poses=scene.csv", expected, {"spheres", "objects", "a", "b"},
+        {"distance"}, 1e-6, "60 frames: ");
 }
 
 TEST_F(CommandScenes, TreesStayWhereTheyAreUntilALinePlacesThem)
@@ -254,40 +269,18 @@ TEST_F(CommandScenes, WaysFromFrameToFrameAreThoseOfEveryTwo)
         const auto at = [&](int body, std::size_t i) {
             return body == 0 ? Place() : places[i][std::size_t(body - 1)];
         };
-        std::string poses = "x,y,z,rx,ry,rz\n";
+        std::string poses;
         for (std::size_t i = 0; i < places.size(); ++i) poses += at(b, i).seenFrom(at(a, i)).row();
-        writeText(path("pair.csv"), poses);
         const Texts names = {kNames[std::size_t(a)], kNames[std::size_t(b)]};
-        const Result result = run("-quiet -read " + names[0] + ".vdb " + names[1]
-            + ".vdb -collide motion=1 poses=pair.csv json=pair.json");
-        ASSERT_EQ(result.exitCode, 0) << result.err;
-        const json pair = json::parse(readText(path("pair.json")))["answers"];
+        const json pair = pairAnswers(names, poses, "motion=1");
         for (const json& one : pair) {
             if (one["spheres"] != "touching") continue;
             expected[{std::to_string(10 + int(one["motion"])), names[0], names[1]}] = one;
         }
     }
     ASSERT_GE(expected.size(), 4u);
-    std::size_t found = 0;
-    for (const json& one : answers("motion=1 poses=scene.csv")) {
-        if (one["body_a"].is_null()) {
-            EXPECT_EQ(one["spheres"], "apart");
-            continue;
-        }
-        const Texts key = {std::to_string(int(one["frame"])), one["body_a"], one["body_b"]};
-        ASSERT_TRUE(expected.count(key)) << key[0] << " " << key[1] << " " << key[2];
-        const json& pair = expected[key];
-        for (const char* same : {"spheres", "a", "b"}) EXPECT_EQ(one[same], pair[same]) << same;
-        EXPECT_NEAR(one["time"], double(pair["time"]), 1e-5);
-        EXPECT_NEAR(one["free_until"], double(pair["free_until"]), 1e-5);
-        ++found;
-    }
-    EXPECT_EQ(found, expected.size());
-    const Result table = ask("motion=1 poses=scene.csv");
-    EXPECT_TRUE(mentions(table.out, "3 motions: ")) << table.out;
-    EXPECT_TRUE(
-        mentions(table.out, "; 3 trees, " + std::to_string(expected.size()) + " pairs touching"))
-        << table.out;
+    expectAnswers("motion=1 poses=scene.csv", expected, {"spheres", "a", "b"},
+        {"time", "free_until"}, 1e-5, "3 motions: ");
     // Between frames all are apart: only the ways tell.
     EXPECT_EQ(ask("poses=scene.csv vdb=ball,ring expect=apart").exitCode, 0);
     const Result meets = ask("motion=1 poses=scene.csv vdb=ball,ring expect=apart");

@@ -190,8 +190,7 @@ ActionSpec collideAction()
             "touch, or nobody can know by spheres"),
         integer("contacts", "", 2, 1000000,
             "of a pose, or of two trees of a scene, that touch, give up to so many pairs of "
-            "spheres that do, the deepest "
-            "first, a line each"),
+            "spheres that do, the deepest first, a line each"),
         flag("motion", false,
             "find when the second tree first touches the first one on its way from each pose of "
             "poses= to the next, or from where it is to the one pose: along a line, or where it "

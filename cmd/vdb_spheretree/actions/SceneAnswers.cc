@@ -78,6 +78,14 @@ Verdict spheresOf(const ScenePair& pair) { return pair.result.verdict; }
 Verdict spheresOf(const MovingPair& pair) { return verdictOf(pair.result); }
 Verdict objectsOf(const ScenePair& pair) { return pair.result.objects; }
 
+/// @return the pair of a line; null: none touches in its frame.
+template <typename Pair>
+const Pair* pairAt(const FrameAnswers<Pair>& answers, const SceneRow& row)
+{
+    const std::vector<Pair>& pairs = answers[row.frame];
+    return pairs.empty() ? nullptr : &pairs[row.pair];
+}
+
 /// How a line begins: the frame and the pair. @param pair  null: none touches in this frame
 template <typename Pair>
 Cells pairCells(const SceneFrame& frame, const Pair* pair, const std::vector<std::string>& labels)
@@ -162,8 +170,7 @@ void giveSceneAnswers(const ActionCall& call, Session& session, const SceneBodie
     if (isNumbered) sheet.columns.insert(sheet.columns.begin() + 5, "contact");
     sheet.row = [&](std::size_t row) {
         const SceneRow& at = rows[row];
-        const ScenePair* const pair =
-            answers[at.frame].empty() ? nullptr : &answers[at.frame][at.pair];
+        const ScenePair* const pair = pairAt(answers, at);
         Cells cells = pairCells(frames[at.frame], pair, labels);
         if (pair) {
             addPair(cells, *pair, at.contact, isNumbered, unitOf(call));
@@ -205,10 +212,8 @@ void giveSceneMotionAnswers(const ActionCall& call, Session& session, const Scen
     sheet.columns = {"frame", "body_a", "body_b", "spheres", "time", "free_until", "distance", "x",
         "y", "z", "nx", "ny", "nz", "a", "b", "blocks"};
     sheet.row = [&](std::size_t row) {
-        const SceneRow& at = rows[row];
-        const MovingPair* const pair =
-            answers[at.frame].empty() ? nullptr : &answers[at.frame][at.pair];
-        Cells cells = pairCells(frames[at.frame], pair, labels);
+        const MovingPair* const pair = pairAt(answers, rows[row]);
+        Cells cells = pairCells(frames[rows[row].frame], pair, labels);
         if (pair) {
             const Cells motion = motionCells(pair->result, unitOf(call));
             cells.insert(cells.end(), motion.begin(), motion.end());

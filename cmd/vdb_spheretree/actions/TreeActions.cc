@@ -290,20 +290,6 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
     return timedObjectOf(grid, settings, session);
 }
 
-std::vector<spheretree::TreeFault> faultsOf(const StackItem& item, const BoolGrid::ConstPtr& object,
-    const spheretree::TriangleMesh* mesh, Session& session)
-{
-    std::vector<spheretree::TreeFault> faults;
-    if (object) faults = spheretree::checkSphereTree(*item.tree, *object, &session.progress);
-    throwIfStopped();
-    if (!mesh) return faults;
-    for (auto& fault :
-        spheretree::checkMeshCovered(*item.tree, *mesh, object.get(), &session.progress)) {
-        faults.push_back(std::move(fault));
-    }
-    return faults;
-}
-
 void runCheck(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree("");
@@ -315,7 +301,9 @@ void runCheck(const ActionCall& call, Session& session)
         !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
     const auto mesh = covers ? meshOf(session) : nullptr;
     if (mesh) warnOfUnits(*item.tree, *mesh, session);
-    const auto faults = faultsOf(item, object, mesh.get(), session);
+    const auto faults =
+        spheretree::checkAgainst(*item.tree, object.get(), mesh.get(), &session.progress);
+    throwIfStopped();
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
     const bool isGiven = settings.isGiven();
     if (!faults.empty() && isGiven) {

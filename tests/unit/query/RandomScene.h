@@ -15,6 +15,9 @@
 namespace spheretree_test {
 
 using openvdb::Vec3d;
+using openvdb_spheretree::CollisionRequest;
+using openvdb_spheretree::CollisionResult;
+using openvdb_spheretree::Contact;
 using openvdb_spheretree::QueryScene;
 using openvdb_spheretree::QueryTree;
 using openvdb_spheretree::RigidTransform;
@@ -50,6 +53,14 @@ struct RandomScene {
             scene.setPose(
                 i, RigidTransform::fromTranslation(place) * randomRotation(random) * toOrigin);
         }
+    }
+
+    /// The question to two bodies by themselves.
+    CollisionResult alone(int a, int b, const CollisionRequest& request,
+        std::vector<Contact>* contacts = nullptr) const
+    {
+        return collide(
+            scene.tree(a), scene.pose(a), scene.tree(b), scene.pose(b), request, contacts);
     }
 
     double smallestGap(int a, int b) const

@@ -122,8 +122,7 @@ TEST(QueryScene, AnswersAreThoseOfCollideForAnyNumberOfThreads)
     ASSERT_FALSE(found[0].empty());
     for (std::size_t i = 0; i < found[0].size(); ++i) {
         const ScenePair& one = found[0][i];
-        const CollisionResult alone = collide(scene.scene.tree(one.a), scene.scene.pose(one.a),
-            scene.scene.tree(one.b), scene.scene.pose(one.b), request);
+        const CollisionResult alone = scene.alone(one.a, one.b, request);
         for (const ScenePair& pair : {one, found[1][i]}) {
             EXPECT_EQ(pair.result.verdict, alone.verdict);
             EXPECT_EQ(pair.result.blocks, alone.blocks);
@@ -141,8 +140,7 @@ TEST(QueryScene, ContactsOfAPairAreThoseOfCollide)
     std::size_t several = 0;
     for (const ScenePair& pair : scene.scene.touchingPairs(request)) {
         std::vector<Contact> contacts;
-        collide(scene.scene.tree(pair.a), scene.scene.pose(pair.a), scene.scene.tree(pair.b),
-            scene.scene.pose(pair.b), request, &contacts);
+        scene.alone(pair.a, pair.b, request, &contacts);
         ASSERT_EQ(pair.contacts.size(), contacts.size());
         for (std::size_t k = 0; k < contacts.size(); ++k) {
             EXPECT_EQ(pair.contacts[k].nodes, contacts[k].nodes);

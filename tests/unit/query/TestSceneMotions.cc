@@ -51,8 +51,8 @@ struct MovingScene : RandomScene {
         }
     }
 
-    ContinuousCollisionResult alone(
-        int a, int b, const ContinuousCollisionRequest& request = {}) const
+    ContinuousCollisionResult movingAlone(
+        int a, int b, const ContinuousCollisionRequest& request) const
     {
         return continuousCollide(scene.tree(a), motions[std::size_t(a)], scene.tree(b),
             motions[std::size_t(b)], request);
@@ -79,7 +79,7 @@ int expectAllPairs(const MovingScene& moving, const ContinuousCollisionRequest& 
     auto next = found.begin();
     for (int a = 0; a < moving.scene.size(); ++a) {
         for (int b = a + 1; b < moving.scene.size(); ++b) {
-            const ContinuousCollisionResult alone = moving.alone(a, b, request);
+            const ContinuousCollisionResult alone = moving.movingAlone(a, b, request);
             if (!alone.isCollide && alone.isDecided) continue;
             if (next == found.end() || next->a != a || next->b != b) {
                 ADD_FAILURE() << "bodies " << a << " and " << b << " are not among the answers";
