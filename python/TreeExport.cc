@@ -87,10 +87,13 @@ void bindTreeExport(py::module_& module)
         [](const std::vector<TreePtr>& trees, const std::string& path,
             const std::string& formatName, const py::dict& words, const py::object& progress) {
             const ExportFormat& format = formatOf(path, formatName);
-            const ExportSettings settings = settingsOf(words, trees.size());
+            ExportSettings settings = settingsOf(words, trees.size());
             return resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
                 std::vector<const spheretree::SphereTree*> all;
                 for (const TreePtr& tree : trees) all.push_back(&tree->get());
+                if (settings.name.empty() && !all.empty()) {
+                    settings.name = spheretree::exportNameFor(*all.front(), format, path);
+                }
                 std::vector<std::string> notes;
                 command::AtomicFile::checkTarget(path);
                 command::AtomicFile file(path);

@@ -36,6 +36,11 @@ bool isPlain(const std::string& name)
 
 } // namespace
 
+bool holdsName(const ExportFormat& format, const std::string& name)
+{
+    return isUtf8(name) && (format.names != ExportNames::Xml || isXmlText(name));
+}
+
 void requireNames(
     const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
 {

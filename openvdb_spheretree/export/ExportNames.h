@@ -8,6 +8,9 @@
 
 namespace openvdb_spheretree::detail {
 
+/// @return whether a name can stand in the text of a format of robots.
+bool holdsName(const ExportFormat& format, const std::string& name);
+
 /// @param notes  receives what becomes of a name that is for people only
 /// @throw openvdb::ValueError if readers would look for a name that the file cannot hold
 void requireNames(

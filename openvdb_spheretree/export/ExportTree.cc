@@ -2,12 +2,14 @@
 #include "ExportTree.h"
 
 #include "ExportBuffer.h"
+#include "ExportNames.h"
 #include "ExportScene.h"
 
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace openvdb_spheretree {
 
@@ -44,6 +46,14 @@ void requireSettings(const ExportFormat& format, const ExportSettings& settings,
 }
 
 } // namespace
+
+std::string exportNameFor(
+    const SphereTree& tree, const ExportFormat& format, const std::string& path)
+{
+    const std::string stem = std::filesystem::path(path).stem().string();
+    const bool hasOwn = tree.settings.name != SphereTreeSettings().name;
+    return format.link && !hasOwn && detail::holdsName(format, stem) ? stem : tree.settings.name;
+}
 
 std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& format,
     const ExportSettings& settings, std::ostream& out, openvdb::util::NullInterrupter* interrupter)

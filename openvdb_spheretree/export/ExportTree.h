@@ -51,6 +51,11 @@ struct ExportSettings {
     std::vector<double> sampleTimes;
 };
 
+/// @return the name for a file that is given none: that of the tree; and of a robot's file its own, without folder and
+/// extension, where the tree is called as all are by default.
+std::string exportNameFor(
+    const SphereTree& tree, const ExportFormat& format, const std::string& path);
+
 /// @brief Write one tree.
 /// @return what the format has no room for, a sentence each; empty if all of the tree is in the file
 /// @throw openvdb::ValueError if the format cannot hold what is asked for, with the reason; openvdb::IoError if

@@ -82,7 +82,7 @@ def export(
         "y" or "z": which axis of the tree is up, for USD and glTF.
     link, name
         The link of a robot that the spheres belong to; the name of the robot, model or prim, by default that of
-        the tree.
+        the tree, or of a robot that of the file where the tree has none of its own.
     density
         Mass of a cubed unit of the file, for formats with a mass.
     start

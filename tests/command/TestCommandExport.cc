@@ -60,6 +60,7 @@ TEST_F(CommandExport, OneFormatAmongFilesOfOthers)
     const Result result = run("-read tree.vdb -write a.urdf b.csv format=deme link=arm");
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_TRUE(mentions(readText(path("a.urdf")), "\"arm\""));
+    EXPECT_TRUE(mentions(readText(path("a.urdf")), "<robot name=\"a\">"));
     EXPECT_TRUE(beginsWith(readText(path("b.csv")), "x,y,z,r\n"));
 }
 
@@ -67,7 +68,7 @@ TEST_F(CommandExport, ToStdout)
 {
     const Result result = run("-quiet -read tree.vdb -write stdout.srdf link=arm");
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_EQ(result.out, written("t.srdf", "link=arm"));
+    EXPECT_EQ(result.out, written("t.srdf", "link=arm name=spheretree"));
 }
 
 TEST_F(CommandExport, UnitsAndUp)

@@ -2,6 +2,7 @@
 #include "WriteExport.h"
 
 #include "line/Length.h"
+#include "line/Plan.h"
 #include "WriteChart.h"
 
 #include <openvdb/Exceptions.h>
@@ -172,7 +173,7 @@ std::vector<OptionSpec> exportOptions()
         text("link", "object", "files of robots: the link that the spheres belong to"),
         text("name", "",
             "files of other tools: the name of the robot, model or prim (by default "
-            "that of the tree)"),
+            "that of the tree; where it has none of its own, a robot has that of the file)"),
         real("density", "1000", 1e-30, 1e30,
             "files with a mass: that of a cubed unit of the file; water has 1000 in metres"),
         real("start", "", -1e9, 1e9,
@@ -239,6 +240,9 @@ void writeExport(const ActionCall& call, const std::string& path,
     std::vector<const spheretree::SphereTree*> trees;
     for (const StackItem* item : chosen) trees.push_back(item->tree.get());
     ExportSettings settings = settingsOf(call);
+    if (settings.name.empty() && !isStdout(path)) {
+        settings.name = spheretree::exportNameFor(*trees.front(), format, path);
+    }
     settings.sampleTimes = sampleTimesOf(call, chosen);
     if (trees.size() > 1) {
         using spheretree::detail::shortNumber;

@@ -174,6 +174,31 @@ TEST_F(MeshCheck, TakesTheObjectsCubesOnlyWhereSpheresCoverThem)
     EXPECT_FALSE(checkMeshCovered(tree, mesh, &*object).empty());
 }
 
+/// The proof of the mesh takes cubes of the object on trust, so it is not asked alone.
+TEST_F(MeshCheck, AgainstVoxelsAndTheMeshNamesWhatEitherFinds)
+{
+    TriangleMesh mesh = bracket();
+    const auto object = meshToObject(mesh, 1);
+    SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
+    EXPECT_TRUE(checkAgainst(tree, &*object, &mesh).empty());
+    for (float& radius : tree.spheres.radiusWorld) radius *= 0.5f;
+    EXPECT_TRUE(checkMeshCovered(tree, mesh, &*object).empty()) << "all of it lies in cubes";
+    const auto ofVoxels = checkAgainst(tree, &*object, nullptr);
+    ASSERT_FALSE(ofVoxels.empty());
+    for (const TreeFault& fault : ofVoxels) EXPECT_NE(FaultKind::Surface, fault.kind);
+    EXPECT_EQ(ofVoxels.size(), checkAgainst(tree, &*object, &mesh).size());
+    const auto ofMesh = checkAgainst(tree, nullptr, &mesh);
+    EXPECT_EQ(tree.levels.size(), ofMesh.size());
+    for (const TreeFault& fault : ofMesh) EXPECT_EQ(FaultKind::Surface, fault.kind);
+    EXPECT_TRUE(checkAgainst(tree, nullptr, nullptr).empty());
+
+    addBox(mesh, Vec3d(50), Vec3d(60)); // not in the object
+    const auto all = checkAgainst(tree, &*object, &mesh);
+    EXPECT_EQ(ofVoxels.size() + tree.levels.size(), all.size());
+    EXPECT_EQ(ofVoxels.front().sentence, all.front().sentence);
+    EXPECT_EQ(FaultKind::Surface, all.back().kind);
+}
+
 /// Centers of spheres of others are rounded by up to 1/2048 voxel along an axis: what holds a corner only
 /// thanks to that proves nothing.
 TEST_F(MeshCheck, OfSpheresOfOthersAllowsForTheirRounding)

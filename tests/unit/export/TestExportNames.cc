@@ -102,6 +102,20 @@ TEST(ExportNames, ANoteSaysWhatBecomesOfANameWhereAsciiIsAll)
     EXPECT_FALSE(noted(written(*findExportFormat(".vtp"), kLatin1, kLatin1).notes, "ASCII"));
 }
 
+TEST(ExportNames, ARobotIsNamedAfterItsFileWhereTheTreeHasNoNameOfItsOwn)
+{
+    const ExportFormat &urdf = *findExportFormat(".urdf"), &usd = *findExportFormat(".usda");
+    SphereTree tree = randomTree(3, 11);
+    tree.settings.name = SphereTreeSettings().name;
+    EXPECT_EQ(exportNameFor(tree, urdf, "a/b.c/" + kGrip + ".urdf"), kGrip);
+    EXPECT_EQ(exportNameFor(tree, urdf, kLatin1 + ".urdf"), tree.settings.name);
+    EXPECT_EQ(exportNameFor(tree, urdf, "a\x01.urdf"), tree.settings.name);
+    EXPECT_EQ(exportNameFor(tree, *findExportFormat(".yml"), "upper arm.yml"), "upper arm");
+    EXPECT_EQ(exportNameFor(tree, usd, "a.usda"), tree.settings.name);
+    tree.settings.name = "arm";
+    EXPECT_EQ(exportNameFor(tree, urdf, "a.urdf"), "arm");
+}
+
 TEST(ExportNames, NamesInGlbAreUtf8)
 {
     const ExportFormat& glb = *findExportFormat(".glb");

@@ -114,6 +114,24 @@ TEST(Resample, ToItsOwnVoxelsAGridStaysAsItIs)
     }
 }
 
+/// 0.3 / 0.1 is a little less than 3 in doubles: what lies beside a center has no part in it.
+TEST(Resample, OntoCentersTheNeighboursTakeNoPart)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    grid->setTransform(Transform::createLinearTransform(0.1));
+    for (const Coord& ijk : CoordBBox(Coord(0, 0, -50), Coord(0, 0, 50))) {
+        const bool isCenter = ijk[2] % 3 == 0;
+        if (isCenter && ijk[2] % 2 == 0) grid->tree().setValueOff(ijk, float(ijk[2]));
+        else grid->tree().setValue(ijk, isCenter ? float(ijk[2]) : std::nanf(""));
+    }
+    const auto result = openvdb::gridPtrCast<FloatGrid>(resampled(*grid, 0.3));
+    for (int k = -16; k <= 16; ++k) {
+        EXPECT_EQ(result->tree().getValue(Coord(0, 0, k)), float(3 * k)) << k;
+        EXPECT_EQ(result->tree().isValueOn(Coord(0, 0, k)), k % 2 != 0) << k;
+    }
+}
+
 TEST(Resample, IntegersAreRoundedToTheNearest)
 {
     const auto grid = named<Int32Grid>("scan", 0);

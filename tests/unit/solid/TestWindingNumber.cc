@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace {
 
@@ -87,6 +88,60 @@ TEST(WindingNumber, IsThatOfTheClosedMeshBesideAHole)
         toIndexSpace(mesh, *openvdb::math::Transform::createLinearTransform(1));
     EXPECT_EQ(std::vector<int>({1, 1, 0}),
         windingNumbers(triangles, {Coord(10), Coord(3, 17, 5), Coord(10, 10, 40)}));
+}
+
+/// A sheet before a voxel winds around nothing, though a ray along one axis crosses it.
+TEST(WindingNumber, IsNoneBehindALoneSheet)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double height : {-7.0, 7.0}) {
+            TriangleMesh mesh;
+            for (const auto& [u, v] : {std::pair(-9, -9), std::pair(30, -9), std::pair(-9, 30)}) {
+                openvdb::Vec3s corner;
+                corner[axis] = float(height);
+                corner[(axis + 1) % 3] = float(u);
+                corner[(axis + 2) % 3] = float(v);
+                mesh.points.push_back(corner);
+            }
+            mesh.triangles = {openvdb::Vec3I(0, 1, 2)};
+            const IndexMesh triangles =
+                toIndexSpace(mesh, *openvdb::math::Transform::createLinearTransform(1));
+            EXPECT_EQ(std::vector<int>({0}), windingNumbers(triangles, {Coord(0)}))
+                << axis << height;
+        }
+    }
+}
+
+/// The first rays from this voxel leave through a corner, where three triangles meet: whether through one of
+/// them or another is decided by rounding, so other rays are asked.
+TEST(WindingNumber, RaysThroughCornersAreNotCounted)
+{
+    const Vec3d steps(0.7548776662466927, 0.5698402909980532, 0.4180339887498949);
+    const Vec3d place = 0.8 * (steps - Vec3d(0.5)); // where windingNumbers() begins
+    IndexMesh mesh;
+    for (const int sign : {-1, 1}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            // A side of a cube of 20 voxels, of four triangles around a point in line with the place.
+            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+            const auto corner = [&](double atU, double atV) {
+                Vec3d p;
+                p[axis] = 10 * sign;
+                p[u] = atU;
+                p[v] = atV;
+                mesh.points.push_back(p);
+                return uint32_t(mesh.points.size() - 1);
+            };
+            const uint32_t middle = corner(place[u], place[v]);
+            const uint32_t around[4] = {
+                corner(-10, -10), corner(10, -10), corner(10, 10), corner(-10, 10)};
+            for (int i = 0; i < 4; ++i) {
+                const uint32_t a = around[i], b = around[(i + 1) % 4];
+                mesh.triangles.push_back(
+                    sign > 0 ? openvdb::Vec3I(middle, a, b) : openvdb::Vec3I(middle, b, a));
+            }
+        }
+    }
+    EXPECT_EQ(std::vector<int>({1, 0}), windingNumbers(mesh, {Coord(0), Coord(20)}));
 }
 
 } // namespace
