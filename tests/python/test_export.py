@@ -19,14 +19,15 @@ def test_the_bytes_are_those_of_the_command(tree, tmp_path, monkeypatch):
     if not command:
         pytest.skip("the command is not here")
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "python").mkdir() # with the same names: robots are called after their files
     tree.save("tree.vdb")
     words = {"units": "mm", "frame": "centroid", "link": "arm", "level": 0, "density": 2700}
     for name, format in (("t.urdf", ""), ("t.usda", ""), ("t.yml", "lula"), ("t.glb", ""), ("t.csv", "deme")):
-        spheretree.export(tree, "python_" + name, format=format, **words)
+        spheretree.export(tree, "python/" + name, format=format, **words)
         options = [f"{key}={value}" for key, value in words.items()]
         subprocess.run([command, "-quiet", "-read", "tree.vdb", "-write", name, *options,
                         *([f"format={format}"] if format else [])], check=True)
-        assert (tmp_path / ("python_" + name)).read_bytes() == (tmp_path / name).read_bytes(), name
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / name).read_bytes(), name
 
 
 def test_what_there_is_no_room_for_is_a_warning(tree, tmp_path):
