@@ -27,7 +27,8 @@ enum Trait : unsigned {
     kUtf8 = 1024,        ///< ExportNames::Utf8, and so on
     kXml = 2048,
     kWord = 4096,
-    kIdentifier = 8192
+    kIdentifier = 8192,
+    kEmpty = 16384 ///< ExportFormat::empty
 };
 
 struct Row {
@@ -56,14 +57,14 @@ constexpr Row kRows[] = {
     {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
 
     {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
-        kFloats | kAllLevels | kSamples | kIdentifier, detail::writeUsda},
-    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels | kWord, detail::writePly},
-    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord, detail::writePlyAscii},
+        kFloats | kAllLevels | kSamples | kIdentifier | kEmpty, detail::writeUsda},
+    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
+    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord | kEmpty, detail::writePlyAscii},
     {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels | kUtf8, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
-    {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshObj},
+    {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord | kEmpty, detail::writeMeshObj},
     {"mesh", ".stl", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshStl},
     {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8, detail::writeMeshGlb},
     {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName | kWord,
@@ -74,9 +75,9 @@ constexpr Row kRows[] = {
     {"liggghts", ".txt .multisphere", "LIGGGHTS", kSpheres, kPositiveRadii | kByName | kWord, detail::writeLiggghts},
     {"yade", ".txt", "YADE", kSpheres, kPositiveRadii | kByName | kWord, detail::writeYade},
     {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName | kWord, detail::writeLammps},
-    {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName, detail::writeMultisphere},
-    {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName, detail::writeDeme},
-    {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels, detail::writeXyz},
+    {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName | kEmpty, detail::writeMultisphere},
+    {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName | kEmpty, detail::writeDeme},
+    {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels | kEmpty, detail::writeXyz},
     {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds | kWord, detail::writeSwc},
     {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
         kAllLevels | kOrdersIds, detail::writeSph},
@@ -100,6 +101,7 @@ ExportFormat makeFormat(const Row& row)
     if (has(kWord)) format.names = ExportNames::Word;
     if (has(kIdentifier)) format.names = ExportNames::Identifier;
     format.link = has(kLink);
+    format.empty = has(kEmpty);
     format.allLevels = has(kAllLevels);
     format.samples = has(kSamples);
     format.mass = has(kMass);

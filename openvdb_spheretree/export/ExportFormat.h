@@ -41,6 +41,7 @@ struct ExportFormat {
     ExportNumbers numbers = ExportNumbers::Decimal;
     ExportNames names = ExportNames::Bytes;
     bool link = false;          ///< holds the name of a link
+    bool empty = false;         ///< can be a file without spheres
     bool allLevels = false;     ///< holds more than one level
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace openvdb_spheretree::detail {
 
@@ -171,6 +173,41 @@ void showTracks(const SphereTree& tree, ExportLevel& level)
     }
 }
 
+/// Readers that go from sample to sample by the place in the list find a sphere where its track was.
+void sortByTrack(ExportLevel& level)
+{
+    std::vector<std::size_t> order(level.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+        [&](std::size_t a, std::size_t b) { return level.ids[a] < level.ids[b]; });
+    ExportLevel sorted;
+    sorted.number = level.number;
+    for (const std::size_t i : order) {
+        sorted.centers.push_back(level.centers[i]);
+        sorted.radii.push_back(level.radii[i]);
+        sorted.ids.push_back(level.ids[i]);
+        sorted.parents.push_back(level.parents[i]);
+    }
+    level = std::move(sorted);
+}
+
+/// @return the scene of a tree of no object: one level, of no spheres.
+ExportScene emptyScene(
+    const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings)
+{
+    if (!format.empty) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "there are no spheres, and " << format.name << " has no room for none");
+    }
+    ExportScene scene;
+    scene.name = settings.name.empty() ? tree.settings.name : settings.name;
+    scene.link = settings.link;
+    scene.metersPerUnit = settings.metersPerUnit;
+    scene.up = settings.up;
+    scene.levels.resize(1);
+    return scene;
+}
+
 void requirePositive(const ExportScene& scene, const ExportFormat& format)
 {
     int64_t zero = 0;
@@ -214,6 +251,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const ExportSettings& settings, std::vector<std::string>& notes,
     openvdb::util::NullInterrupter* interrupter)
 {
+    if (whole.levels.empty()) return emptyScene(whole, format, settings);
     requireSpheres(whole);
     const std::optional<SphereTree> part = chosenPart(whole, format, settings, notes);
     const SphereTree& tree = part ? *part : whole;
@@ -247,7 +285,10 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     noteGrowth(worst, format, notes);
     noteUnits(scene, format, notes);
     if (!tree.track.empty() && !format.ordersIds) {
-        for (ExportLevel& level : scene.levels) showTracks(tree, level);
+        for (ExportLevel& level : scene.levels) {
+            showTracks(tree, level);
+            if (format.samples) sortByTrack(level);
+        }
     }
     if (format.positiveRadii) requirePositive(scene, format);
     return scene;

@@ -46,6 +46,7 @@ struct ExportScene {
     static openvdb::BBoxd boxOf(const ExportLevel& level);
 };
 
+/// @param tree   without levels it is that of no object, and the scene has one level without spheres
 /// @param notes  receives what of the tree is not in the scene
 /// @throw openvdb::ValueError if the format cannot hold it
 ExportScene makeScene(const SphereTree& tree, const ExportFormat& format,

@@ -56,7 +56,8 @@ struct ExportSettings {
 std::string exportNameFor(
     const SphereTree& tree, const ExportFormat& format, const std::string& path);
 
-/// @brief Write one tree.
+/// @brief Write one tree. One without levels, that of no object, is a file without spheres where the format has room
+/// for none.
 /// @return what the format has no room for, a sentence each; empty if all of the tree is in the file
 /// @throw openvdb::ValueError if the format cannot hold what is asked for, with the reason; openvdb::IoError if
 /// the stream fails

@@ -340,6 +340,20 @@ bool isSphereTree(const GridBase& grid)
     return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
 }
 
+PointDataGrid::Ptr emptyTreeToPoints(const SphereTree& tree)
+{
+    const auto points = PointDataGrid::create();
+    points->setName(tree.settings.name);
+    points->setTransform(tree.transform->copy());
+    points->insertMeta(detail::kEmptyKey, openvdb::BoolMetadata(true));
+    return points;
+}
+
+bool isEmptyTree(const GridBase& grid)
+{
+    return grid.isType<PointDataGrid>() && grid[detail::kEmptyKey] && grid.empty();
+}
+
 bool isDagOf(const GridBase& grid, const std::string& treeName)
 {
     return grid.isType<PointDataGrid>() && grid[detail::kDagFormatKey]

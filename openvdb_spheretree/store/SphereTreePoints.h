@@ -55,6 +55,13 @@ openvdb::points::PointDataGrid::Ptr cutsToPoints(
 /// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
 bool isSphereTree(const openvdb::GridBase& grid);
 
+/// @return the grid of a tree of no object: without points, of the tree's name and transform. It is no
+///         sphere-tree for fromPoints(), and says of itself what it stands for.
+openvdb::points::PointDataGrid::Ptr emptyTreeToPoints(const SphereTree& tree);
+
+/// @return whether a grid is one that emptyTreeToPoints() has made.
+bool isEmptyTree(const openvdb::GridBase& grid);
+
 /// @return whether a grid claims to be what dagToPoints() makes of a tree of that name.
 bool isDagOf(const openvdb::GridBase& grid, const std::string& treeName);
 

@@ -121,7 +121,7 @@ TEST_F(CommandChart, WhatDoesNotFitIsRefused)
     refused("-read a.vol -write e.svg", 3, "there is none: put -spheretree before");
     refused("-read a.vol -spheretree -write e.urdf format=curve", 2,
         "files that end in .svg, .png, .csv");
-    refused("-read a.vol -spheretree -write e.svg level=1", 2, "level is for pictures");
+    refused("-read a.vol -spheretree -write e.svg level=1", 2, "level is for pictures and files");
     refused(
         "-read a.vol -spheretree -write e.png format=curve color=id", 2, "color is for pictures");
     refused(

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace {
 
@@ -259,6 +260,112 @@ TEST_F(CommandFrames, AnEmptyFrameFailsOrIsSkippedOrWritten)
     EXPECT_EQ(grids[0]->getName(), "spheretree");
     EXPECT_EQ(grids[0]->activeVoxelCount(), 0u);
     EXPECT_EQ(grids[0]->voxelSize(), readGrids("smoke_0009.vdb")[0]->voxelSize());
+}
+
+TEST_F(CommandFrames, FilesOfOtherToolsAreThereOfAnEmptyFrameIfTheyCanBe)
+{
+    writeFrames({8, 9}, 9);
+    const std::string line = "-read smoke_####.vdb -spheretree spheres=4 empty=write -write ";
+    const Result write =
+        run(line + "e_####.usda e_####.ply e_####.xyz e_####.obj e_####.csv format=deme");
+    EXPECT_EQ(write.exitCode, 0) << write.err;
+    EXPECT_TRUE(holds(readText(path("e_0009.usda")), "point3f[] points = []"));
+    EXPECT_TRUE(holds(readText(path("e_0009.ply")), "element vertex 0\n"));
+    EXPECT_EQ(readText(path("e_0009.xyz")).find("0\n"), 0u);
+    EXPECT_EQ(readText(path("e_0009.csv")), "x,y,z,r\n");
+    for (const char* file : {"f_####.glb", "f_####.urdf", "f_####.nvdb", "f_####.html"}) {
+        const Result refused = run(line + file + " g_####.csv");
+        EXPECT_EQ(refused.exitCode, 3) << file;
+        EXPECT_TRUE(holds(refused.err, "empty=skip makes no file of ")) << refused.err;
+        EXPECT_FALSE(exists("g_0009.csv")) << "all of a -write, or nothing";
+        EXPECT_TRUE(exists("g_0008.csv"));
+    }
+}
+
+TEST_F(CommandFrames, EmptyFramesAreSamplesWithoutSpheres)
+{
+    writeFrames({8, 9, 10, 11}, 8);
+    const std::string build = "-spheretree spheres=4,1 empty=write ";
+    ASSERT_EQ(run("-read smoke_####.vdb " + build + "-write tree_####.vdb").exitCode, 0);
+    // From the cache at once, and from its trees.
+    for (const std::string& trees :
+        {"-read smoke_####.vdb " + build, std::string("-read tree_####.vdb ")}) {
+        const Result result = run("-for i=8,12 " + trees + "-end -write smoke.usda");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        const std::string stage = readText(path("smoke.usda"));
+        EXPECT_TRUE(holds(stage, "startTimeCode = 8\n")) << trees;
+        EXPECT_TRUE(holds(stage, "endTimeCode = 11\n")) << trees;
+        EXPECT_TRUE(
+            holds(stage, "point3f[] points.timeSamples = {\n            8: [],\n            9: [("))
+            << stage.substr(0, 2000);
+    }
+    const Result table = run("-read tree_0008.vdb -write again.csv");
+    EXPECT_EQ(table.exitCode, 0) << table.err;
+    const std::string lines = readText(path("again.csv"));
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1);
+}
+
+TEST_F(CommandFrames, BehindALoopANameStandsForTheTreesOfAllFrames)
+{
+    writeFrames({8, 9, 10});
+    const std::string loop =
+        "-for i=8,11 -read smoke_####.vdb -spheretree spheres=4 name=few keep=1 "
+        "-spheretree spheres=9 name=many -end ";
+    const Result result = run(loop + "-write few.usda vdb=few keep=1 -write many.usda vdb=many");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    for (const char* file : {"few.usda", "many.usda"}) {
+        EXPECT_TRUE(holds(readText(path(file)), "startTimeCode = 8\n")) << file;
+        EXPECT_TRUE(holds(readText(path(file)), "endTimeCode = 10\n")) << file;
+    }
+    // Within the loop it is that of the frame.
+    const Result within = run("-for i=8,11 -read smoke_####.vdb -spheretree spheres=4 name=few "
+                              "-write few_####.csv vdb=few keep=1 -end");
+    EXPECT_EQ(within.exitCode, 0) << within.err;
+    const Result alone =
+        run("-read smoke_0010.vdb -spheretree spheres=4 name=few -write alone.csv");
+    EXPECT_EQ(readText(path("few_0010.csv")), readText(path("alone.csv")));
+}
+
+TEST_F(CommandFrames, TreesOfTwoNamesAreNoSamplesOfOneThing)
+{
+    writeFrames({8, 9});
+    const std::string two = "-read smoke_####.vdb -spheretree spheres=4 name=few keep=1 "
+                            "-spheretree spheres=9 name=many ";
+    for (const std::string& line :
+        {"-for i=8,10 " + two + "-end ", "-for i=8,9 " + two + "-end "}) {
+        const Result result = run(line + "-write both.usda");
+        EXPECT_EQ(result.exitCode, 3) << result.err;
+        EXPECT_TRUE(holds(result.err, "there are 'few' and 'many': choose by name with vdb="))
+            << result.err;
+        EXPECT_FALSE(exists("both.usda"));
+        EXPECT_EQ(run(line + "-write both.usda start=1").exitCode, 0);
+        EXPECT_EQ(::unlink(path("both.usda").c_str()), 0);
+    }
+    const Result named = run("-for i=8,10 -read smoke_####.vdb -spheretree spheres=4 "
+                             "name='t_{$i}' -end -write all.vdb all.usda");
+    EXPECT_EQ(named.exitCode, 0) << named.err;
+    EXPECT_TRUE(holds(readText(path("all.usda")), "endTimeCode = 9\n"));
+}
+
+TEST_F(CommandFrames, EachFrameFindsWhatWasThereBeforeTheSequence)
+{
+    writeFrames({8, 9, 10});
+    writeGrids("still.vdb", {sphereGrid("still", 5)});
+    const Result grids = run("-read still.vdb -read smoke_####.vdb -spheretree spheres=4 "
+                             "-write k_####.vdb");
+    EXPECT_EQ(grids.exitCode, 0) << grids.err;
+    for (const int frame : {8, 9, 10}) {
+        EXPECT_EQ(readGrids(nameOf("k", frame, "vdb")).size(), 2u) << frame;
+    }
+    // A tree that the last action of each frame writes, too.
+    ASSERT_EQ(
+        run("-read still.vdb -spheretree spheres=3 name=still -write still_tree.vdb").exitCode, 0);
+    const Result trees = run("-read still_tree.vdb -read smoke_####.vdb -spheretree spheres=4 "
+                             "-write t_####.vdb");
+    EXPECT_EQ(trees.exitCode, 0) << trees.err;
+    for (const int frame : {8, 9, 10}) {
+        EXPECT_EQ(readGrids(nameOf("t", frame, "vdb")).size(), 2u) << frame;
+    }
 }
 
 TEST_F(CommandFrames, WhatIsFoundEmptyBeforeTheTreeIsEmptyToo)

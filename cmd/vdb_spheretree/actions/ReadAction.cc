@@ -126,6 +126,17 @@ StackItem treeItem(const PointDataGrid& points, const Companions& companions,
     return item;
 }
 
+/// The tree of a frame that had no object.
+StackItem emptyTreeItem(const GridBase::Ptr& points)
+{
+    StackItem item;
+    item.grid = points;
+    item.emptyTree = std::make_shared<openvdb_spheretree::SphereTree>();
+    item.emptyTree->settings.name = points->getName();
+    item.emptyTree->transform = points->transform().copy();
+    return item;
+}
+
 /// @return the factor for what is read; nothing if none is asked for.
 std::optional<double> scaleOf(const ActionCall& call)
 {
@@ -213,6 +224,10 @@ void readVdbFile(const std::string& path, Reading& reading, Session& session)
     for (const GridBase::Ptr& grid : grids) {
         throwIfStopped();
         if (ofTrees.count(grid) || !reading.filter.accepts(grid->getName())) continue;
+        if (openvdb_spheretree::isEmptyTree(*grid)) {
+            session.stack.push(emptyTreeItem(grid));
+            continue;
+        }
         if (!openvdb_spheretree::isSphereTree(*grid)) {
             pushGrid(grid, path, reading, session);
             continue;

@@ -14,6 +14,7 @@
 #include <openvdb_spheretree/check/MeshCheck.h>
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/measure/LevelErrors.h>
+#include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
@@ -196,11 +197,8 @@ void runEmptySpheretree(const ActionCall& call, Session& session)
     tree->settings = settingsOf(call);
     tree->transform = input == items.rend() ? openvdb::math::Transform::createLinearTransform()
                                             : (*input)->grid->transform().copy();
-    const auto points = openvdb::points::PointDataGrid::create();
-    points->setName(tree->settings.name);
-    points->setTransform(tree->transform->copy());
     StackItem result;
-    result.grid = points;
+    result.grid = spheretree::emptyTreeToPoints(*tree);
     result.emptyTree = tree;
     if (input != items.rend() && !call.flag("keep")) session.stack.drop(input->get());
     session.stack.beginBatch(call.label());

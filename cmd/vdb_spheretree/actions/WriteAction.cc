@@ -171,7 +171,7 @@ void requireDistinctTrees(const std::vector<StackItem*>& items)
         if (!taken(true, "") && !taken(edges, "_dag") && !taken(cuts, "_cuts")) continue;
         throwInput("two sphere-trees are named '" + oneLine(name, 60)
             + "', or one as the edges or cuts of the other: give them different names with name= "
-              "of -spheretree");
+              "of -spheretree (in a loop over i, name='tree_{$i}')");
     }
 }
 

@@ -90,7 +90,13 @@ std::vector<const StackItem*> treesOf(
 {
     std::vector<const StackItem*> trees;
     for (const StackItem* item : items) {
-        if (item->tree) trees.push_back(item);
+        if (item->tree || item->emptyTree) trees.push_back(item);
+    }
+    const bool anyEmpty = std::any_of(
+        trees.begin(), trees.end(), [](const StackItem* item) { return bool(item->emptyTree); });
+    if (anyEmpty && !format.empty) {
+        throwInput(path + ": " + format.name
+            + " has no room for a frame without spheres: empty=skip makes no file of it");
     }
     if (trees.empty()) {
         throwInput(path + " holds spheres of a tree, and there is none: put -spheretree before");
@@ -100,6 +106,32 @@ std::vector<const StackItem*> treesOf(
             + ": choose with vdb=");
     }
     return trees;
+}
+
+const spheretree::SphereTree& treeOf(const StackItem& item)
+{
+    return item.tree ? *item.tree : *item.emptyTree;
+}
+
+bool areFramesRising(const std::vector<const StackItem*>& trees)
+{
+    const auto isNotLater = [](const StackItem* before, const StackItem* item) {
+        return !before->frame || !item->frame || *item->frame <= *before->frame;
+    };
+    return std::adjacent_find(trees.begin(), trees.end(), isNotLater) == trees.end();
+}
+
+/// Trees of several names are samples of one thing only if each is of a later frame, or if the line says so.
+void requireOneThing(
+    const ActionCall& call, const std::string& path, const std::vector<const StackItem*>& trees)
+{
+    if (call.given("start") || areFramesRising(trees)) return;
+    for (const StackItem* item : trees) {
+        if (item->name() == trees.front()->name()) continue;
+        throwInput(path + " holds one sphere-tree over time, and there are '"
+            + oneLine(trees.front()->name(), 60) + "' and '" + oneLine(item->name(), 60)
+            + "': choose by name with vdb=, or say with start= that they are samples of one");
+    }
 }
 
 /// @return the times of several trees: one after the other from start= on; else the numbers of their frames, if these
@@ -138,7 +170,7 @@ bool wroteGrids(const ActionCall& call, const std::string& path,
 {
     std::vector<openvdb::SharedPtr<openvdb::GridBase>> grids;
     for (const StackItem* item : items) {
-        if (item->tree) return false;
+        if (item->tree || item->emptyTree) return false;
         if (item->grid) grids.push_back(item->grid);
     }
     if (grids.empty()) return false;
@@ -237,8 +269,9 @@ void writeExport(const ActionCall& call, const std::string& path,
         rethrowNamed(path, kInput);
     }
     const auto chosen = treesOf(items, format, path);
+    requireOneThing(call, path, chosen);
     std::vector<const spheretree::SphereTree*> trees;
-    for (const StackItem* item : chosen) trees.push_back(item->tree.get());
+    for (const StackItem* item : chosen) trees.push_back(&treeOf(*item));
     ExportSettings settings = settingsOf(call);
     if (settings.name.empty() && !isStdout(path)) {
         settings.name = spheretree::exportNameFor(*trees.front(), format, path);

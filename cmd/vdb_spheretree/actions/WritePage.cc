@@ -18,6 +18,10 @@ StackItem& treeToShow(const std::vector<StackItem*>& items, const std::string& p
 {
     StackItem* tree = nullptr;
     for (StackItem* item : items) {
+        if (item->emptyTree) {
+            throwInput(path
+                + " shows spheres, and there are none: empty=skip makes no file of such a frame");
+        }
         if (!item->tree) continue;
         if (tree) throwInput(path + " shows one sphere-tree, and there are more: choose with vdb=");
         tree = item;

@@ -184,7 +184,11 @@ void checkPictureOptions(const ActionCall& call)
         if (picture || !call.given(option.name)) continue;
         if (isExport && (option.name == "level" || option.name == "up")) continue;
         if (chart && (option.name == "width" || option.name == "height")) continue;
-        throwUsage("option " + option.name + " is for pictures, and none is written (.png, .jpg)");
+        const bool isOfTrees = option.name == "level" || option.name == "up";
+        throwUsage("option " + option.name
+            + (isOfTrees ? " is for pictures and files of other tools, and none is written "
+                           "(-help write lists them)"
+                         : " is for pictures, and none is written (.png, .jpg)"));
     }
     settingsOf(call);
     if (!picture) return;

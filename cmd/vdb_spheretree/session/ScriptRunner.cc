@@ -235,10 +235,15 @@ void ScriptRunner::runLoop(const Step& loop, bool isEnd)
     replay(loop.stored);
     if (!loop.note.empty()) mSession.note(loop.note);
     Turns turns{loop};
+    const std::vector<StackItem> before =
+        loop.isSequence ? mSession.stack.copies() : std::vector<StackItem>();
     for (const Frame& frame : loop.frames) {
         throwIfStopped();
         ++turns.begun;
-        runFrame(frame, turns, isEnd && (loop.isSequence || &frame == &loop.frames.back()));
+        // Each frame of a sequence finds what was there before all of them.
+        if (!before.empty()) mSession.stack.restore(before);
+        const bool isLast = &frame == &loop.frames.back();
+        runFrame(frame, turns, isEnd && (isLast || (loop.isSequence && before.empty())));
     }
     mVariables.erase(loop.variable);
     mVariables.erase("#" + loop.variable);

@@ -91,6 +91,19 @@ void Stack::drop(const StackItem* item)
     mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isIt), mItems.end());
 }
 
+std::vector<StackItem> Stack::copies() const
+{
+    std::vector<StackItem> all;
+    for (const auto& item : mItems) all.push_back(*item);
+    return all;
+}
+
+void Stack::restore(const std::vector<StackItem>& copies)
+{
+    mItems.clear();
+    for (const StackItem& item : copies) mItems.push_back(std::make_unique<StackItem>(item));
+}
+
 bool Stack::holdsMesh() const
 {
     return std::any_of(mItems.begin(), mItems.end(), [](const auto& i) { return bool(i->mesh); });
@@ -114,6 +127,19 @@ StackItem* Stack::find(const std::string& ageOrName, bool meshes)
     if (!isNumber(ageOrName)) return nullptr;
     const size_t age = std::stoul(ageOrName);
     return age < items.size() ? items[age] : nullptr;
+}
+
+std::vector<StackItem*> Stack::ofAllFrames(StackItem* item, const std::string& ageOrName)
+{
+    std::vector<StackItem*> all{item};
+    if (mFrame || !item->frame || item->name() != ageOrName) return all;
+    for (StackItem* other : newestFirst(false)) {
+        const bool isInItsPlace = other->name() == ageOrName && other->frame
+            && std::none_of(all.begin(), all.end(),
+                [&](const StackItem* taken) { return taken->frame == other->frame; });
+        if (isInItsPlace) all.push_back(other);
+    }
+    return all;
 }
 
 std::string Stack::listing() const
@@ -188,7 +214,7 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
         for (const std::string& ageOrName : agesOrNames) {
             StackItem* const item = find(ageOrName, false);
             if (!item) throwInput("there is no '" + ageOrName + "'; " + listing());
-            chosen.push_back(item);
+            for (StackItem* one : ofAllFrames(item, ageOrName)) chosen.push_back(one);
         }
     }
     if (chosen.empty()) throwInput("there is no grid or sphere-tree to work on; " + listing());

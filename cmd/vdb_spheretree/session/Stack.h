@@ -59,9 +59,14 @@ public:
     void push(StackItem item);
     void drop(const StackItem* item);
     void clear() { mItems.clear(); }
+    /// @return copies of all items, which share their grids, trees and meshes with them.
+    std::vector<StackItem> copies() const;
+    /// Makes the stack what it was when it was copied.
+    void restore(const std::vector<StackItem>& copies);
 
     /// @return the items of a list of ages and names, oldest first. If the list is empty or `*`, they
-    ///         are all grids and trees that are not written yet; or all, if all are written.
+    ///         are all grids and trees that are not written yet; or all, if all are written. Behind a loop, a
+    ///         name stands for the items of all frames that have it.
     /// @throw CommandError (input) if there is none
     std::vector<StackItem*> several(const std::vector<std::string>& agesOrNames);
 
@@ -84,6 +89,8 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
+    /// @return the item, and those that other frames have in its place, newest first.
+    std::vector<StackItem*> ofAllFrames(StackItem* item, const std::string& ageOrName);
     /// @throw CommandError (input) if the same action has made another item of that name
     void requireOneOfName(const StackItem& chosen);
     std::string listing() const;

@@ -124,8 +124,11 @@ void CutErrors::throwUnreachable()
         boundsText(mBudget) << " cannot be reached: padding=" << paddingToString(mSettings.padding)
                             << " makes stored radii " << mSettings.paddingVoxels() * mVoxelSize
                             << " larger" << what.str()
-                            << ": use smaller voxels, less padding (padding=voxels has none), or a "
-                               "larger bound");
+                            << ": use smaller voxels, less padding (padding=voxels has none), "
+                            << (mBudget.bounds == BoundOf::Stored
+                                       ? "a larger bound, or bounds=unpadded to bound the errors "
+                                         "without the padding"
+                                       : "or a larger bound"));
 }
 
 void CutErrors::throwTooMany(int64_t count)

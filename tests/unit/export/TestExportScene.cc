@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace openvdb_spheretree;
@@ -257,6 +258,34 @@ TEST(ExportScene, TracksAreIdsWhereTheOrderOfIdsIsFree)
             const int32_t parent = plain.levels[k].parents[i];
             EXPECT_EQ(
                 tracked.levels[k].parents[i], parent < 0 ? -1 : tree.track[std::size_t(parent)]);
+        }
+    }
+}
+
+/// Readers that blend samples go by the place in the list.
+TEST(ExportScene, SamplesHaveTheirSpheresInTheOrderOfTracks)
+{
+    SphereTree tree = turnedTree();
+    const auto plain = sceneOf(tree, format(true)).scene;
+    for (int32_t id = 0; id < tree.size(); ++id) tree.track.push_back((7 * id + 3) % tree.size());
+    ASSERT_NE(tree.size() % 7, 0);
+    tree.nextTrack = tree.size();
+    ExportFormat ofSamples = format(true);
+    ofSamples.samples = true;
+    const auto tracked = sceneOf(tree, ofSamples).scene;
+    for (std::size_t k = 0; k < plain.levels.size(); ++k) {
+        const ExportLevel &level = tracked.levels[k], &before = plain.levels[k];
+        ASSERT_EQ(level.size(), before.size());
+        EXPECT_TRUE(std::is_sorted(level.ids.begin(), level.ids.end()));
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const int32_t track = tree.track[std::size_t(before.ids[i])];
+            const auto found = std::find(level.ids.begin(), level.ids.end(), track);
+            ASSERT_NE(found, level.ids.end());
+            const auto at = std::size_t(found - level.ids.begin());
+            EXPECT_EQ(level.centers[at], before.centers[i]);
+            EXPECT_EQ(level.radii[at], before.radii[i]);
+            const int32_t parent = before.parents[i];
+            EXPECT_EQ(level.parents[at], parent < 0 ? -1 : tree.track[std::size_t(parent)]);
         }
     }
 }
