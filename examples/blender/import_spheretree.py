@@ -144,7 +144,9 @@ def main():
     if len(words) not in (1, 2):
         sys.exit(__doc__)
     try:
-        load(words[0], int(words[1]) if len(words) == 2 else None, up)
+        tree = load(words[0], int(words[1]) if len(words) == 2 else None, up)
+        levels = {value.value for value in tree.data.attributes["level"].data}
+        print(f"import_spheretree: object {tree.name!r} has {len(tree.data.vertices)} spheres on {len(levels)} levels")
     except (OSError, ValueError) as error:
         sys.exit(f"import_spheretree: {error}")
 

@@ -150,7 +150,7 @@ OptionSpec vdbOption(const std::string& what)
     return text("vdb", "",
         what
             + ", by its age on the stack (0 is the newest) or its name; "
-              "by default the only one that suits");
+              "by default the only one of the newest action that suits");
 }
 
 OptionSpec keepOption() { return flag("keep", false, "leave the input on the stack"); }
