@@ -72,6 +72,7 @@ ExportSettings settingsOf(const py::dict& words, std::size_t trees)
     settings.metersPerUnit = *metres;
     settings.scale = words["scale"].cast<double>() / *metres;
     settings.density = words["density"].cast<double>();
+    settings.framesPerSecond = words["fps"].cast<double>();
     settings.link = words["link"].cast<std::string>();
     settings.name = words["name"].cast<std::string>();
     const auto start = words["start"].cast<double>();

@@ -204,6 +204,7 @@ ExportScene emptyScene(
     scene.link = settings.link;
     scene.metersPerUnit = settings.metersPerUnit;
     scene.up = settings.up;
+    scene.framesPerSecond = settings.framesPerSecond;
     scene.levels.resize(1);
     return scene;
 }
@@ -269,6 +270,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     requireNames(scene, format, notes);
     scene.metersPerUnit = settings.metersPerUnit;
     scene.up = settings.up;
+    scene.framesPerSecond = settings.framesPerSecond;
     scene.density = settings.density;
     if (format.mass) scene.mass = frame.toFile(mass, settings.density);
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {

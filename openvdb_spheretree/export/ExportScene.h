@@ -33,8 +33,9 @@ struct ExportScene {
     int decimals = 0; ///< of ExportNumbers::Decimal: all lengths are multiples of 10^-decimals
     double metersPerUnit = 1;
     UpAxis up = UpAxis::Y;
-    double density = 1; ///< mass of a cubed unit
-    double sample = 1;  ///< its time
+    double density = 1;          ///< mass of a cubed unit
+    double sample = 1;           ///< its time
+    double framesPerSecond = 24; ///< of sample times
     MassProperties
         mass; ///< of the union of the finest level's spheres; zero in formats without a mass
 

@@ -26,7 +26,8 @@ void requireSettings(const ExportFormat& format, const ExportSettings& settings,
         OPENVDB_THROW(openvdb::ValueError, "level and spheres exclude each other");
     }
     for (const auto& [name, value] : {std::pair("scale", settings.scale),
-             std::pair("density", settings.density), std::pair("units", settings.metersPerUnit)}) {
+             std::pair("density", settings.density), std::pair("units", settings.metersPerUnit),
+             std::pair("fps", settings.framesPerSecond)}) {
         if (std::isfinite(value) && value > 0) continue;
         OPENVDB_THROW(
             openvdb::ValueError, name << "=" << value << " is out of range: it is positive");

@@ -47,6 +47,8 @@ struct ExportSettings {
     double density = 1;          ///< mass of a cubed unit of the file, for formats with a mass
     std::string link = "object"; ///< the link of a robot that the spheres belong to
     std::string name;            ///< of the robot, model or prim; by default that of the tree
+    double framesPerSecond =
+        24; ///< how many units of sample times a second has, for formats with samples
     /// The times of several trees, rising; empty: 1, 2, 3 and so on.
     std::vector<double> sampleTimes;
 };

@@ -146,8 +146,9 @@ void writeStage(ExportText& text, const Samples& samples, const std::string& pri
     if (samples.size() > 1) {
         text << "    startTimeCode = ";
         text.real(scene.sample) << "\n    endTimeCode = ";
-        text.real(samples.back().sample)
-            << "\n    timeCodesPerSecond = 24\n    framesPerSecond = 24\n";
+        text.real(samples.back().sample) << "\n    timeCodesPerSecond = ";
+        text.real(scene.framesPerSecond) << "\n    framesPerSecond = ";
+        text.real(scene.framesPerSecond) << '\n';
     }
     text << ")\n\n";
 }

@@ -54,6 +54,7 @@ def export(
     name: str = "",
     density: float = 1000.0,
     start: float = 1.0,
+    fps: float = 24.0,
     progress: Progress = None,
 ) -> None:
     """Write a tree as a file of another tool, with the same bytes as the command's -write.
@@ -85,8 +86,8 @@ def export(
         the tree, or of a robot that of the file where the tree has none of its own.
     density
         Mass of a cubed unit of the file, for formats with a mass.
-    start
-        The time of the first of several trees.
+    start, fps
+        The time of the first of several trees, each a frame; and how many frames a second has.
     progress
         As for `build()`.
 
@@ -103,7 +104,7 @@ def export(
     """
     words = {
         "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "up": up,
-        "link": link, "name": name, "density": float(density), "start": float(start),
+        "link": link, "name": name, "density": float(density), "start": float(start), "fps": float(fps),
     }
     several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
     handles = [tree._handle for tree in several]

@@ -342,8 +342,9 @@ TEST_F(CommandFrames, TreesOfTwoNamesAreNoSamplesOfOneThing)
         EXPECT_EQ(::unlink(path("both.usda").c_str()), 0);
     }
     const Result named = run("-for i=8,10 -read smoke_####.vdb -spheretree spheres=4 "
-                             "name='t_{$i}' -end -write all.vdb all.usda");
+                             "name='t_{$i}' -end -write all.vdb all.usda fps=30");
     EXPECT_EQ(named.exitCode, 0) << named.err;
+    EXPECT_TRUE(holds(readText(path("all.usda")), "timeCodesPerSecond = 30\n"));
     EXPECT_TRUE(holds(readText(path("all.usda")), "endTimeCode = 9\n"));
 }
 

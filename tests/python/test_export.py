@@ -36,8 +36,9 @@ def test_what_there_is_no_room_for_is_a_warning(tree, tmp_path):
 
 
 def test_several_trees_are_samples_over_time(tree, tmp_path):
-    spheretree.export([tree, tree], tmp_path / "t.usda", start=101)
-    assert "endTimeCode = 102" in (tmp_path / "t.usda").read_text()
+    spheretree.export([tree, tree], tmp_path / "t.usda", start=101, fps=25)
+    stage = (tmp_path / "t.usda").read_text()
+    assert "endTimeCode = 102" in stage and "framesPerSecond = 25\n" in stage
     with pytest.raises(spheretree.InputError, match="holds one sphere-tree"):
         spheretree.export([tree, tree], tmp_path / "t.ply")
 

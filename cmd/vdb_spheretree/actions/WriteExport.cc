@@ -80,6 +80,7 @@ ExportSettings settingsOf(const ActionCall& call)
     settings.scale = call.real("scale") / settings.metersPerUnit;
     settings.up = upOf(call);
     settings.density = call.real("density");
+    settings.framesPerSecond = call.real("fps");
     settings.link = call.text("link");
     if (call.given("name")) settings.name = call.text("name");
     return settings;
@@ -210,7 +211,9 @@ std::vector<OptionSpec> exportOptions()
             "files with a mass: that of a cubed unit of the file; water has 1000 in metres"),
         real("start", "", -1e9, 1e9,
             ".usda of several trees, which are samples over time: the time of the first, and 1 "
-            "more for each that follows (by default the numbers of their frames, or from 1 on)")};
+            "more for each that follows (by default the numbers of their frames, or from 1 on)"),
+        real("fps", "24", 1e-3, 1e6,
+            ".usda of several trees: how many of their frames a second has")};
 }
 
 std::vector<std::pair<std::string, std::string>> exportFormatDocs()
