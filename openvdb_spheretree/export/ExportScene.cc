@@ -165,6 +165,17 @@ MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* in
         "voxels");
 }
 
+/// A body of the spheres is heavier than what they were made of.
+void noteMass(const SphereTreeLevel& level, std::vector<std::string>& notes)
+{
+    constexpr double kWorthSaying = 5; // percent
+    if (!level.stored || level.stored->hammingPercent < kWorthSaying) return;
+    notes.push_back(
+        "mass and inertia are those of the union of the spheres, which differs from the object by "
+        + shortNumber(level.stored->hammingPercent)
+        + " % of its volume; mass=object has those of the object");
+}
+
 /// In a sequence a sphere goes by its track, which it keeps from frame to frame.
 void showTracks(const SphereTree& tree, ExportLevel& level)
 {
@@ -258,11 +269,11 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const SphereTree& tree = part ? *part : whole;
     noteWhatIsLost(tree, format, notes);
 
-    MassProperties mass;
-    if (format.mass || settings.frame != ExportFrame::World) {
-        mass = massOf(tree, interrupter);
-    }
-    const FileFrame frame(settings, mass);
+    const bool needsUnion = format.mass && !settings.mass;
+    MassProperties ofUnion;
+    if (needsUnion || settings.frame != ExportFrame::World) ofUnion = massOf(tree, interrupter);
+    const FileFrame frame(settings, ofUnion);
+    if (needsUnion) noteMass(tree.levels.front(), notes);
 
     ExportScene scene;
     scene.name = settings.name.empty() ? tree.settings.name : settings.name;
@@ -272,7 +283,9 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     scene.up = settings.up;
     scene.framesPerSecond = settings.framesPerSecond;
     scene.density = settings.density;
-    if (format.mass) scene.mass = frame.toFile(mass, settings.density);
+    if (format.mass) {
+        scene.mass = frame.toFile(settings.mass.value_or(ofUnion), settings.density);
+    }
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         scene.levels.push_back(placed(tree, *level, frame, interrupter));
     }

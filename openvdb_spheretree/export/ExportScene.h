@@ -37,7 +37,7 @@ struct ExportScene {
     double sample = 1;           ///< its time
     double framesPerSecond = 24; ///< of sample times
     MassProperties
-        mass; ///< of the union of the finest level's spheres; zero in formats without a mass
+        mass; ///< of ExportSettings::mass, or of the union; zero in formats without a mass
 
     const ExportLevel& finest() const { return levels.back(); }
     std::size_t sphereCount() const;

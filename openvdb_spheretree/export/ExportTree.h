@@ -12,6 +12,7 @@
 #pragma once
 
 #include "ExportFormat.h"
+#include <openvdb_spheretree/measure/MassProperties.h>
 #include <openvdb_spheretree/tree/SphereTree.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -41,10 +42,13 @@ struct ExportSettings {
     /// The finest level with at most so many spheres, or the cut with so many.
     std::optional<int64_t> spheres;
     ExportFrame frame = ExportFrame::World;
-    double scale = 1;            ///< units of the file in a world unit
-    double metersPerUnit = 1;    ///< how many metres a unit of the file is, for formats that say so
-    UpAxis up = UpAxis::Y;       ///< which axis of the file is up, for formats that say so
-    double density = 1;          ///< mass of a cubed unit of the file, for formats with a mass
+    double scale = 1;         ///< units of the file in a world unit
+    double metersPerUnit = 1; ///< how many metres a unit of the file is, for formats that say so
+    UpAxis up = UpAxis::Y;    ///< which axis of the file is up, for formats that say so
+    double density = 1;       ///< mass of a cubed unit of the file, for formats with a mass
+    /// Of the body whose mass, center and inertia such formats get, in world space; by default the union of the
+    /// spheres of the finest level in the file.
+    std::optional<MassProperties> mass;
     std::string link = "object"; ///< the link of a robot that the spheres belong to
     std::string name;            ///< of the robot, model or prim; by default that of the tree
     double framesPerSecond =

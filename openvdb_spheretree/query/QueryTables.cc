@@ -92,6 +92,16 @@ public:
         return listOf(names) + (more ? " and " + std::to_string(more) + " more" : "");
     }
 
+    /// @return whether the header names a column that neither take() nor takeText() has taken.
+    bool leavesOut(const std::string& name) const
+    {
+        for (std::size_t i = 0; i < mHeader.size(); ++i) {
+            const bool isTaken = std::count(mColumns.begin(), mColumns.end(), i) || i == mText;
+            if (!isTaken && detail::lowerCase(mHeader[i]) == detail::inQuotes(name)) return true;
+        }
+        return false;
+    }
+
     /// Takes the columns of these names; without a header, the first of all.
     /// @throw openvdb::IoError if one is missing, or there twice
     void take(const Names& names)
@@ -239,13 +249,58 @@ RigidTransform poseOf(const Numbers& numbers, const Names& columns)
         move);
 }
 
-/// @return what people are told where columns of a turn may have been meant; empty else.
+/// @return what people are told where columns of a turn, or of a body, may have been meant; empty else.
 std::string notedMoves(const NamedColumns& table, const Names& names)
 {
     const std::string leftOver = table.leftOver();
-    if (names != kPlace || leftOver.empty()) return {};
-    return "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
+    if (leftOver.empty()) return {};
+    if (names == kPlace) {
+        return "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
+    }
+    if (!table.leavesOut(kBody.front())) return {};
+    return "its column 'body' is not used: all lines are poses of one body, and those of several "
+           "are a scene "
+           "(scene=1)";
 }
+
+/// Notices angles that turn by more than once around, which were hardly meant as radians.
+class LargeAngles {
+public:
+    explicit LargeAngles(const Names& columns)
+    {
+        for (const Names& names : {kAngles, kRollPitchYaw}) {
+            const auto first = std::find(columns.begin(), columns.end(), names.front());
+            if (first != columns.end()) mFirst = std::size_t(first - columns.begin());
+        }
+    }
+
+    void see(const Numbers& numbers, std::uint64_t line)
+    {
+        if (!mFirst || mLine > 0) return;
+        for (std::size_t i = *mFirst; i < *mFirst + 3; ++i) {
+            if (!(std::abs(numbers[i]) > kAround)) continue;
+            mLine = line;
+            mAngle = numbers[i];
+            return;
+        }
+    }
+
+    /// Adds a sentence to what people are told.
+    void addTo(std::string& assumption) const
+    {
+        if (mLine == 0) return;
+        assumption += (assumption.empty() ? "" : "; ")
+            + std::string("its angles are taken as radians, and ") + detail::shortNumber(mAngle)
+            + " of line " + std::to_string(mLine)
+            + " is more than once around: degrees times 0.01745329252 are radians";
+    }
+
+private:
+    static constexpr double kAround = 6.2832; // 2 pi, rounded up
+    std::optional<std::size_t> mFirst;        ///< of the three columns
+    std::uint64_t mLine = 0;                  ///< of the first such angle
+    double mAngle = 0;
+};
 
 /// @throw openvdb::ValueError unless a line says which body, and frames ascend
 BodyPose bodyPoseOf(const NamedColumns& table, double frame, const std::vector<BodyPose>& before)
@@ -313,9 +368,13 @@ QueryTable<RigidTransform> readPoseTable(const std::string& path, const std::str
     const auto fill = [](NamedColumns& columns, QueryTable<RigidTransform>& table) {
         const Names names = poseColumns(columns);
         columns.take(names);
-        columns.forEach(
-            [&](const Numbers& numbers) { table.rows.push_back(poseOf(numbers, names)); });
+        LargeAngles large(names);
+        columns.forEach([&](const Numbers& numbers) {
+            large.see(numbers, columns.lineNumber());
+            table.rows.push_back(poseOf(numbers, names));
+        });
         table.assumption = notedMoves(columns, names);
+        large.addTo(table.assumption);
         return names;
     };
     return readTable<RigidTransform>(path, shownAs, "poses", fill);
@@ -333,12 +392,15 @@ QueryTable<BodyPose> readBodyPoseTable(const std::string& path, const std::strin
         columns.take(names);
         const bool hasFrames = columns.namesAny(kFrame);
         if (hasFrames) columns.take(kFrame);
+        LargeAngles large(names);
         columns.forEach([&](const Numbers& numbers) {
             table.rows.push_back(bodyPoseOf(columns, hasFrames ? numbers.back() : 0, table.rows));
+            large.see(numbers, columns.lineNumber());
             table.rows.back().pose =
                 poseOf({numbers.begin(), numbers.begin() + std::ptrdiff_t(names.size())}, names);
         });
         table.assumption = notedMoves(columns, names);
+        large.addTo(table.assumption);
         return names;
     };
     return readTable<BodyPose>(path, shownAs, "poses of bodies", fill);

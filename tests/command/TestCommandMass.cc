@@ -96,6 +96,31 @@ TEST_F(CommandMass, OfLevelsAreInTableAndCsvAsInJson)
     EXPECT_EQ(run("-read box.vol -spheretree -stats csv=-").out.find("volume"), std::string::npos);
 }
 
+TEST_F(CommandMass, FilesOfRobotsHaveThatOfTheSpheresOrOfTheObject)
+{
+    const std::string tree = "-read box.vol -spheretree spheres=1 ";
+    const Result spheres = run(tree + "-write s.urdf density=2");
+    EXPECT_EQ(spheres.exitCode, 0) << spheres.err;
+    EXPECT_NE(spheres.err.find("mass=object has those of the object"), std::string::npos)
+        << spheres.err;
+    const Result object = run(tree + "-write o.urdf o.mjcf density=2 mass=object");
+    EXPECT_EQ(object.exitCode, 0) << object.err;
+    EXPECT_EQ(object.err.find("of the union"), std::string::npos) << object.err;
+    const std::string urdf = readText(path("o.urdf"));
+    EXPECT_NE(urdf.find("<origin xyz=\"0.75 1.25 1.75\""), std::string::npos) << urdf;
+    EXPECT_NE(urdf.find("<mass value=\"48\"/>"), std::string::npos) << urdf;
+    EXPECT_NE(urdf.find("ixx=\"100\" "), std::string::npos) << urdf;
+    EXPECT_NE(readText(path("o.mjcf")).find("mass=\"48\""), std::string::npos);
+    // Of a tree that is read, the object is another file.
+    EXPECT_EQ(run(tree + "-write t.vdb").exitCode, 0);
+    const Result alone = run("-read t.vdb -write a.urdf mass=object");
+    EXPECT_EQ(alone.exitCode, 3);
+    EXPECT_NE(alone.err.find("mass=object: the object of the tree is not there"), std::string::npos)
+        << alone.err;
+    EXPECT_EQ(run("-read box.vol t.vdb -write a.urdf density=2 mass=object").exitCode, 0);
+    EXPECT_NE(readText(path("a.urdf")).find("<mass value=\"48\"/>"), std::string::npos);
+}
+
 TEST_F(CommandMass, WhereSpheresAreTooLargeTheReasonIsSaid)
 {
     writeText(path("far.csv"), "x,y,z,r\n0,0,0,100000\n");

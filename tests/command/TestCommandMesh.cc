@@ -93,6 +93,31 @@ TEST_F(CommandMesh, CheckTakesATreeOfAFileAndItsMeshAlone)
     EXPECT_EQ(0, result.exitCode) << result.err;
     EXPECT_EQ(
         "every triangle of mesh 'flange' lies in the stored spheres of every level\n", result.out);
+    EXPECT_TRUE(has(result.err, "what is inside of the mesh was not looked at")) << result.err;
+}
+
+TEST_F(CommandMesh, CheckSaysWhatItDoesNotHoldAgainstTheMesh)
+{
+    write("flange.obj", flange());
+    for (const std::string side : {"fit", "inner"}) {
+        const Result result =
+            run("-read flange.obj -mesh2ls dim=40 cover=1 keep=1 -spheretree spheres=9 side=" + side
+                + " -check");
+        EXPECT_EQ(0, result.exitCode) << result.err;
+        EXPECT_EQ("all checks hold\n", result.out);
+        EXPECT_TRUE(has(result.err, "spheres of side=" + side + " need not cover anything"))
+            << result.err;
+    }
+}
+
+TEST_F(CommandMesh, ADistanceBeyondTheObjectsSizeIsWarnedOf)
+{
+    write("flange.obj", flange());
+    const std::string line =
+        "-read flange.obj units=mm -mesh2ls dim=40 -spheretree quality=fast distance=";
+    EXPECT_TRUE(
+        has(run(line + "5 -write t.csv").err, "distance=5 is more than the size of the object"));
+    EXPECT_FALSE(has(run(line + "5mm -write t.csv").err, "more than the size"));
 }
 
 TEST_F(CommandMesh, AMeshOfOtherUnitsThanItsTreeIsWarnedOf)

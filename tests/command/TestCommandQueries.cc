@@ -120,6 +120,32 @@ TEST_F(CommandQueries, EveryWayToTurnIsTheSame)
     EXPECT_NEAR(larger["distance"], gapOf(mBalls, turned(mBalls, Vec3d(40, 1, 2), 2)), 1e-4);
 }
 
+TEST_F(CommandQueries, AnglesThatWereHardlyMeantAsRadiansAreNoted)
+{
+    const std::string ask = "-read t.vdb -distance vdb=0,0 ";
+    for (const char* turn : {"rotate=0,90,0", "rotate=0,0,-7", "axis=z angle=90"}) {
+        const Result result = run(ask + turn);
+        EXPECT_EQ(result.exitCode, 0);
+        EXPECT_TRUE(mentions(result.err, "is in radians, and turns by more than once around"))
+            << turn;
+    }
+    for (const char* turn :
+        {"rotate=0,90,0deg", "rotate=0,0,6.28", "axis=z angle=90deg", "axis=z angle=90rad"}) {
+        EXPECT_FALSE(mentions(run(ask + turn).err, "radians")) << turn;
+    }
+}
+
+TEST_F(CommandQueries, ContactsOfSpheresThatReachBeyondThoseAboveAreNoted)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree -write voxels.vdb").exitCode, 0);
+    const std::string question = " -collide vdb=0,0 translate=1,0,0 ",
+                      ask = "-read voxels.vdb" + question;
+    EXPECT_TRUE(mentions(run(ask + "contacts=3").err, "exact=1 has their contacts, too"));
+    EXPECT_FALSE(mentions(run("-read t.vdb" + question + "contacts=3").err, "their contacts"));
+    EXPECT_FALSE(mentions(run(ask + "contacts=3 exact=1").err, "their contacts"));
+    EXPECT_FALSE(mentions(run(ask).err, "their contacts"));
+}
+
 TEST_F(CommandQueries, CollideTellsTouchingFromApart)
 {
     const json apart = answer("-collide vdb=0,0 translate=20,1,2");

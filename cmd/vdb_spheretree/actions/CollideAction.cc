@@ -117,6 +117,11 @@ void noteWhatIsUnknown(
                 + " are not known to hold a part of the object, so it touches in no pose for "
                   "certain; build the tree without spheres=, error= or distance=");
         }
+        if (call.given("contacts") && !body.tree.holdsLeaves()) {
+            session.note("contacts: some spheres of " + body.name
+                + " reach beyond those above them, where no object is; exact=1 has their contacts, "
+                  "too");
+        }
         const bool expectsApart = call.given("expect") && call.text("expect") == "apart";
         if (expectsApart && !call.flag("objects") && !body.tree.holdsObject()) {
             session.note("expect=apart: spheres of " + body.name

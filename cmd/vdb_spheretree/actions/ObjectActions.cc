@@ -279,6 +279,13 @@ openvdb::BoolGrid::Ptr objectOf(
     }
 }
 
+openvdb::BoolGrid::ConstPtr knownObject(const StackItem& item, Session& session)
+{
+    if (item.object) return item.object;
+    const StackItem* const grid = onlyObjectGrid(session);
+    return grid ? objectOfTree(*grid, *item.tree, session) : nullptr;
+}
+
 openvdb::BoolGrid::Ptr objectOfTree(
     const StackItem& item, const spheretree::SphereTree& tree, Session& session)
 {

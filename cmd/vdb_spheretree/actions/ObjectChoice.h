@@ -32,6 +32,10 @@ openvdb::BoolGrid::Ptr objectOf(
 openvdb::BoolGrid::Ptr objectOfTree(
     const StackItem& item, const openvdb_spheretree::SphereTree& tree, Session& session);
 
+/// @return the object that the tree of an item was built of: known since then, or the grid of the stack that has its
+///         voxels; null if there is none.
+openvdb::BoolGrid::ConstPtr knownObject(const StackItem& item, Session& session);
+
 /// @brief Compute the errors of a tree whose object is known, and add up the time.
 void computeErrors(StackItem& item, Session& session);
 

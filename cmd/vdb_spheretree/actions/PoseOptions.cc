@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -22,6 +23,7 @@ namespace {
 struct AngleText {
     std::string numbers;
     double radians = 1; ///< of one
+    bool hasUnit = false;
 
     explicit AngleText(const std::string& typed) : numbers(typed)
     {
@@ -31,8 +33,9 @@ struct AngleText {
             numbers.resize(size - 3);
             return true;
         };
-        if (cut("deg")) radians = M_PI / 180;
-        else cut("rad");
+        const bool areDegrees = cut("deg");
+        if (areDegrees) radians = M_PI / 180;
+        hasUnit = areDegrees || cut("rad");
     }
 };
 
@@ -122,6 +125,23 @@ void checkMatrix(const ActionCall& call)
     }
 }
 
+/// Says so where angles were hardly meant as radians.
+void noteLargeAngles(const ActionCall& call, Session& session)
+{
+    constexpr double kAround = 6.2832; // 2 pi, rounded up
+    const auto note = [&](const std::string& name, double largest) {
+        const std::string typed = call.text(name);
+        if (!(largest > kAround) || AngleText(typed).hasUnit) return;
+        session.note(name + "=" + typed + " is in radians, and turns by more than once around: "
+            + typed + "deg would be degrees, and " + typed + "rad is what it is now");
+    };
+    if (call.given("rotate")) {
+        const Vec3d angles = anglesOf(call.text("rotate")).value();
+        note("rotate", std::max({std::abs(angles[0]), std::abs(angles[1]), std::abs(angles[2])}));
+    }
+    if (call.given("angle")) note("angle", std::abs(angleOf(call.text("angle")).value()));
+}
+
 } // namespace
 
 std::vector<OptionSpec> poseOptions()
@@ -162,6 +182,7 @@ void checkPoses(const ActionCall& call, Plan& plan)
 
 std::vector<RigidTransform> posesOf(const ActionCall& call, Session& session)
 {
+    noteLargeAngles(call, session);
     std::vector<RigidTransform> poses = {poseOf(call)};
     if (call.given("poses")) {
         poses = rowsOf(call, "poses", session, openvdb_spheretree::readPoseTable);

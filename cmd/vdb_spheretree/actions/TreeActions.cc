@@ -9,6 +9,7 @@
 #include "ObjectChoice.h"
 #include "TreeOptions.h"
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/build/MemoryPlan.h>
 #include <openvdb_spheretree/check/MeshCheck.h>
@@ -66,6 +67,22 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
     if (flat >= 0 && dim != 2) {
         session.warn(name + "one voxel thick along " + "xyz"[flat] + ": dim=2 ?");
     }
+}
+
+/// A bound that any sphere around the object is within was seldom meant.
+void warnOfDistance(
+    const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
+{
+    using spheretree::detail::shortNumber;
+    const auto* tight = settings.find<spheretree::TightOptions>();
+    if (!tight || !tight->budget.distance) return;
+    const double voxel = object.voxelSize()[0];
+    const double size = voxel * object.evalActiveVoxelBoundingBox().extents().asVec3d().length();
+    const double bound = tight->budget.distanceWorld(voxel);
+    if (bound < size) return;
+    session.warn("distance=" + shortNumber(bound)
+        + " is more than the size of the object, which is " + shortNumber(size)
+        + " across (world units): is its unit another, as in 5mm?");
 }
 
 /// Says so if there are fewer spheres than were asked for.
@@ -169,6 +186,7 @@ void runSpheretree(const ActionCall& call, Session& session)
     result.object = object;
     const auto settings = settingsOf(call);
     warnOfSize(*object, settings.dim, session);
+    warnOfDistance(*object, settings, session);
     result.tree = std::make_shared<SphereTree>(
         treeOf(*object, leaves ? leaves->given.get() : nullptr, settings, session));
     if (leaves && !call.flag("keep")) session.stack.drop(leaves);
@@ -297,7 +315,8 @@ void runCheck(const ActionCall& call, Session& session)
     const auto& settings = item.tree->settings;
     const bool covers =
         !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
-    const auto mesh = covers ? meshOf(session) : nullptr;
+    const auto anyMesh = meshOf(session);
+    const auto mesh = covers ? anyMesh : nullptr;
     if (mesh) warnOfUnits(*item.tree, *mesh, session);
     const auto faults =
         spheretree::checkAgainst(*item.tree, object.get(), mesh.get(), &session.progress);
@@ -317,6 +336,15 @@ void runCheck(const ActionCall& call, Session& session)
     if (mesh) {
         session.print("every triangle of mesh '" + oneLine(mesh->name, 60)
             + "' lies in the stored spheres of every level\n");
+        if (!object) {
+            session.note(
+                "what is inside of the mesh was not looked at: -mesh2ls cover=1 keep=1 before "
+                "-check has an object for that");
+        }
+    } else if (anyMesh) {
+        session.note("spheres of side=" + std::string(settings.isFit() ? "fit" : "inner")
+            + " need not cover anything, so they are not held against mesh '"
+            + oneLine(anyMesh->name, 60) + "'");
     }
 }
 

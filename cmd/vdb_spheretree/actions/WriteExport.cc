@@ -3,6 +3,7 @@
 
 #include "line/Length.h"
 #include "line/Plan.h"
+#include "ObjectChoice.h"
 #include "WriteChart.h"
 
 #include <openvdb/Exceptions.h>
@@ -84,6 +85,22 @@ ExportSettings settingsOf(const ActionCall& call)
     settings.link = call.text("link");
     if (call.given("name")) settings.name = call.text("name");
     return settings;
+}
+
+/// @throw CommandError (input) if nothing on the stack is the tree's object
+spheretree::MassProperties massOfObject(
+    const StackItem& item, const std::string& path, Session& session)
+{
+    const auto object = item.tree ? knownObject(item, session) : nullptr;
+    const auto mass =
+        object ? spheretree::massProperties(*object, &session.progress) : std::nullopt;
+    if (!mass) {
+        throwInput(path
+            + ": mass=object: the object of the tree is not there: read its grid as well, or write "
+              "the "
+              "file where the tree is built");
+    }
+    return *mass;
 }
 
 std::vector<const StackItem*> treesOf(
@@ -207,6 +224,8 @@ std::vector<OptionSpec> exportOptions()
         text("name", "",
             "files of other tools: the name of the robot, model or prim (by default "
             "that of the tree; where it has none of its own, a robot has that of the file)"),
+        choice("mass", {"spheres", "object"},
+            "files with a mass: of the union of the spheres, or of the object's voxels"),
         real("density", "1000", 1e-30, 1e30,
             "files with a mass: that of a cubed unit of the file; water has 1000 in metres"),
         real("start", "", -1e9, 1e9,
@@ -278,6 +297,9 @@ void writeExport(const ActionCall& call, const std::string& path,
     ExportSettings settings = settingsOf(call);
     if (settings.name.empty() && !isStdout(path)) {
         settings.name = spheretree::exportNameFor(*trees.front(), format, path);
+    }
+    if (format.mass && call.text("mass") == "object") {
+        settings.mass = massOfObject(*chosen.front(), path, session);
     }
     settings.sampleTimes = sampleTimesOf(call, chosen);
     if (trees.size() > 1) {

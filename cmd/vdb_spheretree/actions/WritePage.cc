@@ -30,15 +30,6 @@ StackItem& treeToShow(const std::vector<StackItem*>& items, const std::string& p
     return *tree;
 }
 
-/// The object that a tree was built from: known since then, or the grid on the stack that has its
-/// voxels; null if there is none.
-openvdb::BoolGrid::ConstPtr objectToShow(const StackItem& item, Session& session)
-{
-    if (item.object) return item.object;
-    const StackItem* const grid = onlyObjectGrid(session);
-    return grid ? objectOfTree(*grid, *item.tree, session) : nullptr;
-}
-
 } // namespace
 
 std::vector<OptionSpec> pageOptions()
@@ -67,7 +58,7 @@ void writePage(const ActionCall& call, const std::string& path,
     placeInObject(item, session);
     spheretree::ViewerSettings settings;
     settings.triangles = call.integer("triangles");
-    const auto object = settings.triangles > 0 ? objectToShow(item, session) : nullptr;
+    const auto object = settings.triangles > 0 ? knownObject(item, session) : nullptr;
     try {
         spheretree::writeViewer(*item.tree, object.get(), settings, out, &session.progress);
     } catch (const openvdb::ValueError&) {

@@ -124,7 +124,8 @@ void CutErrors::throwUnreachable()
         boundsText(mBudget) << " cannot be reached: padding=" << paddingToString(mSettings.padding)
                             << " makes stored radii " << mSettings.paddingVoxels() * mVoxelSize
                             << " larger" << what.str()
-                            << ": use smaller voxels, less padding (padding=voxels has none), "
+                            << ": use smaller voxels, less padding (padding=voxels has none, and "
+                               "covers centers of voxels alone), "
                             << (mBudget.bounds == BoundOf::Stored
                                        ? "a larger bound, or bounds=unpadded to bound the errors "
                                          "without the padding"
@@ -164,7 +165,8 @@ void requireReachable(const SphereTreeSettings& settings, double voxelSize)
                     << " makes stored radii " << settings.paddingVoxels() * voxelSize
                     << " larger, and alone reaches at least " << least
                     << " out of the object's voxels, of " << voxelSize
-                    << ": use smaller voxels, less padding (padding=voxels has none), or a larger "
+                    << ": use smaller voxels, less padding (padding=voxels has none, and covers "
+                       "centers of voxels alone), or a larger "
                        "bound");
 }
 

@@ -131,6 +131,18 @@ TEST_F(QueryTables, WhatIsTakenForGrantedIsSaid)
     EXPECT_EQ(poses("x,y,z\n1,2,3").assumption, "");
     EXPECT_TRUE(mentions(poses("1,2,3").assumption, "3 columns are taken as x, y, z"));
     EXPECT_TRUE(mentions(poses("1 1 2 3 0 0 0 1").assumption, "8 columns are taken as time, x"));
+    EXPECT_EQ(poses("x,y,z,rx,ry,rz\n1,2,3,6.28,-6.28,0").assumption, "");
+    for (const char* angles : {"rx,ry,rz", "roll,pitch,yaw"}) {
+        const auto table = poses(std::string("x,y,z,") + angles + "\n1,2,3,0,1,0\n1,2,3,0,-90,0\n");
+        EXPECT_TRUE(
+            mentions(table.assumption, "radians, and -90 of line 3 is more than once around"))
+            << table.assumption;
+    }
+    EXPECT_EQ(poses("x,y,z,qx,qy,qz,qw\n100,200,300,0,0,0,1").assumption, "");
+    EXPECT_TRUE(mentions(
+        poses("Body,x,y,z,rx,ry,rz\narm,1,2,3,0,0,0").assumption, "column 'body' is not used"));
+    const auto bodies = readBodyPoseTable(save("body,x,y,z,rx,ry,rz\narm,1,2,3,0,0,45"));
+    EXPECT_TRUE(mentions(bodies.assumption, "45 of line 2")) << bodies.assumption;
     const std::string moves = poses("time,x,y,z,tilt\n0,1,2,3,90").assumption;
     EXPECT_TRUE(mentions(moves, "table.csv: its poses are moves without a turn")) << moves;
     EXPECT_TRUE(mentions(moves, "not used: 'time', 'tilt'")) << moves;
