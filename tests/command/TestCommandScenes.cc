@@ -168,6 +168,32 @@ TEST_F(CommandScenes, PairsAreThoseThatTouchWhereEveryTwoAreAsked)
         {"distance"}, 1e-6, "60 frames: ");
 }
 
+/// All trees are named alike unless they are given a name.
+TEST_F(CommandScenes, TreesOfOneNameGoByTheirFiles)
+{
+    for (const auto& name : kNames) {
+        ASSERT_EQ(
+            run("-read " + name + ".vdb -level 0 name=same -write same_" + name + ".vdb").exitCode,
+            0);
+    }
+    writeText(
+        path("scene.csv"), "body,x,y,z\nsame_block,0,0,0\nsame_ball,1,0,0\nsame_ring,500,0,0\n");
+    const std::string ask =
+        "-quiet -read same_block.vdb same_ball.vdb same_ring.vdb -collide scene=1 ";
+    const Result result = run(ask + "poses=scene.csv json=s.json");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const json found = json::parse(readText(path("s.json")))["answers"];
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0]["body_a"], "same_block");
+    EXPECT_EQ(found[0]["body_b"], "same_ball");
+    const Result ignoring = run(ask + "poses=scene.csv ignore=same_block:same_ball expect=apart");
+    EXPECT_EQ(ignoring.exitCode, 0) << ignoring.err;
+    const Result twins = run(
+        "-read same_block.vdb same_block.vdb same_ball.vdb -collide scene=1 ignore=same_block:0");
+    EXPECT_EQ(twins.exitCode, 3);
+    EXPECT_TRUE(mentions(twins.err, "there is no 'same_block'")) << twins.err;
+}
+
 TEST_F(CommandScenes, TreesStayWhereTheyAreUntilALinePlacesThem)
 {
     EXPECT_EQ(pairs(""), (Texts{"0 block ball", "0 block ring", "0 ball ring"}));

@@ -138,19 +138,23 @@ std::vector<SceneFrame> framesOf(
 
 std::vector<std::string> labelsOf(const Session& session, const SceneBodies& bodies)
 {
-    std::vector<std::string> labels;
+    std::vector<std::string> names, files, ages;
     for (const QueryBody& body : bodies) {
-        const auto isOf = [&](const QueryBody& other) { return other.name == body.name; };
-        if (!body.name.empty() && std::count_if(bodies.begin(), bodies.end(), isOf) == 1) {
-            labels.push_back(body.name);
-            continue;
-        }
         int age = 0;
-        const auto& items = session.stack.items();
-        for (auto item = items.rbegin(); (*item)->tree.get() != body.spheres; ++item) {
-            age += (*item)->mesh ? 0 : 1;
-        }
-        labels.push_back(std::to_string(age));
+        auto item = session.stack.items().rbegin();
+        for (; (*item)->tree.get() != body.spheres; ++item) age += (*item)->mesh ? 0 : 1;
+        names.push_back(body.name);
+        files.push_back((*item)->fileStem());
+        ages.push_back(std::to_string(age));
+    }
+    const auto isOnce = [](const std::vector<std::string>& all, const std::string& one) {
+        return !one.empty() && std::count(all.begin(), all.end(), one) == 1;
+    };
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const bool isFile =
+            isOnce(files, files[i]) && std::count(names.begin(), names.end(), files[i]) == 0;
+        labels.push_back(isOnce(names, names[i]) ? names[i] : isFile ? files[i] : ages[i]);
     }
     return labels;
 }

@@ -149,7 +149,7 @@ OptionSpec vdbOption(const std::string& what)
 {
     return text("vdb", "",
         what
-            + ", by its age on the stack (0 is the newest) or its name; "
+            + ", by its age on the stack (0 is the newest), its name or that of its file; "
               "by default the only one of the newest action that suits");
 }
 

@@ -9,6 +9,7 @@
 #include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace command {
 
@@ -50,6 +51,8 @@ std::string StackItem::name() const
     if (tree) return tree->settings.name;
     return grid ? grid->getName() : mesh->name;
 }
+
+std::string StackItem::fileStem() const { return std::filesystem::path(source).stem().string(); }
 
 std::string StackItem::description() const
 {
@@ -124,9 +127,13 @@ StackItem* Stack::find(const std::string& ageOrName, bool meshes)
     for (StackItem* item : items) {
         if (item->name() == ageOrName) return item;
     }
-    if (!isNumber(ageOrName)) return nullptr;
-    const size_t age = std::stoul(ageOrName);
-    return age < items.size() ? items[age] : nullptr;
+    if (isNumber(ageOrName)) {
+        const size_t age = std::stoul(ageOrName);
+        return age < items.size() ? items[age] : nullptr;
+    }
+    const auto isOfFile = [&](const StackItem* item) { return item->fileStem() == ageOrName; };
+    const auto found = std::find_if(items.begin(), items.end(), isOfFile);
+    return std::count_if(items.begin(), items.end(), isOfFile) == 1 ? *found : nullptr;
 }
 
 std::vector<StackItem*> Stack::ofAllFrames(StackItem* item, const std::string& ageOrName)

@@ -3,7 +3,8 @@
 /// @brief The stack of grids, sphere-trees and meshes that the actions of a line work on.
 ///
 /// Items have an age, and the newest has age 0. Grids and trees are counted together, meshes by
-/// themselves. An action removes its input unless keep=1. What -write has written is removed when
+/// themselves. They are chosen by age or name; where no name fits, by that of the one file with it: trees have
+/// all the same name unless they are given one. An action removes its input unless keep=1. What -write has written is removed when
 /// the next item arrives, so that a tree can be written, looked at and written again.
 
 #pragma once
@@ -43,6 +44,8 @@ struct StackItem {
     bool written = false;              ///< to be dropped when the next item arrives
 
     std::string name() const;
+    /// @return the name of the file that it comes from, without folder and extension.
+    std::string fileStem() const;
     /// @return for instance `grid 'density' (float, fog volume, from smoke.vdb)`.
     std::string description() const;
 };
