@@ -35,8 +35,7 @@ std::vector<TreeFault> checkMeshCovered(const SphereTree& tree, const TriangleMe
     const openvdb::BoolGrid* object, openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @brief All that can be found out with what is there: checkSphereTree() first, for cubes of the
-/// object count as covered
-/// where it finds nothing, then checkMeshCovered().
+/// object count as covered where it finds nothing, then checkMeshCovered().
 /// @param object,mesh  null where there is none
 /// @throw as both
 std::vector<TreeFault> checkAgainst(const SphereTree& tree, const openvdb::BoolGrid* object,

@@ -165,15 +165,14 @@ MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* in
         "voxels");
 }
 
-/// A body of the spheres is heavier than what they were made of.
+/// A body of spheres weighs more, or less, than what they were made of.
 void noteMass(const SphereTreeLevel& level, std::vector<std::string>& notes)
 {
     constexpr double kWorthSaying = 5; // percent
     if (!level.stored || level.stored->hammingPercent < kWorthSaying) return;
     notes.push_back(
-        "mass and inertia are those of the union of the spheres, which differs from the object by "
-        + shortNumber(level.stored->hammingPercent)
-        + " % of its volume; mass=object has those of the object");
+        "mass and inertia are those of the spheres together, which differ from the object by "
+        + shortNumber(level.stored->hammingPercent) + " % of its volume");
 }
 
 /// In a sequence a sphere goes by its track, which it keeps from frame to frame.
@@ -202,21 +201,31 @@ void sortByTrack(ExportLevel& level)
     level = std::move(sorted);
 }
 
-/// @return the scene of a tree of no object: one level, of no spheres.
-ExportScene emptyScene(
-    const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings)
+/// @return a scene without levels yet.
+ExportScene sceneFor(const SphereTree& tree, const ExportFormat& format,
+    const ExportSettings& settings, std::vector<std::string>& notes)
+{
+    ExportScene scene;
+    scene.name = settings.name.empty() ? tree.settings.name : settings.name;
+    scene.link = settings.link;
+    requireNames(scene, format, notes);
+    scene.metersPerUnit = settings.metersPerUnit;
+    scene.up = settings.up;
+    scene.framesPerSecond = settings.framesPerSecond;
+    scene.density = settings.density;
+    return scene;
+}
+
+/// @return the scene of a tree of no object.
+ExportScene emptyScene(const SphereTree& tree, const ExportFormat& format,
+    const ExportSettings& settings, std::vector<std::string>& notes)
 {
     if (!format.empty) {
         OPENVDB_THROW(openvdb::ValueError,
             "there are no spheres, and " << format.name << " has no room for none");
     }
-    ExportScene scene;
-    scene.name = settings.name.empty() ? tree.settings.name : settings.name;
-    scene.link = settings.link;
-    scene.metersPerUnit = settings.metersPerUnit;
-    scene.up = settings.up;
-    scene.framesPerSecond = settings.framesPerSecond;
-    scene.levels.resize(1);
+    ExportScene scene = sceneFor(tree, format, settings, notes);
+    if (!format.samples) scene.levels.resize(1); // others' samples say which levels there are
     return scene;
 }
 
@@ -263,7 +272,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const ExportSettings& settings, std::vector<std::string>& notes,
     openvdb::util::NullInterrupter* interrupter)
 {
-    if (whole.levels.empty()) return emptyScene(whole, format, settings);
+    if (whole.levels.empty()) return emptyScene(whole, format, settings, notes);
     requireSpheres(whole);
     const std::optional<SphereTree> part = chosenPart(whole, format, settings, notes);
     const SphereTree& tree = part ? *part : whole;
@@ -275,14 +284,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const FileFrame frame(settings, ofUnion);
     if (needsUnion) noteMass(tree.levels.front(), notes);
 
-    ExportScene scene;
-    scene.name = settings.name.empty() ? tree.settings.name : settings.name;
-    scene.link = settings.link;
-    requireNames(scene, format, notes);
-    scene.metersPerUnit = settings.metersPerUnit;
-    scene.up = settings.up;
-    scene.framesPerSecond = settings.framesPerSecond;
-    scene.density = settings.density;
+    ExportScene scene = sceneFor(tree, format, settings, notes);
     if (format.mass) {
         scene.mass = frame.toFile(settings.mass.value_or(ofUnion), settings.density);
     }

@@ -29,15 +29,15 @@ struct ExportLevel {
 
 struct ExportScene {
     std::string name, link;
-    std::vector<ExportLevel> levels; ///< the coarsest first; at least one
+    std::vector<ExportLevel> levels; ///< the coarsest first; at least one, but of an empty sample
     int decimals = 0; ///< of ExportNumbers::Decimal: all lengths are multiples of 10^-decimals
     double metersPerUnit = 1;
     UpAxis up = UpAxis::Y;
     double density = 1;          ///< mass of a cubed unit
     double sample = 1;           ///< its time
     double framesPerSecond = 24; ///< of sample times
-    MassProperties
-        mass; ///< of ExportSettings::mass, or of the union; zero in formats without a mass
+    /// Of ExportSettings::mass, or of the union; zero in formats without a mass.
+    MassProperties mass;
 
     const ExportLevel& finest() const { return levels.back(); }
     std::size_t sphereCount() const;
@@ -47,7 +47,8 @@ struct ExportScene {
     static openvdb::BBoxd boxOf(const ExportLevel& level);
 };
 
-/// @param tree   without levels it is that of no object, and the scene has one level without spheres
+/// @param tree   without levels it is that of no object, and the scene has one level without spheres,
+///               or none in a format with samples
 /// @param notes  receives what of the tree is not in the scene
 /// @throw openvdb::ValueError if the format cannot hold it
 ExportScene makeScene(const SphereTree& tree, const ExportFormat& format,

@@ -51,8 +51,8 @@ struct ExportSettings {
     std::optional<MassProperties> mass;
     std::string link = "object"; ///< the link of a robot that the spheres belong to
     std::string name;            ///< of the robot, model or prim; by default that of the tree
-    double framesPerSecond =
-        24; ///< how many units of sample times a second has, for formats with samples
+    /// How many units of sample times a second has, for formats with samples.
+    double framesPerSecond = 24;
     /// The times of several trees, rising; empty: 1, 2, 3 and so on.
     std::vector<double> sampleTimes;
 };

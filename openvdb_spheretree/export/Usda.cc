@@ -27,7 +27,7 @@ const ExportLevel* findLevel(const ExportScene& scene, int number)
     return nullptr;
 }
 
-/// @return the numbers of the levels of all samples, the finest first.
+/// @return the numbers of the levels of all samples, the finest first; 0 if none has any.
 std::vector<int> levelNumbers(const Samples& samples)
 {
     std::vector<int> numbers;
@@ -36,6 +36,7 @@ std::vector<int> levelNumbers(const Samples& samples)
     }
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    if (numbers.empty()) numbers.push_back(0);
     return numbers;
 }
 

@@ -249,18 +249,16 @@ RigidTransform poseOf(const Numbers& numbers, const Names& columns)
         move);
 }
 
-/// @return what people are told where columns of a turn, or of a body, may have been meant; empty else.
+/// @return what people are told where columns of a body, or of a turn, may have been meant; empty else.
 std::string notedMoves(const NamedColumns& table, const Names& names)
 {
-    const std::string leftOver = table.leftOver();
-    if (leftOver.empty()) return {};
-    if (names == kPlace) {
-        return "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
+    if (table.leavesOut(kBody.front())) {
+        return "its column 'body' is not used: all lines are poses of one body, and several are of "
+               "a scene";
     }
-    if (!table.leavesOut(kBody.front())) return {};
-    return "its column 'body' is not used: all lines are poses of one body, and those of several "
-           "are a scene "
-           "(scene=1)";
+    const std::string leftOver = table.leftOver();
+    if (names != kPlace || leftOver.empty()) return {};
+    return "its poses are moves without a turn, by x, y and z; not used: " + leftOver;
 }
 
 /// Notices angles that turn by more than once around, which were hardly meant as radians.
@@ -278,7 +276,7 @@ public:
     {
         if (!mFirst || mLine > 0) return;
         for (std::size_t i = *mFirst; i < *mFirst + 3; ++i) {
-            if (!(std::abs(numbers[i]) > kAround)) continue;
+            if (!(std::abs(numbers[i]) > kFullTurn)) continue;
             mLine = line;
             mAngle = numbers[i];
             return;
@@ -296,9 +294,8 @@ public:
     }
 
 private:
-    static constexpr double kAround = 6.2832; // 2 pi, rounded up
-    std::optional<std::size_t> mFirst;        ///< of the three columns
-    std::uint64_t mLine = 0;                  ///< of the first such angle
+    std::optional<std::size_t> mFirst; ///< of the three columns
+    std::uint64_t mLine = 0;           ///< of the first such angle
     double mAngle = 0;
 };
 

@@ -61,6 +61,9 @@ QueryTable<openvdb::Vec3d> readPointTable(const std::string& path, const std::st
 QueryTable<QueryRay> readRayTable(const std::string& path, const std::string& shownAs = {});
 /// @}
 
+/// 2 pi, rounded up: angles beyond it were hardly meant as radians.
+constexpr double kFullTurn = 6.2832;
+
 /// @return the rotation about the world's x axis, then its y axis, then its z axis, by the right-hand rule; radians. As
 ///         `-transform rotate=` of vdb_tool turns, and "XYZ" of Houdini and Blender.
 openvdb::Mat3d rotationOfAngles(const openvdb::Vec3d& radians);

@@ -276,7 +276,7 @@ TEST_F(CommandFrames, FilesOfOtherToolsAreThereOfAnEmptyFrameIfTheyCanBe)
     for (const char* file : {"f_####.glb", "f_####.urdf", "f_####.nvdb", "f_####.html"}) {
         const Result refused = run(line + file + " g_####.csv");
         EXPECT_EQ(refused.exitCode, 3) << file;
-        EXPECT_TRUE(holds(refused.err, "empty=skip makes no file of ")) << refused.err;
+        EXPECT_TRUE(holds(refused.err, "by empty=skip where the tree is built")) << refused.err;
         EXPECT_FALSE(exists("g_0009.csv")) << "all of a -write, or nothing";
         EXPECT_TRUE(exists("g_0008.csv"));
     }
@@ -303,6 +303,83 @@ TEST_F(CommandFrames, EmptyFramesAreSamplesWithoutSpheres)
     EXPECT_EQ(table.exitCode, 0) << table.err;
     const std::string lines = readText(path("again.csv"));
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1);
+}
+
+TEST_F(CommandFrames, AnEmptyTreeThatIsReadIsATreeAmongOthers)
+{
+    writeFrames({8, 9, 10}, 8);
+    ASSERT_EQ(run("-read smoke_####.vdb -spheretree tree=extended empty=write -write t_####.vdb")
+                  .exitCode,
+        0);
+    for (const char* file : {"mixed.csv", "mixed.json", "mixed.vdb"}) {
+        const Result result = run(std::string("-read t_0008.vdb t_0009.vdb -write ") + file);
+        EXPECT_EQ(result.exitCode, 3) << file << result.err;
+        EXPECT_FALSE(exists(file));
+    }
+    const Result stats = run("-read t_0008.vdb -stats");
+    EXPECT_EQ(stats.exitCode, 3);
+    EXPECT_TRUE(holds(stats.err, "sphere-tree without spheres 'spheretree'")) << stats.err;
+    EXPECT_EQ(run("-read t_0008.vdb scale=2 -write x.vdb").exitCode, 3);
+    const Result beside = run("-read smoke_0010.vdb t_0008.vdb -spheretree name=y -write y.vdb");
+    EXPECT_EQ(beside.exitCode, 0) << beside.err;
+    // The level that is chosen is the only one of the stage.
+    const Result one = run("-for i=8,11 -read t_####.vdb -end -write one.usda level=1");
+    ASSERT_EQ(one.exitCode, 0) << one.err;
+    const std::string stage = readText(path("one.usda"));
+    EXPECT_TRUE(holds(stage, "def Points \"level_1\""));
+    EXPECT_FALSE(holds(stage, "level_0"));
+    EXPECT_TRUE(holds(stage, "            8: [],\n"));
+}
+
+TEST_F(CommandFrames, AnEmptyFrameTakesNothingOfBeforeTheSequence)
+{
+    writeFrames({9});
+    writeGrids("smoke_0008.vdb", {});
+    auto still = sphereGrid("still", 5);
+    still->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+    writeGrids("still.vdb", {still});
+    const Result result =
+        run("-read still.vdb -read smoke_####.vdb -spheretree spheres=4 empty=write "
+            "-write v_####.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    for (const int frame : {8, 9})
+        EXPECT_EQ(readGrids(nameOf("v", frame, "vdb")).size(), 2u) << frame;
+}
+
+TEST_F(CommandFrames, ASequenceInALoopThatFailsLeavesWhatWasThereBefore)
+{
+    writeFrames({8, 9});
+    std::string grids;
+    for (int i = 0; i < 9; ++i) {
+        const std::string name = "g" + std::to_string(i);
+        writeGrids(name + ".vdb", {sphereGrid(name, 3)});
+        grids += " " + name + ".vdb";
+    }
+    for (const char* bad : {"bad_0008.vdb", "bad_0009.vdb"}) writeText(path(bad), "no grid");
+    const Result result = run("-read" + grids
+        + " -each s=bad,smoke -read {$s}_####.vdb frames=8-9 "
+          "-print -spheretree spheres=4 -write {$s}_t_####.csv -end");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(exists("smoke_t_0009.csv")) << result.err;
+    // Nine of before, and the frame's own.
+    EXPECT_TRUE(holds(result.out, "vdb 9: ")) << result.out;
+    EXPECT_FALSE(holds(result.out, "vdb 10: ")) << result.out;
+    std::size_t last = result.out.rfind("vdb 0: ");
+    EXPECT_TRUE(holds(result.out.substr(last), "vdb 9: ")) << result.out;
+}
+
+TEST_F(CommandFrames, BehindLoopsWithinEachOtherANameStandsForAllTurnsThatHaveEnded)
+{
+    writeFrames({8, 9, 10});
+    const Result result =
+        run("-for a=0,2 -for i=8,11 -read smoke_####.vdb -spheretree spheres=4 name=few -end "
+            "-write in_{$a}.usda vdb=few keep=1 -end -write all.usda vdb=few,0 start=1");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    for (const char* file : {"in_0.usda", "in_1.usda"}) {
+        EXPECT_TRUE(holds(readText(path(file)), "startTimeCode = 8\n    endTimeCode = 10\n"))
+            << file;
+    }
+    EXPECT_TRUE(holds(readText(path("all.usda")), "startTimeCode = 1\n    endTimeCode = 6\n"));
 }
 
 TEST_F(CommandFrames, BehindALoopANameStandsForTheTreesOfAllFrames)
@@ -342,7 +419,7 @@ TEST_F(CommandFrames, TreesOfTwoNamesAreNoSamplesOfOneThing)
         EXPECT_EQ(::unlink(path("both.usda").c_str()), 0);
     }
     const Result named = run("-for i=8,10 -read smoke_####.vdb -spheretree spheres=4 "
-                             "name='t_{$i}' -end -write all.vdb all.usda fps=30");
+                             "name=t_{$i} -end -write all.vdb all.usda fps=30");
     EXPECT_EQ(named.exitCode, 0) << named.err;
     EXPECT_TRUE(holds(readText(path("all.usda")), "timeCodesPerSecond = 30\n"));
     EXPECT_TRUE(holds(readText(path("all.usda")), "endTimeCode = 9\n"));

@@ -101,11 +101,12 @@ TEST_F(CommandMass, FilesOfRobotsHaveThatOfTheSpheresOrOfTheObject)
     const std::string tree = "-read box.vol -spheretree spheres=1 ";
     const Result spheres = run(tree + "-write s.urdf density=2");
     EXPECT_EQ(spheres.exitCode, 0) << spheres.err;
-    EXPECT_NE(spheres.err.find("mass=object has those of the object"), std::string::npos)
+    EXPECT_NE(
+        spheres.err.find("mass and inertia are those of the spheres together"), std::string::npos)
         << spheres.err;
     const Result object = run(tree + "-write o.urdf o.mjcf density=2 mass=object");
     EXPECT_EQ(object.exitCode, 0) << object.err;
-    EXPECT_EQ(object.err.find("of the union"), std::string::npos) << object.err;
+    EXPECT_EQ(object.err.find("of the spheres together"), std::string::npos) << object.err;
     const std::string urdf = readText(path("o.urdf"));
     EXPECT_NE(urdf.find("<origin xyz=\"0.75 1.25 1.75\""), std::string::npos) << urdf;
     EXPECT_NE(urdf.find("<mass value=\"48\"/>"), std::string::npos) << urdf;
@@ -115,8 +116,12 @@ TEST_F(CommandMass, FilesOfRobotsHaveThatOfTheSpheresOrOfTheObject)
     EXPECT_EQ(run(tree + "-write t.vdb").exitCode, 0);
     const Result alone = run("-read t.vdb -write a.urdf mass=object");
     EXPECT_EQ(alone.exitCode, 3);
-    EXPECT_NE(alone.err.find("mass=object: the object of the tree is not there"), std::string::npos)
+    EXPECT_NE(alone.err.find("mass=object: no grid on the stack has the voxels"), std::string::npos)
         << alone.err;
+    // Spheres of others meet the object here, too.
+    writeText(path("ball.csv"), "x,y,z,r\n0.75,1.25,1.75,3\n");
+    EXPECT_EQ(run("-read ball.csv box.vol -write b.urdf density=2 mass=object").exitCode, 0);
+    EXPECT_NE(readText(path("b.urdf")).find("<mass value=\"48\"/>"), std::string::npos);
     EXPECT_EQ(run("-read box.vol t.vdb -write a.urdf density=2 mass=object").exitCode, 0);
     EXPECT_NE(readText(path("a.urdf")).find("<mass value=\"48\"/>"), std::string::npos);
 }

@@ -234,7 +234,7 @@ bool isObjectOf(const openvdb::BoolGrid& object, const spheretree::SphereTree& t
 
 bool isObjectGrid(const StackItem& item)
 {
-    return item.grid && spheretree::isObjectGrid(*item.grid);
+    return item.grid && !item.emptyTree && spheretree::isObjectGrid(*item.grid);
 }
 
 } // namespace

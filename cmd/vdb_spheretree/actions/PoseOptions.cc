@@ -128,10 +128,9 @@ void checkMatrix(const ActionCall& call)
 /// Says so where angles were hardly meant as radians.
 void noteLargeAngles(const ActionCall& call, Session& session)
 {
-    constexpr double kAround = 6.2832; // 2 pi, rounded up
     const auto note = [&](const std::string& name, double largest) {
         const std::string typed = call.text(name);
-        if (!(largest > kAround) || AngleText(typed).hasUnit) return;
+        if (!(largest > openvdb_spheretree::kFullTurn) || AngleText(typed).hasUnit) return;
         session.note(name + "=" + typed + " is in radians, and turns by more than once around: "
             + typed + "deg would be degrees, and " + typed + "rad is what it is now");
     };

@@ -154,7 +154,7 @@ void scaleSpheres(openvdb_spheretree::WorldSpheres& spheres, double scale)
 void scaleItem(const StackItem& item, std::optional<double> scale)
 {
     if (!scale) return;
-    if (item.tree) {
+    if (item.anyTree()) {
         throwInput("sphere-tree '" + oneLine(item.name(), 60)
             + "' is not scaled: scale= and units= are for meshes, grids and volumes; read the "
               "tree by a -read of its own without them, or build it anew of what it was made of");
@@ -225,7 +225,9 @@ void readVdbFile(const std::string& path, Reading& reading, Session& session)
         throwIfStopped();
         if (ofTrees.count(grid) || !reading.filter.accepts(grid->getName())) continue;
         if (openvdb_spheretree::isEmptyTree(*grid)) {
-            session.stack.push(emptyTreeItem(grid));
+            const StackItem item = emptyTreeItem(grid);
+            scaleItem(item, reading.scale);
+            session.stack.push(item);
             continue;
         }
         if (!openvdb_spheretree::isSphereTree(*grid)) {

@@ -205,12 +205,12 @@ void runSpheretree(const ActionCall& call, Session& session)
     session.stack.push(result);
 }
 
-/// The tree of no object is a grid of points that has none, in the place of the newest grid.
+/// The tree of no object is a grid of points that has none, in the place of the frame's newest grid.
 void runEmptySpheretree(const ActionCall& call, Session& session)
 {
     const auto& items = session.stack.items();
-    const auto input = std::find_if(
-        items.rbegin(), items.rend(), [](const auto& item) { return bool(item->grid); });
+    const auto input = std::find_if(items.rbegin(), items.rend(),
+        [&](const auto& item) { return item->grid && item->frame == session.stack.frame(); });
     auto tree = std::make_shared<SphereTree>();
     tree->settings = settingsOf(call);
     tree->transform = input == items.rend() ? openvdb::math::Transform::createLinearTransform()
@@ -291,8 +291,9 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
 {
     if (item.object && !call.given("vdb")) return item.object;
     const auto& items = session.stack.items();
-    const bool anyObject = std::any_of(items.begin(), items.end(),
-        [](const auto& other) { return other->grid && spheretree::isObjectGrid(*other->grid); });
+    const bool anyObject = std::any_of(items.begin(), items.end(), [](const auto& other) {
+        return other->grid && !other->emptyTree && spheretree::isObjectGrid(*other->grid);
+    });
     if (!anyObject && !call.given("vdb") && session.stack.holdsMesh()) return nullptr;
     const StackItem& grid = selectObjectGrid(session, call.text("vdb"));
     const Stopwatch watch;

@@ -129,15 +129,14 @@ openvdb::GridCPtrVec gridsOf(const std::vector<StackItem*>& items, bool giveUp, 
 const openvdb_spheretree::SphereTree& onlyTree(
     const std::vector<StackItem*>& items, const std::string& path)
 {
-    const StackItem* tree = nullptr;
+    const openvdb_spheretree::SphereTree* tree = nullptr;
     for (const StackItem* item : items) {
-        if (item->emptyTree) return *item->emptyTree;
-        if (!item->tree) continue;
+        if (!item->anyTree()) continue;
         if (tree) throwInput(path + " holds one sphere-tree, and there are more: choose with vdb=");
-        tree = item;
+        tree = item->anyTree();
     }
     if (!tree) throwInput(path + " holds a sphere-tree, and there is none: put -spheretree before");
-    return *tree->tree;
+    return *tree;
 }
 
 const StackItem& onlyGrid(const std::vector<StackItem*>& items, const std::string& path)
@@ -162,12 +161,13 @@ void requireDistinctTrees(const std::vector<StackItem*>& items)
 {
     std::set<std::string> names;
     for (const StackItem* item : items) {
-        if (!item->tree) continue;
+        const openvdb_spheretree::SphereTree* const tree = item->anyTree();
+        if (!tree) continue;
         const std::string name = item->name();
         const auto taken = [&](bool written, const char* suffix) {
             return written && !names.insert(name + suffix).second;
         };
-        const bool edges = !item->tree->dag.empty(), cuts = !item->tree->cuts.empty();
+        const bool edges = !tree->dag.empty(), cuts = !tree->cuts.empty();
         if (!taken(true, "") && !taken(edges, "_dag") && !taken(cuts, "_cuts")) continue;
         throwInput("two sphere-trees are named '" + oneLine(name, 60)
             + "', or one as the edges or cuts of the other: give them different names with name= "

@@ -3,6 +3,7 @@
 
 #include "line/Length.h"
 #include "line/Plan.h"
+#include "GivenSpheres.h"
 #include "ObjectChoice.h"
 #include "WriteChart.h"
 
@@ -88,33 +89,32 @@ ExportSettings settingsOf(const ActionCall& call)
 }
 
 /// @throw CommandError (input) if nothing on the stack is the tree's object
-spheretree::MassProperties massOfObject(
-    const StackItem& item, const std::string& path, Session& session)
+spheretree::MassProperties massOfObject(StackItem& item, const std::string& path, Session& session)
 {
-    const auto object = item.tree ? knownObject(item, session) : nullptr;
+    placeInObject(item, session);
+    const auto object = knownObject(item, session);
     const auto mass =
         object ? spheretree::massProperties(*object, &session.progress) : std::nullopt;
-    if (!mass) {
-        throwInput(path
-            + ": mass=object: the object of the tree is not there: read its grid as well, or write "
-              "the "
-              "file where the tree is built");
-    }
-    return *mass;
+    if (mass) return *mass;
+    throwInput(path
+        + ": mass=object: no grid on the stack has the voxels that the tree was built of: read it "
+          "as well, "
+          "or write the file where the tree is built");
 }
 
-std::vector<const StackItem*> treesOf(
+std::vector<StackItem*> treesOf(
     const std::vector<StackItem*>& items, const ExportFormat& format, const std::string& path)
 {
-    std::vector<const StackItem*> trees;
-    for (const StackItem* item : items) {
-        if (item->tree || item->emptyTree) trees.push_back(item);
+    std::vector<StackItem*> trees;
+    for (StackItem* item : items) {
+        if (item->anyTree()) trees.push_back(item);
     }
     const bool anyEmpty = std::any_of(
         trees.begin(), trees.end(), [](const StackItem* item) { return bool(item->emptyTree); });
     if (anyEmpty && !format.empty) {
         throwInput(path + ": " + format.name
-            + " has no room for a frame without spheres: empty=skip makes no file of it");
+            + " has no room for a frame without spheres: leave it out, by empty=skip where the "
+              "tree is built or by frames= where it is read");
     }
     if (trees.empty()) {
         throwInput(path + " holds spheres of a tree, and there is none: put -spheretree before");
@@ -126,12 +126,7 @@ std::vector<const StackItem*> treesOf(
     return trees;
 }
 
-const spheretree::SphereTree& treeOf(const StackItem& item)
-{
-    return item.tree ? *item.tree : *item.emptyTree;
-}
-
-bool areFramesRising(const std::vector<const StackItem*>& trees)
+bool areFramesRising(const std::vector<StackItem*>& trees)
 {
     const auto isNotLater = [](const StackItem* before, const StackItem* item) {
         return !before->frame || !item->frame || *item->frame <= *before->frame;
@@ -141,7 +136,7 @@ bool areFramesRising(const std::vector<const StackItem*>& trees)
 
 /// Trees of several names are samples of one thing only if each is of a later frame, or if the line says so.
 void requireOneThing(
-    const ActionCall& call, const std::string& path, const std::vector<const StackItem*>& trees)
+    const ActionCall& call, const std::string& path, const std::vector<StackItem*>& trees)
 {
     if (call.given("start") || areFramesRising(trees)) return;
     for (const StackItem* item : trees) {
@@ -154,8 +149,7 @@ void requireOneThing(
 
 /// @return the times of several trees: one after the other from start= on; else the numbers of their frames, if these
 ///         rise; else from 1 on.
-std::vector<double> sampleTimesOf(
-    const ActionCall& call, const std::vector<const StackItem*>& trees)
+std::vector<double> sampleTimesOf(const ActionCall& call, const std::vector<StackItem*>& trees)
 {
     std::vector<double> times;
     for (const StackItem* item : trees) {
@@ -188,7 +182,7 @@ bool wroteGrids(const ActionCall& call, const std::string& path,
 {
     std::vector<openvdb::SharedPtr<openvdb::GridBase>> grids;
     for (const StackItem* item : items) {
-        if (item->tree || item->emptyTree) return false;
+        if (item->anyTree()) return false;
         if (item->grid) grids.push_back(item->grid);
     }
     if (grids.empty()) return false;
@@ -292,14 +286,14 @@ void writeExport(const ActionCall& call, const std::string& path,
     }
     const auto chosen = treesOf(items, format, path);
     requireOneThing(call, path, chosen);
-    std::vector<const spheretree::SphereTree*> trees;
-    for (const StackItem* item : chosen) trees.push_back(&treeOf(*item));
     ExportSettings settings = settingsOf(call);
-    if (settings.name.empty() && !isStdout(path)) {
-        settings.name = spheretree::exportNameFor(*trees.front(), format, path);
-    }
     if (format.mass && call.text("mass") == "object") {
         settings.mass = massOfObject(*chosen.front(), path, session);
+    }
+    std::vector<const spheretree::SphereTree*> trees;
+    for (const StackItem* item : chosen) trees.push_back(item->anyTree());
+    if (settings.name.empty() && !isStdout(path)) {
+        settings.name = spheretree::exportNameFor(*trees.front(), format, path);
     }
     settings.sampleTimes = sampleTimesOf(call, chosen);
     if (trees.size() > 1) {

@@ -20,7 +20,9 @@ StackItem& treeToShow(const std::vector<StackItem*>& items, const std::string& p
     for (StackItem* item : items) {
         if (item->emptyTree) {
             throwInput(path
-                + " shows spheres, and there are none: empty=skip makes no file of such a frame");
+                + " shows spheres, and this frame has none: leave it out, by empty=skip where the "
+                  "tree is built "
+                  "or by frames= where it is read");
         }
         if (!item->tree) continue;
         if (tree) throwInput(path + " shows one sphere-tree, and there are more: choose with vdb=");

@@ -32,14 +32,18 @@ class FrameItems {
 public:
     explicit FrameItems(Session& session) : mSession(session), mInputs(session.inputs.size())
     {
-        for (const auto& item : session.stack.items()) mBefore.insert(item.get());
+        for (const auto& item : session.stack.items()) mBefore.insert(item->serial);
+        session.stack.beginTurn();
     }
+    ~FrameItems() { mSession.stack.endTurn(); }
+    FrameItems(const FrameItems&) = delete;
+    FrameItems& operator=(const FrameItems&) = delete;
 
     std::vector<const StackItem*> items() const
     {
         std::vector<const StackItem*> own;
         for (const auto& item : mSession.stack.items()) {
-            if (!mBefore.count(item.get())) own.push_back(item.get());
+            if (!mBefore.count(item->serial)) own.push_back(item.get());
         }
         return own;
     }
@@ -58,7 +62,7 @@ public:
 private:
     Session& mSession;
     size_t mInputs;
-    std::set<const StackItem*> mBefore;
+    std::set<int64_t> mBefore; ///< serials
 };
 
 const StackItem* newestTree(const FrameItems& frame)

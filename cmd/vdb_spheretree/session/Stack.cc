@@ -59,6 +59,8 @@ std::string StackItem::description() const
     std::string kind = "mesh", details;
     if (tree) {
         kind = tree->settings.isGiven() ? "spheres" : "sphere-tree";
+    } else if (emptyTree) {
+        kind = "sphere-tree without spheres";
     } else if (grid) {
         kind = "grid";
         const bool isPoints = grid->isType<openvdb::points::PointDataGrid>();
@@ -85,6 +87,8 @@ void Stack::push(StackItem item)
     item.source = mSource;
     item.batch = mBatch;
     item.frame = mFrame;
+    item.serial = mPushed++;
+    item.depth = mTurns.size();
     mItems.push_back(std::make_unique<StackItem>(std::move(item)));
 }
 
@@ -97,7 +101,9 @@ void Stack::drop(const StackItem* item)
 std::vector<StackItem> Stack::copies() const
 {
     std::vector<StackItem> all;
-    for (const auto& item : mItems) all.push_back(*item);
+    for (const auto& item : mItems) {
+        if (!item->written) all.push_back(*item);
+    }
     return all;
 }
 
@@ -136,16 +142,17 @@ StackItem* Stack::find(const std::string& ageOrName, bool meshes)
     return std::count_if(items.begin(), items.end(), isOfFile) == 1 ? *found : nullptr;
 }
 
-std::vector<StackItem*> Stack::ofAllFrames(StackItem* item, const std::string& ageOrName)
+std::vector<StackItem*> Stack::ofAllTurns(StackItem* item, const std::string& ageOrName)
 {
-    std::vector<StackItem*> all{item};
-    if (mFrame || !item->frame || item->name() != ageOrName) return all;
-    for (StackItem* other : newestFirst(false)) {
-        const bool isInItsPlace = other->name() == ageOrName && other->frame
-            && std::none_of(all.begin(), all.end(),
-                [&](const StackItem* taken) { return taken->frame == other->frame; });
-        if (isInItsPlace) all.push_back(other);
-    }
+    const int64_t first = mTurns.empty() ? 0 : mTurns.back();
+    const auto isOfEndedLoop = [&](const StackItem* other) {
+        return other->depth > mTurns.size() && other->serial >= first && other->name() == ageOrName;
+    };
+    if (!isOfEndedLoop(item)) return {item};
+    std::vector<StackItem*> all = newestFirst(false);
+    all.erase(std::remove_if(all.begin(), all.end(),
+                  [&](const StackItem* other) { return !isOfEndedLoop(other); }),
+        all.end());
     return all;
 }
 
@@ -221,7 +228,9 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
         for (const std::string& ageOrName : agesOrNames) {
             StackItem* const item = find(ageOrName, false);
             if (!item) throwInput("there is no '" + ageOrName + "'; " + listing());
-            for (StackItem* one : ofAllFrames(item, ageOrName)) chosen.push_back(one);
+            for (StackItem* one : ofAllTurns(item, ageOrName)) {
+                if (!std::count(chosen.begin(), chosen.end(), one)) chosen.push_back(one);
+            }
         }
     }
     if (chosen.empty()) throwInput("there is no grid or sphere-tree to work on; " + listing());

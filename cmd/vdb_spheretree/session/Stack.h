@@ -41,8 +41,15 @@ struct StackItem {
     std::optional<int64_t> frame = {}; ///< that it was made in; nothing outside of loops
     bool unverified = false;           ///< a tree of a file without a checksum
     int batch = 0;                     ///< the same number for all items of one action
+    int64_t serial = 0;                ///< of pushing; a copy keeps it
+    std::size_t depth = 0;             ///< of the loops that it was made in
     bool written = false;              ///< to be dropped when the next item arrives
 
+    /// @return the tree, with or without spheres; null for grids and meshes.
+    const openvdb_spheretree::SphereTree* anyTree() const
+    {
+        return tree ? tree.get() : emptyTree.get();
+    }
     std::string name() const;
     /// @return the name of the file that it comes from, without folder and extension.
     std::string fileStem() const;
@@ -59,17 +66,21 @@ public:
     void setSource(const std::string& source) { mSource = source; }
     /// From now on, items that are pushed belong to this frame.
     void setFrame(std::optional<int64_t> frame) { mFrame = frame; }
+    std::optional<int64_t> frame() const { return mFrame; }
+    /// What is pushed between the two belongs to a turn of a loop; turns may be within each other.
+    void beginTurn() { mTurns.push_back(mPushed); }
+    void endTurn() { mTurns.pop_back(); }
     void push(StackItem item);
     void drop(const StackItem* item);
     void clear() { mItems.clear(); }
-    /// @return copies of all items, which share their grids, trees and meshes with them.
+    /// @return copies of all items that are not written yet, which share their grids, trees and meshes with them.
     std::vector<StackItem> copies() const;
     /// Makes the stack what it was when it was copied.
     void restore(const std::vector<StackItem>& copies);
 
     /// @return the items of a list of ages and names, oldest first. If the list is empty or `*`, they
     ///         are all grids and trees that are not written yet; or all, if all are written. Behind a loop, a
-    ///         name stands for the items of all frames that have it.
+    ///         name stands for the items of all its turns that have it. None is there twice.
     /// @throw CommandError (input) if there is none
     std::vector<StackItem*> several(const std::vector<std::string>& agesOrNames);
 
@@ -92,8 +103,8 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
-    /// @return the item, and those that other frames have in its place, newest first.
-    std::vector<StackItem*> ofAllFrames(StackItem* item, const std::string& ageOrName);
+    /// @return the item; and if it is of a loop that has ended, those of its turns that have the name, newest first.
+    std::vector<StackItem*> ofAllTurns(StackItem* item, const std::string& ageOrName);
     /// @throw CommandError (input) if the same action has made another item of that name
     void requireOneOfName(const StackItem& chosen);
     std::string listing() const;
@@ -101,6 +112,8 @@ private:
     std::vector<std::unique_ptr<StackItem>> mItems;
     std::string mSource;
     std::optional<int64_t> mFrame;
+    int64_t mPushed = 0;
+    std::vector<int64_t> mTurns; ///< the first serial of each turn that goes on
     int mBatch = 0;
 };
 
