@@ -403,6 +403,17 @@ TEST_F(CommandFrames, BehindALoopANameStandsForTheTreesOfAllFrames)
     EXPECT_EQ(readText(path("few_0010.csv")), readText(path("alone.csv")));
 }
 
+TEST_F(CommandFrames, WithoutALoopANameStandsForTheNewest)
+{
+    writeFrames({8, 9});
+    const std::string tree = " -spheretree spheres=4 name=few ";
+    const Result newest = run("-read smoke_0008.vdb" + tree + "-read smoke_0009.vdb" + tree
+        + "-write newest.csv vdb=few");
+    EXPECT_EQ(newest.exitCode, 0) << newest.err;
+    ASSERT_EQ(run("-read smoke_0009.vdb" + tree + "-write alone.csv").exitCode, 0);
+    EXPECT_EQ(readText(path("newest.csv")), readText(path("alone.csv")));
+}
+
 TEST_F(CommandFrames, TreesOfTwoNamesAreNoSamplesOfOneThing)
 {
     writeFrames({8, 9});
