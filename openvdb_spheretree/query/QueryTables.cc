@@ -253,8 +253,8 @@ RigidTransform poseOf(const Numbers& numbers, const Names& columns)
 std::string notedMoves(const NamedColumns& table, const Names& names)
 {
     if (table.leavesOut(kBody.front())) {
-        return "its column 'body' is not used: all lines are poses of one body, and several are of "
-               "a scene";
+        return "its column 'body' is not used: all lines are poses of one body, "
+               "and several are of a scene";
     }
     const std::string leftOver = table.leftOver();
     if (names != kPlace || leftOver.empty()) return {};

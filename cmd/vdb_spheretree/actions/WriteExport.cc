@@ -97,9 +97,8 @@ spheretree::MassProperties massOfObject(StackItem& item, const std::string& path
         object ? spheretree::massProperties(*object, &session.progress) : std::nullopt;
     if (mass) return *mass;
     throwInput(path
-        + ": mass=object: no grid on the stack has the voxels that the tree was built of: read it "
-          "as well, "
-          "or write the file where the tree is built");
+        + ": mass=object: no grid on the stack has the voxels that the tree was built of: "
+          "read it as well, or write the file where the tree is built");
 }
 
 std::vector<StackItem*> treesOf(
