@@ -84,8 +84,7 @@ public:
         constexpr std::size_t kMost = 5;
         Names names;
         for (std::size_t i = 0; i < mHeader.size(); ++i) {
-            const bool isTaken = std::count(mColumns.begin(), mColumns.end(), i) || i == mText;
-            if (!isTaken) names.push_back(mHeader[i]);
+            if (!isTaken(i)) names.push_back(mHeader[i]);
         }
         const std::size_t more = names.size() - std::min(names.size(), kMost);
         names.resize(names.size() - more);
@@ -96,8 +95,7 @@ public:
     bool leavesOut(const std::string& name) const
     {
         for (std::size_t i = 0; i < mHeader.size(); ++i) {
-            const bool isTaken = std::count(mColumns.begin(), mColumns.end(), i) || i == mText;
-            if (!isTaken && detail::lowerCase(mHeader[i]) == detail::inQuotes(name)) return true;
+            if (!isTaken(i) && detail::lowerCase(mHeader[i]) == detail::inQuotes(name)) return true;
         }
         return false;
     }
@@ -158,6 +156,11 @@ private:
         }
         if (found) return *found;
         fail("the header names no column '" + name + "', and " + mWhat + " have " + listOf(all));
+    }
+
+    bool isTaken(std::size_t column) const
+    {
+        return std::count(mColumns.begin(), mColumns.end(), column) || column == mText;
     }
 
     std::string mWhat;

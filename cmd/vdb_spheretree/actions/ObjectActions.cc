@@ -232,12 +232,12 @@ bool isObjectOf(const openvdb::BoolGrid& object, const spheretree::SphereTree& t
     return true;
 }
 
+} // namespace
+
 bool isObjectGrid(const StackItem& item)
 {
     return item.grid && !item.emptyTree && spheretree::isObjectGrid(*item.grid);
 }
-
-} // namespace
 
 StackItem& selectObjectGrid(Session& session, const std::string& ageOrName)
 {

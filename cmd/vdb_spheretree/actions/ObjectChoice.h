@@ -10,6 +10,9 @@
 
 namespace command {
 
+/// @return whether an item is a grid that bounds an object.
+bool isObjectGrid(const StackItem& item);
+
 /// @return the grid of the stack that an action makes its object of.
 /// @param ageOrName  as for Stack::select()
 /// @throw CommandError (input) if there is none, or more than one. If there is only a mesh, the

@@ -291,9 +291,8 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
 {
     if (item.object && !call.given("vdb")) return item.object;
     const auto& items = session.stack.items();
-    const bool anyObject = std::any_of(items.begin(), items.end(), [](const auto& other) {
-        return other->grid && !other->emptyTree && spheretree::isObjectGrid(*other->grid);
-    });
+    const bool anyObject = std::any_of(
+        items.begin(), items.end(), [](const auto& other) { return isObjectGrid(*other); });
     if (!anyObject && !call.given("vdb") && session.stack.holdsMesh()) return nullptr;
     const StackItem& grid = selectObjectGrid(session, call.text("vdb"));
     const Stopwatch watch;

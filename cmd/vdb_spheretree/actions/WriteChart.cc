@@ -83,7 +83,7 @@ void countErrorsOfCharts(
     if (chart == files.end()) return;
     bool anyTree = false;
     for (StackItem* item : items) {
-        anyTree |= item->tree || item->emptyTree;
+        anyTree |= item->anyTree() != nullptr;
         if (!item->tree) continue;
         countErrors(*item, session);
         requireKnown(*item, *chart, session);

@@ -108,7 +108,7 @@ StackItem& itemToDraw(const std::vector<StackItem*>& items, const std::string& p
 {
     std::vector<StackItem*> trees, grids;
     for (StackItem* item : items) {
-        (item->tree || item->emptyTree ? trees : grids).push_back(item);
+        (item->anyTree() ? trees : grids).push_back(item);
     }
     const std::vector<StackItem*>& found = trees.empty() ? grids : trees;
     if (found.size() == 1) return *found.front();
