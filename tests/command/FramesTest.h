@@ -6,6 +6,8 @@
 
 #include "CommandRunner.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
