@@ -11,36 +11,63 @@ namespace {
 
 using openvdb::Coord;
 
-/// Parallel slices. The number of a point's slice is a sum of its coordinates with these factors, and
-/// its place there are the coordinates along two axes. Of points in ascending order, those of a slice
-/// ascend by their places, too.
+/// Parallel slices. The number of a point's slice is a sum of its coordinates with the factors X, Y, Z, and
+/// its place there are the coordinates along the axes U and V. Of points in ascending order, those of a
+/// slice ascend by their places, too.
+template <int X, int Y, int Z, int U, int V>
 struct Slicing {
-    int x, y, z; ///< factors
-    int u, v;    ///< axes
-
-    int64_t of(const Coord& p) const
+    static int64_t of(const Coord& p)
     {
-        return int64_t(x) * p[0] + int64_t(y) * p[1] + int64_t(z) * p[2];
+        return X * int64_t(p[0]) + Y * int64_t(p[1]) + Z * int64_t(p[2]);
     }
+    static int32_t u(const Coord& p) { return p[U]; }
+    static int32_t v(const Coord& p) { return p[V]; }
 };
-
-constexpr Slicing kAlongAxes[3] = {{0, 0, 1, 0, 1}, {0, 1, 0, 0, 2}, {1, 0, 0, 1, 2}};
-constexpr Slicing kDiagonal[6] = {{1, 1, 0, 0, 2}, {1, -1, 0, 0, 2}, {1, 0, 1, 0, 1},
-    {1, 0, -1, 0, 1}, {0, 1, 1, 0, 1}, {0, 1, -1, 0, 1}};
 
 /// Finds the corners of hulls in slices of points, which ascend.
 class SliceHulls {
 public:
-    /// Keeps the corners of each slice's hull. The points stay in order.
-    void keepCorners(std::vector<Coord>& points, const Slicing& by)
+    void keepCornersAlongAxes(std::vector<Coord>& points)
     {
-        sortBySlice(points, by);
+        keepCorners<Slicing<0, 0, 1, 0, 1>>(points);
+        keepCorners<Slicing<0, 1, 0, 0, 2>>(points);
+        keepCorners<Slicing<1, 0, 0, 1, 2>>(points);
+    }
+
+    void keepCornersAcrossDiagonals(std::vector<Coord>& points)
+    {
+        keepCorners<Slicing<1, 1, 0, 0, 2>>(points);
+        keepCorners<Slicing<1, -1, 0, 0, 2>>(points);
+        keepCorners<Slicing<1, 0, 1, 0, 1>>(points);
+        keepCorners<Slicing<1, 0, -1, 0, 1>>(points);
+        keepCorners<Slicing<0, 1, 1, 0, 1>>(points);
+        keepCorners<Slicing<0, 1, -1, 0, 1>>(points);
+    }
+
+private:
+    /// A point in its slice.
+    struct Place {
+        int32_t u, v;
+        uint32_t point;
+    };
+
+    /// Keeps the corners of each slice's hull. The points stay in order.
+    template <typename By>
+    void keepCorners(std::vector<Coord>& points)
+    {
+        int64_t first = By::of(points.front()), last = first;
+        for (const Coord& p : points) {
+            first = std::min(first, By::of(p));
+            last = std::max(last, By::of(p));
+        }
+        constexpr int64_t kFew = 4096;
+        if (last - first < kFew) countSlices<By>(points, first, last);
+        else sortSlices<By>(points);
         mIsCorner.assign(points.size(), 0);
-        for (std::size_t i = 0; i < mOrder.size();) {
-            std::size_t j = i + 1;
-            while (j < mOrder.size() && mSlice[mOrder[j]] == mSlice[mOrder[i]]) ++j;
-            markHull(points, by, i, j);
-            i = j;
+        uint32_t begin = 0;
+        for (const uint32_t end : mEnd) {
+            markHull(begin, end);
+            begin = end;
         }
         std::size_t kept = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -49,63 +76,70 @@ public:
         points.resize(kept);
     }
 
-private:
-    /// Numbers the points by slice, and in each slice as they come.
-    void sortBySlice(const std::vector<Coord>& points, const Slicing& by)
+    /// Lists the places slice by slice, by a counting sort.
+    template <typename By>
+    void countSlices(const std::vector<Coord>& points, int64_t first, int64_t last)
     {
-        mSlice.clear();
-        for (const Coord& p : points) mSlice.push_back(by.of(p));
-        const auto ends = std::minmax_element(mSlice.begin(), mSlice.end());
-        const int64_t first = *ends.first, slices = *ends.second - first + 1;
-        mOrder.resize(points.size());
-        constexpr int64_t kFew = 4096;
-        if (slices > kFew) {
-            std::iota(mOrder.begin(), mOrder.end(), 0);
-            std::stable_sort(mOrder.begin(), mOrder.end(),
-                [&](uint32_t a, uint32_t b) { return mSlice[a] < mSlice[b]; });
-            return;
-        }
-        mBegin.assign(std::size_t(slices) + 1, 0);
-        for (const int64_t slice : mSlice) ++mBegin[std::size_t(slice - first) + 1];
-        std::partial_sum(mBegin.begin(), mBegin.end(), mBegin.begin());
-        for (uint32_t i = 0; i < mSlice.size(); ++i) {
-            mOrder[mBegin[std::size_t(mSlice[i] - first)]++] = i;
+        mEnd.assign(std::size_t(last - first) + 2, 0);
+        for (const Coord& p : points) ++mEnd[std::size_t(By::of(p) - first) + 1];
+        std::partial_sum(mEnd.begin(), mEnd.end(), mEnd.begin());
+        mPlaces.resize(points.size());
+        for (uint32_t i = 0; i < points.size(); ++i) {
+            const Coord& p = points[i];
+            mPlaces[mEnd[std::size_t(By::of(p) - first)]++] = {By::u(p), By::v(p), i};
         }
     }
 
-    /// Marks the corners of the hull of a slice: the points with the numbers at @a begin to @a end.
-    void markHull(
-        const std::vector<Coord>& points, const Slicing& by, std::size_t begin, std::size_t end)
+    /// The same for slices far apart.
+    template <typename By>
+    void sortSlices(const std::vector<Coord>& points)
+    {
+        std::vector<uint32_t> order(points.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return By::of(points[a]) < By::of(points[b]); });
+        mEnd.clear();
+        mPlaces.clear();
+        for (const uint32_t i : order) {
+            const Coord& p = points[i];
+            const bool isNext =
+                !mPlaces.empty() && By::of(points[mPlaces.back().point]) != By::of(p);
+            if (isNext) mEnd.push_back(uint32_t(mPlaces.size()));
+            mPlaces.push_back({By::u(p), By::v(p), i});
+        }
+        mEnd.push_back(uint32_t(mPlaces.size()));
+    }
+
+    /// Marks the corners of the hull of a slice: the places from @a begin to @a end.
+    void markHull(uint32_t begin, uint32_t end)
     {
         if (end - begin <= 2) {
-            for (; begin != end; ++begin) mIsCorner[mOrder[begin]] = 1;
+            for (; begin != end; ++begin) mIsCorner[mPlaces[begin].point] = 1;
             return;
         }
-        mChain.clear();
-        const auto grow = [&](uint32_t p, std::size_t atLeast) {
-            while (mChain.size() > atLeast
-                && !turnsLeft(points[*(mChain.end() - 2)], points[mChain.back()], points[p], by)) {
-                mChain.pop_back();
+        mChain.resize(2 * std::size_t(end - begin));
+        std::size_t length = 0;
+        const auto grow = [&](const Place& place, std::size_t atLeast) {
+            while (length > atLeast && !turnsLeft(mChain[length - 2], mChain[length - 1], place)) {
+                --length;
             }
-            mChain.push_back(p);
+            mChain[length++] = place;
         };
-        for (std::size_t i = begin; i < end; ++i) grow(mOrder[i], 1);
-        const std::size_t lower = mChain.size();
-        for (std::size_t i = end - 1; i-- > begin;) grow(mOrder[i], lower);
-        for (const uint32_t p : mChain) mIsCorner[p] = 1;
+        for (uint32_t i = begin; i < end; ++i) grow(mPlaces[i], 1);
+        const std::size_t lower = length;
+        for (uint32_t i = end - 1; i-- > begin;) grow(mPlaces[i], lower);
+        for (std::size_t i = 0; i < length; ++i) mIsCorner[mChain[i].point] = 1;
     }
 
     /// @return whether going from a over b to c turns left; else b is no corner.
-    static bool turnsLeft(const Coord& a, const Coord& b, const Coord& c, const Slicing& by)
+    static bool turnsLeft(const Place& a, const Place& b, const Place& c)
     {
-        const auto along = [](const Coord& from, const Coord& to, int axis) -> __int128 {
-            return int64_t(to[axis]) - from[axis];
-        };
-        return along(a, b, by.u) * along(a, c, by.v) > along(a, b, by.v) * along(a, c, by.u);
+        const auto along = [](int32_t from, int32_t to) -> __int128 { return int64_t(to) - from; };
+        return along(a.u, b.u) * along(a.v, c.v) > along(a.v, b.v) * along(a.u, c.u);
     }
 
-    std::vector<int64_t> mSlice; ///< of each point
-    std::vector<uint32_t> mOrder, mBegin, mChain;
+    std::vector<Place> mPlaces, mChain;
+    std::vector<uint32_t> mEnd; ///< of each slice, in mPlaces
     std::vector<char> mIsCorner;
 };
 
@@ -198,9 +232,8 @@ void dropInnerPoints(std::vector<Coord>& points)
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < kFew) return;
     thread_local SliceHulls hulls;
-    for (const Slicing& slices : kAlongAxes) hulls.keepCorners(points, slices);
-    if (points.size() <= kMany) return;
-    for (const Slicing& slices : kDiagonal) hulls.keepCorners(points, slices);
+    hulls.keepCornersAlongAxes(points);
+    if (points.size() > kMany) hulls.keepCornersAcrossDiagonals(points);
 }
 
 } // namespace openvdb_spheretree::tight

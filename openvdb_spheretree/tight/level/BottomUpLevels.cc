@@ -69,10 +69,11 @@ std::vector<ExactSphere> fewerBalls(
     bool areInside = !finer.digital.empty();
     for (auto many = int64_t(balls.size()); many > count;) {
         // Leaf balls hold little each: they are merged at once to about what is asked for.
-        const int64_t first = maker.placesStart ? 2 * count : count;
+        const int64_t first = maker.firstTowards(count);
         many = areInside && first < many ? first : halvedTowards(many, count);
+        const auto merged = maker.merged(ungrouped(balls), points, areInside, many);
         balls =
-            ballsOf(maker.placed(maker.merged(ungrouped(balls), points, areInside, many), goal));
+            ballsOf(many > count ? maker.placedBetween(merged, goal) : maker.placed(merged, goal));
         const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);
         points = pointsOf(units, owner, balls.size(), maker.interrupter);
         areInside = false;

@@ -46,37 +46,41 @@ class Moves {
 public:
     Moves(std::vector<CoverBall> balls, TightLevel& finer, const std::vector<VoxelRegion>& regions,
         const LevelMaker& maker)
-        : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker)
+        : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker),
+          mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)), mHasMoved(regions.size(), 0)
     {}
 
     /// @return whether any move was made.
     bool round()
     {
         const detail::Stage loops("", mMaker.interrupter, nullptr); // each is a detail
-        mBelow = regionsBelow(mRegions, mFiner.parent, mCover.size(), mMaker.interrupter);
         std::vector<Tried> moves = nextMoves();
         detail::parallelFor(moves.size(), mMaker.interrupter, [&](std::size_t i) {
             if (!moves[i].isKnown) moves[i].change = tryMove(moves[i].move);
-            moves[i].isKnown = true;
         });
         std::vector<std::size_t> order(moves.size());
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             return moves[a].change.change < moves[b].change.change;
         });
-        std::vector<FineBox> taken;
+        std::vector<FineBox> made;
+        std::vector<char> isChanged(mCover.size(), 0);
         for (const std::size_t i : order) {
-            const auto& [move, change, isKnown] = moves[i];
+            auto& [move, change, isKnown] = moves[i];
             if (!change.improves()) break;
-            if (change.box.meetsAny(taken)) continue;
-            apply(change, mCover);
-            mFiner.parent[move.child] = move.to;
-            taken.push_back(change.box);
+            if (mHasMoved[move.child]) continue;
+            if (change.box.meetsAny(made)) change = tryMove(move);
+            if (!change.improves()) continue;
+            make(move, change);
+            made.push_back(change.box);
+            isChanged[move.from] = isChanged[move.to] = 1;
+            for (const int32_t id : change.ids) isChanged[id] = 1;
         }
-        // What met no change is worth what it was.
-        for (Tried& tried : moves) tried.isKnown = !tried.change.box.meetsAny(taken);
+        for (Tried& tried : moves) {
+            tried.isKnown = !isChanged[tried.move.from] && !isChanged[tried.move.to];
+        }
         mTried = std::move(moves);
-        return !taken.empty();
+        return !made.empty();
     }
 
     std::vector<ExactSphere> balls() const { return ballsOf(mCover.balls()); }
@@ -85,8 +89,29 @@ private:
     struct Tried {
         Move move;
         CoverChange change;
-        bool isKnown; ///< whether it still holds
+        bool isKnown; ///< its two balls are what they were when it was tried
     };
+
+    void make(const Move& move, const CoverChange& change)
+    {
+        apply(change, mCover);
+        mFiner.parent[move.child] = move.to;
+        mHasMoved[move.child] = 1;
+        for (const int32_t parent : {move.from, move.to}) {
+            mBelow[parent] = unionOf(childrenOf(parent));
+        }
+    }
+
+    /// @return the regions of a ball's children, but for one of these if it is named.
+    std::vector<const VoxelRegion*> childrenOf(int32_t parent, int32_t without = -1) const
+    {
+        std::vector<const VoxelRegion*> children;
+        for (std::size_t c = 0; c < mRegions.size(); ++c) {
+            if (mFiner.parent[c] != parent || int32_t(c) == without) continue;
+            children.push_back(&mRegions[c]);
+        }
+        return children;
+    }
 
     /// @return for each child the moves to parents that are near; those of the round before as they were.
     std::vector<Tried> nextMoves() const
@@ -96,7 +121,7 @@ private:
         std::size_t before = 0; // of mTried, which is ordered by children
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
-            if (mCover[from].empty()) continue; // no voxel needs it
+            if (mHasMoved[c] || mCover[from].empty()) continue; // no voxel needs it
             if (protrusion(mFiner.balls[c], mCover[from].ball) < 0)
                 continue; // it keeps no ball large
             while (before < mTried.size() && mTried[before].move.child < int32_t(c)) ++before;
@@ -114,12 +139,7 @@ private:
 
     CoverChange tryMove(const Move& move) const
     {
-        std::vector<const VoxelRegion*> others; // of the old parent's children
-        for (std::size_t c = 0; c < mRegions.size(); ++c) {
-            if (mFiner.parent[c] != move.from || int32_t(c) == move.child) continue;
-            others.push_back(&mRegions[c]);
-        }
-        const VoxelRegion less = unionOf(others);
+        const VoxelRegion less = unionOf(childrenOf(move.from, move.child));
         const VoxelRegion more = unionOf(mBelow[move.to], mRegions[move.child]);
         std::vector<const VoxelRegion*> regions;
         for (const VoxelRegion& region : mBelow) regions.push_back(&region);
@@ -156,7 +176,8 @@ private:
     TightLevel& mFiner;
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
-    std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls, before the round
+    std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls
+    std::vector<char> mHasMoved; ///< each child does once, or some would go to and fro
     std::vector<Tried> mTried;       ///< of the round before
 };
 

@@ -23,8 +23,9 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         if (many == count) return mCovers[count];
         const bool isStart = many == mStart;
         const Next found = next(many, count, isStart, mMaker);
-        const auto cover = merged(balls, isStart && mAreInside, found.count);
-        mCovers[found.count] = found.isPlaced ? placed(cover) : cover;
+        auto cover = merged(balls, isStart && mAreInside, found.count);
+        if (found.isPlaced) cover = placed(cover, found.count > count);
+        mCovers[found.count] = std::move(cover);
     }
 }
 
@@ -34,7 +35,7 @@ FreeCovers::Next FreeCovers::next(
     // Of the balls of the start, each holds little: they are merged at once to about what is asked for,
     // or to so many.
     constexpr int64_t kFirst = 512;
-    const int64_t first = std::max(maker.placesStart ? 2 * count : count, kFirst);
+    const int64_t first = std::max(maker.firstTowards(count), kFirst);
     const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
     return {next, maker.placesStart || !isStart || next <= kFirst};
 }
@@ -46,9 +47,12 @@ std::vector<ExactSphere> FreeCovers::merged(
     return ballsOf(mMaker.merged(ungrouped(balls), points, areInside, count));
 }
 
-std::vector<ExactSphere> FreeCovers::placed(const std::vector<ExactSphere>& balls) const
+std::vector<ExactSphere> FreeCovers::placed(
+    const std::vector<ExactSphere>& balls, bool isBetween) const
 {
-    return ballsOf(mMaker.placed(ungrouped(balls), VoxelGoal(mMaker.object.level(0))));
+    const VoxelGoal goal(mMaker.object.level(0));
+    const std::vector<CoverBall> cover = ungrouped(balls);
+    return ballsOf(isBetween ? mMaker.placedBetween(cover, goal) : mMaker.placed(cover, goal));
 }
 
 } // namespace openvdb_spheretree::tight

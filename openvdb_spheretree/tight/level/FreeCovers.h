@@ -47,7 +47,8 @@ private:
     /// Each ball has to hold its power cell.
     std::vector<ExactSphere> merged(
         const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;
-    std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls) const;
+    /// @param isBetween  they will be merged further
+    std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls, bool isBetween) const;
 
     const LevelMaker& mMaker;
     const bool mAreInside;                               ///< the balls of the start

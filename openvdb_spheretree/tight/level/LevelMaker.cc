@@ -75,6 +75,15 @@ std::vector<CoverBall> LevelMaker::placed(
     return drop ? withoutEmpty(std::move(balls)) : balls;
 }
 
+std::vector<CoverBall> LevelMaker::placedBetween(
+    const std::vector<CoverBall>& cover, const CoverGoal& goal) const
+{
+    constexpr int kFew = 2;
+    LevelMaker quick(*this);
+    quick.sweeps = std::min(sweeps, kFew);
+    return quick.placed(cover, goal);
+}
+
 std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     const HeldPoints& points, bool areInside, int64_t count) const
 {

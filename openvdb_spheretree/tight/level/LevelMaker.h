@@ -32,7 +32,7 @@ struct LevelMaker {
     FitEffort merging{true, 4, 1, false, 16};
     int neighbours = 3; ///< that a ball may merge with: 6 gain little
     int sweeps = 10;    ///< of placing anew
-    /// Leaf balls are merged at once to twice as many as are asked for, and these placed anew; else
+    /// Leaf balls are merged at once to half as many more as are asked for, and these placed anew; else
     /// to as many, and not placed.
     bool placesStart = true;
     int64_t memory = 0; ///< as of SphereTreeSettings
@@ -56,6 +56,11 @@ struct LevelMaker {
     /// voxel needs if @a drop is given.
     std::vector<CoverBall> placed(
         const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop = true) const;
+    /// The same with few sweeps, for balls that will be merged further: more are lost with the next merges.
+    std::vector<CoverBall> placedBetween(
+        const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
+    /// @return how many balls leaf balls are merged to at once, on the way to @a count.
+    int64_t firstTowards(int64_t count) const { return placesStart ? count + count / 2 : count; }
     /// @param balls      balls of different groups never merge
     /// @param points     a ball must hold those of all balls that it is merged from
     /// @param areInside  the balls have no voxel outside the object

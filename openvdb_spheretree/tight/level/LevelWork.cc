@@ -14,10 +14,10 @@ double LevelWork::ofMerging(int64_t balls, int64_t count) const
     return perMerge * double(std::max<int64_t>(0, balls - count));
 }
 
-double LevelWork::ofPlacing(int64_t balls) const
+double LevelWork::ofPlacing(int64_t balls, bool isBetween) const
 {
     constexpr int kFewSweeps = 2;
-    const bool isQuick = mMaker.sweeps <= kFewSweeps;
+    const bool isQuick = isBetween || mMaker.sweeps <= kFewSweeps;
     const double perBall = isQuick ? 90e-6 : 150e-6, perLeaf = isQuick ? 0.8e-6 : 2e-6;
     return perBall * double(balls) + perLeaf * mLeaves;
 }
@@ -36,7 +36,7 @@ double LevelWork::ofSearches(int64_t balls) const
 
 double LevelWork::ofMoves(int64_t children) const
 {
-    return (0.5e-3 + 0.3e-6 * mLeaves) * double(children);
+    return (0.2e-3 + 0.1e-6 * mLeaves) * double(children);
 }
 
 double LevelWork::ofFreeCover(int64_t start, int64_t count) const
@@ -44,7 +44,7 @@ double LevelWork::ofFreeCover(int64_t start, int64_t count) const
     double work = ofMerging(start, count);
     for (int64_t many = start; many > count;) {
         const FreeCovers::Next next = FreeCovers::next(many, count, many == start, mMaker);
-        if (next.isPlaced) work += ofPlacing(next.count);
+        if (next.isPlaced) work += ofPlacing(next.count, next.count > count);
         many = next.count;
     }
     return work;
@@ -56,7 +56,9 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
     for (std::size_t k = 1; k < counts.size(); ++k) {
         const int64_t finer = counts[k - 1], count = counts[k];
         work += ofMerging(finer, count) + ofPlacing(count); // the second: below fixed parents
-        for (int64_t many = finer / 2; many >= count; many /= 2) work += ofPlacing(many);
+        for (int64_t many = finer / 2; many >= count; many /= 2) {
+            work += ofPlacing(many, many > count);
+        }
         work += ofSearches(count);
         if (mMaker.searchesLevelOf(std::size_t(count))) work += ofMoves(finer);
     }

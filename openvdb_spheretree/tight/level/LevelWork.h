@@ -27,7 +27,7 @@ public:
     /// @name Of the steps of a LevelMaker
     /// @{
     double ofMerging(int64_t balls, int64_t count) const;
-    double ofPlacing(int64_t balls) const;
+    double ofPlacing(int64_t balls, bool isBetween = false) const;
     double ofSearch(int64_t balls) const;
     double ofMoves(int64_t children) const;
     /// @}
