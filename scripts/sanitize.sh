@@ -67,7 +67,7 @@ write_meshes() {
 
 # TBB's library hands tasks from thread to thread, which the thread sanitizer does not see in a library that
 # is not compiled with it: it would report each as a race. So TBB is built anew, from the sources of the
-# package that is installed, and found first.
+# package that is installed, and found first by what is built here; other programs that tests run keep their own.
 use_sanitized_tbb() {
     local folder="$project_root/build/tsan-tbb" apt
     if [ ! -d "$folder/built" ]; then
@@ -87,7 +87,7 @@ use_sanitized_tbb() {
         mkdir "$folder/built"
         cp -P "$folder"/build/*/libtbb.so* "$folder/built"
     fi
-    export LD_LIBRARY_PATH="$folder/built${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+    export SPHERETREE_CMAKE_ARGUMENTS="${SPHERETREE_CMAKE_ARGUMENTS:-} -DCMAKE_BUILD_RPATH=$folder/built"
 }
 
 install_packages "${build_packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"

@@ -47,7 +47,8 @@ public:
     Moves(std::vector<CoverBall> balls, TightLevel& finer, const std::vector<VoxelRegion>& regions,
         const LevelMaker& maker)
         : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker),
-          mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)), mHasMoved(regions.size(), 0)
+          mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)),
+          mHasMoved(regions.size(), 0)
     {}
 
     /// @return whether any move was made.
@@ -177,7 +178,7 @@ private:
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
     std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls
-    std::vector<char> mHasMoved; ///< each child does once, or some would go to and fro
+    std::vector<char> mHasMoved;     ///< each child does once, or some would go to and fro
     std::vector<Tried> mTried;       ///< of the round before
 };
 
