@@ -42,13 +42,15 @@ ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
     return around;
 }
 
+constexpr int kMostMoves = 2; // of a child: some would go to and fro
+
 class Moves {
 public:
     Moves(std::vector<CoverBall> balls, TightLevel& finer, const std::vector<VoxelRegion>& regions,
         const LevelMaker& maker)
         : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker),
           mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)),
-          mHasMoved(regions.size(), 0)
+          mMoved(regions.size(), 0)
     {}
 
     /// @return whether any move was made.
@@ -69,7 +71,7 @@ public:
         for (const std::size_t i : order) {
             auto& [move, change, isKnown] = moves[i];
             if (!change.improves()) break;
-            if (mHasMoved[move.child]) continue;
+            if (mFiner.parent[move.child] != move.from) continue; // it has moved
             if (change.box.meetsAny(made)) change = tryMove(move);
             if (!change.improves()) continue;
             make(move, change);
@@ -97,7 +99,7 @@ private:
     {
         apply(change, mCover);
         mFiner.parent[move.child] = move.to;
-        mHasMoved[move.child] = 1;
+        ++mMoved[move.child];
         for (const int32_t parent : {move.from, move.to}) {
             mBelow[parent] = unionOf(childrenOf(parent));
         }
@@ -122,7 +124,7 @@ private:
         std::size_t before = 0; // of mTried, which is ordered by children
         for (std::size_t c = 0; c < mFiner.balls.size(); ++c) {
             const int32_t from = mFiner.parent[c];
-            if (mHasMoved[c] || mCover[from].empty()) continue; // no voxel needs it
+            if (mMoved[c] == kMostMoves || mCover[from].empty()) continue; // no voxel needs it
             if (protrusion(mFiner.balls[c], mCover[from].ball) < 0)
                 continue; // it keeps no ball large
             while (before < mTried.size() && mTried[before].move.child < int32_t(c)) ++before;
@@ -178,7 +180,7 @@ private:
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
     std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls
-    std::vector<char> mHasMoved;     ///< each child does once, or some would go to and fro
+    std::vector<int> mMoved;         ///< how often each child has
     std::vector<Tried> mTried;       ///< of the round before
 };
 
