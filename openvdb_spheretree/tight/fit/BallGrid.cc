@@ -4,6 +4,8 @@
 #include <openvdb_spheretree/base/Hash.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -126,19 +128,29 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
     constexpr double kFarthest = double(int64_t(1) << 36); // wider than any object
     std::size_t others = mSize;
     const double radius = ball.radius();
-    std::vector<std::pair<double, int32_t>> found;
+    std::vector<std::pair<double, int32_t>> found; // by gaps for their radius, ascending
     for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
         found.clear();
+        double largest =
+            std::numeric_limits<double>::infinity(); // such a gap that is worth keeping
         forEachNear(FineBox(ball, slack), [&](const Entry& entry) {
-            const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;
-            if (entry.id == id) others = mSize - 1;
-            if (entry.id == id || gap > slack) return;
-            found.emplace_back(gap / (std::min(entry.radius, radius) + kFine), entry.id);
+            if (entry.id == id) {
+                others = mSize - 1;
+                return;
+            }
+            const double smaller = std::min(entry.radius, radius) + kFine;
+            const double reach = entry.radius + radius + std::min(slack, largest * smaller);
+            constexpr double kRounding = 1;
+            const double apartSq = centerDistanceSq(entry.ball, ball);
+            if (reach < -kRounding || apartSq > (reach + kRounding) * (reach + kRounding)) return;
+            const double gap = std::sqrt(apartSq) - entry.radius - radius;
+            const std::pair<double, int32_t> place(gap / smaller, entry.id);
+            if (gap > slack || (found.size() == count && found.back() < place)) return;
+            if (found.size() == count) found.pop_back();
+            found.insert(std::upper_bound(found.begin(), found.end(), place), place);
+            if (found.size() == count) largest = found.back().first;
         });
         if (found.size() < std::min(count, others) && slack < kFarthest) continue;
-        const auto kept = std::min(count, found.size());
-        std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(kept), found.end());
-        found.resize(kept);
         // What is farther than the slack has a larger gap for its radius than this.
         if (found.empty() || found.back().first < slack / (radius + kFine) || slack >= kFarthest) {
             break;

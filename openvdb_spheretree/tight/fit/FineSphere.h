@@ -36,12 +36,18 @@ inline ExactSphere fineBall(const MedialBall& ball)
     return fine;
 }
 
-/// @return the distance of two centers, 1/16 voxel.
-inline double centerDistance(const ExactSphere& a, const ExactSphere& b)
+/// @return the squared distance of two centers, in units of 1/16 voxel.
+inline double centerDistanceSq(const ExactSphere& a, const ExactSphere& b)
 {
     const double x = double(a.center[0] - b.center[0]), y = double(a.center[1] - b.center[1]),
                  z = double(a.center[2] - b.center[2]);
-    return std::sqrt(x * x + y * y + z * z);
+    return x * x + y * y + z * z;
+}
+
+/// @return the distance of two centers, 1/16 voxel.
+inline double centerDistance(const ExactSphere& a, const ExactSphere& b)
+{
+    return std::sqrt(centerDistanceSq(a, b));
 }
 
 /// @return the gap between two balls, 1/16 voxel; negative where they overlap.
