@@ -124,6 +124,7 @@ std::vector<int32_t> BallGrid::meeting(const FineBox& box) const
 
 std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std::size_t count) const
 {
+    if (count == 0) return {};
     // All others are a fair answer, however far they are: without a neighbour no ball could merge.
     constexpr double kFarthest = double(int64_t(1) << 36); // wider than any object
     std::size_t others = mSize;

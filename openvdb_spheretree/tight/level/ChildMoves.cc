@@ -29,10 +29,11 @@ struct Move {
 ExactSphere ballAround(const ExactSphere& ball, const ExactSphere& child)
 {
     const double apart = centerDistance(ball, child);
-    const double radius = std::max(ball.radius(), (apart + ball.radius() + child.radius()) / 2);
+    const double both = (apart + ball.radius() + child.radius()) / 2; // of neither in the other
+    const double radius = std::max({ball.radius(), child.radius(), both});
     ExactSphere around = ball;
     if (apart > 0) {
-        const double part = (radius - ball.radius()) / apart;
+        const double part = std::min(1.0, (radius - ball.radius()) / apart);
         for (int a = 0; a < 3; ++a) {
             around.center[a] += std::lrint(part * double(child.center[a] - ball.center[a]));
         }
@@ -70,9 +71,12 @@ public:
         std::vector<char> isChanged(mCover.size(), 0);
         for (const std::size_t i : order) {
             auto& [move, change, isKnown] = moves[i];
-            if (!change.improves()) break;
+            if (!(change.change < 0)) break;
             if (mFiner.parent[move.child] != move.from) continue; // it has moved
-            if (change.box.meetsAny(made)) change = tryMove(move);
+            if (change.box.meetsAny(made)) {
+                detail::checkInterrupt(mMaker.interrupter);
+                change = tryMove(move);
+            }
             if (!change.improves()) continue;
             make(move, change);
             made.push_back(change.box);
@@ -80,7 +84,8 @@ public:
             for (const int32_t id : change.ids) isChanged[id] = 1;
         }
         for (Tried& tried : moves) {
-            tried.isKnown = !isChanged[tried.move.from] && !isChanged[tried.move.to];
+            const auto& [child, from, to] = tried.move;
+            tried.isKnown = !tried.change.improves() && !isChanged[from] && !isChanged[to];
         }
         mTried = std::move(moves);
         return !made.empty();
@@ -92,7 +97,9 @@ private:
     struct Tried {
         Move move;
         CoverChange change;
-        bool isKnown; ///< its two balls are what they were when it was tried
+        /// It gained nothing, and its two balls are what they were. (Others near may have changed: so a gain
+        /// may be missed, but none is claimed.)
+        bool isKnown;
     };
 
     void make(const Move& move, const CoverChange& change)
@@ -140,8 +147,10 @@ private:
         return moves;
     }
 
+    /// @return what the move changes; nothing if it does not pay.
     CoverChange tryMove(const Move& move) const
     {
+        if (mCover[move.from].empty() || mCover[move.to].empty()) return {}; // by a move before it
         const VoxelRegion less = unionOf(childrenOf(move.from, move.child));
         const VoxelRegion more = unionOf(mBelow[move.to], mRegions[move.child]);
         std::vector<const VoxelRegion*> regions;
@@ -154,9 +163,9 @@ private:
         const std::size_t to = part.indexOf(move.to);
         const ExactSphere& child = mFiner.balls[move.child];
         const ExactSphere grown = ballAround(mCover[move.to].ball, child);
-        if (!part.box.contains(FineBox(grown))) return noChange(move);
+        if (!part.box.contains(FineBox(grown))) return {};
         fit.refit(part, part.indexOf(move.from));
-        if (!(part.change < 0)) return noChange(move); // the other one grows, nearly always
+        if (!(part.change < 0)) return {}; // the other one grows, nearly always
         fit.replace(part, to, grown);
         fit.refit(part, to);
         CoverChange change = fit.changeOf(part);
@@ -164,15 +173,6 @@ private:
         change.box.expand(mCover[move.from].ball);
         change.box.expand(mCover[move.to].ball);
         return change;
-    }
-
-    /// @return a change of nothing, whose box is that of the balls it depends on.
-    CoverChange noChange(const Move& move) const
-    {
-        CoverChange none;
-        none.box.expand(mCover[move.from].ball);
-        none.box.expand(mCover[move.to].ball);
-        return none;
     }
 
     BallCover mCover;

@@ -12,21 +12,23 @@ FreeCovers::FreeCovers(
     const std::vector<ExactSphere>& start, bool areInside, const LevelMaker& maker)
     : mMaker(maker), mAreInside(areInside), mStart(int64_t(start.size()))
 {
-    mCovers[mStart] = start;
+    mCovers[mStart] = {start, false};
 }
 
 const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
 {
     count = std::min(count, mStart);
-    for (;;) {
-        const auto& [many, balls] = *mCovers.lower_bound(count);
-        if (many == count) return mCovers[count];
+    while (mCovers.lower_bound(count)->first != count) {
+        const auto& [many, larger] = *mCovers.lower_bound(count);
         const bool isStart = many == mStart;
         const Next found = next(many, count, isStart, mMaker);
-        auto cover = merged(balls, isStart && mAreInside, found.count);
-        if (found.isPlaced) cover = placed(cover, found.count > count);
-        mCovers[found.count] = std::move(cover);
+        Cover made{merged(larger.balls, isStart && mAreInside, found.count), found.count > count};
+        if (found.isPlaced) made.balls = placed(made.balls, made.isBetween);
+        mCovers[found.count] = std::move(made);
     }
+    Cover& asked = mCovers[count];
+    if (asked.isBetween) asked = {placed(asked.balls, false), false};
+    return asked.balls;
 }
 
 FreeCovers::Next FreeCovers::next(

@@ -4,7 +4,8 @@
 ///
 /// By turns, balls are merged and placed anew:
 /// 1. Each ball has to hold its power cell, and neighbours are merged to about half as many (MergeForest.h).
-/// 2. Each ball of the new cover is placed anew for the voxels that it alone holds, until nothing changes.
+/// 2. Each ball of the new cover is placed anew for the voxels that it alone holds: twice on the way, and until
+///    nothing changes where a cover is what was asked for.
 ///
 /// A merge decides for two balls, and never again; what it decided wrongly, the second step mends. So
 /// the next cells are those of a good cover. (dragon-128, 64 balls: 56 % of error, in place of 68 where
@@ -50,10 +51,15 @@ private:
     /// @param isBetween  they will be merged further
     std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls, bool isBetween) const;
 
+    struct Cover {
+        std::vector<ExactSphere> balls;
+        bool isBetween; ///< it was made on the way to another one
+    };
+
     const LevelMaker& mMaker;
-    const bool mAreInside;                               ///< the balls of the start
-    std::map<int64_t, std::vector<ExactSphere>> mCovers; ///< by the most balls they may have
-    int64_t mStart = 0;                                  ///< that of the start
+    const bool mAreInside;            ///< the balls of the start
+    std::map<int64_t, Cover> mCovers; ///< by the most balls they may have
+    int64_t mStart = 0;               ///< that of the start
 };
 
 } // namespace openvdb_spheretree::tight

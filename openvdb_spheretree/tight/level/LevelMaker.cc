@@ -78,9 +78,8 @@ std::vector<CoverBall> LevelMaker::placed(
 std::vector<CoverBall> LevelMaker::placedBetween(
     const std::vector<CoverBall>& cover, const CoverGoal& goal) const
 {
-    constexpr int kFew = 2;
     LevelMaker quick(*this);
-    quick.sweeps = std::min(sweeps, kFew);
+    quick.sweeps = std::min(sweeps, kFewSweeps);
     return quick.placed(cover, goal);
 }
 
@@ -131,7 +130,7 @@ LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject
     const Quality quality = settings.tight().quality;
     if (quality == Quality::Fast) {
         LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
-        fast.sweeps = 2;
+        fast.sweeps = kFewSweeps;
         fast.neighbours = 2;
         fast.placesStart = false;
         fast.merging.diagonals = false;

@@ -56,7 +56,7 @@ struct LevelMaker {
     /// voxel needs if @a drop is given.
     std::vector<CoverBall> placed(
         const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop = true) const;
-    /// The same with few sweeps, for balls that will be merged further: more are lost with the next merges.
+    /// The same with few sweeps, for balls that will be merged further: what more sweeps gain is lost then.
     std::vector<CoverBall> placedBetween(
         const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
     /// @return how many balls leaf balls are merged to at once, on the way to @a count.

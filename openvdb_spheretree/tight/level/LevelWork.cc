@@ -16,7 +16,6 @@ double LevelWork::ofMerging(int64_t balls, int64_t count) const
 
 double LevelWork::ofPlacing(int64_t balls, bool isBetween) const
 {
-    constexpr int kFewSweeps = 2;
     const bool isQuick = isBetween || mMaker.sweeps <= kFewSweeps;
     const double perBall = isQuick ? 90e-6 : 150e-6, perLeaf = isQuick ? 0.8e-6 : 2e-6;
     return perBall * double(balls) + perLeaf * mLeaves;
@@ -56,7 +55,8 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
     for (std::size_t k = 1; k < counts.size(); ++k) {
         const int64_t finer = counts[k - 1], count = counts[k];
         work += ofMerging(finer, count) + ofPlacing(count); // the second: below fixed parents
-        for (int64_t many = finer / 2; many >= count; many /= 2) {
+        for (int64_t many = finer; many > count;) {
+            many = halvedTowards(many, count);
             work += ofPlacing(many, many > count);
         }
         work += ofSearches(count);

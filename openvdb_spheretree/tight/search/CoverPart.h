@@ -47,6 +47,9 @@ private:
     BallGrid mGrid;
 };
 
+/// So many sweeps of placing balls anew are few: most of the gain.
+constexpr int kFewSweeps = 2;
+
 struct SearchEffort {
     FitEffort fit;
     int trialsPerBall = 20;

@@ -57,7 +57,7 @@ private:
     /// @return how often a ball is placed anew, in all sweeps, or tried.
     static std::size_t usualTurns(const SearchEffort& effort)
     {
-        const std::size_t placings = effort.sweeps > 2 ? 3 : 2;
+        const std::size_t placings = effort.sweeps > kFewSweeps ? 3 : 2;
         const auto trials = std::size_t(effort.trialsPerBall);
         return trials == 0 ? placings : 2 * placings + trials;
     }

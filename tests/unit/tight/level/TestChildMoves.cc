@@ -21,7 +21,8 @@ int64_t expectMoved(const MergedLeaves& merged, int64_t children, int64_t parent
     EXPECT_EQ(finer.balls, levels[0].balls);
     const auto below = voxelsOf(regions, merged.object.level(0));
     EXPECT_EQ(together(heldBelow(balls, finer.parent, below)), merged.voxels);
-    const int64_t gained = excess(levels[1].balls, merged.voxels) - excess(balls, merged.voxels);
+    const auto there = thereOf(ungrouped(balls)); // a ball without children is empty
+    const int64_t gained = excess(levels[1].balls, merged.voxels) - excess(there, merged.voxels);
     EXPECT_GE(gained, 0);
     return gained;
 }
@@ -44,6 +45,16 @@ TEST(ChildMoves, KeepChainsInWideObjects)
     for (int turn = 0; turn < 3; ++turn) {
         const MergedLeaves merged(shapes::noise(Coord(60, 6, 5), 0.5, random));
         EXPECT_GT(expectMoved(merged, 60, 20), 0);
+    }
+}
+
+/// Parents of one or two children lose their last one, and are tried as its neighbours' new parents after that.
+TEST(ChildMoves, KeepChainsWhereParentsLoseTheirLastChild)
+{
+    Random random(3);
+    for (int turn = 0; turn < 3; ++turn) {
+        const MergedLeaves merged(shapes::noise(Coord(30, 8, 7), 0.4, random));
+        for (const int64_t parents : {60, 50, 35}) expectMoved(merged, 64, parents);
     }
 }
 

@@ -52,6 +52,20 @@ TEST(FreeCovers, CanBeAskedInAnyOrder)
     EXPECT_EQ(&free.cover(1), &one);
 }
 
+/// Those on the way to fewer balls are placed twice, and wholly where they are asked for later.
+TEST(FreeCovers, ArePlacedUntilNothingChangesWhenTheyAreAskedFor)
+{
+    Random random(4);
+    const MergedLeaves merged(shapes::noise(Coord(24, 18, 16), 0.5, random));
+    FreeCovers free(merged.leaves, true, merged.maker);
+    free.cover(1);
+    for (const int64_t count : {512, 256, 128, 64}) {
+        const std::vector<ExactSphere> balls = free.cover(count);
+        const VoxelGoal goal(merged.object.level(0));
+        EXPECT_EQ(ballsOf(merged.maker.placed(ungrouped(balls), goal)), balls) << count;
+    }
+}
+
 TEST(FreeCovers, OfAFlatObjectStayInItsPlane)
 {
     Random random(4);
