@@ -48,14 +48,37 @@ TEST(ChildMoves, KeepChainsInWideObjects)
     }
 }
 
-/// Parents of one or two children lose their last one, and are tried as its neighbours' new parents after that.
+/// Some parents lose their last child, while other moves are tried with them.
 TEST(ChildMoves, KeepChainsWhereParentsLoseTheirLastChild)
 {
     Random random(3);
     for (int turn = 0; turn < 3; ++turn) {
         const MergedLeaves merged(shapes::noise(Coord(30, 8, 7), 0.4, random));
-        for (const int64_t parents : {60, 50, 35}) expectMoved(merged, 64, parents);
+        for (const int64_t parents : {120, 100, 80, 60, 50, 35, 20}) {
+            expectMoved(merged, 128, parents);
+        }
     }
+}
+
+ExactSphere ballAt(const Coord& center, int64_t radius)
+{
+    ExactSphere ball = voxelBall(center);
+    ball.radiusSq = kFine * kFine * radius * radius;
+    return ball;
+}
+
+/// A child's ball may hold more than its region, and so contain the ball of a parent.
+TEST(ChildMoves, KeepTheChainOfAChildThatContainsItsNewParent)
+{
+    const Coord alone(8, 0, 0), other(8, 18, 0), middle(1, 0, 0);
+    const MergedLeaves merged(Voxels{Coord(0, 0, 0), middle, Coord(2, 0, 0), alone, other});
+    const auto regions = merged.regions({ballAt(alone, 0), ballAt(middle, 1), ballAt(other, 0)});
+    TightLevel finer{{ballAt(middle, 8), ballAt(middle, 1), ballAt(other, 0)}, {0, 1, 0}, {}};
+    std::vector<ExactSphere> balls{ballAt(Coord(8, 9, 0), 9), ballAt(middle, 1)};
+    moveChildren(balls, finer, regions, merged.maker);
+    EXPECT_EQ(finer.parent, (std::vector<int32_t>{1, 1, 0}));
+    const auto below = voxelsOf(regions, merged.object.level(0));
+    EXPECT_EQ(together(heldBelow(balls, finer.parent, below)), merged.voxels);
 }
 
 } // namespace
