@@ -23,6 +23,8 @@
 #include <openvdb_spheretree/tree/LevelSpheres.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -59,6 +61,12 @@ std::unique_ptr<MergeModel> modelFor(
 void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory)
 {
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
+    if (!coarse.steps.empty()) { // to which they are carried
+        const int64_t finest = detail::leafNodesOf(*coarse.levels.front());
+        WorkingMemory samples;
+        samples.addSamples(std::size_t(finest));
+        samples.require(memory, "the samples of " + std::to_string(finest) + " leaf nodes");
+    }
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
     needed.addSamples(leafNodes).addMerging(leafBalls.size());
@@ -290,6 +298,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     requireReachable(settings, tree.voxelSize());
     const FlatAxis flat(tree.flatAxis);
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flat);
+    LeafLayout::requireRoom(*voxels); // levels that are made on a coarse object end here, too
     const CoarseObject coarse = given
         ? objectOf(*given, flat, voxels, interrupter)
         : coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);

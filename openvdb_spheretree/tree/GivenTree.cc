@@ -111,6 +111,14 @@ SphereTree givenTree(const WorldSpheres& spheres)
     const double voxel =
         std::max(kSmallest, std::exp2(std::ceil(std::log2(std::max(longest, 1e-300) / kVoxels))));
     Vec3d middle = spheres.size() ? box.getCenter() / voxel : Vec3d(0);
+    constexpr double kFarthest = 0x1p52; // voxels; farther away, no transform keeps them
+    const double far = std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])});
+    if (far > kFarthest) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the spheres of '" << spheres.name << "' are " << far * voxel
+                               << " away from the origin, too far for a box of " << longest
+                               << ": move them nearer to it, or use other units");
+    }
     for (int axis = 0; axis < 3; ++axis) middle[axis] = voxel * std::round(middle[axis]);
     const Transform::Ptr transform = Transform::createLinearTransform(voxel);
     transform->postTranslate(middle);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace openvdb_spheretree {
@@ -225,6 +226,43 @@ std::vector<Damage> trackDamage(const SphereTree& tree)
     return damage;
 }
 
+std::vector<Damage> figureDamage(const SphereTree& tree)
+{
+    std::vector<Damage> damage;
+    const auto count = [&](int64_t value, const auto&... of) {
+        constexpr int64_t kMost = int64_t(1) << 62; // a sum of two fits
+        if (value >= 0 && value <= kMost) return;
+        damage.push_back(single(of..., " are ", value, ", and a count is from 0 to 2^62"));
+    };
+    const auto error = [&](double value, const auto&... of) {
+        if (value >= 0 && value <= std::numeric_limits<double>::max()) return;
+        damage.push_back(single(of..., " is ", value, ", and errors are numbers from 0 on"));
+    };
+    const ObjectInfo& object = tree.object;
+    count(object.voxels, "the voxels of the object");
+    count(object.leaves, "the leaf nodes of the object");
+    count(object.tiles, "the tiles of the object");
+    if (object.bbox.empty() && object.bbox != openvdb::CoordBBox()) {
+        damage.push_back(single("the object's box goes from ", object.bbox.min(), " to ",
+            object.bbox.max(), ": it ends before it begins"));
+    }
+    for (const SphereTreeLevel& level : tree.levels) {
+        count(level.pyramidVoxels, "the voxels of the volume of level ", level.level);
+        if (level.error) {
+            count(level.error->covered, "the covered voxels of level ", level.level);
+            count(level.error->excess, "the excess voxels of level ", level.level);
+            count(level.error->missing, "the missing voxels of level ", level.level);
+            error(level.error->hammingPercent, "the Hamming error of level ", level.level);
+            error(level.error->hausdorff, "the Hausdorff distance of level ", level.level);
+        }
+        if (level.stored) {
+            error(level.stored->hammingPercent, "the stored Hamming error of level ", level.level);
+            error(level.stored->reachWorld, "the stored reach of level ", level.level);
+        }
+    }
+    return damage;
+}
+
 std::vector<Damage> treeDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage = shapeDamage(tree);
@@ -232,6 +270,7 @@ std::vector<Damage> treeDamage(const SphereTree& tree)
     const auto add = [&](const std::vector<Damage>& more) {
         damage.insert(damage.end(), more.begin(), more.end());
     };
+    add(figureDamage(tree));
     add(sphereDamage(tree.spheres, tree.subdivision));
     Breach balls;
     for (int32_t id = 0; id < tree.size(); ++id) {

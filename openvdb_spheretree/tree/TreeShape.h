@@ -76,6 +76,9 @@ std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTr
 /// Each node has a track of its own, below the next one to be given; or none has.
 std::vector<Damage> trackDamage(const SphereTree& tree);
 
+/// Counts and errors beside the nodes are numbers from 0 on, and the box of the object does not end before it begins.
+std::vector<Damage> figureDamage(const SphereTree& tree);
+
 /// @return what is wrong by all rules above, and digital balls without a radius (-1 marks spheres
 ///         that are none); where the ranges of levels are wrong, nothing else is looked at.
 std::vector<Damage> treeDamage(const SphereTree& tree);

@@ -80,9 +80,11 @@ std::vector<Place> placesOf(const openvdb::MaskTree& level,
     return places;
 }
 
-/// @throw openvdb::ValueError, before anything is allocated
-void requireRoom(int64_t leaves)
+} // namespace
+
+void LeafLayout::requireRoom(const openvdb::MaskTree& level)
 {
+    const int64_t leaves = detail::leafNodesOf(level);
     if (leaves > std::numeric_limits<uint32_t>::max() / 2) {
         OPENVDB_THROW(openvdb::ValueError,
             "the object has "
@@ -94,10 +96,9 @@ void requireRoom(int64_t leaves)
     detail::requireMemory(leaves, 2 * 100 + 2 * 64);
 }
 
-} // namespace
-
 LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 {
+    requireRoom(level);
     collectLeaves(level);
     for (uint32_t leaf = 0; leaf < leafCount(); ++leaf) {
         if (leaf == 0 || mOrigins[leaf][0] != mOrigins[leaf - 1][0]) mSlabBegin.push_back(leaf);
@@ -118,7 +119,6 @@ LeafLayout::LeafLayout(const openvdb::MaskTree& level)
 void LeafLayout::collectLeaves(const openvdb::MaskTree& level)
 {
     const int64_t count = detail::leafNodesOf(level);
-    requireRoom(count);
     std::vector<const detail::LeafNode*> nodes;
     nodes.reserve(level.leafCount());
     level.getNodes(nodes);

@@ -38,6 +38,8 @@ public:
 
     /// @throw openvdb::ValueError if leaves exceed 2^31, or the memory
     explicit LeafLayout(const openvdb::MaskTree& level);
+    /// @throw openvdb::ValueError if that would, before anything is allocated
+    static void requireRoom(const openvdb::MaskTree& level);
 
     uint32_t leafCount() const { return uint32_t(mOrigins.size()); }
     /// @return the memory that it takes.

@@ -71,6 +71,21 @@ TEST_F(CommandChanges, ALinkThatCannotBeFollowedIsFoundBeforeAnyWork)
     expectFailure(run(start + "b.vdb"), 4, {"b.vdb", "Too many levels"}, {});
 }
 
+/// Also where no file is there yet.
+TEST_F(CommandChanges, TwoSpellingsOfANameAreOneOutput)
+{
+    link(".", "here");
+    for (const std::string other : {"./later.json", "here/later.json"}) {
+        for (const std::string& names :
+            {"later.json -write " + other, other + " -write later.json"}) {
+            const Result result = run("-read a.vol -spheretree -stats " + names);
+            EXPECT_EQ(result.exitCode, 2) << names << '\n' << result.err;
+            EXPECT_NE(result.err.find("written more than once"), std::string::npos) << result.err;
+            EXPECT_FALSE(exists("later.json"));
+        }
+    }
+}
+
 TEST_F(CommandChanges, ALinkAndItsTargetAreOneOutput)
 {
     link("later.vdb", "link.vdb");

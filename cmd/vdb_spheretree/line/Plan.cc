@@ -31,7 +31,10 @@ namespace {
 std::string absolute(const std::string& path)
 {
     std::error_code error;
-    const auto resolved = std::filesystem::weakly_canonical(path, error);
+    // What is not there is resolved from the folder on only where the path begins with one.
+    const auto whole = std::filesystem::absolute(path, error);
+    if (error) return path;
+    const auto resolved = std::filesystem::weakly_canonical(whole, error);
     return error ? path : resolved.string();
 }
 

@@ -50,16 +50,19 @@ void moveBand(openvdb::FloatGrid& grid, const openvdb::Coord& shift)
 /// By the area of its triangles a mesh has a narrow band of so many voxels, and fewer where triangles
 /// are nearer to each other than twice its half width; by its box it cannot have more. Measured are 35
 /// bytes a voxel of the band: what is refused needs more than there is even if four triangles share one.
+/// However small the mesh is, the band holds the ball of the half width around each of its points.
 void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfWidth)
 {
-    constexpr double kBytes = 8, kBytesOfDense = 8;
+    constexpr double kBytes = 8, kBytesOfDense = 8,
+                     kOfCube = 4.18879; // a ball, of its radius' cube
     const Vec3d sides = boxOf(mesh).extents() / voxelSize + Vec3d(2 * halfWidth);
-    const double band = 2 * halfWidth * areaOf(mesh) / (voxelSize * voxelSize);
+    const double ball = kOfCube * halfWidth * halfWidth * halfWidth;
+    const double band = std::max(2 * halfWidth * areaOf(mesh) / (voxelSize * voxelSize), ball);
     const double bytes = std::min(kBytes * band, kBytesOfDense * sides[0] * sides[1] * sides[2]);
     detail::TextStream what;
     what << "the up to " << std::setprecision(2) << band << " voxels at the surface of mesh '"
          << mesh.name << "'";
-    detail::requireMemory(bytes, what.str(), "use a larger voxel");
+    detail::requireMemory(bytes, what.str(), "use a larger voxel, or a narrower band");
 }
 
 } // namespace

@@ -147,6 +147,18 @@ TEST(ObjectLimits, ACubeFartherFromTheEndsIsRightInEveryKindOfTree)
 }
 
 /// The sphere around a voxel of 32768 is that wide, however small the object.
+/// Levels of few spheres are made on a coarse object, which is small, and end on this one.
+TEST(ObjectLimits, TilesOfTooManyLeavesAreRefusedBeforeATightTreeIsBegun)
+{
+    const auto object = openvdb::BoolGrid::create();
+    for (int i = 0; i < 17; ++i) object->tree().root().addTile(Coord(4096 * i, 0, 0), true, true);
+    SphereTreeSettings settings;
+    settings.tight().budget.spheres = {8, 1};
+    const std::string message =
+        messageOf<openvdb::ValueError>([&] { buildSphereTree(*object, settings); });
+    EXPECT_TRUE(mentions(message, "2281701376 leaf nodes")) << message;
+}
+
 TEST(ObjectLimits, TheRoomThatIsAskedForGrowsWithTheFactor)
 {
     for (const CubeAtEnd& cube : cubesAtEnds({1 << 17})) {

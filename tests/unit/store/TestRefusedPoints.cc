@@ -88,6 +88,25 @@ TEST(RefusedPoints, WhatCouldNotBeReadBackIsNotWritten)
     expectRefused(
         [](SphereTree& t) { t.spheres.coverRadiusSq[2] = std::numeric_limits<int64_t>::max(); });
     expectRefused([](SphereTree& t) { t.spheres.center[2][1] = 1e10; });
+    expectRefused([](SphereTree& t) { t.object.voxels = -1; });
+    expectRefused([](SphereTree& t) { t.object.leaves = std::numeric_limits<int64_t>::max(); });
+    expectRefused([](SphereTree& t) { t.object.tiles = -1; });
+    expectRefused([](SphereTree& t) { t.object.bbox.reset({0, 0, 0}, {1, -2, 1}); });
+    expectRefused([](SphereTree& t) { t.levels[1].pyramidVoxels = -1; });
+    for (int64_t LevelError::*count :
+        {&LevelError::covered, &LevelError::excess, &LevelError::missing}) {
+        expectRefused([=](SphereTree& t) {
+            t.levels[1].error = LevelError();
+            (*t.levels[1].error).*count = -1;
+        });
+    }
+    for (const double figure :
+        {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        expectRefused([=](SphereTree& t) { t.levels[1].error = LevelError{1, 0, 0, figure, 0}; });
+        expectRefused([=](SphereTree& t) { t.levels[1].error = LevelError{1, 0, 0, 0, figure}; });
+        expectRefused([=](SphereTree& t) { t.levels[1].stored = StoredError{figure, 0}; });
+        expectRefused([=](SphereTree& t) { t.levels[1].stored = StoredError{0, figure}; });
+    }
     expectRefused([](SphereTree& t) { t.spheres.radius[2] = -1; });
     expectRefused([](SphereTree& t) { t.spheres.parent[5] = 1 << 30; });
     expectRefused([](SphereTree& t) { t.spheres.parent[5] = 4; });

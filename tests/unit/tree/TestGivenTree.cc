@@ -141,7 +141,22 @@ TEST(GivenTree, WhatNoVoxelsAreThereForIsRefusedByItsId)
     spheres.center[2][0] = 1e308;
     EXPECT_THROW(givenTree(spheres), openvdb::ValueError);
     EXPECT_THROW(givenTree(WorldSpheres()), openvdb::ValueError);
-    spheres.center.assign(1, Vec3d(1e12, 0, 0));
+    spheres.center.assign(1, Vec3d(1e11, 0, 0));
     spheres.radius.assign(1, 1e-9);
+    EXPECT_NO_THROW(givenTree(spheres).validate());
+}
+
+/// No transform of OpenVDB has a voxel that is lost beside its distance from the origin.
+TEST(GivenTree, SpheresTooFarAwayForTheirSizeAreRefusedBeforeTheyAreWritten)
+{
+    WorldSpheres spheres;
+    spheres.name = "far";
+    spheres.center.assign(1, Vec3d(0, -3e13, 0));
+    spheres.radius.assign(1, 1);
+    EXPECT_NO_THROW(givenTree(spheres).transform->baseMap()->getAffineMap());
+    spheres.center.front()[1] = -1e14;
+    const std::string message = messageOf<openvdb::ValueError>([&] { givenTree(spheres); });
+    EXPECT_TRUE(mentions(message, "'far' are 1e+14 away from the origin")) << message;
+    spheres.radius.front() = 100;
     EXPECT_NO_THROW(givenTree(spheres).validate());
 }

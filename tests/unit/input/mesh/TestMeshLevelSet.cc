@@ -3,6 +3,7 @@
 /// @brief Meshes to level sets: the inside, far meshes, what is refused; voxel sizes and open edges.
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 
 #include <openvdb/tools/LevelSetUtil.h>
@@ -115,6 +116,16 @@ TEST(MeshLevelSet, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
     EXPECT_TRUE(
         mentions(message, "the up to 3e+12 voxels at the surface of mesh 'field' need about"));
     EXPECT_TRUE(mentions(message, "use a larger voxel"));
+}
+
+/// The band around a small mesh is as large as its half width.
+TEST(MeshLevelSet, RefusesAWideBandThatWouldNotFitThisMachine)
+{
+    const double there = openvdb_spheretree::detail::physicalMemory(); // 0: it cannot be told
+    if (there <= 0 || there > 30e9) GTEST_SKIP() << "it fits";
+    const std::string message =
+        messageOf<openvdb::ValueError>([&] { meshToLevelSet(cubeMesh(), 0.1, 1000); });
+    EXPECT_TRUE(mentions(message, "a narrower band")) << message;
 }
 
 TEST(MeshLevelSet, RejectsADamagedMesh)
