@@ -111,7 +111,7 @@ SphereTree givenTree(const WorldSpheres& spheres)
     const double voxel =
         std::max(kSmallest, std::exp2(std::ceil(std::log2(std::max(longest, 1e-300) / kVoxels))));
     Vec3d middle = spheres.size() ? box.getCenter() / voxel : Vec3d(0);
-    constexpr double kFarthest = 0x1p52; // voxels; farther away, no transform keeps them
+    constexpr double kFarthest = 0x1p53; // voxels; farther away, no transform keeps them
     const double far = std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])});
     if (far > kFarthest) {
         OPENVDB_THROW(openvdb::ValueError,

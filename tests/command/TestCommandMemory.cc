@@ -113,8 +113,8 @@ bool waitForOpenFile(pid_t process, const std::string& folder)
         std::error_code gone;
         for (const auto& file : std::filesystem::directory_iterator(files, gone)) {
             const auto target = std::filesystem::read_symlink(file.path(), gone);
-            if (target.filename().string().compare(0, 5, "tsan.") == 0)
-                continue; // the sanitizer's own
+            // The thread sanitizer makes a file of its own there.
+            if (target.filename().string().compare(0, 5, "tsan.") == 0) continue;
             if (target.string().compare(0, folder.size(), folder) == 0) return true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -31,7 +31,7 @@ namespace {
 std::string absolute(const std::string& path)
 {
     std::error_code error;
-    // What is not there is resolved from the folder on only where the path begins with one.
+    // A relative name of what is not there yet would stay as it is spelled.
     const auto whole = std::filesystem::absolute(path, error);
     if (error) return path;
     const auto resolved = std::filesystem::weakly_canonical(whole, error);

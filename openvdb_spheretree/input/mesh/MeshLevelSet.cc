@@ -53,8 +53,8 @@ void moveBand(openvdb::FloatGrid& grid, const openvdb::Coord& shift)
 /// However small the mesh is, the band holds the ball of the half width around each of its points.
 void requireRoomForBand(const TriangleMesh& mesh, double voxelSize, double halfWidth)
 {
-    constexpr double kBytes = 8, kBytesOfDense = 8,
-                     kOfCube = 4.18879; // a ball, of its radius' cube
+    constexpr double kBytes = 8, kBytesOfDense = 8;
+    constexpr double kOfCube = 4.18879; // the volume of a ball, of its radius' cube
     const Vec3d sides = boxOf(mesh).extents() / voxelSize + Vec3d(2 * halfWidth);
     const double ball = kOfCube * halfWidth * halfWidth * halfWidth;
     const double band = std::max(2 * halfWidth * areaOf(mesh) / (voxelSize * voxelSize), ball);

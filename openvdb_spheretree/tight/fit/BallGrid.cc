@@ -132,8 +132,7 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
     std::vector<std::pair<double, int32_t>> found; // by gaps for their radius, ascending
     for (double slack = 0;; slack = slack == 0 ? 2 * kFine + radius / 2 : 2 * slack) {
         found.clear();
-        double largest =
-            std::numeric_limits<double>::infinity(); // such a gap that is worth keeping
+        double largest = std::numeric_limits<double>::infinity(); // of such gaps, worth keeping
         forEachNear(FineBox(ball, slack), [&](const Entry& entry) {
             if (entry.id == id) {
                 others = mSize - 1;
@@ -146,9 +145,9 @@ std::vector<int32_t> BallGrid::nearest(int32_t id, const ExactSphere& ball, std:
             if (reach < -kRounding || apartSq > (reach + kRounding) * (reach + kRounding)) return;
             const double gap = std::sqrt(apartSq) - entry.radius - radius;
             const std::pair<double, int32_t> place(gap / smaller, entry.id);
-            if (gap > slack || (found.size() == count && found.back() < place)) return;
-            if (found.size() == count) found.pop_back();
+            if (gap > slack) return;
             found.insert(std::upper_bound(found.begin(), found.end(), place), place);
+            if (found.size() > count) found.pop_back();
             if (found.size() == count) largest = found.back().first;
         });
         if (found.size() < std::min(count, others) && slack < kFarthest) continue;

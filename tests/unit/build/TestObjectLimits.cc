@@ -146,7 +146,6 @@ TEST(ObjectLimits, ACubeFartherFromTheEndsIsRightInEveryKindOfTree)
     }
 }
 
-/// The sphere around a voxel of 32768 is that wide, however small the object.
 /// Levels of few spheres are made on a coarse object, which is small, and end on this one.
 TEST(ObjectLimits, TilesOfTooManyLeavesAreRefusedBeforeATightTreeIsBegun)
 {
@@ -159,6 +158,7 @@ TEST(ObjectLimits, TilesOfTooManyLeavesAreRefusedBeforeATightTreeIsBegun)
     EXPECT_TRUE(mentions(message, "2281701376 leaf nodes")) << message;
 }
 
+/// The sphere around a voxel of 32768 is that wide, however small the object.
 TEST(ObjectLimits, TheRoomThatIsAskedForGrowsWithTheFactor)
 {
     for (const CubeAtEnd& cube : cubesAtEnds({1 << 17})) {

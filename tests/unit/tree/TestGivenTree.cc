@@ -151,12 +151,12 @@ TEST(GivenTree, SpheresTooFarAwayForTheirSizeAreRefusedBeforeTheyAreWritten)
 {
     WorldSpheres spheres;
     spheres.name = "far";
-    spheres.center.assign(1, Vec3d(0, -3e13, 0));
+    spheres.center.assign(1, Vec3d(0, -7e13, 0));
     spheres.radius.assign(1, 1);
     EXPECT_NO_THROW(givenTree(spheres).transform->baseMap()->getAffineMap());
-    spheres.center.front()[1] = -1e14;
+    spheres.center.front()[1] = -8e13;
     const std::string message = messageOf<openvdb::ValueError>([&] { givenTree(spheres); });
-    EXPECT_TRUE(mentions(message, "'far' are 1e+14 away from the origin")) << message;
+    EXPECT_TRUE(mentions(message, "'far' are 8e+13 away from the origin")) << message;
     spheres.radius.front() = 100;
     EXPECT_NO_THROW(givenTree(spheres).validate());
 }
