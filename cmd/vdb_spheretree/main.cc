@@ -17,6 +17,7 @@
 int main(int argc, char* argv[])
 {
     using namespace command;
+    holdStandardStreams();
     if (argc < 2) {
         printUsage(std::cerr);
         return kUsage;

@@ -2,6 +2,7 @@
 #include "SphereLevelSet.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/voxel/GridTemplates.h>
 
 #include <openvdb/math/Math.h>
 #include <openvdb/tools/ParticlesToLevelSet.h>

@@ -17,11 +17,8 @@ std::string faultOf(const std::string& call, long n, const std::string& effect, 
     return call + ":" + std::to_string(n) + ":" + effect + ":" + std::to_string(number);
 }
 
-/// Signals as a terminal's children have them, whatever the tests run under.
 void prepare(const std::string& faults, const std::string& counts)
 {
-    signal(SIGHUP, SIG_DFL);
-    signal(SIGINT, SIG_DFL);
     setenv("SPHERETREE_FAULTS", faults.c_str(), 1);
     if (!counts.empty()) setenv("SPHERETREE_FAULT_COUNTS", counts.c_str(), 1);
     setenv("LD_PRELOAD", SPHERETREE_FAULT_SHIM, 1);

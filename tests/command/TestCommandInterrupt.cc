@@ -44,6 +44,20 @@ TEST_F(CommandInterrupt, StopsALongBuildAndLeavesNothing)
     }
 }
 
+/// A script's background jobs ignore Ctrl-C, and what nohup starts ignores the end of its terminal.
+TEST_F(CommandInterrupt, LeavesIgnoredSignalsIgnored)
+{
+    ASSERT_EQ(mkfifo(path("silent").c_str(), 0600), 0);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        Running command = start(
+            {"-config", "silent", "-print"}, "/dev/null", [number] { signal(number, SIG_IGN); });
+        command_test::writeText(path("silent"), "quiet\n"); // waits for the command to open it
+        command.send(number);
+        const Result result = command.wait();
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+    }
+}
+
 TEST_F(CommandInterrupt, WakesACommandThatWaitsForItsInput)
 {
     ASSERT_EQ(mkfifo(path("silent").c_str(), 0600), 0);

@@ -260,6 +260,25 @@ TEST_F(CommandPipes, WhatAFileGetsBesidesTheTreeIsNoted)
     EXPECT_FALSE(says(run("-read two.vdb -spheretree vdb=0 -write t.vdb"), "is replaced"));
 }
 
+/// The next file that is opened would have the number of a closed one, and get what is meant for a person.
+TEST_F(CommandPipes, ClosedStandardStreamsAreNoFiles)
+{
+    const std::string build = "$VDB_SPHERETREE -read a.vol -spheretree spheres=4 -write ";
+    ASSERT_EQ(shell(build + "t.vdb c.csv").exitCode, 0);
+    ASSERT_EQ(shell(build + "no_err.vdb no_err.csv 2>&-").exitCode, 0);
+    EXPECT_EQ(readText(path("no_err.csv")), readText(path("c.csv")));
+    EXPECT_EQ(run("-read a.vol no_err.vdb -check").exitCode, 0);
+    const Result mute = shell("$VDB_SPHERETREE -read t.vdb -write out.vdb -stats >&-");
+    EXPECT_EQ(mute.exitCode, 4);
+    EXPECT_TRUE(says(mute, "cannot write to stdout")) << mute.err;
+    EXPECT_EQ(run("-read a.vol out.vdb -check").exitCode, 0);
+    for (const char* name : {"stdin.vdb", "stdin.stl"}) {
+        const Result deaf = shell(std::string("$VDB_SPHERETREE -read ") + name + " <&-");
+        EXPECT_EQ(deaf.exitCode, 3);
+        EXPECT_TRUE(says(deaf, "standard input is closed")) << deaf.err;
+    }
+}
+
 TEST_F(CommandPipes, TwoGridsOfOneNameAreChosenByAge)
 {
     writeGrids("two.vdb", {sphereGrid("dup", 2), sphereGrid("dup", 3)});

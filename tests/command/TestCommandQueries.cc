@@ -396,6 +396,10 @@ TEST_F(CommandQueries, FilesOfQuestionsAreNamedWithTheirLine)
         EXPECT_FALSE(exists("never.csv"));
         EXPECT_EQ(run("-read t.vdb " + std::string(ask) + "none.csv").exitCode, 3) << ask;
     }
+    writeText(path("far.csv"), "0,0,0\n1e150,0,0\n");
+    const Result far = run("-read t.vdb -distance vdb=0,0 poses=far.csv");
+    EXPECT_EQ(far.exitCode, 3);
+    EXPECT_TRUE(mentions(far.err, "-distance: pose 1: ")) << far.err;
     writeText(path("mirror.csv"), "-1 0 0 0 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(mentions(run("-read t.vdb -collide vdb=0,0 poses=mirror.csv").err, "mirrors"));
 }

@@ -50,7 +50,9 @@ try:
 except KeyboardInterrupt:
     print("interrupted", spheretree.build(v[:9, :9, :9], [1]) is not None)
 """
-    run = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    run = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # as a terminal's children
     assert run.stdout.readline() == "begins\n"
     time.sleep(0.3)
     run.send_signal(signal.SIGINT)

@@ -50,18 +50,19 @@ std::vector<PoseAnswer> poseAnswersOf(
     const ActionCall& call, Session& session, const PairQuestion& question)
 {
     const auto request = collisionRequest(call);
-    return answersOf<PoseAnswer>(question.poses.size(), session, [&](std::size_t i) {
-        PoseAnswer answer;
-        answer.result = spheretree::collide(
-            question.a(), {}, question.b(), question.poses[i], request, &answer.contacts);
-        if (answer.result.verdict != Verdict::Apart || request.maxContacts == 1) return answer;
-        // The search for the deepest knows no lower bound.
-        const int64_t blocks = answer.result.blocks;
-        answer.result =
-            spheretree::collide(question.a(), {}, question.b(), question.poses[i], request);
-        answer.result.blocks += blocks;
-        return answer;
-    });
+    return answersOf<PoseAnswer>(
+        question.poses.size(), numbered("pose"), session, [&](std::size_t i) {
+            PoseAnswer answer;
+            answer.result = spheretree::collide(
+                question.a(), {}, question.b(), question.poses[i], request, &answer.contacts);
+            if (answer.result.verdict != Verdict::Apart || request.maxContacts == 1) return answer;
+            // The search for the deepest knows no lower bound.
+            const int64_t blocks = answer.result.blocks;
+            answer.result =
+                spheretree::collide(question.a(), {}, question.b(), question.poses[i], request);
+            answer.result.blocks += blocks;
+            return answer;
+        });
 }
 
 /// @param contact  null: there is none

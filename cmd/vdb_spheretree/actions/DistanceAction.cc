@@ -63,8 +63,8 @@ void runDistance(const ActionCall& call, Session& session)
 {
     const PairQuestion question(call, session);
     const auto request = distanceRequest(call);
-    const auto results =
-        answersOf<DistanceResult>(question.poses.size(), session, [&](std::size_t i) {
+    const auto results = answersOf<DistanceResult>(
+        question.poses.size(), numbered("pose"), session, [&](std::size_t i) {
             return spheretree::distance(question.a(), {}, question.b(), question.poses[i], request);
         });
     AnswerSheet sheet = question.sheet("vdb_spheretree.distance.1");

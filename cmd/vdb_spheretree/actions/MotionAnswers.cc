@@ -95,8 +95,8 @@ void giveMotionAnswers(const ActionCall& call, Session& session, const PairQuest
 {
     const std::vector<RigidMotion> motions = motionsOf(call, question);
     const auto request = motionRequest(call);
-    const auto results =
-        answersOf<ContinuousCollisionResult>(motions.size(), session, [&](std::size_t i) {
+    const auto results = answersOf<ContinuousCollisionResult>(
+        motions.size(), numbered("motion"), session, [&](std::size_t i) {
             return spheretree::continuousCollide(
                 question.a(), {}, question.b(), motions[i], request);
         });

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "base/Errors.h"
 #include "line/Action.h"
 #include "line/Plan.h"
 #include "QueryOptions.h"
@@ -11,6 +12,8 @@
 
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/query/RigidTransform.h>
+
+#include <openvdb/Exceptions.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -34,14 +37,27 @@ struct PairQuestion {
     AnswerSheet sheet(const std::string& format) const;
 };
 
-/// @param ask  of the number of a question
+/// Names things by their numbers, from 0.
+inline auto numbered(const char* what)
+{
+    return [what](std::size_t i) { return what + (" " + std::to_string(i)); };
+}
+
+/// @param name  of the number of a question: what it is asked of, such as "pose 3". Messages say it, if there are several
+/// @param ask   of the number of a question
 /// @return the answers, asked in parallel
-template <typename Result, typename Ask>
-std::vector<Result> answersOf(std::size_t count, Session& session, const Ask& ask)
+/// @throw CommandError (input) if one cannot be given
+template <typename Result, typename Name, typename Ask>
+std::vector<Result> answersOf(std::size_t count, const Name& name, Session& session, const Ask& ask)
 {
     std::vector<Result> results(count);
-    openvdb_spheretree::detail::parallelFor(
-        count, &session.progress, [&](std::size_t i) { results[i] = ask(i); });
+    openvdb_spheretree::detail::parallelFor(count, &session.progress, [&](std::size_t i) {
+        try {
+            results[i] = ask(i);
+        } catch (const openvdb::ValueError&) {
+            rethrowNamed(count == 1 ? "" : name(i), kInput);
+        }
+    });
     return results;
 }
 

@@ -150,10 +150,11 @@ void giveSceneAnswers(const ActionCall& call, Session& session, const SceneBodie
 {
     const QueryScene scene = sceneOf(call, session, bodies);
     const std::vector<SceneFrame> frames = framesOf(call, session, bodies);
+    const auto named = [&](std::size_t i) { return "frame " + std::to_string(frames[i].number); };
     // Of one frame the pairs are asked in parallel, of several the frames.
     auto* const interrupter = frames.size() == 1 ? &session.progress : nullptr;
     const auto answers =
-        answersOf<std::vector<ScenePair>>(frames.size(), session, [&](std::size_t i) {
+        answersOf<std::vector<ScenePair>>(frames.size(), named, session, [&](std::size_t i) {
             QueryScene placed = scene;
             for (int b = 0; b < placed.size(); ++b)
                 placed.setPose(b, frames[i].poses[std::size_t(b)]);
@@ -199,10 +200,15 @@ void giveSceneMotionAnswers(const ActionCall& call, Session& session, const Scen
     }
     const auto request = motionRequest(call);
     const std::size_t ways = frames.size() - 1;
+    const auto named = [&](std::size_t i) {
+        return "from frame " + std::to_string(frames[i].number) + " to the next";
+    };
     auto* const interrupter = ways == 1 ? &session.progress : nullptr;
-    const auto answers = answersOf<std::vector<MovingPair>>(ways, session, [&](std::size_t i) {
-        return scene.firstContacts(motionsBetween(frames[i], frames[i + 1]), request, interrupter);
-    });
+    const auto answers =
+        answersOf<std::vector<MovingPair>>(ways, named, session, [&](std::size_t i) {
+            return scene.firstContacts(
+                motionsBetween(frames[i], frames[i + 1]), request, interrupter);
+        });
     frames.pop_back(); // a way is called by the frame where it begins
     const auto rows = rowsOfFrames(answers, [](const MovingPair&) { return std::size_t(1); });
     const std::vector<std::string> labels = labelsOf(session, bodies);

@@ -46,11 +46,12 @@ void catchSignals()
     struct sigaction action = {};
     action.sa_handler = stopBySignal; // without SA_RESTART: a read that waits is to come back
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    struct sigaction before = {};
-    sigaction(SIGHUP, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr); // nohup stays in force
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before = {};
+        sigaction(signal, nullptr, &before);
+        // What is ignored stays so: nohup, and Ctrl-C of what a script runs in the background.
+        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+    }
     endOverdueStops();
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);

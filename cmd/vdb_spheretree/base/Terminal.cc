@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -17,6 +18,15 @@ std::ostream& standardOutput()
 {
     static std::ostream sOut(std::cout.rdbuf());
     return sOut;
+}
+
+void holdStandardStreams()
+{
+    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        // The lowest free number is this one: those before it are open. Not to be written to, so
+        // that what was to be there is not lost without a word.
+        if (fcntl(file, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != file) std::abort();
+    }
 }
 
 void divertLibraries()

@@ -13,6 +13,11 @@ namespace command {
 /// @return what tables and JSON are written to. Nothing else gets there: see below.
 std::ostream& standardOutput();
 
+/// @brief Open what is closed of standard input, output and error: a file that is opened later would get its number,
+/// and with it what is meant for a person. Input is empty then, and writing to output fails. Call it before anything
+/// is opened.
+void holdStandardStreams();
+
 /// @brief Have whatever libraries print to std::cout go to stderr: OpenVDB's warnings would get into
 /// the middle of a `.vdb` on stdout.
 void divertLibraries();

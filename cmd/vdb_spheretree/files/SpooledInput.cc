@@ -15,7 +15,9 @@ namespace command {
 
 void throwEmptyInput(const std::string& name)
 {
-    throwInput(name + ": the input is empty: the command before this one has written nothing");
+    throwInput(name
+        + ": the input is empty: standard input is closed, or the command before "
+          "this one has written nothing");
 }
 
 SpooledInput::SpooledInput(const std::string& name)

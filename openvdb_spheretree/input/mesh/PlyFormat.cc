@@ -87,6 +87,16 @@ Encoding encodingOf(MeshText& text)
     text.fail(inQuotes(format) + " is no format of PLY");
 }
 
+/// @throw openvdb::IoError if one of them has the name of the next: nobody could say which is meant
+template <typename Named>
+void requireNewName(const MeshText& text, const std::vector<Named>& named, const std::string& name,
+    const char* what)
+{
+    for (const Named& other : named) {
+        if (other.name == name) text.fail(what + inQuotes(name) + " is there twice");
+    }
+}
+
 PlyElement elementOf(MeshText& text)
 {
     const std::string_view name = text.word();
@@ -124,9 +134,14 @@ PlyHeader headerOf(MeshText& text)
         if (word == "format") {
             header.encoding = encodingOf(text);
         } else if (word == "element") {
-            header.elements.push_back(elementOf(text));
+            PlyElement element = elementOf(text);
+            requireNewName(text, header.elements, element.name, "the element ");
+            header.elements.push_back(std::move(element));
         } else if (word == "property" && !header.elements.empty()) {
-            header.elements.back().properties.push_back(propertyOf(text));
+            std::vector<PlyProperty>& properties = header.elements.back().properties;
+            PlyProperty property = propertyOf(text);
+            requireNewName(text, properties, property.name, "the property ");
+            properties.push_back(std::move(property));
         } else {
             text.fail(inQuotes(word) + " does not belong in a PLY header");
         }

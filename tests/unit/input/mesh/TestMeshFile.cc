@@ -5,6 +5,7 @@
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
 #include "support/MeshFiles.h"
+#include "support/Messages.h"
 
 #include <gtest/gtest.h>
 
@@ -261,6 +262,13 @@ TEST(MeshFile, RejectsHeadersItDoesNotUnderstand)
     EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "list uchar int", "int")));
     EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "comment", "comet")));
     EXPECT_NE("", errorOf("a.ply", "plywood\n"));
+    // Nobody could say which of the two is meant.
+    EXPECT_TRUE(mentions(
+        errorOf("a.ply", replaced(plyCube(), "element face", "property float x\nelement face")),
+        "the property 'x' is there twice"));
+    EXPECT_TRUE(mentions(
+        errorOf("a.ply", replaced(plyCube(), "end_header", "element vertex 0\nend_header")),
+        "the element 'vertex' is there twice"));
     EXPECT_NE("", errorOf("a.stl", std::string(300, 'x')));
     EXPECT_NE("", errorOf("a.obj", std::string("\x89PNG\r\n\x1a\n") + std::string(100, '\0')));
 }
