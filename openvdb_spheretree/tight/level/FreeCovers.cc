@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FreeCovers.h"
 
+#include "LevelWork.h"
+#include <openvdb_spheretree/tight/region/DilatedCover.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
@@ -22,7 +24,8 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto& [many, larger] = *mCovers.lower_bound(count);
         const bool isStart = many == mStart;
         const Next found = next(many, count, isStart, mMaker);
-        Cover made{merged(larger.balls, isStart && mAreInside, found.count), found.count > count};
+        Cover made{isStart ? mergedStart(found.count) : merged(larger.balls, false, found.count),
+            found.count > count};
         if (found.isPlaced) made.balls = placed(made.balls, made.isBetween);
         mCovers[found.count] = std::move(made);
     }
@@ -40,6 +43,22 @@ FreeCovers::Next FreeCovers::next(
     const int64_t first = std::max(maker.firstTowards(count), kFirst);
     const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
     return {next, maker.placesStart || !isStart || next <= kFirst};
+}
+
+std::vector<ExactSphere> FreeCovers::mergedStart(int64_t count) const
+{
+    const std::vector<ExactSphere>& start = mCovers.at(mStart).balls;
+    const int64_t few = mMaker.dilatedFor(count);
+    if (mStart <= few) return merged(start, mAreInside, count);
+    HeldPoints points;
+    const auto fitted = [&] {
+        const detail::Step step(mMaker.interrupter, LevelWork(mMaker).ofDilating(mStart));
+        const SampleLevel& voxels = mMaker.object.level(0);
+        const auto dilated = dilatedCover(start, few, count, voxels, mMaker.interrupter);
+        points = powerCellPoints(dilated, voxels, mMaker.interrupter);
+        return mMaker.fitted(dilated, points);
+    }();
+    return ballsOf(mMaker.merged(ungrouped(fitted), points, false, count));
 }
 
 std::vector<ExactSphere> FreeCovers::merged(

@@ -2,7 +2,8 @@
 /// @file FreeCovers.h
 /// @brief Covers of the object with ever fewer balls, each bound to no other one.
 ///
-/// By turns, balls are merged and placed anew:
+/// The first cover is of few of the start's balls, dilated (DilatedCover.h) and fitted to their power cells. Then, by
+/// turns, balls are merged and placed anew:
 /// 1. Each ball has to hold its power cell, and neighbours are merged to about half as many (MergeForest.h).
 /// 2. Each ball of the new cover is placed anew for the voxels that it alone holds: twice on the way, and until
 ///    nothing changes where a cover is what was asked for.
@@ -45,6 +46,8 @@ public:
     static Next next(int64_t many, int64_t count, bool isStart, const LevelMaker& maker);
 
 private:
+    /// @return the balls of the start, of which there are more, dilated and merged to @a count.
+    std::vector<ExactSphere> mergedStart(int64_t count) const;
     /// Each ball has to hold its power cell.
     std::vector<ExactSphere> merged(
         const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;

@@ -83,6 +83,19 @@ std::vector<CoverBall> LevelMaker::placedBetween(
     return quick.placed(cover, goal);
 }
 
+std::vector<ExactSphere> LevelMaker::fitted(
+    const std::vector<ExactSphere>& balls, const HeldPoints& points) const
+{
+    std::vector<ExactSphere> result(balls);
+    detail::parallelFor(balls.size(), interrupter, [&](std::size_t i) {
+        if (points[i].empty()) return;
+        thread_local CoveringFit window;
+        window.open(object, points[i], {balls[i]}, merging.samples);
+        result[i] = window.best(merging, flat).ball;
+    });
+    return result;
+}
+
 std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     const HeldPoints& points, bool areInside, int64_t count) const
 {
@@ -134,6 +147,7 @@ LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject
         fast.neighbours = 2;
         fast.placesStart = false;
         fast.merging.diagonals = false;
+        fast.dilatedPerBall = 1.5;
         fast.memory = settings.memory;
         return fast;
     }

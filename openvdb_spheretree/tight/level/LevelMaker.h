@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
 #include <openvdb_spheretree/tree/SphereTreeSettings.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,6 +36,9 @@ struct LevelMaker {
     /// Leaf balls are merged at once to half as many more as are asked for, and these placed anew; else
     /// to as many, and not placed.
     bool placesStart = true;
+    /// Before they are merged, leaf balls are dilated and pruned (DilatedCover.h) to about so many times as many as they
+    /// are merged to.
+    double dilatedPerBall = 1.33;
     int64_t memory = 0; ///< as of SphereTreeSettings
     /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
     /// from one of them to another.
@@ -61,6 +65,16 @@ struct LevelMaker {
         const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
     /// @return how many balls leaf balls are merged to at once, on the way to @a count.
     int64_t firstTowards(int64_t count) const { return placesStart ? count + count / 2 : count; }
+    /// @return to about how many balls leaf balls are dilated and pruned before they are merged to @a count.
+    int64_t dilatedFor(int64_t count) const
+    {
+        constexpr int64_t kLeast = 4096; // to merge fewer takes little time
+        return std::max(kLeast, int64_t(dilatedPerBall * double(count)));
+    }
+    /// @param points  that each ball has to hold, if any
+    /// @return the balls that hold the points with the least cost that is found, each by itself.
+    std::vector<ExactSphere> fitted(
+        const std::vector<ExactSphere>& balls, const HeldPoints& points) const;
     /// @param balls      balls of different groups never merge
     /// @param points     a ball must hold those of all balls that it is merged from
     /// @param areInside  the balls have no voxel outside the object

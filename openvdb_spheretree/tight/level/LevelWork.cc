@@ -14,6 +14,8 @@ double LevelWork::ofMerging(int64_t balls, int64_t count) const
     return perMerge * double(std::max<int64_t>(0, balls - count));
 }
 
+double LevelWork::ofDilating(int64_t balls) const { return 10e-6 * double(balls) + 2e-6 * mLeaves; }
+
 double LevelWork::ofPlacing(int64_t balls, bool isBetween) const
 {
     const bool isQuick = isBetween || mMaker.sweeps <= kFewSweeps;
@@ -40,7 +42,9 @@ double LevelWork::ofMoves(int64_t children) const
 
 double LevelWork::ofFreeCover(int64_t start, int64_t count) const
 {
-    double work = ofMerging(start, count);
+    const int64_t first = FreeCovers::next(start, count, true, mMaker).count;
+    double work = ofMerging(std::min(start, mMaker.dilatedFor(first)), count);
+    if (start > mMaker.dilatedFor(first)) work += ofDilating(start);
     for (int64_t many = start; many > count;) {
         const FreeCovers::Next next = FreeCovers::next(many, count, many == start, mMaker);
         if (next.isPlaced) work += ofPlacing(next.count, next.count > count);

@@ -24,8 +24,9 @@ public:
     LevelWork(const LevelMaker& maker, std::size_t leaves) : mMaker(maker), mLeaves(double(leaves))
     {}
 
-    /// @name Of the steps of a LevelMaker
+    /// @name Of the steps of a LevelMaker, and of FreeCovers
     /// @{
+    double ofDilating(int64_t balls) const;
     double ofMerging(int64_t balls, int64_t count) const;
     double ofPlacing(int64_t balls, bool isBetween = false) const;
     double ofSearch(int64_t balls) const;

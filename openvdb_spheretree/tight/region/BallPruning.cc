@@ -55,15 +55,15 @@ std::vector<std::vector<LastHeld>> lastHeldOf(const std::vector<ExactSphere>& ba
 
 } // namespace
 
-std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& medial, const SampleLevel& object,
+std::vector<int32_t> prunedBalls(const std::vector<ExactSphere>& cover, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<int32_t> order(medial.size());
+    std::vector<int32_t> order(cover.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
-        [&](int32_t a, int32_t b) { return medial[a].radiusSq < medial[b].radiusSq; });
+        [&](int32_t a, int32_t b) { return cover[a].radiusSq < cover[b].radiusSq; });
     std::vector<ExactSphere> balls;
-    for (const int32_t i : order) balls.push_back(fineBall(medial[i]));
+    for (const int32_t i : order) balls.push_back(cover[i]);
     const auto lastHeld = lastHeldOf(balls, object, interrupter);
 
     struct Part {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallPruning.h
-/// @brief The leaf balls of a tight tree: the object's medial balls, without those whose voxels all
-/// lie in others.
+/// @brief A cover without the balls whose voxels all lie in others: of medial balls, the leaf balls of a tight tree.
 ///
 /// Balls are tested one after the other, the smallest first. A ball is dropped if each of its voxels is
 /// in another ball that is still there. What is left rebuilds the object exactly, with less than half
@@ -18,7 +17,7 @@
 
 #pragma once
 
-#include <openvdb_spheretree/voxel/MedialBall.h>
+#include <openvdb_spheretree/sphere/ExactSphere.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <openvdb/util/NullInterrupter.h>
@@ -27,9 +26,9 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @param balls  whose union is @a object
+/// @param balls  that cover @a object; what they hold beside it does not count
 /// @return the indices of the balls to keep, ascending.
-std::vector<int32_t> prunedBalls(const std::vector<MedialBall>& balls, const SampleLevel& object,
+std::vector<int32_t> prunedBalls(const std::vector<ExactSphere>& balls, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::tight

@@ -60,15 +60,15 @@ void requireCovering(const std::vector<ExactSphere>& balls, const FlatAxis& flat
 LeafBalls medialLeaves(const MedialLevel& level, const SampleLevel& object, Leaves which,
     openvdb::util::NullInterrupter* interrupter)
 {
+    LeafBalls all;
+    all.digital = level.balls;
+    for (const MedialBall& ball : all.digital) all.balls.push_back(fineBall(ball));
+    if (which == Leaves::Medial) return all;
     LeafBalls leaves;
-    if (which == Leaves::Medial) {
-        leaves.digital = level.balls;
-    } else {
-        for (const int32_t i : prunedBalls(level.balls, object, interrupter)) {
-            leaves.digital.push_back(level.balls[i]);
-        }
+    for (const int32_t i : prunedBalls(all.balls, object, interrupter)) {
+        leaves.balls.push_back(all.balls[i]);
+        leaves.digital.push_back(all.digital[i]);
     }
-    for (const MedialBall& ball : leaves.digital) leaves.balls.push_back(fineBall(ball));
     return leaves;
 }
 

@@ -35,6 +35,28 @@ TEST(FreeCovers, AreTheStartWhereThatIsNoLarger)
     EXPECT_EQ(free.cover(1000000), merged.leaves);
 }
 
+/// Of more leaf balls than are merged in pairs.
+TEST(FreeCovers, OfManyLeafBallsBeginWithDilatedOnes)
+{
+    Random random(5);
+    const Voxels voxels = shapes::noise(Coord(44, 40, 30), 0.8, random);
+    const SampledObject object = sampled(voxels);
+    std::vector<ExactSphere> leaves;
+    for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+    const LevelMaker maker{object, {false, 4, 1, false, 16}, false, nullptr};
+    ASSERT_GT(int64_t(leaves.size()), maker.dilatedFor(1050)); // of 700, half as many more
+    LevelMaker without(maker);
+    without.dilatedPerBall = 100;
+    FreeCovers free(leaves, true, maker), plain(leaves, true, without);
+    for (const int64_t count : {700, 100}) {
+        const auto &balls = free.cover(count), &others = plain.cover(count);
+        EXPECT_NE(balls, others);
+        EXPECT_LE(balls.size(), std::size_t(count));
+        EXPECT_EQ(heldBy(balls, voxels), voxels);
+        EXPECT_LT(double(excess(balls, voxels)), 1.1 * double(excess(others, voxels)));
+    }
+}
+
 /// Whoever looks for a bound asks in any order; what was found stays where it is.
 TEST(FreeCovers, CanBeAskedInAnyOrder)
 {

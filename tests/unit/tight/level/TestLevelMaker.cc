@@ -51,6 +51,30 @@ TEST(LevelMaker, DropsBallsThatNoVoxelNeedsUnlessTheyAreToStay)
     EXPECT_TRUE(all[1].empty());
 }
 
+TEST(LevelMaker, FitsEachBallToItsPointsAlone)
+{
+    Random random(5);
+    const MergedLeaves merged(shapes::noise(Coord(9, 8, 8), 0.5, random), false, kAll);
+    const auto balls = merged.cut(6);
+    HeldPoints points(balls.size()); // of the last ball none
+    for (const Coord& v : merged.voxels) {
+        const auto ball = std::find_if(
+            balls.begin(), balls.end() - 1, [&](const ExactSphere& b) { return holds(b, v); });
+        if (ball != balls.end() - 1) points[std::size_t(ball - balls.begin())].push_back(v);
+    }
+    const auto fitted = merged.maker.fitted(balls, points);
+    ASSERT_EQ(fitted.size(), balls.size());
+    int64_t before = 0, after = 0;
+    for (std::size_t i = 0; i + 1 < balls.size(); ++i) {
+        EXPECT_EQ(heldBy({fitted[i]}, points[i]), points[i]);
+        before += excess({balls[i]}, merged.voxels);
+        after += excess({fitted[i]}, merged.voxels);
+        EXPECT_LE(excess({fitted[i]}, merged.voxels), excess({balls[i]}, merged.voxels));
+    }
+    EXPECT_LT(after, before);
+    EXPECT_EQ(fitted.back(), balls.back());
+}
+
 TEST(LevelMaker, HalvesInEqualSteps)
 {
     EXPECT_EQ(halvedTowards(1024, 64), 512);

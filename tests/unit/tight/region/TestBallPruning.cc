@@ -39,10 +39,18 @@ std::vector<int32_t> naivelyPruned(const std::vector<MedialBall>& balls)
     return kept;
 }
 
+std::vector<ExactSphere> fineBalls(const std::vector<MedialBall>& balls)
+{
+    std::vector<ExactSphere> fine;
+    for (const MedialBall& ball : balls) fine.push_back(fineBall(ball));
+    return fine;
+}
+
 void expectPruned(const RandomObject& object)
 {
     const CoreStages stages(*maskOf(object.voxels));
-    const auto kept = prunedBalls(stages.balls, SampledObject(stages.layout).level(0), nullptr);
+    const auto kept =
+        prunedBalls(fineBalls(stages.balls), SampledObject(stages.layout).level(0), nullptr);
     ASSERT_EQ(kept, naivelyPruned(stages.balls)) << object.name;
     Voxels all;
     for (const int32_t i : kept) {
@@ -82,7 +90,7 @@ TEST(BallPruning, KeepsABallForAVoxelInALeafThatItHolds)
         for (const Coord& v : voxelsOf(ball)) all.push_back(v);
     }
     sortVoxels(all);
-    const auto kept = prunedBalls(balls, sampled(all).level(0), nullptr);
+    const auto kept = prunedBalls(fineBalls(balls), sampled(all).level(0), nullptr);
     ASSERT_EQ(kept.front(), 0);
     ASSERT_EQ(kept, naivelyPruned(balls));
 }

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <openvdb_spheretree/tight/region/DilatedCover.h>
+
+#include "support/MergedLeaves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace {
+
+using namespace openvdb_spheretree;
+using namespace openvdb_spheretree::tight;
+using namespace spheretree_test;
+
+/// Dilated by the least that rounding to whole sixteenths of a voxel allows.
+ExactSphere dilated(const ExactSphere& ball, int64_t by)
+{
+    auto radius = int64_t(std::sqrt(double(ball.radiusSq)));
+    while (radius * radius < ball.radiusSq) ++radius;
+    return {ball.center, (radius + by) * (radius + by)};
+}
+
+/// One ball after the other, smallest first, goes if the others that are there hold its voxels.
+std::vector<ExactSphere> naivelyPruned(const std::vector<ExactSphere>& balls, const Voxels& voxels)
+{
+    std::vector<std::size_t> order(balls.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+        [&](std::size_t a, std::size_t b) { return balls[a].radiusSq < balls[b].radiusSq; });
+    std::vector<bool> isThere(balls.size(), true);
+    for (const std::size_t i : order) {
+        const auto inOther = [&](const Coord& v) {
+            for (std::size_t k = 0; k < balls.size(); ++k) {
+                if (k != i && isThere[k] && holds(balls[k], v)) return true;
+            }
+            return false;
+        };
+        isThere[i] = std::any_of(voxels.begin(), voxels.end(),
+            [&](const Coord& v) { return holds(balls[i], v) && !inOther(v); });
+    }
+    std::vector<ExactSphere> left;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (isThere[i]) left.push_back(balls[i]);
+    }
+    return left;
+}
+
+/// The balls of which a dilated cover is one, all dilated by the same length.
+/// @return that length, 1/16 voxel; -1 if it is none
+int64_t dilationOf(const std::vector<ExactSphere>& cover, const std::vector<ExactSphere>& balls,
+    const Voxels& voxels)
+{
+    for (int64_t by = 1; by <= kFine; ++by) {
+        std::vector<ExactSphere> large;
+        for (const ExactSphere& ball : balls) large.push_back(dilated(ball, by));
+        if (naivelyPruned(large, voxels) == cover) return by;
+    }
+    return -1;
+}
+
+TEST(DilatedCover, IsOfBallsDilatedByOneLengthAndPruned)
+{
+    Random random(1);
+    for (const double rate : {0.4, 0.7, 0.95}) {
+        const MergedLeaves merged(shapes::noise(Coord(12, 10, 9), rate, random));
+        const auto all = int64_t(merged.leaves.size());
+        for (const int64_t part : {2, 3, 5}) {
+            const auto cover =
+                dilatedCover(merged.leaves, all / part, 1, merged.object.level(0), nullptr);
+            EXPECT_EQ(heldBy(cover, merged.voxels), merged.voxels);
+            EXPECT_LT(int64_t(cover.size()), all);
+            EXPECT_GT(dilationOf(cover, merged.leaves, merged.voxels), 0);
+        }
+    }
+}
+
+/// What is measured for it is that of solids; noise has fewer balls near each other.
+TEST(DilatedCover, OfASolidHasAboutAsManyBallsAsAreAimedAt)
+{
+    Random random(2);
+    Voxels voxels;
+    for (int i = 0; i < 12; ++i) {
+        const Coord middle = random.coord(0, 40);
+        const auto ball = translated(shapes::ball(random.between(60, 200)), middle);
+        voxels.insert(voxels.end(), ball.begin(), ball.end());
+    }
+    sortVoxels(voxels);
+    const MergedLeaves merged(voxels);
+    const auto all = double(merged.leaves.size());
+    for (const double part : {1.5, 2.0, 3.0}) {
+        const auto cover =
+            dilatedCover(merged.leaves, int64_t(all / part), 1, merged.object.level(0), nullptr);
+        EXPECT_GT(double(cover.size()), 0.5 * all / part);
+        EXPECT_LT(double(cover.size()), 1.7 * all / part);
+    }
+}
+
+TEST(DilatedCover, HasAtLeastAsManyBallsAsAreAskedFor)
+{
+    Random random(3);
+    const MergedLeaves merged(shapes::noise(Coord(12, 10, 9), 0.8, random));
+    const auto all = int64_t(merged.leaves.size());
+    const auto coverOf = [&](int64_t least) {
+        return dilatedCover(merged.leaves, all / 5, least, merged.object.level(0), nullptr);
+    };
+    const auto fewest = int64_t(coverOf(1).size());
+    for (const int64_t least : {fewest, fewest + 1, (fewest + all) / 2, all}) {
+        const auto cover = coverOf(least);
+        EXPECT_GE(int64_t(cover.size()), least);
+        EXPECT_EQ(heldBy(cover, merged.voxels), merged.voxels);
+    }
+    EXPECT_EQ(coverOf(fewest).size(), std::size_t(fewest));
+    EXPECT_EQ(coverOf(all), merged.leaves);
+}
+
+} // namespace
