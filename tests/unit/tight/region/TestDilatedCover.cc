@@ -18,7 +18,9 @@ ExactSphere dilated(const ExactSphere& ball, int64_t by)
 {
     auto radius = int64_t(std::sqrt(double(ball.radiusSq)));
     while (radius * radius < ball.radiusSq) ++radius;
-    return {ball.center, (radius + by) * (radius + by)};
+    ExactSphere large = ball;
+    large.radiusSq = (radius + by) * (radius + by);
+    return large;
 }
 
 /// One ball after the other, smallest first, goes if the others that are there hold its voxels.
