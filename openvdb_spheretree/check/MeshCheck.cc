@@ -269,7 +269,7 @@ std::vector<Piece> trianglesOf(const TriangleMesh& mesh, const openvdb::math::Tr
     for (const openvdb::Vec3I& triangle : mesh.triangles) {
         Piece& piece = triangles.emplace_back();
         for (int i = 0; i < 3; ++i) {
-            piece.corner[std::size_t(i)] = transform.worldToIndex(Vec3d(mesh.points[triangle[i]]));
+            piece.corner[std::size_t(i)] = transform.worldToIndex(mesh.points[triangle[i]]);
         }
     }
     return triangles;

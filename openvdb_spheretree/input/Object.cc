@@ -221,14 +221,19 @@ void checkFinite(double value, const char* name)
 void checkIso(const openvdb::GridBase& grid, double iso, double background)
 {
     if (iso < background && iso > -background) return;
+    if (background <= 0) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " is of the class of level sets, and its background is " << background
+                << ", where those of level sets are above 0: if inside and outside have changed "
+                   "places, change the sign of its values; if it is no level set, change the "
+                   "grid's class");
+    }
     OPENVDB_THROW(openvdb::ValueError,
         detail::describe(grid) << " is a level set whose narrow band holds "
                                   "values between "
                                << -background << " and " << background << ", so iso=" << iso
-                               << " is out of range: choose an iso within the band"
-                               << (background > 0
-                                          ? ""
-                                          : ", or change the grid's class if it is no level set"));
+                               << " is out of range: choose an iso within the band");
 }
 
 [[noreturn]] void throwUnbounded(const openvdb::GridBase& grid, const std::string& background,

@@ -16,7 +16,6 @@ namespace {
 using openvdb::BBoxd;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 
 /// Half of what Coord holds, so that a narrow band and OpenVDB's own margins fit around it.
 constexpr double kMaxIndex = 1 << 29; // a side of twice that has boxes of 2^31
@@ -47,7 +46,7 @@ double voxelSizeForDim(const TriangleMesh& mesh, int dim)
     if (dim < 1) {
         OPENVDB_THROW(openvdb::ValueError, "dim " << dim << " is out of range; it must be >= 1");
     }
-    const auto isFinite = [](const Vec3s& point) { return point.isFinite(); };
+    const auto isFinite = [](const Vec3d& point) { return point.isFinite(); };
     const bool hasBox =
         !mesh.points.empty() && std::all_of(mesh.points.begin(), mesh.points.end(), isFinite);
     const Vec3d sides = hasBox ? boxOf(mesh).extents() : Vec3d(0);
@@ -87,10 +86,9 @@ void requireUsableMesh(const TriangleMesh& mesh, double voxelSize)
                          << ", but only " << mesh.points.size() << " points");
         }
     }
-    for (const Vec3s& point : mesh.points) {
+    for (const Vec3d& point : mesh.points) {
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(double(point[axis]) / voxelSize) <= kMaxIndex)
-                continue; // false for NaN too
+            if (std::abs(point[axis] / voxelSize) <= kMaxIndex) continue; // false for NaN too
             OPENVDB_THROW(openvdb::ValueError,
                 "mesh '" << mesh.name << "' reaches coordinate " << point[axis]
                          << ", too far for voxel size " << voxelSize
@@ -104,7 +102,7 @@ double longestEdge(const TriangleMesh& mesh)
     double longestSq = 0;
     for (const openvdb::Vec3I& t : mesh.triangles) {
         for (int i = 0; i < 3; ++i) {
-            const openvdb::Vec3d from(mesh.points[t[i]]), to(mesh.points[t[(i + 1) % 3]]);
+            const Vec3d &from = mesh.points[t[i]], &to = mesh.points[t[(i + 1) % 3]];
             longestSq = std::max(longestSq, (to - from).lengthSqr());
         }
     }
@@ -115,8 +113,8 @@ double areaOf(const TriangleMesh& mesh)
 {
     double area = 0;
     for (const Vec3I& triangle : mesh.triangles) {
-        const Vec3d a(mesh.points[triangle[0]]), b(mesh.points[triangle[1]]),
-            c(mesh.points[triangle[2]]);
+        const Vec3d &a = mesh.points[triangle[0]], &b = mesh.points[triangle[1]],
+                    &c = mesh.points[triangle[2]];
         area += (b - a).cross(c - a).length() / 2;
     }
     return area;
@@ -125,7 +123,7 @@ double areaOf(const TriangleMesh& mesh)
 BBoxd boxOf(const TriangleMesh& mesh)
 {
     BBoxd box;
-    for (const Vec3s& point : mesh.points) box.expand(Vec3d(point));
+    for (const Vec3d& point : mesh.points) box.expand(point);
     return box;
 }
 

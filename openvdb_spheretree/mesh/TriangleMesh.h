@@ -16,10 +16,13 @@
 
 namespace openvdb_spheretree {
 
+/// The largest coordinate of a mesh: products of several are doubles.
+constexpr double kFarthestPoint = 3.4e38;
+
 /// Triangles in world space.
 struct TriangleMesh {
     std::string name;
-    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3d> points; ///< finite, and not beyond kFarthestPoint
     std::vector<openvdb::Vec3I> triangles;
 };
 

@@ -243,8 +243,8 @@ IndexMesh toIndexSpace(const TriangleMesh& mesh, const openvdb::math::Transform&
     result.points.reserve(mesh.points.size());
     const Vec3d shift = transform.worldToIndex(Vec3d(0));
     double largest = 0;
-    for (const openvdb::Vec3s& world : mesh.points) {
-        const Vec3d point = transform.worldToIndex(Vec3d(world));
+    for (const Vec3d& world : mesh.points) {
+        const Vec3d point = transform.worldToIndex(world);
         result.points.push_back(point);
         for (int axis = 0; axis < 3; ++axis) {
             largest = std::max({largest, std::abs(point[axis]), std::abs(shift[axis]),

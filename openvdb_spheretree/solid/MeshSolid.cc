@@ -37,10 +37,10 @@ double nodesWithPoints(const TriangleMesh& mesh, double voxelSize, double side)
 {
     using Place = std::array<double, 3>;
     std::vector<Place> places;
-    for (const openvdb::Vec3s& point : mesh.points) {
+    for (const Vec3d& point : mesh.points) {
         Place place;
         for (int a = 0; a < 3; ++a) {
-            place[std::size_t(a)] = std::floor(double(point[a]) / (side * voxelSize));
+            place[std::size_t(a)] = std::floor(point[a] / (side * voxelSize));
         }
         // Most points follow one of the same node.
         if (places.empty() || places.back() != place) places.push_back(place);

@@ -63,6 +63,14 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
                 << " has a transform with a zero, "
                    "an infinity or a NaN in it: set its transform, or resample it to cubic voxels");
     }
+    constexpr double kFarthest = 0x1p53; // voxels; farther away doubles are more than a voxel apart
+    const double far = std::max({std::abs(offset[0]), std::abs(offset[1]), std::abs(offset[2])});
+    if (far > kFarthest * length[0]) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " lies " << far << " away from the world's origin, too far for voxels of "
+                << length[0] << ", which have no places of their own there: move it nearer");
+    }
     const bool uniform = voxel.longest() - voxel.shortest() <= kTolerance * length[0];
     const bool orthogonal = voxel.skew() <= kTolerance;
     if (uniform && orthogonal) return;

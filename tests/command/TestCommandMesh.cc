@@ -8,6 +8,7 @@
 #include "support/Meshes.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 #include <string>
@@ -31,6 +32,7 @@ protected:
     void write(const std::string& name, const openvdb_spheretree::TriangleMesh& mesh)
     {
         std::ostringstream text;
+        text.precision(17);
         for (const auto& p : mesh.points)
             text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
         for (const auto& t : mesh.triangles) {
@@ -80,6 +82,27 @@ TEST_F(CommandMesh, CheckProvesThatSpheresCoverTheMesh)
     const Result lacking = run("-read flange.obj -mesh2ls dim=40 cover=0" + tree);
     EXPECT_EQ(6, lacking.exitCode);
     EXPECT_TRUE(has(lacking.out, "level 0 is not proven to cover mesh 'flange': ")) << lacking.out;
+}
+
+/// In the meters of a map, where floats are half a meter apart: asked of the spheres as they are written.
+TEST_F(CommandMesh, SpheresCoverAMeshThatLiesFarAway)
+{
+    const auto mesh = boxMesh(Vec3d(5400000.3, 2700000.1, 0), Vec3d(5400001.6, 2700001.4, 1.3));
+    write("map.obj", mesh);
+    const Result result = run("-read map.obj -mesh2ls dim=48 cover=1 keep=1 -spheretree "
+                              "spheres=8,1 quality=fast -check -write map.json");
+    EXPECT_EQ(0, result.exitCode) << result.err;
+    const auto tree = nlohmann::json::parse(readText(path("map.json")));
+    for (const int level : {0, 1}) {
+        for (const Vec3d& corner : mesh.points) {
+            bool isHeld = false;
+            for (const auto& node : tree["nodes"]) {
+                const Vec3d center(node[3], node[4], node[5]);
+                isHeld |= node[0] == level && (corner - center).length() <= double(node[6]);
+            }
+            EXPECT_TRUE(isHeld) << corner << " on level " << level;
+        }
+    }
 }
 
 TEST_F(CommandMesh, CheckTakesATreeOfAFileAndItsMeshAlone)

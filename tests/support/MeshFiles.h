@@ -14,7 +14,6 @@ namespace spheretree_test {
 
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 using openvdb_spheretree::readMeshFile;
 using openvdb_spheretree::TriangleMesh;
 

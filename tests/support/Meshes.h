@@ -16,8 +16,8 @@ inline void addBox(openvdb_spheretree::TriangleMesh& mesh, const openvdb::Vec3d&
 {
     const auto first = uint32_t(mesh.points.size());
     for (int p = 0; p < 8; ++p) {
-        mesh.points.emplace_back(float(p & 1 ? high[0] : low[0]), float(p & 2 ? high[1] : low[1]),
-            float(p & 4 ? high[2] : low[2]));
+        mesh.points.emplace_back(
+            p & 1 ? high[0] : low[0], p & 2 ? high[1] : low[1], p & 4 ? high[2] : low[2]);
     }
     constexpr uint32_t kSides[6][4] = {
         {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};

@@ -5,14 +5,16 @@
 
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
 
+#include <cmath>
+
 namespace command {
 
 void scaleMesh(openvdb_spheretree::TriangleMesh& mesh, double scale)
 {
     for (auto& point : mesh.points) {
-        const openvdb::Vec3d scaled = openvdb::Vec3d(point) * scale;
-        point = openvdb::Vec3s(scaled);
-        if (!point.isFinite()) {
+        point *= scale;
+        for (const double coordinate : {point[0], point[1], point[2]}) {
+            if (std::abs(coordinate) <= openvdb_spheretree::kFarthestPoint) continue;
             throwInput("mesh '" + oneLine(mesh.name, 60)
                 + "' would have points beyond the largest number: choose a smaller scale");
         }

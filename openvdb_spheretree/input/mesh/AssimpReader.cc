@@ -9,17 +9,20 @@
 #include "AssimpReader.h"
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/BBox.h>
 
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <openvdb_spheretree/base/ChildProcess.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -81,16 +84,22 @@ private:
     mutable std::string mRefused;
 };
 
-void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup)
+/// In doubles, as far places are small differences of floats.
+using PlaceInScene = aiMatrix4x4t<double>;
+
+void addMesh(const aiMesh& mesh, const PlaceInScene& transform, PolygonSoup& soup)
 {
     const std::size_t base = soup.points.size();
     if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max()) {
         throw openvdb::IoError("more points than 32 bits can number");
     }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const aiVector3D p = transform * mesh.mVertices[i];
-        const openvdb::Vec3s& point = soup.points.emplace_back(p.x, p.y, p.z);
-        if (!point.isFinite()) throw openvdb::IoError("a coordinate is not finite");
+        const aiVector3D& own = mesh.mVertices[i];
+        const auto p = transform * aiVector3t<double>(own.x, own.y, own.z);
+        soup.points.emplace_back(p.x, p.y, p.z);
+        const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        if (!(farthest <= kFarthestPoint))
+            throw openvdb::IoError("a coordinate is not finite, or too large");
     }
     const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -109,9 +118,11 @@ void addMesh(const aiMesh& mesh, const aiMatrix4x4& transform, PolygonSoup& soup
 PolygonSoup placedSoup(const aiScene& scene)
 {
     PolygonSoup soup;
-    std::vector<std::pair<const aiNode*, aiMatrix4x4>>
+    std::vector<std::pair<const aiNode*, PlaceInScene>>
         nodes; // a scene may nest deeper than a stack
-    if (scene.mRootNode) nodes.emplace_back(scene.mRootNode, scene.mRootNode->mTransformation);
+    if (scene.mRootNode) {
+        nodes.emplace_back(scene.mRootNode, PlaceInScene(scene.mRootNode->mTransformation));
+    }
     while (!nodes.empty()) {
         const auto [node, transform] = nodes.back();
         nodes.pop_back();
@@ -120,10 +131,36 @@ PolygonSoup placedSoup(const aiScene& scene)
         }
         for (unsigned i = 0; i < node->mNumChildren; ++i) {
             const aiNode* child = node->mChildren[i];
-            nodes.emplace_back(child, transform * child->mTransformation);
+            nodes.emplace_back(child, transform * PlaceInScene(child->mTransformation));
         }
     }
     return soup;
+}
+
+/// @throw openvdb::IoError if a mesh lies so far from its origin that floats, which assimp reads coordinates as, change
+/// its shape
+void requireNearOrigin(const aiScene& scene)
+{
+    constexpr double kFloat = 0x1p-24, kShare = 0x1p-12; // of the mesh's size
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        openvdb::BBoxd box;
+        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+            const aiVector3D& p = mesh.mVertices[i];
+            box.expand(openvdb::Vec3d(p.x, p.y, p.z));
+        }
+        if (mesh.mNumVertices == 0) continue;
+        const openvdb::Vec3d sides = box.extents();
+        for (int a = 0; a < 3; ++a) {
+            const double off = kFloat * std::max(std::abs(box.min()[a]), std::abs(box.max()[a]));
+            if (off <= kShare * std::max({sides[0], sides[1], sides[2]})) continue;
+            throw openvdb::IoError(
+                "it is so far from the origin that coordinates, read as floats, are off by "
+                + shortNumber(off)
+                + ": move it nearer, or write it as .ply, .obj, .off or .stl, which are read in "
+                  "full");
+        }
+    }
 }
 
 template <typename T>
@@ -172,6 +209,8 @@ std::string bytesOfScene(const std::string& path)
         throw openvdb::IoError("not a mesh file that assimp can read, or damaged ("
             + onOneLine(why.substr(0, why.find('\n')), kMaxMessage) + ")");
     }
+    const bool storesFloats = needsAll || extension == ".3ds";
+    if (!storesFloats) requireNearOrigin(*scene);
     const PolygonSoup soup = placedSoup(*scene);
     std::string bytes;
     append(bytes, soup.points);

@@ -14,6 +14,7 @@
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/math/BBox.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,21 +85,35 @@ struct ExactHash {
     }
 };
 
-/// Joins points at exactly the same place, drops triangles that this makes a line or a point, and
-/// keeps the points that are left in use, in order of their first use.
-void weld(const std::vector<Vec3s>& points, std::vector<Vec3I> triangles, TriangleMesh& mesh)
+/// @return the middle of the corners' box.
+Vec3d middleOf(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
 {
+    openvdb::BBoxd box;
+    for (const Vec3I& triangle : triangles) {
+        for (int i = 0; i < 3; ++i) box.expand(points[triangle[i]]);
+    }
+    return triangles.empty() ? Vec3d(0) : box.getCenter();
+}
+
+/// Joins points that are the same as floats are, measured from the middle of the mesh, as programs write one point in
+/// several ways; drops triangles that this makes a line or a point, and keeps the points that are left in use, in order
+/// of their first use.
+void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, TriangleMesh& mesh)
+{
+    const Vec3d middle = middleOf(points, triangles);
     std::unordered_map<Vec3s, std::uint32_t, ExactHash> numbers;
     numbers.reserve(points.size());
     for (const Vec3I& triangle : triangles) {
-        Vec3I joined;
-        const Vec3s &a = points[triangle[0]], &b = points[triangle[1]], &c = points[triangle[2]];
-        if (a == b || b == c || c == a) continue;
+        Vec3s places[3];
         for (int i = 0; i < 3; ++i) {
-            const Vec3s p = points[triangle[i]] + Vec3s(0); // -0 becomes 0
+            places[i] = Vec3s(points[triangle[i]] - middle) + Vec3s(0); // -0 becomes 0
+        }
+        if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
+        Vec3I joined;
+        for (int i = 0; i < 3; ++i) {
             const auto number = std::uint32_t(mesh.points.size());
-            const auto [it, isNew] = numbers.try_emplace(p, number);
-            if (isNew) mesh.points.push_back(p);
+            const auto [it, isNew] = numbers.try_emplace(places[i], number);
+            if (isNew) mesh.points.push_back(points[triangle[i]] + Vec3d(0)); // as above
             joined[i] = it->second;
         }
         mesh.triangles.push_back(joined);
@@ -116,8 +131,9 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
         detail::triangulate(soup.points, corners, triangles);
     }
     TriangleMesh mesh;
-    weld(soup.points, std::move(triangles), mesh);
-    if (mesh.triangles.empty()) throw IoError("the file holds no triangle");
+    if (triangles.empty()) throw IoError("the file holds no triangle");
+    weld(soup.points, triangles, mesh);
+    if (mesh.triangles.empty()) throw IoError("each of its triangles has two corners at one place");
     return mesh;
 }
 

@@ -19,7 +19,7 @@ namespace openvdb_spheretree::detail {
 namespace {
 
 using openvdb::IoError;
-using openvdb::Vec3s;
+using openvdb::Vec3d;
 
 constexpr std::size_t kStlHeaderBytes = 84; // 80 of text, and the number of facets
 constexpr std::size_t kStlFacetBytes = 50;  // a normal, three corners, and two bytes of colour
@@ -100,10 +100,12 @@ PolygonSoup parseBinaryStl(const std::string& bytes)
     PolygonSoup soup;
     for (std::size_t at = kStlHeaderBytes; at < bytes.size(); at += kStlFacetBytes) {
         for (int corner = 1; corner <= 3; ++corner) { // the normal, at 0, is not needed
-            Vec3s point;
+            Vec3d point;
             for (int axis = 0; axis < 3; ++axis) {
                 const std::uint32_t bits = littleEndian(bytes.data() + at + 12 * corner + 4 * axis);
-                std::memcpy(&point[axis], &bits, sizeof(bits));
+                float coordinate;
+                std::memcpy(&coordinate, &bits, sizeof(bits));
+                point[axis] = double(coordinate);
             }
             if (!point.isFinite()) {
                 throw IoError("facet " + std::to_string((at - kStlHeaderBytes) / kStlFacetBytes)

@@ -17,7 +17,7 @@ namespace openvdb_spheretree::detail {
 
 /// The polygons of a file, of any number of corners. Equal points are not joined.
 struct PolygonSoup {
-    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3d> points;
     std::vector<std::uint32_t> corners; ///< indices into points, polygon after polygon
     std::vector<std::uint32_t> counts;  ///< number of corners of each polygon, >= 3
 };

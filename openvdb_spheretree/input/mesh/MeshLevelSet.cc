@@ -26,7 +26,7 @@ using openvdb::Vec3s;
 constexpr double kMaxHalfWidth = 1000; // wider is a slip: memory grows with its cube
 
 /// @return the center of the mesh's box in index space, rounded to a leaf's corner. Around it,
-/// points of 24 bits are as exact as those of the file are.
+/// floats are exact to a small part of a voxel.
 openvdb::Coord middleLeaf(const TriangleMesh& mesh, double voxelSize)
 {
     return openvdb::Coord::floor(boxOf(mesh).getCenter() / voxelSize)
@@ -81,8 +81,8 @@ openvdb::FloatGrid::Ptr meshToLevelSet(const TriangleMesh& mesh, double voxelSiz
     const openvdb::Coord shift = middleLeaf(mesh, voxelSize);
     std::vector<Vec3s> points; // in index space, around the origin
     points.reserve(mesh.points.size());
-    for (const Vec3s& world : mesh.points) {
-        points.emplace_back(Vec3d(world) / voxelSize - shift.asVec3d());
+    for (const Vec3d& world : mesh.points) {
+        points.emplace_back(world / voxelSize - shift.asVec3d());
     }
     // The types for which the code is in OpenVDB's library.
     const openvdb::tools::QuadAndTriangleDataAdapter<Vec3s, Vec3I> adapter(points, mesh.triangles);

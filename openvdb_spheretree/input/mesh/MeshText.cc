@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MeshText.h"
 
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
+
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
@@ -80,12 +82,13 @@ std::int64_t MeshText::toInteger(std::string_view word, const char* what) const
     return *number;
 }
 
-openvdb::Vec3s MeshText::point()
+openvdb::Vec3d MeshText::point()
 {
-    openvdb::Vec3s p;
+    openvdb::Vec3d p;
     for (int axis = 0; axis < 3; ++axis) {
-        p[axis] = static_cast<float>(toNumber(word(), "a coordinate"));
-        if (!std::isfinite(p[axis])) fail("a coordinate is not finite, or too large for a float");
+        p[axis] = toNumber(word(), "a coordinate");
+        if (!(std::abs(p[axis]) <= kFarthestPoint))
+            fail("a coordinate is not finite, or too large");
     }
     return p;
 }

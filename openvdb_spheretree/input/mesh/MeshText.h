@@ -33,7 +33,7 @@ public:
     std::string_view wordOnAnyLine();
     /// @return the next three words of the line as a point.
     /// @throw openvdb::IoError if a coordinate is missing, or is not finite
-    openvdb::Vec3s point();
+    openvdb::Vec3d point();
 
     /// @name A word of this line as a number
     /// @throw openvdb::IoError if it is empty, or is not @a what

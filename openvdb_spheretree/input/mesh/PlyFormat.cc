@@ -10,11 +10,13 @@
 #include "MeshFormats.h"
 
 #include "MeshText.h"
+#include <openvdb_spheretree/mesh/TriangleMesh.h>
 
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -247,17 +249,18 @@ void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& sou
         }
     }
     for (std::uint64_t n = 0; n < element.count; ++n) {
-        openvdb::Vec3s point;
+        openvdb::Vec3d point;
         for (int i = 0; i < int(element.properties.size()); ++i) {
             double value = 0;
             readProperty(values, element.properties[i], [&](double v) { value = v; });
             for (int axis = 0; axis < 3; ++axis) {
-                if (axes[axis] == i) point[axis] = static_cast<float>(value);
+                if (axes[axis] == i) point[axis] = value;
             }
         }
-        if (!point.isFinite()) {
-            values.fail("a coordinate of vertex " + std::to_string(n)
-                + " is not finite, or too large for a float");
+        for (const double coordinate : {point[0], point[1], point[2]}) {
+            if (std::abs(coordinate) <= kFarthestPoint) continue; // false for NaN, too
+            values.fail(
+                "a coordinate of vertex " + std::to_string(n) + " is not finite, or too large");
         }
         soup.points.push_back(point);
     }

@@ -11,7 +11,6 @@ namespace {
 using openvdb::Vec2d;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 
 /// Twice the signed area of the triangle.
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c)
@@ -21,13 +20,13 @@ double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c)
 
 /// @return the polygon, counterclockwise, without the axis that is nearest to its (Newell) normal.
 std::vector<Vec2d> flattened(
-    const std::vector<Vec3s>& points, const std::vector<std::uint32_t>& corners)
+    const std::vector<Vec3d>& points, const std::vector<std::uint32_t>& corners)
 {
-    const Vec3d origin(points[corners[0]]);
+    const Vec3d& origin = points[corners[0]];
     Vec3d normal(0);
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        const Vec3d a = Vec3d(points[corners[i]]) - origin;
-        normal += a.cross(Vec3d(points[corners[i + 1]]) - origin);
+        const Vec3d a = points[corners[i]] - origin;
+        normal += a.cross(points[corners[i + 1]] - origin);
     }
     int axis = 0;
     for (int i = 1; i < 3; ++i) axis = std::abs(normal[i]) > std::abs(normal[axis]) ? i : axis;
@@ -35,7 +34,7 @@ std::vector<Vec2d> flattened(
     const double side = normal[axis] < 0 ? -1 : 1;
     std::vector<Vec2d> flat;
     for (const std::uint32_t corner : corners) {
-        const Vec3d p = Vec3d(points[corner]) - origin;
+        const Vec3d p = points[corner] - origin;
         flat.emplace_back(side * p[u], p[v]);
     }
     return flat;
@@ -91,7 +90,7 @@ void cutEars(const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& c
 
 } // namespace
 
-void triangulate(const std::vector<Vec3s>& points, const std::vector<std::uint32_t>& corners,
+void triangulate(const std::vector<Vec3d>& points, const std::vector<std::uint32_t>& corners,
     std::vector<Vec3I>& triangles)
 {
     if (corners.size() > 3) {

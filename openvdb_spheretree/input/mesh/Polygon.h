@@ -21,7 +21,7 @@ constexpr std::size_t kMaxConcaveCorners = 2000;
 /// result is right.
 /// @param corners  at least three indices into @a points
 /// @throw openvdb::ValueError if it is concave and has more than kMaxConcaveCorners
-void triangulate(const std::vector<openvdb::Vec3s>& points,
+void triangulate(const std::vector<openvdb::Vec3d>& points,
     const std::vector<std::uint32_t>& corners, std::vector<openvdb::Vec3I>& triangles);
 
 } // namespace openvdb_spheretree::detail

@@ -160,8 +160,8 @@ TEST_F(MeshCheck, OfAHugeTriangleLooksOnlyAtWhatIsNearTheObject)
     const SphereTree tree = treeOf(*object, SphereTreeSettings::kPadCubes);
     TriangleMesh mesh;
     mesh.name = "huge";
-    mesh.points = {openvdb::Vec3s(-1e6f, -1e6f, 5), openvdb::Vec3s(1e6f, -1e6f, 5),
-        openvdb::Vec3s(0, 1e6f, 5)};
+    mesh.points = {openvdb::Vec3d(-1e6f, -1e6f, 5), openvdb::Vec3d(1e6f, -1e6f, 5),
+        openvdb::Vec3d(0, 1e6f, 5)};
     mesh.triangles = {openvdb::Vec3I(0, 1, 2)};
     EXPECT_EQ(tree.levels.size(), checkMeshCovered(tree, mesh, &*object).size());
 }

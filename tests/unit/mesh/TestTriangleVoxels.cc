@@ -191,7 +191,7 @@ TEST(TriangleVoxels, HoldEveryPointOfTrianglesInTheWorld)
     const auto transform = openvdb::math::Transform::createLinearTransform(0.1);
     transform->postRotate(0.7, openvdb::math::X_AXIS);
     transform->postTranslate(Vec3d(1e5, -3, 0.01));
-    for (openvdb::Vec3s& point : mesh.points) point += openvdb::Vec3s(1e5f, 0, 0);
+    for (openvdb::Vec3d& point : mesh.points) point += openvdb::Vec3d(1e5f, 0, 0);
     const auto found = trianglesToVoxels(toIndexSpace(mesh, *transform));
     std::uniform_real_distribution<double> part(0, 1);
     for (const Vec3I& triangle : mesh.triangles) {

@@ -26,7 +26,6 @@ using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 
 class MeshSolid : public ::testing::Test {
 protected:
@@ -259,7 +258,7 @@ TEST_F(MeshSolid, WithAGapClosesSlitsThatAreTurned)
             openvdb::math::rotation<openvdb::Mat3d>(openvdb::math::X_AXIS, angle(random))
             * openvdb::math::rotation<openvdb::Mat3d>(openvdb::math::Z_AXIS, angle(random));
         const Vec3d shift(between(random), between(random), between(random));
-        for (Vec3s& point : mesh.points) point = Vec3s(turn * Vec3d(point) + shift);
+        for (Vec3d& point : mesh.points) point = Vec3d(turn * Vec3d(point) + shift);
         const auto closed = meshToObject(mesh, 1, withGap(gap));
         EXPECT_TRUE(closed->tree().isValueOn(Coord::round(shift))) << n << ' ' << gap;
         EXPECT_GT(voxelsOf(*closed), 26 * 26 * 26) << n << ' ' << gap;
@@ -307,7 +306,7 @@ TEST_F(MeshSolid, RefusesWhatIsOutOfRange)
     bad.points[3][1] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(meshToObject(bad, 1), openvdb::ValueError);
     bad = mesh;
-    bad.points[3] = Vec3s(3e9f, 0, 0);
+    bad.points[3] = Vec3d(3e9f, 0, 0);
     EXPECT_THROW(meshToObject(bad, 1), openvdb::ValueError);
     EXPECT_THROW(meshToObject(TriangleMesh(), 1), openvdb::ValueError);
 }
@@ -331,9 +330,9 @@ TEST_F(MeshSolid, RefusesPartsSoFarApartThatTheirNodesWouldNotFit)
     TriangleMesh dust;
     const auto number = [&] { return float(random() % (1u << 28)); };
     for (int i = 0; i < 1000000; ++i) {
-        const Vec3s at(number(), number(), number());
+        const Vec3d at(number(), number(), number());
         const auto first = uint32_t(dust.points.size());
-        for (const Vec3s& off : {Vec3s(0), Vec3s(32, 0, 0), Vec3s(0, 32, 0)}) {
+        for (const Vec3d& off : {Vec3d(0), Vec3d(32, 0, 0), Vec3d(0, 32, 0)}) {
             dust.points.push_back(at + off);
         }
         dust.triangles.push_back({first, first + 1, first + 2});

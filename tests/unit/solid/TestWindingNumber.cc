@@ -45,7 +45,7 @@ void expectNumbers(const std::vector<Box>& boxes, const openvdb::Mat3d& turn)
 {
     TriangleMesh mesh;
     for (const Box& box : boxes) addBox(mesh, box.low, box.high, box.inverted);
-    for (auto& point : mesh.points) point = openvdb::Vec3s(turn * Vec3d(point));
+    for (auto& point : mesh.points) point = openvdb::Vec3d(turn * Vec3d(point));
     const IndexMesh triangles =
         toIndexSpace(mesh, *openvdb::math::Transform::createLinearTransform(1));
     const auto surface = trianglesToVoxels(triangles);
@@ -97,7 +97,7 @@ TEST(WindingNumber, IsNoneBehindALoneSheet)
         for (const double height : {-7.0, 7.0}) {
             TriangleMesh mesh;
             for (const auto& [u, v] : {std::pair(-9, -9), std::pair(30, -9), std::pair(-9, 30)}) {
-                openvdb::Vec3s corner;
+                openvdb::Vec3d corner;
                 corner[axis] = float(height);
                 corner[(axis + 1) % 3] = float(u);
                 corner[(axis + 2) % 3] = float(v);

@@ -128,6 +128,18 @@ TEST(UniformVoxels, InfinitiesAndNansInTheTransformAreErrors)
     }
 }
 
+TEST(UniformVoxels, AreTooFarAwayWhereDoublesAreFartherApart)
+{
+    for (const double voxel : {0.5, 2.0}) {
+        for (const double voxels : {0x1p53, 0x1p54}) {
+            const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+            transform->postTranslate({0, -voxels * voxel, 0});
+            if (voxels == 0x1p53) EXPECT_NO_THROW(requireUniformVoxels(*dotWith(transform)));
+            else EXPECT_TRUE(mentions(whyNot(*dotWith(transform)), "move it nearer"));
+        }
+    }
+}
+
 TEST(UniformVoxels, RotatedMirroredAndTinyCubesAreCubes)
 {
     using namespace openvdb::math;

@@ -316,7 +316,7 @@ TEST(MeshFile, ReadsWhatOffAndPlyWritersWrite)
         "property float x\r\nelement edge 1\r\nproperty int vertex1\r\nproperty int vertex2\r\n"
         "end_header\r\n7 3 0 1 2 2 0.5 0.5\r\n1 5 0 0\r\n2 5 0 1\r\n3 5 1 0\r\n0 1\r\n");
     ASSERT_EQ(3u, ply.points.size());
-    EXPECT_EQ(Vec3s(1, 0, 5), ply.points[1]);
+    EXPECT_EQ(Vec3d(1, 0, 5), ply.points[1]);
 }
 
 /// The lowest @a size bytes of a whole number.
@@ -347,7 +347,7 @@ TEST(MeshFile, ReadsNegativeWholeNumbersOfABinaryPly)
         ASSERT_EQ(3u, mesh.points.size());
         for (int i = 0; i < 3; ++i) {
             for (int axis = 0; axis < 3; ++axis) {
-                EXPECT_EQ(float(points[i][axis]), mesh.points[i][axis]) << i << ' ' << axis;
+                EXPECT_EQ(double(points[i][axis]), mesh.points[i][axis]) << i << ' ' << axis;
             }
         }
     }
@@ -370,6 +370,59 @@ TEST(MeshFile, CutsUpAPolygonThatCrossesItself)
     const TriangleMesh mesh = read(
         "star.obj", "v 0 3 0\nv 2 -2 0\nv -3 1 0\nv 3 1 0\nv -2 -2 0\nv 0 0 0\nf 1 2 3 4 5 6\n");
     EXPECT_EQ(4u, mesh.triangles.size());
+}
+
+/// In the meters of a map, floats are half a meter apart.
+TEST(MeshFile, ReadsCoordinatesAsTheyAreFarFromTheOrigin)
+{
+    const std::string at = "5400000.3", beyond = "5400001.6";
+    const std::string corners = at + " 0 0\n" + beyond + " 0 0\n" + at + " 0 1.3\n";
+    const std::string faces = "3 0 1 2\n";
+    std::string obj, stl = "solid s\nfacet normal 0 0 0\nouter loop\n";
+    std::istringstream lines(corners);
+    for (std::string line; std::getline(lines, line);) {
+        obj += "v " + line + "\n";
+        stl += "vertex " + line + "\n";
+    }
+    const std::map<std::string, std::string> files = {{"far.obj", obj + "f 1 2 3\n"},
+        {"far.off", "OFF\n3 1 0\n" + corners + faces},
+        {"far.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+            "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "end_header\n"
+                + corners + faces},
+        {"far.stl", stl + "endloop\nendfacet\nendsolid s\n"}};
+    for (const auto& [name, bytes] : files) {
+        const TriangleMesh mesh = read(name, bytes);
+        ASSERT_EQ(3u, mesh.points.size()) << name;
+        EXPECT_EQ(Vec3d(5400000.3, 0, 0), mesh.points[0]) << name;
+        EXPECT_EQ(Vec3d(5400001.6, 0, 0), mesh.points[1]) << name;
+        EXPECT_EQ(Vec3d(5400000.3, 0, 1.3), mesh.points[2]) << name;
+    }
+}
+
+/// Programs that compute in doubles write one corner in several ways.
+TEST(MeshFile, JoinsPointsThatDifferByRounding)
+{
+    for (const char* from : {"0", "5400000"}) {
+        const std::string corner = from + std::string(".3 "),
+                          other = from + std::string(".30000000001 ");
+        const TriangleMesh mesh = read("near.obj",
+            "v " + corner + "0 0\nv " + corner + "1 0\nv " + corner + "0 1\nv " + other + "0 0\nv "
+                + other + "1 0\nv " + corner + "0 -1\nv " + corner
+                + "0.001 0\nf 1 2 3\nf 5 4 6\nf 1 4 3\nf 1 7 3\n");
+        EXPECT_EQ(5u, mesh.points.size()) << from; // 0.001 is no rounding
+        EXPECT_EQ(3u, mesh.triangles.size()) << "one of a corner twice is none";
+        EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][1]);
+        EXPECT_EQ(mesh.triangles[0][1], mesh.triangles[1][0]);
+    }
+}
+
+TEST(MeshFile, SaysThatTrianglesHaveNoArea)
+{
+    EXPECT_TRUE(mentions(
+        errorOf("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "two corners at one place"));
+    EXPECT_TRUE(mentions(errorOf("none.obj", "v 1 1 1\n"), "holds no triangle"));
 }
 
 TEST(MeshFile, JoinsPointsAtTheSamePlaceAndDropsUnusedOnes)

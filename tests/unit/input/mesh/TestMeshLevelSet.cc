@@ -21,7 +21,6 @@ using namespace openvdb_spheretree;
 using namespace spheretree_test;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 using openvdb::Vec4I;
 
 /// From 0 to 1, facing outwards; bit a of a point's number is its coordinate on axis a.
@@ -47,7 +46,7 @@ TEST(MeshLevelSet, MakesALevelSetWhoseInteriorIsTheSolid)
 {
     openvdb::initialize();
     TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.05f);
+    for (Vec3d& point : mesh.points) point = point * 10.f + Vec3d(0.05f);
     const auto grid = meshToLevelSet(mesh, 0.1, 4);
     EXPECT_EQ("cube", grid->getName());
     EXPECT_EQ(openvdb::GRID_LEVEL_SET, grid->getGridClass());
@@ -60,7 +59,7 @@ TEST(MeshLevelSet, KeepsFarMeshesInPlace)
 {
     openvdb::initialize();
     TriangleMesh mesh = cubeMesh(); // at index 34952550, which no float holds
-    for (Vec3s& point : mesh.points) point = point * 4.f + Vec3s(1048576.5f);
+    for (Vec3d& point : mesh.points) point = point * 4.f + Vec3d(1048576.5f);
     const auto grid = meshToLevelSet(mesh, 0.03);
     const auto box = openvdb::tools::sdfInteriorMask(*grid)->evalActiveVoxelBoundingBox();
     EXPECT_NEAR(1048576.5 / 0.03, box.min().x(), 1);
@@ -71,10 +70,10 @@ TEST(MeshLevelSet, MakesALevelSetOfAMeshWithTrianglesWithoutArea)
 {
     openvdb::initialize();
     TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point = point * 10.f + Vec3s(0.25f);
+    for (Vec3d& point : mesh.points) point = point * 10.f + Vec3d(0.25f);
     const auto count = interiorVoxels(*meshToLevelSet(mesh, 0.5));
     const auto n = openvdb::Index32(mesh.points.size());
-    for (const float at : {0.3f, 5.f, 9.9f}) mesh.points.push_back(Vec3s(0.25f + at, 0.25f, 0.25f));
+    for (const float at : {0.3f, 5.f, 9.9f}) mesh.points.push_back(Vec3d(0.25f + at, 0.25f, 0.25f));
     mesh.triangles.push_back(Vec3I(n, n + 1, n + 2)); // on an edge
     mesh.triangles.push_back(Vec3I(n, n, n));
     const auto grid = meshToLevelSet(mesh, 0.5);
@@ -99,9 +98,9 @@ TEST(MeshLevelSet, RejectsLevelSetArgumentsOutOfRange)
 TEST(MeshLevelSet, RejectsAMeshTooLargeForItsVoxels)
 {
     TriangleMesh mesh = cubeMesh();
-    mesh.points[3] = Vec3s(0, 0, 2e9f);
+    mesh.points[3] = Vec3d(0, 0, 2e9f);
     EXPECT_THROW(meshToLevelSet(mesh, 1), openvdb::ValueError);
-    mesh.points[3] = Vec3s(0, -3e38f, 0);
+    mesh.points[3] = Vec3d(0, -3e38f, 0);
     EXPECT_THROW(meshToLevelSet(mesh, 0.01), openvdb::ValueError);
 }
 
@@ -109,7 +108,7 @@ TEST(MeshLevelSet, RefusesWhatWouldNotFitThisMachineWithTheNumberOfVoxels)
 {
     TriangleMesh mesh; // half of a square of 10^6 x 10^6
     mesh.name = "field";
-    mesh.points = {Vec3s(0), Vec3s(1e6f, 0, 0), Vec3s(0, 1e6f, 0)};
+    mesh.points = {Vec3d(0), Vec3d(1e6f, 0, 0), Vec3d(0, 1e6f, 0)};
     mesh.triangles = {Vec3I(0, 1, 2)};
     const std::string message =
         messageOf<openvdb::ValueError>([&] { meshToLevelSet(mesh, 1.0, 3.0); });
@@ -143,12 +142,12 @@ TEST(MeshLevelSet, RejectsADamagedMesh)
 TEST(MeshLevelSet, FitsTheVoxelSizeToTheLongestSide)
 {
     TriangleMesh mesh = cubeMesh();
-    for (Vec3s& point : mesh.points) point *= Vec3s(1, 8, 4);
+    for (Vec3d& point : mesh.points) point *= Vec3d(1, 8, 4);
     EXPECT_DOUBLE_EQ(0.125, voxelSizeForDim(mesh, 64));
     EXPECT_DOUBLE_EQ(8, voxelSizeForDim(mesh, 1));
     for (const int dim : {0, -5}) EXPECT_THROW(voxelSizeForDim(mesh, dim), openvdb::ValueError);
     EXPECT_THROW(voxelSizeForDim(TriangleMesh(), 10), openvdb::ValueError);
-    for (Vec3s& point : mesh.points) point = Vec3s(1);
+    for (Vec3d& point : mesh.points) point = Vec3d(1);
     EXPECT_THROW(voxelSizeForDim(mesh, 10), openvdb::ValueError);
 }
 

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include <sys/stat.h>
@@ -67,10 +68,21 @@ TEST(MeshScene, PlacesTheMeshesOfASceneByItsTransforms)
     EXPECT_EQ(8u, mesh.points.size());
     EXPECT_EQ(8u, mesh.triangles.size());
     openvdb::BBoxd box;
-    for (const Vec3s& point : mesh.points) box.expand(Vec3d(point));
+    for (const Vec3d& point : mesh.points) box.expand(Vec3d(point));
     EXPECT_EQ(Vec3d(-2, 0, 0), box.min());
     EXPECT_EQ(Vec3d(11, 21, 1), box.max());
     EXPECT_NEAR(1 / 6. + 2 / 6., volumeOf(mesh), 1e-6); // the mirrored one faces outwards as well
+}
+
+/// Floats at 5,400,000 are half a unit apart, and the corners of the mesh are floats at its own origin.
+TEST(MeshScene, PlacesMeshesFarAwayInDoubles)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    std::string scene = gltfScene();
+    scene.replace(scene.find("[10,0,0]"), 8, "[5400000,0,0]");
+    const TriangleMesh mesh = read("far.gltf", scene);
+    EXPECT_EQ(8u, mesh.points.size());
+    EXPECT_NEAR(1 / 6. + 2 / 6., volumeOf(mesh), 1e-6);
 }
 
 TEST(MeshScene, RejectsEveryTruncationOfAScene)
@@ -103,6 +115,20 @@ std::string colladaCube()
 std::string replaced(std::string text, const std::string& word, const std::string& by)
 {
     return text.replace(text.find(word), word.size(), by);
+}
+
+TEST(MeshScene, RefusesMeshesWhoseShapeFloatsChange)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const std::string points = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1";
+    std::string far;
+    std::istringstream numbers(points);
+    for (int number, i = 0; numbers >> number; ++i) {
+        far += std::to_string(number + (i % 3 == 1 ? 5400000 : 0)) + " ";
+    }
+    EXPECT_EQ("", errorOf("near.dae", colladaCube()));
+    EXPECT_NE(std::string::npos,
+        errorOf("far.dae", replaced(colladaCube(), points, far)).find("move it nearer"));
 }
 
 std::string repeated(int count, const std::string& text)
