@@ -84,6 +84,11 @@ private:
     mutable std::string mRefused;
 };
 
+bool isNear(const openvdb::Vec3d& p)
+{
+    return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) <= kFarthestPoint;
+}
+
 /// In doubles, as far places are small differences of floats.
 using PlaceInScene = aiMatrix4x4t<double>;
 
@@ -96,10 +101,8 @@ void addMesh(const aiMesh& mesh, const PlaceInScene& transform, PolygonSoup& sou
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& own = mesh.mVertices[i];
         const auto p = transform * aiVector3t<double>(own.x, own.y, own.z);
-        soup.points.emplace_back(p.x, p.y, p.z);
-        const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        if (!(farthest <= kFarthestPoint))
-            throw openvdb::IoError("a coordinate is not finite, or too large");
+        const openvdb::Vec3d& point = soup.points.emplace_back(p.x, p.y, p.z);
+        if (!isNear(point)) throw openvdb::IoError("a coordinate is not finite, or too large");
     }
     const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -229,6 +232,7 @@ void requireWhole(const PolygonSoup& soup)
         corners += count;
     }
     for (const uint32_t corner : soup.corners) isWhole = isWhole && corner < soup.points.size();
+    for (const openvdb::Vec3d& p : soup.points) isWhole = isWhole && isNear(p);
     if (!isWhole || corners != soup.corners.size()) {
         failCrashed();
     }

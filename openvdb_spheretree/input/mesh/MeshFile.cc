@@ -15,6 +15,7 @@
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/math/BBox.h>
+#include <openvdb/math/Coord.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,6 @@ using detail::PolygonSoup;
 using openvdb::IoError;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
-using openvdb::Vec3s;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -71,49 +71,49 @@ std::string contentsOf(const std::string& path)
         + " bytes: it was cut while it was read");
 }
 
-struct ExactHash {
-    std::size_t operator()(const Vec3s& p) const
+struct CoordHash {
+    std::size_t operator()(const openvdb::Coord& place) const
     {
         std::uint64_t hash = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            std::uint32_t bits;
-            std::memcpy(&bits, p.asPointer() + axis, sizeof(bits));
-            hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
+            hash = (hash ^ std::uint32_t(place[axis])) * 0x9E3779B97F4A7C15u;
             hash ^= hash >> 29;
         }
         return static_cast<std::size_t>(hash);
     }
 };
 
-/// @return the middle of the corners' box.
-Vec3d middleOf(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
+/// @return the box of the triangles' corners.
+openvdb::BBoxd boxOf(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
 {
     openvdb::BBoxd box;
     for (const Vec3I& triangle : triangles) {
         for (int i = 0; i < 3; ++i) box.expand(points[triangle[i]]);
     }
-    return triangles.empty() ? Vec3d(0) : box.getCenter();
+    return box;
 }
 
-/// Joins points that are the same as floats are, measured from the middle of the mesh, as programs write one point in
-/// several ways; drops triangles that this makes a line or a point, and keeps the points that are left in use, in order
-/// of their first use.
+/// Joins points that are one in 24 bits of the mesh's size, as programs write one corner in several ways; drops triangles
+/// that this makes a line or a point, and keeps the points that are left in use, in order of their first use.
 void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, TriangleMesh& mesh)
 {
-    const Vec3d middle = middleOf(points, triangles);
-    std::unordered_map<Vec3s, std::uint32_t, ExactHash> numbers;
+    const openvdb::BBoxd box = boxOf(points, triangles);
+    const Vec3d sides = box.extents(), middle = box.getCenter();
+    const double unit = 0x1p-24 * std::max({sides[0], sides[1], sides[2]});
+    if (!(unit > 0)) return; // all are at one place
+    std::unordered_map<openvdb::Coord, std::uint32_t, CoordHash> numbers;
     numbers.reserve(points.size());
     for (const Vec3I& triangle : triangles) {
-        Vec3s places[3];
+        openvdb::Coord places[3];
         for (int i = 0; i < 3; ++i) {
-            places[i] = Vec3s(points[triangle[i]] - middle) + Vec3s(0); // -0 becomes 0
+            places[i] = openvdb::Coord::round((points[triangle[i]] - middle) / unit);
         }
         if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
         Vec3I joined;
         for (int i = 0; i < 3; ++i) {
             const auto number = std::uint32_t(mesh.points.size());
             const auto [it, isNew] = numbers.try_emplace(places[i], number);
-            if (isNew) mesh.points.push_back(points[triangle[i]] + Vec3d(0)); // as above
+            if (isNew) mesh.points.push_back(points[triangle[i]] + Vec3d(0)); // -0 becomes 0
             joined[i] = it->second;
         }
         mesh.triangles.push_back(joined);
