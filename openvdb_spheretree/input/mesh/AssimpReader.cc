@@ -86,7 +86,8 @@ private:
 
 bool isNear(const openvdb::Vec3d& p)
 {
-    return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) <= kFarthestPoint;
+    const auto isOne = [](double x) { return std::abs(x) <= kFarthestPoint; }; // NaN is none
+    return isOne(p[0]) && isOne(p[1]) && isOne(p[2]);
 }
 
 /// In doubles, as far places are small differences of floats.

@@ -133,7 +133,8 @@ TriangleMesh toTriangles(const PolygonSoup& soup)
     TriangleMesh mesh;
     if (triangles.empty()) throw IoError("the file holds no triangle");
     weld(soup.points, triangles, mesh);
-    if (mesh.triangles.empty()) throw IoError("each of its triangles has two corners at one place");
+    if (mesh.triangles.empty())
+        throw IoError("the file holds no triangle but those with two corners at one place");
     return mesh;
 }
 
