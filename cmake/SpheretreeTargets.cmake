@@ -31,7 +31,8 @@ endfunction()
 # parsed once a target, and no file compiles the trees of masks again (voxel/Masks.h). The whole of
 # <openvdb/openvdb.h> is not among them: its maps leave 80 KB of code in each file that sees it. Further
 # arguments are headers of the target's own. Sources include what they use all the same:
-# SPHERETREE_PRECOMPILE=OFF builds without. Grids of other types are compiled once, too, for targets that have no kernels.
+# SPHERETREE_PRECOMPILE=OFF builds without. Grids of other types are compiled once, too, for targets that have no kernels
+# (in the library, for the files that include the header).
 set(SPHERETREE_GRID_TEMPLATES "${PROJECT_SOURCE_DIR}/openvdb_spheretree/voxel/GridTemplates.h")
 function(spheretree_precompile target)
     if(NOT SPHERETREE_PRECOMPILE)

@@ -15,7 +15,7 @@
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/TextStream.h>
-#include <openvdb_spheretree/voxel/GridTemplates.h>
+#include <openvdb_spheretree/voxel/GridTemplates.h> // compiles in half the time
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/NodeBytes.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>

@@ -14,7 +14,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
-#include <openvdb_spheretree/voxel/GridTemplates.h>
+#include <openvdb_spheretree/voxel/GridTemplates.h> // compiles in half the time
 #include <openvdb_spheretree/voxel/LeafMask.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>

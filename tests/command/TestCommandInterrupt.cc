@@ -4,6 +4,7 @@
 #include "CommandRunner.h"
 
 #include <chrono>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -51,8 +52,11 @@ TEST_F(CommandInterrupt, LeavesIgnoredSignalsIgnored)
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         Running command = start(
             {"-config", "silent", "-print"}, "/dev/null", [number] { signal(number, SIG_IGN); });
-        command_test::writeText(path("silent"), "quiet\n"); // waits for the command to open it
+        std::ofstream pipe(path("silent")); // waits for the command to open it
         command.send(number);
+        std::this_thread::sleep_for(std::chrono::milliseconds(200)); // in which a stop would end it
+        pipe << "quiet\n";
+        pipe.close();
         const Result result = command.wait();
         EXPECT_EQ(result.exitCode, 0) << result.err;
     }

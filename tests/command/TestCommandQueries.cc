@@ -400,6 +400,13 @@ TEST_F(CommandQueries, FilesOfQuestionsAreNamedWithTheirLine)
     const Result far = run("-read t.vdb -distance vdb=0,0 poses=far.csv");
     EXPECT_EQ(far.exitCode, 3);
     EXPECT_TRUE(mentions(far.err, "-distance: pose 1: ")) << far.err;
+    std::string table(400, '\n');
+    for (int i = 0; i < 400; ++i) table += i < 200 ? "0,0,0\n" : "1e150,0,0\n";
+    writeText(path("far.csv"), table);
+    for (int run = 0; run < 5; ++run) { // whichever thread finds one first
+        const Result first = this->run("-read t.vdb -distance vdb=0,0 poses=far.csv");
+        EXPECT_TRUE(mentions(first.err, "-distance: pose 200: ")) << first.err;
+    }
     writeText(path("mirror.csv"), "-1 0 0 0 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(mentions(run("-read t.vdb -collide vdb=0,0 poses=mirror.csv").err, "mirrors"));
 }

@@ -15,8 +15,11 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -43,21 +46,53 @@ inline auto numbered(const char* what)
     return [what](std::size_t i) { return what + (" " + std::to_string(i)); };
 }
 
+/// The first error of questions that are asked in parallel, whichever came first.
+class FirstError {
+public:
+    /// @return where it is; the largest number if there is none.
+    std::size_t place() const { return mPlace; }
+    /// Notes the exception that is being handled.
+    void note(std::size_t place)
+    {
+        const std::lock_guard<std::mutex> lock(mMutex);
+        if (place >= mPlace) return;
+        mPlace = place;
+        mError = std::current_exception();
+    }
+    /// @throw CommandError (input) that begins with @a where; there must be an error
+    [[noreturn]] void rethrow(const std::string& where) const
+    {
+        try {
+            std::rethrow_exception(mError);
+        } catch (...) {
+            rethrowNamed(where, kInput);
+        }
+    }
+
+private:
+    std::mutex mMutex;
+    std::atomic<std::size_t> mPlace{SIZE_MAX};
+    std::exception_ptr mError;
+};
+
 /// @param name  of the number of a question: what it is asked of, such as "pose 3". Messages say it, if there are several
 /// @param ask   of the number of a question
 /// @return the answers, asked in parallel
-/// @throw CommandError (input) if one cannot be given
+/// @throw CommandError (input) if one cannot be given: the first of them
 template <typename Result, typename Name, typename Ask>
 std::vector<Result> answersOf(std::size_t count, const Name& name, Session& session, const Ask& ask)
 {
     std::vector<Result> results(count);
+    FirstError error;
     openvdb_spheretree::detail::parallelFor(count, &session.progress, [&](std::size_t i) {
+        if (i > error.place()) return;
         try {
             results[i] = ask(i);
         } catch (const openvdb::ValueError&) {
-            rethrowNamed(count == 1 ? "" : name(i), kInput);
+            error.note(i);
         }
     });
+    if (error.place() < count) error.rethrow(count == 1 ? "" : name(error.place()));
     return results;
 }
 

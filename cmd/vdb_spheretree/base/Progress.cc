@@ -46,11 +46,11 @@ void catchSignals()
     struct sigaction action = {};
     action.sa_handler = stopBySignal; // without SA_RESTART: a read that waits is to come back
     sigemptyset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before = {};
-        sigaction(signal, nullptr, &before);
+        sigaction(number, nullptr, &before);
         // What is ignored stays so: nohup, and Ctrl-C of what a script runs in the background.
-        if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+        if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
     }
     endOverdueStops();
     std::signal(SIGPIPE, SIG_IGN);

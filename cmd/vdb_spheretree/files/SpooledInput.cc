@@ -16,8 +16,8 @@ namespace command {
 void throwEmptyInput(const std::string& name)
 {
     throwInput(name
-        + ": the input is empty: standard input is closed, or the command before "
-          "this one has written nothing");
+        + ": the input is empty: standard input is closed or has nothing in it, or the "
+          "command before this one has written nothing");
 }
 
 SpooledInput::SpooledInput(const std::string& name)

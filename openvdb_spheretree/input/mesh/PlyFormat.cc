@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 
 namespace openvdb_spheretree::detail {
@@ -43,13 +44,20 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// @return the index of the property of this name, or -1.
-    int find(const char* property) const
+    /// @return the index of the property of one of these names, or -1. @throw openvdb::IoError if there are two: nobody
+    /// could say which is meant
+    int find(std::initializer_list<const char*> names) const
     {
+        int found = -1;
         for (std::size_t i = 0; i < properties.size(); ++i) {
-            if (properties[i].name == property) return int(i);
+            if (std::find(names.begin(), names.end(), properties[i].name) == names.end()) continue;
+            if (found >= 0) {
+                throw IoError("the property " + inQuotes(properties[i].name) + " of element "
+                    + inQuotes(name) + " is there twice");
+            }
+            found = int(i);
         }
-        return -1;
+        return found;
     }
 };
 
@@ -89,16 +97,6 @@ Encoding encodingOf(MeshText& text)
     text.fail(inQuotes(format) + " is no format of PLY");
 }
 
-/// @throw openvdb::IoError if one of them has the name of the next: nobody could say which is meant
-template <typename Named>
-void requireNewName(const MeshText& text, const std::vector<Named>& named, const std::string& name,
-    const char* what)
-{
-    for (const Named& other : named) {
-        if (other.name == name) text.fail(what + inQuotes(name) + " is there twice");
-    }
-}
-
 PlyElement elementOf(MeshText& text)
 {
     const std::string_view name = text.word();
@@ -134,21 +132,23 @@ PlyHeader headerOf(MeshText& text)
         if (word == "end_header") break;
         if (word.empty() || word == "comment" || word == "obj_info") continue;
         if (word == "format") {
+            if (header.encoding != Encoding::kNone) text.fail("a second line 'format'");
             header.encoding = encodingOf(text);
         } else if (word == "element") {
-            PlyElement element = elementOf(text);
-            requireNewName(text, header.elements, element.name, "the element ");
-            header.elements.push_back(std::move(element));
+            header.elements.push_back(elementOf(text));
         } else if (word == "property" && !header.elements.empty()) {
-            std::vector<PlyProperty>& properties = header.elements.back().properties;
-            PlyProperty property = propertyOf(text);
-            requireNewName(text, properties, property.name, "the property ");
-            properties.push_back(std::move(property));
+            header.elements.back().properties.push_back(propertyOf(text));
         } else {
             text.fail(inQuotes(word) + " does not belong in a PLY header");
         }
     }
     if (header.encoding == Encoding::kNone) text.fail("the header has no line 'format'");
+    for (const char* name : {"vertex", "face"}) {
+        const auto isIt = [&](const PlyElement& element) { return element.name == name; };
+        if (std::count_if(header.elements.begin(), header.elements.end(), isIt) > 1) {
+            text.fail(std::string("the element '") + name + "' is there twice");
+        }
+    }
     return header;
 }
 
@@ -242,7 +242,7 @@ void skip(PlyValues& values, const PlyElement& element)
 
 void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
 {
-    const std::array<int, 3> axes = {element.find("x"), element.find("y"), element.find("z")};
+    const std::array<int, 3> axes = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
     for (const int axis : axes) {
         if (axis < 0 || element.properties[axis].countType.bytes > 0) {
             values.fail("element 'vertex' needs the properties x, y, z");
@@ -269,7 +269,7 @@ void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& sou
 /// The vertices may follow, so corners are not compared to their number yet.
 void readFaces(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
 {
-    const int list = std::max(element.find("vertex_indices"), element.find("vertex_index"));
+    const int list = element.find({"vertex_indices", "vertex_index"});
     if (list < 0 || element.properties[list].countType.bytes == 0
         || element.properties[list].type.kind == Kind::kReal) {
         values.fail("element 'face' needs a list of whole numbers, vertex_indices");

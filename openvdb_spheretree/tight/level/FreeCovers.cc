@@ -24,7 +24,7 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto& [many, larger] = *mCovers.lower_bound(count);
         const bool isStart = many == mStart;
         const Next found = next(many, count, isStart, mMaker);
-        Cover made{isStart ? mergedStart(found.count) : merged(larger.balls, false, found.count),
+        Cover made{isStart ? mergedStart(found) : merged(larger.balls, false, found.count),
             found.count > count};
         if (found.isPlaced) made.balls = placed(made.balls, made.isBetween);
         mCovers[found.count] = std::move(made);
@@ -42,23 +42,28 @@ FreeCovers::Next FreeCovers::next(
     constexpr int64_t kFirst = 512;
     const int64_t first = std::max(maker.firstTowards(count), kFirst);
     const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
-    return {next, maker.placesStart || !isStart || next <= kFirst};
+    return {next, maker.placesStart || !isStart || next <= kFirst,
+        isStart ? maker.dilatedFor(many, next) : 0};
 }
 
-std::vector<ExactSphere> FreeCovers::mergedStart(int64_t count) const
+std::vector<ExactSphere> FreeCovers::mergedStart(const Next& next) const
 {
+    const FittedBalls few = next.dilated > 0 ? dilatedStart(next) : FittedBalls();
+    if (few.balls.empty()) return merged(mCovers.at(mStart).balls, mAreInside, next.count);
+    return ballsOf(mMaker.merged(ungrouped(few.balls), few.points, false, next.count));
+}
+
+FreeCovers::FittedBalls FreeCovers::dilatedStart(const Next& next) const
+{
+    const detail::Step step(mMaker.interrupter, LevelWork(mMaker).ofDilating(mStart, next.dilated));
     const std::vector<ExactSphere>& start = mCovers.at(mStart).balls;
-    const int64_t few = mMaker.dilatedFor(count);
-    if (mStart <= few) return merged(start, mAreInside, count);
-    HeldPoints points;
-    const auto fitted = [&] {
-        const detail::Step step(mMaker.interrupter, LevelWork(mMaker).ofDilating(mStart));
-        const SampleLevel& voxels = mMaker.object.level(0);
-        const auto dilated = dilatedCover(start, few, count, voxels, mMaker.interrupter);
-        points = powerCellPoints(dilated, voxels, mMaker.interrupter);
-        return mMaker.fitted(dilated, points);
-    }();
-    return ballsOf(mMaker.merged(ungrouped(fitted), points, false, count));
+    const SampleLevel& voxels = mMaker.object.level(0);
+    const auto dilated = dilatedCover(start, next.dilated, next.count, voxels, mMaker.interrupter);
+    if (dilated.size() == start.size()) return {};
+    FittedBalls few;
+    few.points = powerCellPoints(dilated, voxels, mMaker.interrupter);
+    few.balls = mMaker.fitted(dilated, few.points);
+    return few;
 }
 
 std::vector<ExactSphere> FreeCovers::merged(

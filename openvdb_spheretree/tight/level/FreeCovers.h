@@ -2,7 +2,7 @@
 /// @file FreeCovers.h
 /// @brief Covers of the object with ever fewer balls, each bound to no other one.
 ///
-/// The first cover is of few of the start's balls, dilated (DilatedCover.h) and fitted to their power cells. Then, by
+/// Of a start of many balls few are taken at once, dilated (DilatedCover.h) and fitted to their power cells. Then, by
 /// turns, balls are merged and placed anew:
 /// 1. Each ball has to hold its power cell, and neighbours are merged to about half as many (MergeForest.h).
 /// 2. Each ball of the new cover is placed anew for the voxels that it alone holds: twice on the way, and until
@@ -40,14 +40,22 @@ public:
     struct Next {
         int64_t count; ///< of its balls, at most
         bool isPlaced; ///< whether they are placed anew
+        int64_t
+            dilated; ///< to about how many balls those of the start are dilated and pruned before; 0: they are not
     };
     /// @param many     balls of the cover that is there, more than @a count
     /// @param isStart  whether that is the start
     static Next next(int64_t many, int64_t count, bool isStart, const LevelMaker& maker);
 
 private:
-    /// @return the balls of the start, of which there are more, dilated and merged to @a count.
-    std::vector<ExactSphere> mergedStart(int64_t count) const;
+    struct FittedBalls {
+        std::vector<ExactSphere> balls;
+        HeldPoints points; ///< extreme ones of the power cell that each is fitted to
+    };
+    /// @return the next cover after the start, not placed yet.
+    std::vector<ExactSphere> mergedStart(const Next& next) const;
+    /// @return of the start's balls some, dilated and fitted to power cells; none if all would be left.
+    FittedBalls dilatedStart(const Next& next) const;
     /// Each ball has to hold its power cell.
     std::vector<ExactSphere> merged(
         const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;

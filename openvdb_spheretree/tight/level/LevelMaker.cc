@@ -83,6 +83,14 @@ std::vector<CoverBall> LevelMaker::placedBetween(
     return quick.placed(cover, goal);
 }
 
+int64_t LevelMaker::dilatedFor(int64_t leafBalls, int64_t count) const
+{
+    constexpr int64_t kLeast = 4096; // to merge fewer takes little time
+    constexpr double kWorth = 1.5;   // times as many: else little is saved
+    const auto few = std::max(kLeast, int64_t(dilatedPerBall * double(count)));
+    return double(leafBalls) > kWorth * double(few) ? few : 0;
+}
+
 std::vector<ExactSphere> LevelMaker::fitted(
     const std::vector<ExactSphere>& balls, const HeldPoints& points) const
 {
@@ -164,6 +172,7 @@ LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject
         maker.searchedUpTo = INT64_MAX;
         maker.searches = 6;
         maker.trialsPerBall = 40;
+        maker.dilatedPerBall = 4;
     }
     return maker;
 }

@@ -36,8 +36,8 @@ struct LevelMaker {
     /// Leaf balls are merged at once to half as many more as are asked for, and these placed anew; else
     /// to as many, and not placed.
     bool placesStart = true;
-    /// Before they are merged, leaf balls are dilated and pruned (DilatedCover.h) to about so many times as many as they
-    /// are merged to.
+    /// Many leaf balls are dilated and pruned (DilatedCover.h) to about so many times as many as they are merged to then:
+    /// dilatedFor().
     double dilatedPerBall = 1.33;
     int64_t memory = 0; ///< as of SphereTreeSettings
     /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
@@ -65,14 +65,12 @@ struct LevelMaker {
         const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
     /// @return how many balls leaf balls are merged to at once, on the way to @a count.
     int64_t firstTowards(int64_t count) const { return placesStart ? count + count / 2 : count; }
-    /// @return to about how many balls leaf balls are dilated and pruned before they are merged to @a count.
-    int64_t dilatedFor(int64_t count) const
-    {
-        constexpr int64_t kLeast = 4096; // to merge fewer takes little time
-        return std::max(kLeast, int64_t(dilatedPerBall * double(count)));
-    }
-    /// @param points  that each ball has to hold, if any
-    /// @return the balls that hold the points with the least cost that is found, each by itself.
+    /// @return to about how many balls @a leafBalls are dilated and pruned before they are merged to @a count; 0: they
+    /// are merged as they are, as there are not many more.
+    int64_t dilatedFor(int64_t leafBalls, int64_t count) const;
+    /// @param points  that each ball has to hold; if there are none, it stays
+    /// @return the balls that hold the points with the least cost that is found, each by itself; counted on samples, none
+    /// costs more than before.
     std::vector<ExactSphere> fitted(
         const std::vector<ExactSphere>& balls, const HeldPoints& points) const;
     /// @param balls      balls of different groups never merge

@@ -3,6 +3,7 @@
 
 #include "FreeCovers.h"
 #include "TopDownLevels.h"
+#include <openvdb_spheretree/tight/region/DilatedCover.h>
 
 #include <algorithm>
 
@@ -14,7 +15,11 @@ double LevelWork::ofMerging(int64_t balls, int64_t count) const
     return perMerge * double(std::max<int64_t>(0, balls - count));
 }
 
-double LevelWork::ofDilating(int64_t balls) const { return 10e-6 * double(balls) + 2e-6 * mLeaves; }
+double LevelWork::ofDilating(int64_t balls, int64_t few) const
+{
+    constexpr double kPruning = 10e-6, kLeaf = 2e-6, kFit = 40e-6;
+    return kPruning * double(balls) + kLeaf * mLeaves + kFit * double(few);
+}
 
 double LevelWork::ofPlacing(int64_t balls, bool isBetween) const
 {
@@ -42,9 +47,10 @@ double LevelWork::ofMoves(int64_t children) const
 
 double LevelWork::ofFreeCover(int64_t start, int64_t count) const
 {
-    const int64_t first = FreeCovers::next(start, count, true, mMaker).count;
-    double work = ofMerging(std::min(start, mMaker.dilatedFor(first)), count);
-    if (start > mMaker.dilatedFor(first)) work += ofDilating(start);
+    const FreeCovers::Next first = FreeCovers::next(start, count, true, mMaker);
+    const int64_t few = std::max(first.dilated, start / kMostPerDilated);
+    double work = first.dilated > 0 ? ofDilating(start, few) + ofMerging(few, count)
+                                    : ofMerging(start, count);
     for (int64_t many = start; many > count;) {
         const FreeCovers::Next next = FreeCovers::next(many, count, many == start, mMaker);
         if (next.isPlaced) work += ofPlacing(next.count, next.count > count);

@@ -26,7 +26,8 @@ public:
 
     /// @name Of the steps of a LevelMaker, and of FreeCovers
     /// @{
-    double ofDilating(int64_t balls) const;
+    /// @param few  of the dilated cover, about
+    double ofDilating(int64_t balls, int64_t few) const;
     double ofMerging(int64_t balls, int64_t count) const;
     double ofPlacing(int64_t balls, bool isBetween = false) const;
     double ofSearch(int64_t balls) const;

@@ -55,7 +55,7 @@ std::vector<std::vector<LastHeld>> lastHeldOf(const std::vector<ExactSphere>& ba
 
 } // namespace
 
-std::vector<int32_t> prunedBalls(const std::vector<ExactSphere>& cover, const SampleLevel& object,
+std::vector<int32_t> prunedBalls(std::vector<ExactSphere> cover, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<int32_t> order(cover.size());
@@ -63,7 +63,9 @@ std::vector<int32_t> prunedBalls(const std::vector<ExactSphere>& cover, const Sa
     std::stable_sort(order.begin(), order.end(),
         [&](int32_t a, int32_t b) { return cover[a].radiusSq < cover[b].radiusSq; });
     std::vector<ExactSphere> balls;
+    balls.reserve(cover.size());
     for (const int32_t i : order) balls.push_back(cover[i]);
+    std::vector<ExactSphere>().swap(cover); // there may be very many
     const auto lastHeld = lastHeldOf(balls, object, interrupter);
 
     struct Part {

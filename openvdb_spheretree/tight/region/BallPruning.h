@@ -3,8 +3,8 @@
 /// @brief A cover without the balls whose voxels all lie in others: of medial balls, the leaf balls of a tight tree.
 ///
 /// Balls are tested one after the other, the smallest first. A ball is dropped if each of its voxels is
-/// in another ball that is still there. What is left rebuilds the object exactly, with less than half
-/// of the balls (Al.100: 1762 of 4127), and every ball has a voxel of its own.
+/// in another ball that is still there. What is left covers the object, and every ball has a
+/// voxel of its own. Of medial balls less than half are left (Al.100: 1762 of 4127).
 ///
 /// A ball is tested while all later ones are still there. So a voxel can make a ball necessary only if
 /// no later ball holds it, and no earlier one that was kept.
@@ -26,9 +26,9 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @param balls  that cover @a object; what they hold beside it does not count
+/// @param cover  balls that cover @a object; what they hold beside it does not count
 /// @return the indices of the balls to keep, ascending.
-std::vector<int32_t> prunedBalls(const std::vector<ExactSphere>& balls, const SampleLevel& object,
+std::vector<int32_t> prunedBalls(std::vector<ExactSphere> cover, const SampleLevel& object,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::tight

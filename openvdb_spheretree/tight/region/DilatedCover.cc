@@ -12,15 +12,13 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Dilated by more, balls lose what they follow.
-constexpr double kMost = 1; // voxels
-
 /// @return by how much balls are dilated so that one in @a ratio is left, in 1/16 voxel. It was measured for models,
 /// scans and thin structures: 1 + 3 x + x^2 for x voxels, within a fifth of it.
 int64_t dilationFor(double ratio)
 {
-    const double voxels = (std::sqrt(5 + 4 * ratio) - 3) / 2;
-    return std::llround(double(kFine) * std::clamp(voxels, 0.0, kMost));
+    const double most = double(kMostPerDilated);
+    const double voxels = (std::sqrt(5 + 4 * std::clamp(ratio, 1.0, most)) - 3) / 2;
+    return std::llround(double(kFine) * voxels);
 }
 
 std::vector<ExactSphere> dilated(const std::vector<ExactSphere>& balls, int64_t by)
@@ -43,6 +41,7 @@ std::vector<ExactSphere> dilatedCover(const std::vector<ExactSphere>& balls, int
         const std::vector<ExactSphere> large = dilated(balls, by);
         std::vector<ExactSphere> cover;
         for (const int32_t i : prunedBalls(large, object, interrupter)) cover.push_back(large[i]);
+        if (cover.size() == balls.size()) break;
         if (int64_t(cover.size()) >= least) return cover;
     }
     return balls;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace openvdb_spheretree::tight {
 
@@ -60,14 +61,13 @@ void requireCovering(const std::vector<ExactSphere>& balls, const FlatAxis& flat
 LeafBalls medialLeaves(const MedialLevel& level, const SampleLevel& object, Leaves which,
     openvdb::util::NullInterrupter* interrupter)
 {
-    LeafBalls all;
-    all.digital = level.balls;
-    for (const MedialBall& ball : all.digital) all.balls.push_back(fineBall(ball));
-    if (which == Leaves::Medial) return all;
+    std::vector<ExactSphere> balls;
+    for (const MedialBall& ball : level.balls) balls.push_back(fineBall(ball));
+    if (which == Leaves::Medial) return {std::move(balls), level.balls};
     LeafBalls leaves;
-    for (const int32_t i : prunedBalls(all.balls, object, interrupter)) {
-        leaves.balls.push_back(all.balls[i]);
-        leaves.digital.push_back(all.digital[i]);
+    for (const int32_t i : prunedBalls(std::move(balls), object, interrupter)) {
+        leaves.balls.push_back(fineBall(level.balls[i]));
+        leaves.digital.push_back(level.balls[i]);
     }
     return leaves;
 }

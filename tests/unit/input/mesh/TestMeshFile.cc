@@ -265,10 +265,17 @@ TEST(MeshFile, RejectsHeadersItDoesNotUnderstand)
     // Nobody could say which of the two is meant.
     EXPECT_TRUE(mentions(
         errorOf("a.ply", replaced(plyCube(), "element face", "property float x\nelement face")),
-        "the property 'x' is there twice"));
+        "the property 'x' of element 'vertex' is there twice"));
     EXPECT_TRUE(mentions(
         errorOf("a.ply", replaced(plyCube(), "end_header", "element vertex 0\nend_header")),
         "the element 'vertex' is there twice"));
+    EXPECT_TRUE(mentions(errorOf("a.ply",
+                             replaced(plyCube(), "property list",
+                                 "property list uchar int vertex_index\nproperty list")),
+        "there twice"));
+    EXPECT_NE("", errorOf("a.ply", replaced(plyCube(), "comment", "format ascii 1.0\ncomment")));
+    const std::string unused = "element edge 0\nproperty int a\nproperty int a\nelement edge 0\n";
+    EXPECT_EQ("", errorOf("a.ply", replaced(plyCube(), "element face", unused + "element face")));
     EXPECT_NE("", errorOf("a.stl", std::string(300, 'x')));
     EXPECT_NE("", errorOf("a.obj", std::string("\x89PNG\r\n\x1a\n") + std::string(100, '\0')));
 }

@@ -39,12 +39,12 @@ TEST(FreeCovers, AreTheStartWhereThatIsNoLarger)
 TEST(FreeCovers, OfManyLeafBallsBeginWithDilatedOnes)
 {
     Random random(5);
-    const Voxels voxels = shapes::noise(Coord(44, 40, 30), 0.8, random);
+    const Voxels voxels = shapes::noise(Coord(50, 44, 34), 0.8, random);
     const SampledObject object = sampled(voxels);
     std::vector<ExactSphere> leaves;
     for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
     const LevelMaker maker{object, {false, 4, 1, false, 16}, false, nullptr};
-    ASSERT_GT(int64_t(leaves.size()), maker.dilatedFor(1050)); // of 700, half as many more
+    ASSERT_GT(maker.dilatedFor(int64_t(leaves.size()), 1050), 0); // of 700, half as many more
     LevelMaker without(maker);
     without.dilatedPerBall = 100;
     FreeCovers free(leaves, true, maker), plain(leaves, true, without);

@@ -73,8 +73,9 @@ TEST(DilatedCover, IsOfBallsDilatedByOneLengthAndPruned)
             const auto cover =
                 dilatedCover(merged.leaves, all / part, 1, merged.object.level(0), nullptr);
             EXPECT_EQ(heldBy(cover, merged.voxels), merged.voxels);
-            EXPECT_LT(int64_t(cover.size()), part < 5 ? all + 1 : all); // by little none may go
-            EXPECT_GT(dilationOf(cover, merged.leaves, merged.voxels), 0);
+            if (cover != merged.leaves)
+                EXPECT_GT(dilationOf(cover, merged.leaves, merged.voxels), 0);
+            else EXPECT_LT(part, 5); // dilated by little, all may be needed
         }
     }
 }
