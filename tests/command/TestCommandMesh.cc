@@ -65,7 +65,7 @@ TEST_F(CommandMesh, TellsOfAMeshThatIsThinnerThanAVoxelAltogether)
     write("plate.obj", boxMesh(Vec3d(0.1), Vec3d(60, 50, 0.3)));
     const Result result = run("-read plate.obj -mesh2ls dim=40 -spheretree -write t.vdb");
     EXPECT_EQ(3, result.exitCode);
-    EXPECT_TRUE(has(result.err, "holds no center of a voxel of 1.497")) << result.err;
+    EXPECT_TRUE(has(result.err, "holds no center of a voxel of 1.498")) << result.err;
     EXPECT_TRUE(has(result.err, "cover=1")) << result.err;
     EXPECT_EQ(0, run("-read plate.obj -mesh2ls dim=40 cover=1 -spheretree -write t.vdb").exitCode);
 }

@@ -14,10 +14,9 @@
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
-#include <openvdb/math/BBox.h>
-#include <openvdb/math/Coord.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -71,43 +70,52 @@ std::string contentsOf(const std::string& path)
         + " bytes: it was cut while it was read");
 }
 
-struct CoordHash {
-    std::size_t operator()(const openvdb::Coord& place) const
+/// A point in steps of the coordinates' rounding.
+using Place = std::array<int64_t, 3>;
+
+struct PlaceHash {
+    std::size_t operator()(const Place& place) const
     {
         std::uint64_t hash = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            hash = (hash ^ std::uint32_t(place[axis])) * 0x9E3779B97F4A7C15u;
+        for (const int64_t step : place) {
+            hash = (hash ^ std::uint64_t(step)) * 0x9E3779B97F4A7C15u;
             hash ^= hash >> 29;
         }
         return static_cast<std::size_t>(hash);
     }
 };
 
-/// @return the box of the triangles' corners.
-openvdb::BBoxd boxOf(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
+/// @return 2^-36 of the largest coordinate along each axis: what programs that compute a corner in several ways differ
+/// by is less, and what a mesh shows is more.
+Vec3d roundingOf(const std::vector<Vec3d>& points)
 {
-    openvdb::BBoxd box;
-    for (const Vec3I& triangle : triangles) {
-        for (int i = 0; i < 3; ++i) box.expand(points[triangle[i]]);
+    Vec3d largest(0);
+    for (const Vec3d& point : points) {
+        for (int axis = 0; axis < 3; ++axis) {
+            largest[axis] = std::max(largest[axis], std::abs(point[axis]));
+        }
     }
-    return box;
+    return 0x1p-36 * largest;
 }
 
-/// Joins points that are one in 24 bits of the mesh's size, as programs write one corner in several ways; drops triangles
-/// that this makes a line or a point, and keeps the points that are left in use, in order of their first use.
+/// Joins points that are the same but for rounding, drops triangles that this makes a line or a point, and keeps the points
+/// that are left in use, in order of their first use.
 void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, TriangleMesh& mesh)
 {
-    const openvdb::BBoxd box = boxOf(points, triangles);
-    const Vec3d sides = box.extents(), middle = box.getCenter();
-    const double unit = 0x1p-24 * std::max({sides[0], sides[1], sides[2]});
-    if (!(unit > 0)) return; // all are at one place
-    std::unordered_map<openvdb::Coord, std::uint32_t, CoordHash> numbers;
+    const Vec3d rounding = roundingOf(points);
+    const auto placeOf = [&](const Vec3d& point) {
+        Place place{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double step = rounding[axis];
+            if (step > 0) place[std::size_t(axis)] = std::llround(point[axis] / step);
+        }
+        return place;
+    };
+    std::unordered_map<Place, std::uint32_t, PlaceHash> numbers;
     numbers.reserve(points.size());
     for (const Vec3I& triangle : triangles) {
-        openvdb::Coord places[3];
-        for (int i = 0; i < 3; ++i) {
-            places[i] = openvdb::Coord::round((points[triangle[i]] - middle) / unit);
-        }
+        Place places[3];
+        for (int i = 0; i < 3; ++i) places[i] = placeOf(points[triangle[i]]);
         if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
         Vec3I joined;
         for (int i = 0; i < 3; ++i) {

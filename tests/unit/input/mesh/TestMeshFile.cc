@@ -411,18 +411,27 @@ TEST(MeshFile, ReadsCoordinatesAsTheyAreFarFromTheOrigin)
 /// Programs that compute in doubles write one corner in several ways.
 TEST(MeshFile, JoinsPointsThatDifferByRounding)
 {
-    for (const char* from : {"0", "5400000"}) {
-        const std::string corner = from + std::string(".3 "),
-                          other = from + std::string(".30000000001 ");
+    const std::pair<std::string, std::string> ways[] = {
+        {"0.3 ", "0.30000000000001 "}, {"5400000.3 ", "5400000.3000001 "}};
+    for (const auto& [corner, other] : ways) {
         const TriangleMesh mesh = read("near.obj",
             "v " + corner + "0 0\nv " + corner + "1 0\nv " + corner + "0 1\nv " + other + "0 0\nv "
                 + other + "1 0\nv " + corner + "0 -1\nv " + corner
                 + "0.001 0\nf 1 2 3\nf 5 4 6\nf 1 4 3\nf 1 7 3\n");
-        EXPECT_EQ(5u, mesh.points.size()) << from; // 0.001 is no rounding
-        EXPECT_EQ(3u, mesh.triangles.size()) << "one of a corner twice is none";
+        EXPECT_EQ(5u, mesh.points.size()) << corner; // 0.001 is no rounding
+        EXPECT_EQ(3u, mesh.triangles.size());        // one with a corner twice is none
         EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][1]);
         EXPECT_EQ(mesh.triangles[0][1], mesh.triangles[1][0]);
     }
+}
+
+/// A corner that lies far away must not join small ones.
+TEST(MeshFile, KeepsSmallTrianglesBesideALongOne)
+{
+    const TriangleMesh mesh = read(
+        "long.obj", "v 0 0 0\nv 0.001 0 0\nv 0 0.001 0\nv 1e6 0 0\nv 0 1e6 0\nf 1 2 3\nf 1 4 5\n");
+    EXPECT_EQ(2u, mesh.triangles.size());
+    EXPECT_EQ(5u, mesh.points.size());
 }
 
 TEST(MeshFile, SaysThatTrianglesHaveNoArea)
