@@ -10,6 +10,7 @@
 #include <openvdb/math/Vec3.h>
 #include <openvdb/util/NullInterrupter.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,10 +20,18 @@ namespace openvdb_spheretree {
 /// The largest coordinate of a mesh: products of several are doubles.
 constexpr double kFarthestPoint = 3.4e38;
 
+/// @return whether a mesh may have this coordinate: it is finite, and not beyond kFarthestPoint.
+inline bool isMeshCoordinate(double x) { return std::abs(x) <= kFarthestPoint; } // NaN is none
+/// @return whether each coordinate is one.
+inline bool isMeshPoint(const openvdb::Vec3d& p)
+{
+    return isMeshCoordinate(p[0]) && isMeshCoordinate(p[1]) && isMeshCoordinate(p[2]);
+}
+
 /// Triangles in world space.
 struct TriangleMesh {
     std::string name;
-    std::vector<openvdb::Vec3d> points; ///< finite, and not beyond kFarthestPoint
+    std::vector<openvdb::Vec3d> points; ///< isMeshPoint()
     std::vector<openvdb::Vec3I> triangles;
 };
 

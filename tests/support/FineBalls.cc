@@ -62,6 +62,13 @@ std::vector<ExactSphere> randomBalls(int count, Random& random, int low, int hig
     return balls;
 }
 
+std::vector<ExactSphere> fineBalls(const std::vector<openvdb_spheretree::MedialBall>& balls)
+{
+    std::vector<ExactSphere> fine;
+    for (const auto& ball : balls) fine.push_back(openvdb_spheretree::tight::fineBall(ball));
+    return fine;
+}
+
 SampledObject sampled(const Voxels& voxels)
 {
     return SampledObject(openvdb_spheretree::LeafLayout(*maskOf(voxels)));

@@ -43,6 +43,9 @@ ExactSphere randomBall(Random& random, int low, int high, int radius);
 
 std::vector<ExactSphere> randomBalls(int count, Random& random, int low, int high, int radius);
 
+/// The same balls in 1/16 voxel.
+std::vector<ExactSphere> fineBalls(const std::vector<openvdb_spheretree::MedialBall>& balls);
+
 SampledObject sampled(const Voxels& voxels);
 
 bool contains(const Voxels& voxels, const Coord& voxel);

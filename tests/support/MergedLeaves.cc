@@ -12,7 +12,7 @@ MergedLeaves::MergedLeaves(const Voxels& some, bool flat, const FitEffort& effor
     : voxels(some), object(sampled(voxels)), maker{object, effort, flat, nullptr}
 {
     using namespace openvdb_spheretree::tight;
-    for (const auto& ball : CoreStages(*maskOf(voxels)).balls) leaves.push_back(fineBall(ball));
+    leaves = fineBalls(CoreStages(*maskOf(voxels)).balls);
     SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
         effort, flat, nullptr);
     forest = mergeToRoots(model, 6, nullptr);

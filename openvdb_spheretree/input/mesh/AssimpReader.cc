@@ -9,13 +9,14 @@
 #include "AssimpReader.h"
 
 #include <openvdb/Exceptions.h>
-#include <openvdb/math/BBox.h>
 
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <openvdb_spheretree/base/ChildProcess.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
+
+#include <openvdb/math/BBox.h>
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
@@ -84,12 +85,6 @@ private:
     mutable std::string mRefused;
 };
 
-bool isNear(const openvdb::Vec3d& p)
-{
-    const auto isOne = [](double x) { return std::abs(x) <= kFarthestPoint; }; // NaN is none
-    return isOne(p[0]) && isOne(p[1]) && isOne(p[2]);
-}
-
 /// In doubles, as far places are small differences of floats.
 using PlaceInScene = aiMatrix4x4t<double>;
 
@@ -103,7 +98,7 @@ void addMesh(const aiMesh& mesh, const PlaceInScene& transform, PolygonSoup& sou
         const aiVector3D& own = mesh.mVertices[i];
         const auto p = transform * aiVector3t<double>(own.x, own.y, own.z);
         const openvdb::Vec3d& point = soup.points.emplace_back(p.x, p.y, p.z);
-        if (!isNear(point)) throw openvdb::IoError("a coordinate is not finite, or too large");
+        if (!isMeshPoint(point)) throw openvdb::IoError("a coordinate is not finite, or too large");
     }
     const bool mirrored = transform.Determinant() < 0; // then faces would turn inside out
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -233,7 +228,7 @@ void requireWhole(const PolygonSoup& soup)
         corners += count;
     }
     for (const uint32_t corner : soup.corners) isWhole = isWhole && corner < soup.points.size();
-    for (const openvdb::Vec3d& p : soup.points) isWhole = isWhole && isNear(p);
+    for (const openvdb::Vec3d& p : soup.points) isWhole = isWhole && isMeshPoint(p);
     if (!isWhole || corners != soup.corners.size()) {
         failCrashed();
     }

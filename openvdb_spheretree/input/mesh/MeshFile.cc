@@ -11,6 +11,7 @@
 #include "AssimpReader.h"
 #include "MeshFormats.h"
 #include "Polygon.h"
+#include <openvdb_spheretree/base/Hash.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -19,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <ios>
@@ -77,10 +77,7 @@ struct PlaceHash {
     std::size_t operator()(const Place& place) const
     {
         std::uint64_t hash = 0;
-        for (const int64_t step : place) {
-            hash = (hash ^ std::uint64_t(step)) * 0x9E3779B97F4A7C15u;
-            hash ^= hash >> 29;
-        }
+        for (const int64_t step : place) hash = detail::hash(hash ^ std::uint64_t(step));
         return static_cast<std::size_t>(hash);
     }
 };

@@ -87,8 +87,7 @@ openvdb::Vec3d MeshText::point()
     openvdb::Vec3d p;
     for (int axis = 0; axis < 3; ++axis) {
         p[axis] = toNumber(word(), "a coordinate");
-        if (!(std::abs(p[axis]) <= kFarthestPoint))
-            fail("a coordinate is not finite, or too large");
+        if (!isMeshCoordinate(p[axis])) fail("a coordinate is not finite, or too large");
     }
     return p;
 }

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
@@ -257,8 +256,7 @@ void readVertices(PlyValues& values, const PlyElement& element, PolygonSoup& sou
                 if (axes[axis] == i) point[axis] = value;
             }
         }
-        for (const double coordinate : {point[0], point[1], point[2]}) {
-            if (std::abs(coordinate) <= kFarthestPoint) continue; // false for NaN, too
+        if (!isMeshPoint(point)) {
             values.fail(
                 "a coordinate of vertex " + std::to_string(n) + " is not finite, or too large");
         }

@@ -40,8 +40,8 @@ public:
     struct Next {
         int64_t count; ///< of its balls, at most
         bool isPlaced; ///< whether they are placed anew
-        int64_t
-            dilated; ///< to about how many balls those of the start are dilated and pruned before; 0: they are not
+        /// To about how many balls those of the start are dilated and pruned before; 0: they are not.
+        int64_t dilated;
     };
     /// @param many     balls of the cover that is there, more than @a count
     /// @param isStart  whether that is the start

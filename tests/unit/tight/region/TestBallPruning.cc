@@ -39,13 +39,6 @@ std::vector<int32_t> naivelyPruned(const std::vector<MedialBall>& balls)
     return kept;
 }
 
-std::vector<ExactSphere> fineBalls(const std::vector<MedialBall>& balls)
-{
-    std::vector<ExactSphere> fine;
-    for (const MedialBall& ball : balls) fine.push_back(fineBall(ball));
-    return fine;
-}
-
 void expectPruned(const RandomObject& object)
 {
     const CoreStages stages(*maskOf(object.voxels));

@@ -90,8 +90,8 @@ TEST(DilatedCover, OfASolidHasAboutAsManyBallsAsAreAimedAt)
     }
     sortVoxels(voxels);
     const SampledObject object = sampled(voxels);
-    std::vector<ExactSphere> all, leaves;
-    for (const auto& ball : CoreStages(*maskOf(voxels)).balls) all.push_back(fineBall(ball));
+    const std::vector<ExactSphere> all = fineBalls(CoreStages(*maskOf(voxels)).balls);
+    std::vector<ExactSphere> leaves;
     for (const int32_t i : prunedBalls(all, object.level(0), nullptr)) leaves.push_back(all[i]);
     for (const double part : {1.5, 2.0, 3.0}) {
         const double aim = double(leaves.size()) / part;
