@@ -12,7 +12,6 @@ fi
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/dependencies.sh"
 
 install_packages "${build_packages[@]}" "${test_packages[@]}" "${reader_packages[@]}" "${browser_packages[@]}"
-build_preset release vdb_spheretree
 build_preset test
 
 find_data

@@ -38,7 +38,7 @@ void expectTransformsAgree(const RandomObject& object, const Weights& weights, i
         object.name + ", " + toString(distanceOf(weights)) + ", dim " + std::to_string(dim));
     const auto mask = maskOf(object.voxels);
     if (object.voxels.size() % 2) mask->prune();
-    const NaiveReference naive(object.voxels, dim, normOf(weights));
+    const NaiveReference naive(object.voxels, dim, Length(weights));
     const CoreStages stages(*mask, dim, distanceOf(weights));
     ASSERT_EQ(stages.layout.voxelCount(), int64_t(object.voxels.size()));
     ASSERT_TRUE(agreeOnVoxels(naive, stages));
@@ -118,7 +118,7 @@ openvdb_spheretree::LevelError naiveError(
     box.expand(int(reach) * 2 + 2);
     if (tree.settings.dim == 2) box.min()[2] = box.max()[2] = voxels[0][2];
     const auto& dist = tree.settings.dist();
-    const Length length = normOf({dist.face(), dist.edge(), dist.corner()});
+    const Length length({dist.face(), dist.edge(), dist.corner()});
     openvdb_spheretree::LevelError error;
     int64_t farthest = 0;
     for (const Coord& q : voxelsOfBox(box)) {
@@ -182,10 +182,12 @@ TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
     using openvdb_spheretree::ExactSphere;
     std::mt19937 random(5);
     std::uniform_int_distribution<int> center(-60, 60), count(1, 4), corner(-30, 30);
+    const CoordBBox all(Coord(-70), Coord(70));
+    const Voxels everywhere = voxelsOfBox(all);
     int64_t voxels = 0;
     for (int round = 0; round < 48; ++round) {
         const Weights& weights = kWeights[round % std::size(kWeights)];
-        const Length length = normOf(weights);
+        const Length length(weights);
         std::uniform_int_distribution<int64_t> limit(
             0, 70 * weights[0]); // diameters of up to 35 voxels
         std::vector<ExactSphere> balls;
@@ -194,13 +196,12 @@ TEST(NormsOracle, UnionsOfBallsMatchBruteForce)
                           r = limit(random);
             balls.push_back({{x, y, z}, r * r + (i % 2)});
         }
-        const CoordBBox all(Coord(-70), Coord(70));
         CoordBBox clip = all;
         if (round % 3 == 0) clip.min() = Coord(corner(random), corner(random), corner(random));
         const auto tree = openvdb_spheretree::sphereUnion(balls, clip, distanceOf(weights));
         openvdb::tree::ValueAccessor<const openvdb::MaskTree> on(*tree);
         int64_t expected = 0;
-        for (const Coord& q : voxelsOfBox(all)) {
+        for (const Coord& q : everywhere) {
             bool inside = false;
             for (const ExactSphere& ball : balls) {
                 const Coord c(int(ball.center[0]), int(ball.center[1]), int(ball.center[2]));

@@ -103,7 +103,7 @@ int64_t distanceSqInUnits(const SphereTree& tree, int32_t id, const Coord& q)
     }
     const auto& dist = tree.settings.dist();
     if (dist.isEuclidean()) return squaredDistance(d, Coord(0, 0, 0));
-    const int64_t length = normOf({dist.face(), dist.edge(), dist.corner()})(d, Coord(0, 0, 0));
+    const int64_t length = Length({dist.face(), dist.edge(), dist.corner()})(d, Coord(0, 0, 0));
     return length * length;
 }
 

@@ -94,7 +94,7 @@ const NaiveReference& DenseTreeBuilder::medial(const std::set<Coord>& voxels)
     std::unique_ptr<NaiveReference>& known = mMedial[{{mSettings.dim, mSettings.norm}, voxels}];
     if (!known) {
         known = std::make_unique<NaiveReference>(Voxels(voxels.begin(), voxels.end()),
-            mSettings.dim, hasNorm() ? normOf(mSettings.norm) : Length(squaredDistance));
+            mSettings.dim, hasNorm() ? Length(mSettings.norm) : Length());
     }
     return *known;
 }

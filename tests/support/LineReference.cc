@@ -54,6 +54,7 @@ void LineReference::distancesAlong(int axis)
         int64_t* values = mDistSq.data() + index(start);
         for (int i = 0; i < n; ++i) line[i] = values[i * stride];
         for (int i = 0; i < n; ++i) {
+            if (line[i] == 0) continue; // of the background
             int64_t nearest = line[i];
             for (int64_t j = 0; j < n; ++j) {
                 nearest = std::min(nearest, line[j] + (i - j) * (i - j));

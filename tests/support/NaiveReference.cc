@@ -2,7 +2,6 @@
 #include "NaiveReference.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -24,6 +23,7 @@ CoordBBox boxOf(const Voxels& voxels)
 Voxels voxelsOfBox(const CoordBBox& box)
 {
     Voxels voxels;
+    voxels.reserve(std::size_t(box.volume()));
     for (int x = box.min()[0]; x <= box.max()[0]; ++x) {
         for (int y = box.min()[1]; y <= box.max()[1]; ++y) {
             for (int z = box.min()[2]; z <= box.max()[2]; ++z) voxels.emplace_back(x, y, z);
@@ -38,18 +38,8 @@ Voxels translated(Voxels voxels, const Coord& by)
     return voxels;
 }
 
-Length normOf(const Weights& weights)
-{
-    return [weights](const Coord& p, const Coord& q) {
-        std::array<int64_t, 3> d;
-        for (int axis = 0; axis < 3; ++axis) d[axis] = std::abs(int64_t(p[axis]) - q[axis]);
-        std::sort(d.begin(), d.end());
-        return weights[2] * d[0] + weights[1] * (d[1] - d[0]) + weights[0] * (d[2] - d[1]);
-    };
-}
-
-NaiveReference::NaiveReference(Voxels voxels, int dim, Length length)
-    : mVoxels(std::move(voxels)), mDim(dim), mLength(std::move(length))
+NaiveReference::NaiveReference(Voxels voxels, int dim, const Length& length)
+    : mVoxels(std::move(voxels)), mDim(dim), mLength(length)
 {
     sortVoxels(mVoxels);
     computeDistances();
