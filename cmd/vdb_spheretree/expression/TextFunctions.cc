@@ -110,8 +110,7 @@ void pad(Evaluation& e)
     }
     const std::string text = e.operands.pop();
     const std::size_t missing = std::size_t(width) - std::min(std::size_t(width), text.size());
-    const std::size_t sign = text.substr(0, 1) == "-"; // of a number: -002, as %04d has it
-    e.operands.push(text.substr(0, sign) + std::string(missing, '0') + text.substr(sign));
+    e.operands.push(std::string(missing, '0') + text);
 }
 
 /// Each of the characters of the last operand separates.

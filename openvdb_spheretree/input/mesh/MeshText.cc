@@ -6,7 +6,6 @@
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace openvdb_spheretree::detail {
 namespace {

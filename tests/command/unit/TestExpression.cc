@@ -52,7 +52,6 @@ const Case kValues[] = {
     {"a{1}b{2}c", "a1b2c"},
     {"{1:@a}{$a}", "1"},
     {"tree_{$i:4:pad0}.vdb", "tree_0007.vdb"},
-    {"tree_{-2:4:pad0}.vdb", "tree_-002.vdb"},
     {"{1:if(0:if(a?b)?c)}", "b"}, // within each other
     {"{0:if(a?1:switch(1:x?2:y))}", "x"},
     {"{1:if(a)}{0:if(a)}", "a"},
