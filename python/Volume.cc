@@ -146,7 +146,7 @@ struct Placement {
         matrix; ///< in place of both: rows, for columns (x, y, z, 1)
 };
 
-openvdb::math::Transform::Ptr transformOf(const Placement& place)
+openvdb::math::Transform::Ptr openVdbTransformOf(const Placement& place)
 {
     using openvdb::math::Transform;
     if (place.matrix) {
@@ -161,6 +161,18 @@ openvdb::math::Transform::Ptr transformOf(const Placement& place)
     const openvdb::Vec3d origin(place.origin.data());
     if (origin != openvdb::Vec3d(0)) transform->postTranslate(origin);
     return transform;
+}
+
+openvdb::math::Transform::Ptr transformOf(const Placement& place)
+{
+    try {
+        return openVdbTransformOf(place);
+    } catch (const openvdb::ArithmeticError&) { // by names that no argument has
+        throw InputError(std::string(place.matrix ? "matrix" : "anisotropy and origin")
+            + ": OpenVDB has no transform for these voxels: they have no volume, or one below "
+              "3e-15, or are too far "
+              "from the origin; choose another unit of length");
+    }
 }
 
 // ---- Arrays

@@ -75,8 +75,12 @@ GridBase::ConstPtr withCubes(const GridBase::ConstPtr& grid, const ObjectRequest
 {
     if (hasCubes(*grid) || !spheretree::isObjectGrid(*grid)) return grid;
     const bool nearest = !request.settings.labels.empty();
-    return spheretree::resampled(*grid, spheretree::shortestVoxelEdge(*grid),
-        nearest ? spheretree::Sampling::Nearest : spheretree::Sampling::Linear, interrupter);
+    try {
+        return spheretree::resampled(*grid, spheretree::shortestVoxelEdge(*grid),
+            nearest ? spheretree::Sampling::Nearest : spheretree::Sampling::Linear, interrupter);
+    } catch (const openvdb::ArithmeticError&) {
+        return grid; // too far away for any transform; whoever builds from it says so
+    }
 }
 
 /// Grids of a sphere-tree are points, and so might be taken for an object.

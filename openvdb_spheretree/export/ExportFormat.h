@@ -17,7 +17,7 @@ struct ExportSink;
 
 /// What the numbers of a format are. Spheres are rounded to them before they are written.
 enum class ExportNumbers {
-    Decimal, ///< text, with as many decimals as a millionth of the smallest radius has
+    Decimal, ///< text, with as many decimals as a millionth of the smallest radius has (of a voxel where all are 0)
     Float,   ///< 4 bytes
     Double   ///< 8 bytes
 };

@@ -86,13 +86,14 @@ ExportLevel placed(const SphereTree& tree, const SphereTreeLevel& level, const F
 }
 
 struct LengthRange {
-    double smallestRadius = std::numeric_limits<double>::infinity(); ///< of those that are not 0
+    double smallestRadius; ///< of those that are not 0; where all are, a voxel
     double largestNumber = 0;
 };
 
-LengthRange rangeOf(const std::vector<ExportLevel>& levels)
+/// @param voxel  its width in the file
+LengthRange rangeOf(const std::vector<ExportLevel>& levels, double voxel)
 {
-    LengthRange range;
+    LengthRange range{std::numeric_limits<double>::infinity()};
     for (const ExportLevel& level : levels) {
         for (std::size_t i = 0; i < level.size(); ++i) {
             const double radius = level.radii[i];
@@ -104,6 +105,8 @@ LengthRange rangeOf(const std::vector<ExportLevel>& levels)
             }
         }
     }
+    // Spheres of no size are as exact as others, or all were put to whole numbers.
+    if (!std::isfinite(range.smallestRadius)) range.smallestRadius = voxel;
     return range;
 }
 
@@ -291,7 +294,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
         scene.levels.push_back(placed(tree, *level, frame, interrupter));
     }
-    const LengthRange range = rangeOf(scene.levels);
+    const LengthRange range = rangeOf(scene.levels, tree.voxelSize() * frame.scale());
     if (format.numbers == ExportNumbers::Decimal) requireDecimals(range.largestNumber);
     scene.decimals = decimalsFor(range.smallestRadius, range.largestNumber);
     const SphereRounding round(format.numbers, scene.decimals, keepOf(tree.settings));

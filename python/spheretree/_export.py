@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Optional
 
 from . import _spheretree
-from ._volume import Progress
+from ._volume import Progress, writable
 
 if TYPE_CHECKING:
     from ._tree import Tree
@@ -108,5 +108,5 @@ def export(
     }
     several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
     handles = [tree._handle for tree in several]
-    for note in _spheretree.export(handles, os.fsencode(path), format, words, progress):
+    for note in _spheretree.export(handles, writable(path), format, words, progress):
         warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)

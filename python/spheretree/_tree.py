@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._query import Query
-from ._volume import Progress, VolumeLike, is_mesh_file, readable, thread_count, unit_of_length
+from ._volume import Progress, VolumeLike, is_mesh_file, readable, thread_count, unit_of_length, writable
 from ._volume import volume as as_volume
 
 
@@ -198,7 +198,7 @@ class Tree:
         OSError
             The file cannot be written.
         """
-        _spheretree.save(self._handle, os.fsencode(path), progress)
+        _spheretree.save(self._handle, writable(path), progress)
 
     def export(self, path: str | os.PathLike[str], **options: Any) -> None:
         """`spheretree.export()` of this tree: the files of other tools.

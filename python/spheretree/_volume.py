@@ -116,6 +116,14 @@ def readable(path: str | os.PathLike[str]) -> bytes:
         return os.fsencode(path)
 
 
+def writable(path: str | os.PathLike[str]) -> bytes:
+    """The path as the system has it. Raises what open() raises where no file can have this name."""
+    name = os.fsencode(path)
+    if b"\0" in name:  # the system would take what is before it
+        raise ValueError("embedded null byte")
+    return name
+
+
 def _number(name: str, value: object) -> int | float:
     """A finite number as Python has it: integers stay whole."""
     if isinstance(value, np.ndarray) and value.ndim == 0:

@@ -97,6 +97,7 @@ TEST_F(CommandVolumes, AVolTakesASpacingToo)
 {
     writeBlock("a.vol");
     EXPECT_EQ(statsOf("-read a.vol spacing=0.25")["object"]["voxel_size"], 0.25);
+    expectError("-read a.vol spacing=1e-5 -print", 3, "a.vol: voxels of 1e-05 x 1e-05 x 1e-05 are");
 }
 
 TEST_F(CommandVolumes, ComeFromAPipe)

@@ -142,6 +142,17 @@ def test_a_tree_that_cannot_be_written_leaves_what_was_there(bone, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_a_path_with_a_null_byte_is_no_other_file(bone, tmp_path):
+    tree = spheretree.build(bone, [4])
+    kept = tmp_path / "kept"
+    kept.write_text("precious")
+    for write, name in ((tree.save, "kept\0.vdb"), (tree.save, "kept\0.csv"), (tree.export, "kept\0.urdf")):
+        with pytest.raises(ValueError, match="null byte"):
+            write(f"{tmp_path}/{name}")
+    assert kept.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [kept]
+
+
 def test_check_finds_nothing_in_a_sound_tree_and_something_in_another_object(bone):
     tree = spheretree.build(bone, [16, 2])
     assert tree.check(bone) == [] and spheretree.check(tree, bone) == []

@@ -262,7 +262,12 @@ GridBase::Ptr readVolume(
     }
     const GridBase::Ptr grid = openvdb_spheretree::readVolFile(file, &session.progress, path);
     const auto& spacing = reading.volume.spacing;
-    if (spacing) grid->setTransform(openvdb_spheretree::detail::transformOf(*spacing));
+    if (!spacing) return grid;
+    try {
+        grid->setTransform(openvdb_spheretree::detail::transformOf(*spacing));
+    } catch (const openvdb::IoError&) {
+        rethrowNamed(path, kInput);
+    }
     return grid;
 }
 

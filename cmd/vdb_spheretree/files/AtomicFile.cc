@@ -64,7 +64,8 @@ void AtomicFile::checkTarget(const std::string& path)
 AtomicFile::AtomicFile(const std::string& path)
 try : mPath(path), mTemporary(targetOf(path)) {
 } catch (...) {
-    rethrowNamed("cannot write " + path, kOutput);
+    // As far as a message can hold the name: to a null byte.
+    rethrowNamed(std::string("cannot write ") + path.c_str(), kOutput);
 }
 
 void AtomicFile::write(const std::function<void(std::iostream&)>& content)

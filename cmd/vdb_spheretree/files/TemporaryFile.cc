@@ -95,6 +95,8 @@ mode_t permissionsFor(const std::string& target)
 TemporaryFile::TemporaryFile(const std::string& target)
     : mTarget(target), mFolder(folderOf(target)), mStart(startOfNames(target))
 {
+    // The system takes what is before it, which is the name of another file.
+    if (target.find('\0') != std::string::npos) throwOutput("its name has a null byte");
     removeAbandoned(mFolder, mStart);
     if (openNameless() || openNamed()) return;
     throwOutput("no file can be made in its folder " + systemError(mFolder));

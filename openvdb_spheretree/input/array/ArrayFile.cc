@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <ios>
 #include <new>
+#include <sstream>
 #include <system_error>
 
 namespace openvdb_spheretree::detail {
@@ -58,11 +59,19 @@ openvdb::GridBase::Ptr readArrayFile(
 
 Transform::Ptr transformOf(const openvdb::Vec3d& voxelSize)
 {
-    if (voxelSize[0] == voxelSize[1] && voxelSize[1] == voxelSize[2]) {
-        return Transform::createLinearTransform(voxelSize[0]);
+    try {
+        if (voxelSize[0] == voxelSize[1] && voxelSize[1] == voxelSize[2]) {
+            return Transform::createLinearTransform(voxelSize[0]);
+        }
+        return std::make_shared<Transform>(
+            openvdb::math::MapBase::Ptr(new openvdb::math::ScaleMap(voxelSize)));
+    } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
+        std::ostringstream size;
+        size << "voxels of " << voxelSize[0] << " x " << voxelSize[1] << " x " << voxelSize[2]
+             << " are too small for an OpenVDB transform, which takes a volume of 3e-15 and more: "
+                "choose a smaller unit of length";
+        throw IoError(size.str());
     }
-    return std::make_shared<Transform>(
-        openvdb::math::MapBase::Ptr(new openvdb::math::ScaleMap(voxelSize)));
 }
 
 Transform::Ptr transformOf(const openvdb::Mat4d& indexToWorld)

@@ -25,7 +25,7 @@ openvdb::GridBase::Ptr readArrayFile(
     const std::string& path, const std::string& name, const ReadArray& read);
 
 /// @return the transform whose voxels have these sides along x, y, z.
-/// @throw openvdb::Exception if OpenVDB has none that small
+/// @throw openvdb::IoError without the name of a file, if OpenVDB has none that small
 openvdb::math::Transform::Ptr transformOf(const openvdb::Vec3d& voxelSize);
 
 /// @return the transform that takes index space to world by a matrix for row vectors.

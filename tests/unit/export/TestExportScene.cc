@@ -230,6 +230,20 @@ TEST(ExportScene, SpheresOfNoSizeAreRefusedWhereReadersRefuseThem)
         "1 of the spheres have the radius 0"));
 }
 
+TEST(ExportScene, SpheresOfNoSizeAreWhereTheyAre)
+{
+    SphereTree tree = turnedTree();
+    std::fill(tree.spheres.radiusWorld.begin(), tree.spheres.radiusWorld.end(), 0.0f);
+    const double voxel = tree.voxelSize();
+    const Exported exported = sceneOf(tree, format(true, ExportNumbers::Decimal));
+    const ExportLevel& finest = exported.scene.finest();
+    for (std::size_t i = 0; i < finest.size(); ++i) {
+        const Vec3d moved = finest.centers[i] - tree.centerWorld(finest.ids[i]);
+        EXPECT_LE(moved.length(), 1e-6 * voxel) << i;
+        EXPECT_LE(finest.radii[i], 3e-6 * voxel) << i;
+    }
+}
+
 TEST(ExportScene, BallsOfNormsAreNoSpheres)
 {
     SphereTree tree = turnedTree();
