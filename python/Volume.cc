@@ -8,10 +8,10 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/input/array/ArrayFile.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
 
-#include <openvdb/math/Maps.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -146,32 +146,19 @@ struct Placement {
         matrix; ///< in place of both: rows, for columns (x, y, z, 1)
 };
 
-openvdb::math::Transform::Ptr openVdbTransformOf(const Placement& place)
-{
-    using openvdb::math::Transform;
-    if (place.matrix) {
-        openvdb::Mat4d matrix(place.matrix->data());
-        return Transform::createLinearTransform(matrix.transpose());
-    }
-    const auto& [x, y, z] = place.spacing;
-    const bool areCubes = x == y && y == z;
-    auto transform = areCubes ? Transform::createLinearTransform(x)
-                              : std::make_shared<Transform>(openvdb::math::MapBase::Ptr(
-                                  new openvdb::math::ScaleMap(openvdb::Vec3d(x, y, z))));
-    const openvdb::Vec3d origin(place.origin.data());
-    if (origin != openvdb::Vec3d(0)) transform->postTranslate(origin);
-    return transform;
-}
-
 openvdb::math::Transform::Ptr transformOf(const Placement& place)
 {
+    using spheretree::detail::transformOf;
     try {
-        return openVdbTransformOf(place);
-    } catch (const openvdb::ArithmeticError&) { // by names that no argument has
+        if (place.matrix) return transformOf(openvdb::Mat4d(place.matrix->data()).transpose());
+        auto transform = transformOf(openvdb::Vec3d(place.spacing.data()));
+        const openvdb::Vec3d origin(place.origin.data());
+        if (origin != openvdb::Vec3d(0)) transform->postTranslate(origin);
+        return transform;
+    } catch (const openvdb::Exception&) { // by names that no argument has
         throw InputError(std::string(place.matrix ? "matrix" : "anisotropy and origin")
             + ": OpenVDB has no transform for these voxels: they have no volume, or one below "
-              "3e-15, or are too far "
-              "from the origin; choose another unit of length");
+              "3e-15, or are too far from the origin; choose another unit of length");
     }
 }
 
