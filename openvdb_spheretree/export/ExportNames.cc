@@ -16,16 +16,11 @@ namespace {
 /// @param option  that gives another name
 void requireText(const std::string& name, const char* option, const ExportFormat& format)
 {
-    if (!isUtf8(name)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the name " << inQuotes(name) << " is not in UTF-8, and " << format.name
-                        << " holds no other: give one with " << option);
-    }
-    if (format.names == ExportNames::Xml && !isXmlText(name)) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "the name " << inQuotes(name) << " has control characters, which " << format.name
-                        << " cannot hold: give another with " << option);
-    }
+    if (holdsName(format, name)) return;
+    const std::string why = isUtf8(name)
+        ? " has control characters, which " + format.name + " cannot hold: give another with "
+        : " is not in UTF-8, and " + format.name + " holds no other: give one with ";
+    OPENVDB_THROW(openvdb::ValueError, "the name " << inQuotes(name) << why << option);
 }
 
 /// Blanks become `_` without a word, as everywhere in names.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InputReader.h"
 
+#include "TreeUse.h"
+
 #include <openvdb_spheretree/input/DelayedValues.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
@@ -80,6 +82,7 @@ void InputReader::readVdb(bool delayed) const
     command::Session session(script.plan);
     session.run(script);
     for (const auto& item : session.stack.items()) {
+        if (item->tree) useTree(*item->tree);
         if (!item->grid) continue;
         try {
             openvdb_spheretree::requireReadableValues(*item->grid);

@@ -18,8 +18,8 @@ public:
     ///                   value of an option, which is in no file
     explicit InputReader(const std::string& extension) : mExtension(extension), mFile(extension) {}
 
-    /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, and all values of
-    /// other grids are read.
+    /// @brief Read the bytes as a file. Of a `.vdb`, sphere-trees become trees, which are used (TreeUse.h), and all
+    /// values of other grids are read.
     /// @param delayed  of a `.vdb`: values are read as they are used
     /// @return whether it was read; false if it was refused as it should be.
     /// @throw anything else that the reader throws; std::logic_error for a message that does not name

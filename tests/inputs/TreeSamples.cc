@@ -14,14 +14,31 @@ namespace {
 
 using namespace openvdb_spheretree;
 
+openvdb::GridPtrVec gridsOf(const SphereTreeSettings& settings)
+{
+    const SphereTree tree = buildSphereTree(*sampleObject(), settings);
+    openvdb::GridPtrVec grids{toPoints(tree)};
+    if (const auto dag = dagToPoints(tree)) grids.push_back(dag);
+    if (const auto cuts = cutsToPoints(tree)) grids.push_back(cuts);
+    return grids;
+}
+
 std::string treeBytes(
     const SphereTreeSettings& settings, uint32_t compression, bool seekable = true)
 {
-    const SphereTree tree = buildSphereTree(*sampleObject(), settings);
-    openvdb::GridCPtrVec grids{toPoints(tree)};
-    if (const auto dag = dagToPoints(tree)) grids.push_back(dag);
-    if (const auto cuts = cutsToPoints(tree)) grids.push_back(cuts);
-    return vdbBytes(grids, compression, seekable);
+    const openvdb::GridPtrVec grids = gridsOf(settings);
+    return vdbBytes({grids.begin(), grids.end()}, compression, seekable);
+}
+
+/// A tree without a checksum, as version 0.1 wrote it and strangers may: damage is to be found without.
+std::string uncheckedBytes(const SphereTreeSettings& settings)
+{
+    const openvdb::GridPtrVec grids = gridsOf(settings);
+    for (const auto& grid : grids) {
+        grid->removeMeta("spheretree_checksum");
+        grid->removeMeta("spheretree_checksum_transform");
+    }
+    return vdbBytes({grids.begin(), grids.end()}, kActive);
 }
 
 SphereTreeSettings tightWithCuts()
@@ -47,6 +64,11 @@ std::string extendedBlosc() { return treeBytes(extendedWithDag(), kBlosc); }
 std::string extendedActive() { return treeBytes(extendedWithDag(), kActive); }
 std::string reversibleBlosc() { return treeBytes(ReversibleOptions(), kBlosc); }
 std::string innerBlosc() { return treeBytes(InnerOptions(), kBlosc); }
+std::string fitBlosc() { return treeBytes(FitOptions(), kBlosc); }
+std::string tightUnchecked() { return uncheckedBytes(tightWithCuts()); }
+std::string extendedUnchecked() { return uncheckedBytes(extendedWithDag()); }
+std::string reversibleUnchecked() { return uncheckedBytes(ReversibleOptions()); }
+std::string fitUnchecked() { return uncheckedBytes(FitOptions()); }
 
 } // namespace
 
@@ -62,6 +84,11 @@ const std::vector<SampleMaker>& treeSamples()
         {"extended_active", ".vdb", extendedActive},
         {"reversible_blosc", ".vdb", reversibleBlosc},
         {"inner_blosc", ".vdb", innerBlosc},
+        {"fit_blosc", ".vdb", fitBlosc},
+        {"tight_unchecked", ".vdb", tightUnchecked},
+        {"extended_unchecked", ".vdb", extendedUnchecked},
+        {"reversible_unchecked", ".vdb", reversibleUnchecked},
+        {"fit_unchecked", ".vdb", fitUnchecked},
     };
     return samples;
 }
