@@ -32,7 +32,21 @@ const Output kOutputs[] = {
     {"Picture", "-read tree.vdb -write out.png width=300 height=200", {"out.png"}},
     {"LevelSet", "-read tree.vdb -spheres2ls -write out.vdb codec=none", {"out.vdb"}},
     {"Mask", "-read a.vol -mask -write out.vdb codec=none", {"out.vdb"}},
+    {"Volume", "-read a.vol -write out.vol", {"out.vol"}},
+    {"Photo", "-read tree.vdb -write out.jpg width=300 height=200", {"out.jpg"}},
+    {"Curve", "-read tree.vdb -write out.svg", {"out.svg"}},
+    {"CurveTable", "-read tree.vdb -write out.csv format=curve", {"out.csv"}},
+    {"Film", "-read tree.vdb -write out.usda", {"out.usda"}},
+    {"Robot", "-read tree.vdb -write out.urdf", {"out.urdf"}},
+    {"Clump", "-read tree.vdb -write out.vtp", {"out.vtp"}},
+    {"Points", "-read tree.vdb -write out.ply", {"out.ply"}},
+    {"Scene", "-read tree.vdb -write out.glb", {"out.glb"}},
+    {"Mesh", "-read tree.vdb -write out.stl level=1", {"out.stl"}},
+    {"NanoVdb", "-read tree.vdb -write out.nvdb", {"out.nvdb"}},
     {"Stats", "-read tree.vdb -stats json=out.json", {"out.json"}},
+    {"StatsTable", "-read tree.vdb -stats csv=out.csv", {"out.csv"}},
+    {"Answers", "-read tree.vdb tree.vdb -distance json=out.json", {"out.json"}},
+    {"AnswerTable", "-read tree.vdb tree.vdb -collide csv=out.csv", {"out.csv"}},
 };
 
 class CommandFullDisk : public FaultyCommandTest, public testing::WithParamInterface<Output> {
