@@ -3,6 +3,7 @@
 // the same bytes always, pipes, stdout and stderr.
 
 #include "CommandRunner.h"
+#include "support/VdbSamples.h"
 
 #include <openvdb/openvdb.h>
 
@@ -200,6 +201,26 @@ TEST_F(CommandOutput, AClosedPipeIsAnOutputError)
     EXPECT_EQ(readText(path("code")), "4\n") << result.err;
     EXPECT_EQ(shell("$VDB_SPHERETREE -read a.vol -write stdout.vdb | cat > c.vdb").exitCode, 0);
     EXPECT_EQ(readGrids("c.vdb").size(), 1u) << "an open one is none";
+}
+
+TEST_F(CommandOutput, WhatVdbToolWritesIsReadAsItIsWithEachCodec)
+{
+    if (!isInstalled("vdb_tool")) GTEST_SKIP() << "needs vdb_tool";
+    for (const std::string codec : {"none", "zip", "blosc", "active"}) {
+        SCOPED_TRACE(codec);
+        const Result tool = shell(
+            "vdb_tool -quiet -sphere dim=40 -dilate radius=1 -ls2fog keep=1 -write tool.vdb codec="
+            + codec);
+        ASSERT_EQ(tool.exitCode, 0) << tool.err;
+        ASSERT_EQ(run("-read tool.vdb -write ours.vdb codec=" + codec).exitCode, 0);
+        const auto expected = readGrids("tool.vdb"), grids = readGrids("ours.vdb");
+        ASSERT_EQ(grids.size(), expected.size());
+        for (size_t i = 0; i < grids.size(); ++i) {
+            EXPECT_TRUE(
+                spheretree_test::contentOf(grids[i]) == spheretree_test::contentOf(expected[i]))
+                << expected[i]->getName();
+        }
+    }
 }
 
 TEST_F(CommandOutput, VdbToolAndVdbPrintTakeWhatWeWrite)

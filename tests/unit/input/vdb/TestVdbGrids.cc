@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -110,6 +111,25 @@ TEST_F(VdbGrids, WithASizeForDelayedLoadingThatIsWrongAreNotSound)
     std::stringbuf source(bytes), again(bytes);
     EXPECT_THROW(requireSoundVdb(source), openvdb::IoError);
     EXPECT_EQ(readVdbGrids(again).size(), 1u);
+}
+
+/// Houdini's, OpenVDB's own and others, as their makers compressed them.
+TEST_F(VdbGrids, OfOtherProgramsAreThoseOfOpenVdb)
+{
+    const char* data = std::getenv("SPHERETREE_DATA");
+    if (!data) GTEST_SKIP() << "needs SPHERETREE_DATA";
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(data) + "/vdb")) {
+        if (entry.path().extension() != ".vdb") continue;
+        SCOPED_TRACE(entry.path());
+        io::File file(entry.path().string());
+        file.open(/*delayLoad=*/false);
+        std::filebuf source;
+        ASSERT_TRUE(source.open(entry.path(), std::ios::in | std::ios::binary));
+        expectSame(readVdbGrids(source), *file.getGrids());
+        ++files;
+    }
+    EXPECT_GE(files, 5);
 }
 
 /// What metadata says of half precision holds for real values alone.
