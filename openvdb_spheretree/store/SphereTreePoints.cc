@@ -337,7 +337,10 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree, NullInterrupter* interru
 
 bool isSphereTree(const GridBase& grid)
 {
-    return grid.isType<PointDataGrid>() && grid[detail::kFormatKey];
+    if (!grid.isType<PointDataGrid>()) return false;
+    if (grid[detail::kFormatKey]) return true;
+    // A checksum of nothing is of a tree whose format was damaged: it is refused, not taken for points.
+    return hasChecksum(grid) && !grid[detail::kDagFormatKey] && !grid[detail::kCutsFormatKey];
 }
 
 PointDataGrid::Ptr emptyTreeToPoints(const SphereTree& tree)

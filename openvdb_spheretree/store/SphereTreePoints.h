@@ -52,7 +52,8 @@ openvdb::points::PointDataGrid::Ptr dagToPoints(
 openvdb::points::PointDataGrid::Ptr cutsToPoints(
     const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @return whether a grid claims to be a sphere-tree (it has the format's metadata).
+/// @return whether a grid claims to be a sphere-tree: it has the format's metadata, or where these are damaged
+///         a checksum of ours.
 bool isSphereTree(const openvdb::GridBase& grid);
 
 /// @return the grid of a tree of no object: without points, of the tree's name and transform. It is no

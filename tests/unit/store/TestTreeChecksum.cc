@@ -23,6 +23,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace {
@@ -80,6 +81,14 @@ std::vector<std::pair<const char*, SphereTree>> treesOfEveryKind()
     tight.cuts = true;
     add("tight", tight);
     add("inner", InnerOptions());
+    add("fit", FitOptions());
+    FitOptions few;
+    few.budget.spheres = {4, 2};
+    add("tracks", few);
+    SphereTree& followed = trees.back().second;
+    followed.track.resize(std::size_t(followed.size()));
+    std::iota(followed.track.rbegin(), followed.track.rend(), 7);
+    followed.nextTrack = 7 + followed.size();
     return trees;
 }
 
@@ -191,7 +200,6 @@ TEST(TreeChecksum, EveryFlippedBitOfMetadataAndItsKeysIsFound)
             for (auto it = before.beginMeta(); it != before.endMeta(); ++it) {
                 const std::string key = it->first;
                 if (key.rfind("spheretree_", 0) != 0) continue;
-                if (key.rfind("_format") != key.npos) continue; // whether it is a tree at all
                 // A bool has one bit: where others are set, the file is refused before.
                 const bool isBool =
                     it->second->typeName() == openvdb::BoolMetadata::staticTypeName();
@@ -214,6 +222,21 @@ TEST(TreeChecksum, EveryFlippedBitOfMetadataAndItsKeysIsFound)
         EXPECT_GT(flips.all, 1000);
         // The key of the transform's checksum, made one of somebody else's.
         EXPECT_LE(flips.harmless, int(stored.grids().size()) * 8 * 11);
+    }
+}
+
+/// It would be read as any points, and become the object of another tree.
+TEST(TreeChecksum, ATreeWhoseFormatHasAnotherKeyIsStillOne)
+{
+    const Stored stored(tightSampleTree());
+    for (const PointDataGrid::Ptr& grid : stored.grids()) {
+        const bool isNodes = grid == stored.nodes;
+        const std::string key = isNodes ? "spheretree_format" : "spheretree_cuts_format";
+        EXPECT_EQ(isSphereTree(*grid), isNodes);
+        ASSERT_TRUE((*grid)[key]) << grid->getName();
+        grid->removeMeta(key);
+        EXPECT_TRUE(isSphereTree(*grid)) << grid->getName();
+        EXPECT_THROW(fromPoints(*grid), openvdb::ValueError);
     }
 }
 
