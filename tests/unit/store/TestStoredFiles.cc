@@ -157,7 +157,9 @@ std::vector<std::string> filesOf(const std::string& version)
 {
     std::vector<std::string> names = {"tight", "tight_balls", "inner", "flat", "extended",
         "miniball", "reversible", "flat_reversible", "norm"};
-    if (version != "0.1") names.insert(names.end(), {"best", "bounds", "kept"});
+    if (version != "0.1") {
+        names.insert(names.end(), {"best", "bounds", "kept", "fit", "strict", "tracks"});
+    }
     for (std::string& name : names) name = version + "/" + name;
     return names;
 }
