@@ -21,6 +21,7 @@ std::ifstream openRegularFile(
     if (!why.empty()) throw openvdb::IoError(name + ": " + why);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw openvdb::IoError(name + ": cannot be opened for reading");
+    file.exceptions(std::ios::badbit); // a reading that fails is no end of the file
     return file;
 }
 

@@ -9,6 +9,7 @@
 
 namespace openvdb_spheretree::detail {
 
+/// @return the file, which throws std::ios_base::failure with the system's reason where reading fails.
 /// @param name  what messages call the file
 /// @param what  what it should be, for messages: "a file of spheres"
 /// @throw openvdb::IoError if it is not there, empty, no regular file, or may not be read

@@ -352,12 +352,13 @@ QueryTable<Row> readTable(
         QueryTable<Row> table;
         NamedColumns columns(file, what);
         const Names names = fill(columns, table);
-        if (file.bad()) throw openvdb::IoError("cannot be read to its end");
         if (!columns.hasHeader()) table.assumption = columns.assumption(names);
         if (!table.assumption.empty()) table.assumption = name + ": " + table.assumption;
         return table;
     } catch (const openvdb::IoError& error) {
         throw openvdb::IoError(name + ": " + detail::messageOf(error));
+    } catch (const std::ios_base::failure& error) {
+        throw openvdb::IoError(name + ": cannot be read: " + error.code().message());
     }
 }
 

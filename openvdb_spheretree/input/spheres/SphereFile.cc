@@ -123,7 +123,6 @@ WorldSpheres readSphereFile(
         std::string assumption;
         if (detail::lowerExtension(name) == ".json") detail::parseSphereJson(file, list);
         else assumption = detail::parseSphereCsv(file, list);
-        if (file.bad()) throw openvdb::IoError("cannot be read to its end");
         WorldSpheres spheres = list.take(level);
         spheres.name = std::filesystem::path(name).stem().string();
         if (!assumption.empty()) spheres.assumption = assumption;
@@ -131,6 +130,8 @@ WorldSpheres readSphereFile(
         return spheres;
     } catch (const openvdb::IoError& error) {
         throw openvdb::IoError(name + ": " + detail::messageOf(error));
+    } catch (const std::ios_base::failure& error) {
+        throw openvdb::IoError(name + ": cannot be read: " + error.code().message());
     }
 }
 
