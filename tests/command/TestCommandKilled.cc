@@ -21,6 +21,9 @@ namespace {
 using namespace command_test;
 
 const std::string kWork = "-threads 1 -read a.vol -spheretree tree=extended dag=1 ";
+const std::string kTight = "-threads 1 -read a.vol -spheretree quality=fast spheres=8,2 ";
+const std::string kMesh = "-threads 1 -read b.obj -mesh2ls dim=12 cover=1 -spheretree "
+                          "quality=fast spheres=4 ";
 const std::string kWrite = "-write t.vdb t.json t.png width=64 height=48";
 const std::vector<std::string> kTargets = {"t.json", "t.png", "t.vdb"};
 
@@ -30,7 +33,15 @@ protected:
     {
         FaultyCommandTest::SetUp();
         if (IsSkipped()) return;
-        ASSERT_EQ(run(kWork + kWrite).exitCode, 0);
+        writeText(path("b.obj"),
+            "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 8\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+        expectOf(kWork);
+    }
+
+    /// Notes what targets are when a run is done.
+    void expectOf(const std::string& work)
+    {
+        ASSERT_EQ(run(work + kWrite).exitCode, 0);
         for (const std::string& name : kTargets) mWhole[name] = readText(path(name));
         writeOld(kTargets);
     }
@@ -54,22 +65,32 @@ private:
     std::map<std::string, std::string> mWhole; ///< the targets as a run leaves them
 };
 
-class CommandSignalled : public CommandKilled, public testing::WithParamInterface<int> {};
+struct SignalledWork {
+    const char* name;
+    int signal;
+    std::string work;
+};
+
+void PrintTo(const SignalledWork& work, std::ostream* out) { *out << work.name; }
+
+class CommandSignalled : public CommandKilled, public testing::WithParamInterface<SignalledWork> {};
 
 /// Memory is asked for in every part of a run, so requests count moments better than a clock does.
 TEST_P(CommandSignalled, AtThirtyMoments)
 {
+    const int signal = GetParam().signal;
+    const std::string line = GetParam().work + kWrite;
+    expectOf(GetParam().work);
     const long beforeWork = callsOf("-version")["malloc"];
     // The number differs a little from run to run, so the last moment is some before the end.
-    const long work = callsOf(kWork + kWrite)["malloc"] * 95 / 100 - beforeWork;
+    const long work = callsOf(line)["malloc"] * 95 / 100 - beforeWork;
     ASSERT_GT(work, 1000);
     int stopped = 0;
     for (const long moment : spread(work, 30)) {
         SCOPED_TRACE(moment);
         writeOld(kTargets);
-        const Result result =
-            runWith(kWork + kWrite, signalled("malloc", beforeWork + moment, GetParam()));
-        if (GetParam() == SIGKILL) {
+        const Result result = runWith(line, signalled("malloc", beforeWork + moment, signal));
+        if (signal == SIGKILL) {
             EXPECT_EQ(result.signal, SIGKILL);
             EXPECT_LE(newTargets(), 3);
             EXPECT_LE(leftovers().size(), 1u);
@@ -82,20 +103,15 @@ TEST_P(CommandSignalled, AtThirtyMoments)
         }
         EXPECT_EQ(files(), mBefore);
     }
-    EXPECT_TRUE(GetParam() == SIGKILL || stopped >= 25) << stopped;
-}
-
-std::string signalName(int signal)
-{
-    return signal == SIGINT ? "INT"
-        : signal == SIGTERM ? "TERM"
-        : signal == SIGHUP  ? "HUP"
-                            : "KILL";
+    EXPECT_TRUE(signal == SIGKILL || stopped >= 25) << stopped;
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, CommandSignalled,
-    testing::Values(SIGINT, SIGTERM, SIGHUP, SIGKILL),
-    [](const auto& info) { return signalName(info.param); });
+    testing::Values(SignalledWork{"INT", SIGINT, kWork}, SignalledWork{"TERM", SIGTERM, kWork},
+        SignalledWork{"HUP", SIGHUP, kWork}, SignalledWork{"KILL", SIGKILL, kWork},
+        SignalledWork{"TightTERM", SIGTERM, kTight}, SignalledWork{"TightKILL", SIGKILL, kTight},
+        SignalledWork{"MeshTERM", SIGTERM, kMesh}, SignalledWork{"MeshKILL", SIGKILL, kMesh}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(CommandKilled, AStopBeforeTheFirstRenameLeavesAllFilesAndALaterOneNone)
 {
