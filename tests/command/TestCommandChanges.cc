@@ -119,6 +119,21 @@ TEST_F(CommandChanges, AFolderThatVanishesIsAnError)
     }
 }
 
+/// Labels that do not fit into memory= go there.
+TEST_F(CommandChanges, ATemporaryFolderThatVanishesIsAnError)
+{
+    const std::string line = "-threads 1 -generate ball voxels=270000 -spheretree tree=extended "
+                             "errors=0 memory=1500000 -write t.csv";
+    writeOld({"t.csv"});
+    const std::filesystem::path folder = mFolder / "temporary";
+    std::filesystem::create_directory(folder);
+    setenv("TMPDIR", folder.c_str(), 1);
+    const auto remove = [&] { std::filesystem::remove(folder); };
+    const Result result = changedAt(line, "tmpfile", 2, remove); // the first is a trial of the output
+    unsetenv("TMPDIR");
+    expectFailure(result, 4, {folder.string(), "No such file", "set TMPDIR"}, {"t.csv"});
+}
+
 TEST_F(CommandChanges, AFolderRemovedWithTheNamedFileInItIsAnError)
 {
     std::filesystem::create_directory(path("folder"));
