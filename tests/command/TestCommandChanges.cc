@@ -129,7 +129,8 @@ TEST_F(CommandChanges, ATemporaryFolderThatVanishesIsAnError)
     std::filesystem::create_directory(folder);
     setenv("TMPDIR", folder.c_str(), 1);
     const auto remove = [&] { std::filesystem::remove(folder); };
-    const Result result = changedAt(line, "tmpfile", 2, remove); // the first is a trial of the output
+    const Result result =
+        changedAt(line, "tmpfile", 2, remove); // the first is a trial of the output
     unsetenv("TMPDIR");
     expectFailure(result, 4, {folder.string(), "No such file", "set TMPDIR"}, {"t.csv"});
 }
