@@ -4,9 +4,11 @@
 
 #include "PosePairs.h"
 #include "QuerySamples.h"
+#include "support/CoreStages.h"
 #include "support/Messages.h"
 #include "support/VectorTarget.h"
 
+#include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/query/BodyDistance.h>
 
 #include <gtest/gtest.h>
@@ -73,6 +75,44 @@ TEST(BodyDistance, BoundsThatOfTheObjects)
         narrow += result.objectsUpper < leaves + 4 * pair.a.tree.voxelSize();
     });
     EXPECT_GT(narrow, 2000);
+}
+
+/// Their spheres are no digital balls: what is known of them is how far they reach beyond the object.
+TEST(BodyDistance, OfFewSpheresBoundsThatOfTheObjectsByTheirReach)
+{
+    TightOptions few;
+    few.quality = Quality::Fast;
+    few.budget.spheres = {5, 2};
+    std::vector<QuerySample> samples;
+    for (uint32_t seed = 1; seed < 13; ++seed) {
+        QuerySample sample = querySample("few", randomObject(seed).voxels, few);
+        computeLevelErrors(sample.tree, *gridOf(sample.voxels));
+        const bool hasAllLeaves = std::isfinite(makeQueryTree(sample.tree).leafInset());
+        if (!hasAllLeaves) samples.push_back(std::move(sample));
+    }
+    ASSERT_GE(samples.size(), 4u);
+    std::vector<QueryBody> bodies;
+    for (const QuerySample& sample : samples) {
+        bodies.push_back({sample, makeQueryTree(sample.tree), sample.tree});
+        ASSERT_TRUE(std::isfinite(bodies.back().query.leafReach()));
+    }
+    Random random(8);
+    int narrow = 0;
+    for (int i = 0; i < 600; ++i) {
+        const std::size_t count = bodies.size(), at = std::size_t(i);
+        const QueryBody &a = bodies[at % count], &b = bodies[at / count % count];
+        const double apart = uniform(random, 0.5, 2) * (a.query.radius() + b.query.radius());
+        const auto place =
+            RigidTransform::fromTranslation(a.query.center() + apart * randomDirection(random));
+        const auto toOrigin = RigidTransform::fromTranslation(-b.query.center());
+        const PosePair pair{a, b, {}, place * randomRotation(random) * toOrigin};
+        const DistanceResult result = pair.distance();
+        const double cubes = pair.cubesMeet() ? 0 : pair.cubesDistanceAtMost();
+        const double edges = std::sqrt(2.0) * a.tree.voxelSize(); // as above
+        ASSERT_GE(result.objectsUpper, cubes - edges) << i;
+        narrow += result.objectsUpper < cubes + 20 * a.tree.voxelSize();
+    }
+    EXPECT_GT(narrow, 400);
 }
 
 TEST(BodyDistance, ErrorsThatAreAllowedAreKept)

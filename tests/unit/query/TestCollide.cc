@@ -107,7 +107,7 @@ std::string refusal(const CollisionRequest& request)
 
 TEST(Collide, AgreesWithAllPairsOfLeavesWhereTreesHoldThem)
 {
-    int touching = 0, apart = 0;
+    int touching = 0, apart = 0, nearTruth = 0;
     forEachPosePair(Exactness::LeafUnion, 100000, [&](const PosePair& pair) {
         CollisionRequest request;
         request.enableDistanceLowerBound = request.enableContact = true;
@@ -125,11 +125,13 @@ TEST(Collide, AgreesWithAllPairsOfLeavesWhereTreesHoldThem)
         } else {
             ++apart;
             ASSERT_LE(result.distanceLowerBound, truth);
+            nearTruth += result.distanceLowerBound > 0.5 * truth;
             ASSERT_FALSE(result.contact);
         }
     });
     EXPECT_GT(touching, 20000);
     EXPECT_GT(apart, 20000);
+    EXPECT_GT(nearTruth, apart / 2) << "a lower bound of 0 would be true, and of no use";
 }
 
 TEST(Collide, NoTwoVoxelCubesMeetThatAreSaidToBeApart)
@@ -193,6 +195,23 @@ TEST(Collide, NoTwoCubesOfSmallObjectsThatMeetAreApartInAnyPlaceNearContact)
         querySample("a corner", {Coord(0), Coord(1, 0, 0), Coord(0, 1, 0)}, fast);
     expectNoneApartThatMeet(dot, dot);
     expectNoneApartThatMeet(dot, corner);
+}
+
+/// More leaves than a block has lanes: chains go through blocks below blocks.
+TEST(Collide, NoCubeThatMeetsOneOfManyLeavesIsApart)
+{
+    TightOptions fast;
+    fast.quality = Quality::Fast;
+    const QuerySample dot = querySample("a dot", {Coord(0)}, fast);
+    Voxels checkers;
+    for (const Coord& at : openvdb::CoordBBox(Coord(-1), Coord(1))) {
+        if ((at[0] + at[1] + at[2]) % 2 != 0) checkers.push_back(at);
+    }
+    const QuerySample many = querySample("checkers", checkers, fast);
+    const SphereTreeLevel& leaves = many.tree.levels.front();
+    ASSERT_GT(leaves.end - leaves.begin, 8);
+    ASSERT_GT(many.tree.levels.size(), 1u);
+    expectNoneApartThatMeet(many, dot);
 }
 
 TEST(Collide, SpheresInsideAreCertainOfTouchingAlone)
@@ -437,6 +456,12 @@ TEST(Collide, ABatchIsTheSameForAnyNumberOfThreadsAndAsOneByOne)
     EXPECT_EQ(one, many);
     for (std::size_t i = 0; i < poses.size(); ++i)
         EXPECT_EQ(one[i], collide(a, {}, b, poses[i]).verdict);
+    CollisionRequest objects;
+    objects.decideObjects = true;
+    collideBatch(a, b, poses, many.data(), objects);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        EXPECT_EQ(many[i], collide(a, {}, b, poses[i], objects).objects);
+    EXPECT_NE(one, many) << "spheres touch where objects need not";
     EXPECT_GT(std::count(one.begin(), one.end(), Verdict::Touching), 20);
     EXPECT_GT(std::count(one.begin(), one.end(), Verdict::Apart), 100);
 }
