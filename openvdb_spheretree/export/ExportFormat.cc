@@ -28,7 +28,8 @@ enum Trait : unsigned {
     kXml = 2048,
     kWord = 4096,
     kIdentifier = 8192,
-    kEmpty = 16384 ///< ExportFormat::empty
+    kEmpty = 16384, ///< ExportFormat::empty
+    kUp = 32768     ///< ExportFormat::up
 };
 
 struct Row {
@@ -57,16 +58,16 @@ constexpr Row kRows[] = {
     {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
 
     {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
-        kFloats | kAllLevels | kSamples | kIdentifier | kEmpty, detail::writeUsda},
+        kFloats | kAllLevels | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
     {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
     {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord | kEmpty, detail::writePlyAscii},
-    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels | kUtf8, detail::writeGlb},
+    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
     {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord | kEmpty, detail::writeMeshObj},
     {"mesh", ".stl", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshStl},
-    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8, detail::writeMeshGlb},
+    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8 | kUp, detail::writeMeshGlb},
     {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName | kWord,
         detail::writeUnrealObj},
 
@@ -106,6 +107,7 @@ ExportFormat makeFormat(const Row& row)
     format.samples = has(kSamples);
     format.mass = has(kMass);
     format.metres = has(kMetres);
+    format.up = has(kUp);
     format.positiveRadii = has(kPositiveRadii);
     format.ordersIds = has(kOrdersIds);
     if (format.name == "nanovdb" && !writesNanoVdb()) {

@@ -45,6 +45,7 @@ struct ExportFormat {
     bool allLevels = false;     ///< holds more than one level
     bool samples = false;       ///< holds several trees, as samples over time
     bool mass = false;          ///< has a mass and inertia
+    bool up = false;            ///< says which axis is up
     bool metres = false;        ///< its readers take its numbers for metres
     bool ordersIds = false;     ///< its ids count from the top level on: tracks have no place
     bool positiveRadii = false; ///< its readers refuse a radius of 0

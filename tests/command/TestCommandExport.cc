@@ -64,6 +64,26 @@ TEST_F(CommandExport, OneFormatAmongFilesOfOthers)
     EXPECT_TRUE(beginsWith(readText(path("b.csv")), "x,y,z,r\n"));
 }
 
+TEST_F(CommandExport, AnOptionThatMeansNothingToAFileIsTold)
+{
+    const auto noted = [&](const std::string& arguments) {
+        return run("-read tree.vdb -write " + arguments).err;
+    };
+    for (const auto& [option, what] :
+        {std::pair("link=arm", "links"), std::pair("mass=object", "a mass"),
+            std::pair("density=2", "a mass"), std::pair("start=3", "samples over time"),
+            std::pair("fps=25", "samples over time"), std::pair("up=z", "an axis that is up")}) {
+        const std::string text = noted(std::string("a.ply ") + option);
+        EXPECT_TRUE(
+            mentions(text, "changes nothing, as files of ply do not have ") && mentions(text, what))
+            << option << text;
+    }
+    for (const char* taken : {"a.ply a.urdf link=arm density=2", "a.ply a.usda up=z fps=25",
+             "a.ply a.png up=z width=16 height=16", "a.glb up=z", "a.ply"}) {
+        EXPECT_FALSE(mentions(noted(taken), "changes nothing")) << taken;
+    }
+}
+
 TEST_F(CommandExport, ToStdout)
 {
     const Result result = run("-quiet -read tree.vdb -write stdout.srdf link=arm");

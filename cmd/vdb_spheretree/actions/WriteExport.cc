@@ -174,6 +174,36 @@ void requireNoOptions(const ActionCall& call, const std::string& path)
     }
 }
 
+/// An option, and what a format must have for it to mean anything.
+struct OptionOfFormats {
+    const char* name;
+    bool ExportFormat::*has;
+    const char* what;
+};
+
+constexpr OptionOfFormats kOptionsOfFormats[] = {{"link", &ExportFormat::link, "links"},
+    {"mass", &ExportFormat::mass, "a mass"}, {"density", &ExportFormat::mass, "a mass"},
+    {"start", &ExportFormat::samples, "samples over time"},
+    {"fps", &ExportFormat::samples, "samples over time"},
+    {"up", &ExportFormat::up, "an axis that is up"}};
+
+/// Says which options mean nothing to a file, unless another file of the line takes them.
+void noteIdleOptions(
+    const ActionCall& call, const std::string& path, const ExportFormat& format, Session& session)
+{
+    const auto files = call.list("files");
+    for (const OptionOfFormats& option : kOptionsOfFormats) {
+        if (!call.given(option.name) || format.*option.has) continue;
+        const bool isTaken = std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+            const ExportFormat* const other = exportFormatOf(call, file);
+            return other ? other->*option.has : std::string(option.name) == "up"; // of pictures
+        });
+        if (isTaken) continue;
+        session.note(path + ": " + option.name + "= changes nothing, as files of " + format.name
+            + " do not have " + option.what);
+    }
+}
+
 /// NanoVDB holds grids, too: they are written where there is no tree.
 /// @return whether they were
 bool wroteGrids(const ActionCall& call, const std::string& path,
@@ -278,6 +308,7 @@ void writeExport(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session, std::ostream& out)
 {
     const ExportFormat& format = *exportFormatOf(call, path);
+    noteIdleOptions(call, path, format, session);
     try {
         if (format.name == "nanovdb" && wroteGrids(call, path, items, session, out)) return;
     } catch (const openvdb::ValueError&) {
