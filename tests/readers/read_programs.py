@@ -79,6 +79,19 @@ def read_vtk(trees):
         require_covered(points_of(polydata), trees.spheres("turned.vdb"))
 
 
+def require_corners_on(spheres, polydata, triangles):
+    """The triangles of the first sphere come first, and so on; floats move a corner by less than its place."""
+    from math import dist
+
+    for cell in range(polydata.GetNumberOfPolys()):
+        sphere = spheres[cell // triangles]
+        points = polydata.GetCell(cell).GetPoints()
+        for i in range(3):
+            corner = points.GetPoint(i)
+            off = abs(dist(corner, sphere[:3]) - sphere.radius)
+            assert off <= 1e-6 * (sphere.radius + max(map(abs, sphere[:3]))), (cell, corner, sphere)
+
+
 def read_mesh(trees):
     """Corners lie on the spheres; each sphere is closed, and as large as a polyhedron in it can be."""
     from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkPolyDataConnectivityFilter
@@ -90,6 +103,7 @@ def read_mesh(trees):
         reader.Update()
         polydata = reader.GetOutput()
         assert polydata.GetNumberOfPolys() == 320 * len(spheres)
+        require_corners_on(spheres, polydata, 320)
         mass = vtkMassProperties()
         mass.SetInputData(polydata)
         mass.Update()
