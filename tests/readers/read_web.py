@@ -35,26 +35,43 @@ def as_float(number):
     return struct.unpack("f", struct.pack("f", number))[0]
 
 
+def spheres_of_usd(levels):
+    """Spheres of a stage, the coarsest level first; numbers are text: the floats are those nearest to it."""
+    for level in levels:
+        level["points"] = [[as_float(v) for v in point] for point in level["points"]]
+        level["extent"] = [[as_float(v) for v in point] for point in level["extent"]]
+        level["widths"] = [as_float(v) for v in level["widths"]]
+        for point, width in zip(level["points"], level["widths"]):
+            for axis in range(3):
+                low, high = (corner[axis] for corner in level["extent"])
+                assert low <= point[axis] - width / 2 and point[axis] + width / 2 <= high
+    return [Sphere(*point, width / 2, level["level"], id, parent)
+            for level in reversed(levels)
+            for point, width, id, parent in
+            zip(level["points"], level["widths"], level["ids"], level["parents"])]
+
+
 def read_usd(trees):
     path = trees.write("turned.vdb", "tree.usda", "up=z", "name=a tree")
     for script in ("tinyusdz.mjs", "three_usd.mjs"):
         stage = node(trees, script, path)
         assert stage["upAxis"] == "Z" and stage["metersPerUnit"] == 1, stage
         assert stage["defaultPrim"] == "a_tree"
-        for level in stage["levels"]:  # of text: the floats are those nearest to it
-            level["points"] = [[as_float(v) for v in point] for point in level["points"]]
-            level["extent"] = [[as_float(v) for v in point] for point in level["extent"]]
-            level["widths"] = [as_float(v) for v in level["widths"]]
-        found = [Sphere(*point, width / 2, level["level"], id, parent)
-                 for level in reversed(stage["levels"])
-                 for point, width, id, parent in
-                 zip(level["points"], level["widths"], level["ids"], level["parents"])]
-        require_covered(found, trees.spheres("turned.vdb"))
-        for level in stage["levels"]:
-            for point, width in zip(level["points"], level["widths"]):
-                for axis in range(3):
-                    low, high = (corner[axis] for corner in level["extent"])
-                    assert low <= point[axis] - width / 2 and point[axis] + width / 2 <= high
+        require_covered(spheres_of_usd(stage["levels"]), trees.spheres("turned.vdb"))
+    stage = node(trees, "tinyusdz.mjs", path)
+    assert stage["chosen"] == "level_0" and stage["shown"] == {f"level_{k}": [f"level_{k}"] for k in range(3)}, stage
+    read_usd_samples(trees)
+
+
+def read_usd_samples(trees):
+    frames = {5: "first.vdb", 6: "second.vdb"}
+    for scale, frame in zip((1, 1.5), frames.values()):
+        trees.run("-read", "bent.vdb", f"scale={scale}", "-spheretree", "spheres=9,1", "quality=fast", "-write", frame)
+    trees.run("-read", *frames.values(), "-write", "walk.usda", "start=5")
+    stage = node(trees, "tinyusdz.mjs", trees.folder / "walk.usda")
+    assert [sample["time"] for sample in stage["samples"]] == list(frames), stage
+    for sample in stage["samples"]:
+        require_covered(spheres_of_usd(sample["levels"]), trees.spheres(frames[sample["time"]]))
 
 
 def read_gltf(trees):

@@ -20,8 +20,11 @@ const field = (name) => text.match(new RegExp(`${name} = "?([^"\\n]*)"?`))[1];
 const numbersOf = (list) => list.match(/-?[\d.]+(e[-+]?\d+)?/g).map(Number);
 const inThrees = (numbers) =>
     Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3));
-const levels = text.split(/def Points "level_/).slice(1).map((prim) => {
-    const value = (name) => numbersOf(prim.match(new RegExp(` ${name} = \\[([^\\]]*)\\]`))[1]);
+const [prims, choices] = text.split('variantSet "level" =');
+/// Of a sample, or of what has no time.
+const levelsAt = (time) => prims.split(/def Points "level_/).slice(1).map((prim) => {
+    const start = (name) => time === null ? ` ${name} =` : ` ${name}\\.timeSamples = \\{[^}]*\\s${time}:`;
+    const value = (name) => numbersOf(prim.match(new RegExp(`${start(name)} \\[([^\\]]*)\\]`))[1]);
     return {
         level: Number(prim.match(/^\d+/)[0]),
         points: inThrees(value("points")),
@@ -30,11 +33,18 @@ const levels = text.split(/def Points "level_/).slice(1).map((prim) => {
         ids: value("widths").map(() => null), // of an int64 it prints the first digit alone
         parents: value("primvars:parent"),
     };
-});
-levels.sort((a, b) => a.level - b.level);
+}).sort((a, b) => a.level - b.level);
+const sampled = prims.match(/points\.timeSamples = \{([^}]*)\}/);
+const times = sampled ? [...sampled[1].matchAll(/(\S+): \[/g)].map((match) => match[1]) : [];
+/// Which levels are seen with each choice of a level.
+const shown = [...choices.matchAll(/"(level_\d+)" \{([\s\S]*?)\n {8}\}/g)].map(([, choice, overs]) => [choice,
+    [...overs.matchAll(/over "(level_\d+)"\s*\{\s*token visibility = "inherited"/g)].map((match) => match[1])]);
 console.log(JSON.stringify({
     defaultPrim: field("defaultPrim"),
     metersPerUnit: Number(field("metersPerUnit")),
     upAxis: field("upAxis"),
-    levels,
+    levels: sampled ? [] : levelsAt(null),
+    samples: times.map((time) => ({ time: Number(time), levels: levelsAt(time) })),
+    chosen: field("string level"),
+    shown: Object.fromEntries(shown),
 }));
