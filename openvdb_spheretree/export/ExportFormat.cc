@@ -48,8 +48,8 @@ constexpr char kTriangles[] = "a level as triangles";
 
 // clang-format off
 constexpr Row kRows[] = {
-    {"urdf", ".urdf", "ROS, MuJoCo, Bullet, Drake", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeUrdf},
-    {"mjcf", ".mjcf .xml", "MuJoCo, Drake", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeMjcf},
+    {"urdf", ".urdf", "ROS, MuJoCo", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeUrdf},
+    {"mjcf", ".mjcf .xml", "MuJoCo", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeMjcf},
     {"srdf", ".srdf", "MoveIt", kSpheres, kMetres | kPositiveRadii | kLink | kXml, detail::writeSrdf},
     {"curobo", ".yml .yaml", "cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeCurobo},
     {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeXrdf},
@@ -59,9 +59,9 @@ constexpr Row kRows[] = {
 
     {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
         kFloats | kAllLevels | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
-    {"ply", ".ply", "Open3D, meshio, Blender 4", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
+    {"ply", ".ply", "Open3D, meshio", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
     {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord | kEmpty, detail::writePlyAscii},
-    {"glb", ".glb", "three.js, Babylon.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp, detail::writeGlb},
+    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
@@ -78,8 +78,8 @@ constexpr Row kRows[] = {
     {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName | kWord, detail::writeLammps},
     {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName | kEmpty, detail::writeMultisphere},
     {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName | kEmpty, detail::writeDeme},
-    {"xyz", ".xyz", "ASE, OVITO", kTree, kAllLevels | kEmpty, detail::writeXyz},
-    {"swc", ".swc", "neuron tools, skeletor", kTree, kAllLevels | kOrdersIds | kWord, detail::writeSwc},
+    {"xyz", ".xyz", "ASE", kTree, kAllLevels | kEmpty, detail::writeXyz},
+    {"swc", ".swc", "neuron tools", kTree, kAllLevels | kOrdersIds | kWord, detail::writeSwc},
     {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
         kAllLevels | kOrdersIds, detail::writeSph},
 };

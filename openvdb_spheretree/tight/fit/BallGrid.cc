@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BallGrid.h"
 
-#include <openvdb_spheretree/base/Hash.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,29 +29,23 @@ Coord cellOf(const int64_t center[3], int log2)
 Coord clusterOf(const Coord& cell) { return cell >> 2; }
 
 /// Calls body(entries) for the clusters in a box.
-template <typename Clusters, typename Body>
-void forEachCluster(const Clusters& clusters, const CoordBBox& box, const Body& body)
+template <typename Grid, typename Body>
+void forEachCluster(const Grid& grid, const CoordBBox& box, const Body& body)
 {
+    constexpr double kFewLookUps = 1000;
     const Coord size = box.dim();
-    if (double(size[0]) * size[1] * size[2] > double(clusters.size())) {
-        for (const auto& [cluster, entries] : clusters) {
-            if (box.isInside(cluster)) body(entries);
-        }
+    if (double(size[0]) * size[1] * size[2] > kFewLookUps) {
+        grid.occupied.forEachIn(
+            box, [&](const Coord& at) { body(grid.clusters.find(at)->second); });
         return;
     }
     for (const Coord& at : box) {
-        const auto cluster = clusters.find(at);
-        if (cluster != clusters.end()) body(cluster->second);
+        const auto cluster = grid.clusters.find(at);
+        if (cluster != grid.clusters.end()) body(cluster->second);
     }
 }
 
 } // namespace
-
-std::size_t BallGrid::CoordHash::operator()(const Coord& at) const
-{
-    const uint64_t xy = uint64_t(uint32_t(at[0])) << 32 | uint32_t(at[1]);
-    return std::size_t(detail::hash(detail::hash(xy) ^ uint32_t(at[2])));
-}
 
 BallGrid::BallGrid(const std::vector<ExactSphere>& balls)
 {
@@ -66,7 +58,10 @@ void BallGrid::add(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
     const Coord cell = cellOf(ball.center, log2);
-    mGrids[log2][clusterOf(cell)].push_back({ball, ball.radius(), id, cell});
+    Grid& grid = mGrids[log2];
+    std::vector<Entry>& entries = grid.clusters[clusterOf(cell)];
+    if (entries.empty()) grid.occupied.add(clusterOf(cell));
+    entries.push_back({ball, ball.radius(), id, cell});
     ++mSize;
 }
 
@@ -74,27 +69,31 @@ void BallGrid::remove(int32_t id, const ExactSphere& ball)
 {
     const int log2 = log2CellOf(ball);
     const auto grid = mGrids.find(log2);
-    const auto cluster = grid->second.find(clusterOf(cellOf(ball.center, log2)));
+    Clusters& clusters = grid->second.clusters;
+    const auto cluster = clusters.find(clusterOf(cellOf(ball.center, log2)));
     std::vector<Entry>& entries = cluster->second;
     *std::find_if(entries.begin(), entries.end(),
         [&](const Entry& entry) { return entry.id == id; }) = entries.back();
     entries.pop_back();
-    if (entries.empty()) grid->second.erase(cluster);
-    if (grid->second.empty()) mGrids.erase(grid);
+    if (entries.empty()) {
+        grid->second.occupied.remove(cluster->first);
+        clusters.erase(cluster);
+    }
+    if (clusters.empty()) mGrids.erase(grid);
     --mSize;
 }
 
 template <typename Body>
 void BallGrid::forEachNear(const FineBox& box, const Body& body) const
 {
-    for (const auto& [log2, clusters] : mGrids) {
+    for (const auto& [log2, grid] : mGrids) {
         const int64_t width = int64_t(1) << log2; // no ball of this grid has a larger radius
         CoordBBox near;
         for (int a = 0; a < 3; ++a) {
             near.min()[a] = int32_t((box.lo[a] - width) >> log2);
             near.max()[a] = int32_t((box.hi[a] + width) >> log2);
         }
-        forEachCluster(clusters, near >> std::size_t(2), [&](const std::vector<Entry>& entries) {
+        forEachCluster(grid, near >> std::size_t(2), [&](const std::vector<Entry>& entries) {
             for (const Entry& entry : entries) {
                 if (near.isInside(entry.cell)) body(entry);
             }

@@ -8,11 +8,14 @@
 ///
 /// A large ball reaches many cells of the grids of small ones, and nearly all are empty. So balls are
 /// listed by clusters of 4^3 cells, one look-up each, and those of other cells are passed over. (Without
-/// clusters, and with cells of one voxel, hairball-256 spent 90 % of its time on empty cells.)
+/// clusters, and with cells of one voxel, hairball-256 spent 90 % of its time on empty cells.) Where many clusters
+/// would be looked up, those that there are come from a list of them, OccupiedCells: objects may have parts that lie
+/// far apart.
 
 #pragma once
 
 #include "FineSphere.h"
+#include "OccupiedCells.h"
 
 #include <cstdint>
 #include <map>
@@ -49,11 +52,11 @@ private:
         int32_t id;
         openvdb::Coord cell;
     };
-    struct CoordHash {
-        std::size_t operator()(const openvdb::Coord& at) const;
+    using Clusters = std::unordered_map<openvdb::Coord, std::vector<Entry>, CoordHash>;
+    struct Grid {
+        Clusters clusters; ///< the balls in each; none is empty
+        OccupiedCells occupied;
     };
-    /// The balls in each cluster; none is empty.
-    using Grid = std::unordered_map<openvdb::Coord, std::vector<Entry>, CoordHash>;
 
     /// Calls body(entry) for at least all balls whose boxes meet the box.
     template <typename Body>
