@@ -42,6 +42,28 @@ void requireStorable(const SphereTree& tree)
     tree.settings.validate();
 }
 
+// ---- Which grids are ours
+
+bool differInOneCharacter(const std::string& a, const std::string& b)
+{
+    if (a.size() != b.size()) return false;
+    const auto [left, right] = std::mismatch(a.begin(), a.end(), b.begin());
+    return left != a.end() && std::equal(left + 1, a.end(), right + 1);
+}
+
+/// @return whether a grid without the key of a format had one: it has a tree's levels, or the key is damaged.
+bool hadFormat(const GridBase& grid)
+{
+    if (grid[detail::kLevelsKey]) return true;
+    for (auto meta = grid.beginMeta(); meta != grid.endMeta(); ++meta) {
+        for (const char* format :
+            {detail::kFormatKey, detail::kDagFormatKey, detail::kCutsFormatKey}) {
+            if (differInOneCharacter(meta->first, format)) return true;
+        }
+    }
+    return false;
+}
+
 // ---- Reading: first everything into arrays in the order of ids, then checks in that order, so
 // that the first offender named is the same every time
 
@@ -338,9 +360,7 @@ PointDataGrid::Ptr cutsToPoints(const SphereTree& tree, NullInterrupter* interru
 bool isSphereTree(const GridBase& grid)
 {
     if (!grid.isType<PointDataGrid>()) return false;
-    if (grid[detail::kFormatKey]) return true;
-    // A checksum of nothing is of a tree whose format was damaged: it is refused, not taken for points.
-    return hasChecksum(grid) && !grid[detail::kDagFormatKey] && !grid[detail::kCutsFormatKey];
+    return grid[detail::kFormatKey] || (hasChecksum(grid) && hadFormat(grid));
 }
 
 PointDataGrid::Ptr emptyTreeToPoints(const SphereTree& tree)

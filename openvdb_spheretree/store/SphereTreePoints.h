@@ -52,8 +52,8 @@ openvdb::points::PointDataGrid::Ptr dagToPoints(
 openvdb::points::PointDataGrid::Ptr cutsToPoints(
     const SphereTree& tree, openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @return whether a grid claims to be a sphere-tree: it has the format's metadata, or where these are damaged
-///         a checksum of ours.
+/// @return whether a grid claims to be a sphere-tree. It has the key of the format, or it has a checksum, and that
+///         key, or one of a companion's, is damaged: then fromPoints() refuses it.
 bool isSphereTree(const openvdb::GridBase& grid);
 
 /// @return the grid of a tree of no object: without points, of the tree's name and transform. It is no

@@ -267,7 +267,7 @@ SphereTreeLevel readLevel(const GridBase& grid, int number)
 
 std::vector<SphereTreeLevel> readLevels(const GridBase& grid)
 {
-    const int count = getMeta<int32_t>(grid, "spheretree_levels");
+    const int count = getMeta<int32_t>(grid, kLevelsKey);
     const int lowest = getMeta<int32_t>(grid, "spheretree_lowest_level");
     if (count < 1 || count > kMaxLevels || lowest < 0 || lowest > kMaxLevels
         || (count > 1 && lowest > 0)) {
@@ -315,7 +315,7 @@ void writeTreeMetadata(GridBase& grid, const SphereTree& tree, int scale)
     setMeta(grid, "spheretree_object_bbox_min", tree.object.bbox.min().asVec3i());
     setMeta(grid, "spheretree_object_bbox_max", tree.object.bbox.max().asVec3i());
     setMeta(grid, "spheretree_origin", tree.origin.asVec3i());
-    setMeta<int32_t>(grid, "spheretree_levels", int32_t(tree.levels.size()));
+    setMeta<int32_t>(grid, kLevelsKey, int32_t(tree.levels.size()));
     setMeta<int32_t>(grid, "spheretree_lowest_level", tree.levels.front().level);
     if (tree.nextTrack > 0) setMeta<int32_t>(grid, kNextTrackKey, tree.nextTrack);
     for (const SphereTreeLevel& level : tree.levels) writeLevel(grid, level);

@@ -14,7 +14,8 @@
 namespace openvdb_spheretree::detail {
 
 constexpr char kFormatKey[] = "spheretree_format";
-constexpr char kEmptyKey[] = "spheretree_empty"; ///< of the points of a tree of nothing
+constexpr char kLevelsKey[] = "spheretree_levels"; ///< how many a tree has
+constexpr char kEmptyKey[] = "spheretree_empty";   ///< of the points of a tree of nothing
 constexpr char kDagFormatKey[] = "spheretree_dag_format";
 constexpr char kCutsFormatKey[] = "spheretree_cuts_format";
 constexpr char kScaleKey[] = "spheretree_point_scale";

@@ -67,21 +67,24 @@ TEST_F(CommandExport, OneFormatAmongFilesOfOthers)
 TEST_F(CommandExport, AnOptionThatMeansNothingToAFileIsTold)
 {
     const auto noted = [&](const std::string& arguments) {
-        return run("-read tree.vdb -write " + arguments).err;
+        const Result result = run("-read tree.vdb -write " + arguments);
+        EXPECT_TRUE(result.exitCode == 0) << arguments << ": " << result.err;
+        return result.err;
     };
-    for (const auto& [option, what] :
-        {std::pair("link=arm", "links"), std::pair("mass=object", "a mass"),
-            std::pair("density=2", "a mass"), std::pair("start=3", "samples over time"),
-            std::pair("fps=25", "samples over time"), std::pair("up=z", "an axis that is up")}) {
+    for (const auto& [option, what] : {std::pair("link=arm", "hold no links"),
+             std::pair("mass=object", "hold no mass"), std::pair("density=2", "hold no mass"),
+             std::pair("start=3", "hold no samples over time"),
+             std::pair("fps=25", "hold no samples over time"),
+             std::pair("up=z", "say no axis that is up")}) {
         const std::string text = noted(std::string("a.ply ") + option);
-        EXPECT_TRUE(
-            mentions(text, "changes nothing, as files of ply do not have ") && mentions(text, what))
+        EXPECT_TRUE(mentions(text, "changes nothing, as .ply files ") && mentions(text, what))
             << option << text;
     }
     for (const char* taken : {"a.ply a.urdf link=arm density=2", "a.ply a.usda up=z fps=25",
              "a.ply a.png up=z width=16 height=16", "a.glb up=z", "a.ply"}) {
         EXPECT_FALSE(mentions(noted(taken), "changes nothing")) << taken;
     }
+    EXPECT_TRUE(mentions(noted("a.ply a.vdb up=z"), "a.ply: up= changes nothing"));
 }
 
 TEST_F(CommandExport, ToStdout)

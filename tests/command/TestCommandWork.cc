@@ -362,6 +362,21 @@ TEST_F(CommandWork, APointGridNamedLikeEdgesIsReadAsPoints)
     EXPECT_NE(result.out.find("'a_dag'"), std::string::npos) << result.out;
 }
 
+TEST_F(CommandWork, EdgesWithADamagedFormatAreNoPoints)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree tree=extended dag=1 name=a -write t.vdb").exitCode, 0);
+    auto grids = readGrids("t.vdb");
+    for (auto& grid : grids) {
+        if (grid->getName() != "a_dag") continue;
+        grid->insertMeta("spheretree_dag_formap", *(*grid)["spheretree_dag_format"]);
+        grid->removeMeta("spheretree_dag_format");
+    }
+    writeGrids("u.vdb", grids);
+    const Result result = run("-read u.vdb -print");
+    EXPECT_EQ(result.exitCode, 3) << result.out;
+    EXPECT_NE(result.err.find("'a_dag' is a damaged sphere-tree"), std::string::npos) << result.err;
+}
+
 TEST_F(CommandWork, ATightTreeKeepsItsCutsFromFileToFile)
 {
     const auto tree = spheretree_test::tightSampleTree();

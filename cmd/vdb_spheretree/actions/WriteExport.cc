@@ -181,11 +181,17 @@ struct OptionOfFormats {
     const char* what;
 };
 
-constexpr OptionOfFormats kOptionsOfFormats[] = {{"link", &ExportFormat::link, "links"},
-    {"mass", &ExportFormat::mass, "a mass"}, {"density", &ExportFormat::mass, "a mass"},
-    {"start", &ExportFormat::samples, "samples over time"},
-    {"fps", &ExportFormat::samples, "samples over time"},
-    {"up", &ExportFormat::up, "an axis that is up"}};
+constexpr OptionOfFormats kOptionsOfFormats[] = {{"link", &ExportFormat::link, "hold no links"},
+    {"mass", &ExportFormat::mass, "hold no mass"}, {"density", &ExportFormat::mass, "hold no mass"},
+    {"start", &ExportFormat::samples, "hold no samples over time"},
+    {"fps", &ExportFormat::samples, "hold no samples over time"},
+    {"up", &ExportFormat::up, "say no axis that is up"}};
+
+/// The camera of a picture has a direction that is up.
+bool isTakenByPicture(const ActionCall& call, const std::string& option, const std::string& path)
+{
+    return option == "up" && isPicture(fileKind(path)) && !isChart(call, path);
+}
 
 /// Says which options mean nothing to a file, unless another file of the line takes them.
 void noteIdleOptions(
@@ -196,11 +202,11 @@ void noteIdleOptions(
         if (!call.given(option.name) || format.*option.has) continue;
         const bool isTaken = std::any_of(files.begin(), files.end(), [&](const std::string& file) {
             const ExportFormat* const other = exportFormatOf(call, file);
-            return other ? other->*option.has : std::string(option.name) == "up"; // of pictures
+            return other ? other->*option.has : isTakenByPicture(call, option.name, file);
         });
         if (isTaken) continue;
-        session.note(path + ": " + option.name + "= changes nothing, as files of " + format.name
-            + " do not have " + option.what);
+        session.note(path + ": " + option.name + "= changes nothing, as "
+            + spheretree::detail::lowerExtension(path) + " files " + option.what);
     }
 }
 
@@ -308,13 +314,13 @@ void writeExport(const ActionCall& call, const std::string& path,
     const std::vector<StackItem*>& items, Session& session, std::ostream& out)
 {
     const ExportFormat& format = *exportFormatOf(call, path);
-    noteIdleOptions(call, path, format, session);
     try {
         if (format.name == "nanovdb" && wroteGrids(call, path, items, session, out)) return;
     } catch (const openvdb::ValueError&) {
         rethrowNamed(path, kInput);
     }
     const auto chosen = treesOf(items, format, path);
+    noteIdleOptions(call, path, format, session);
     requireOneThing(call, path, chosen);
     ExportSettings settings = settingsOf(call);
     if (format.mass && call.text("mass") == "object") {

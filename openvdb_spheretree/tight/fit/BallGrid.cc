@@ -26,6 +26,13 @@ Coord cellOf(const int64_t center[3], int log2)
     return {int32_t(center[0] >> log2), int32_t(center[1] >> log2), int32_t(center[2] >> log2)};
 }
 
+/// @return the last cell that there can be, for places beyond it.
+int32_t cellAt(int64_t cell)
+{
+    constexpr int64_t kLast = std::numeric_limits<int32_t>::max();
+    return int32_t(std::clamp(cell, -kLast, kLast));
+}
+
 Coord clusterOf(const Coord& cell) { return cell >> 2; }
 
 /// Calls body(entries) for the clusters in a box.
@@ -34,7 +41,8 @@ void forEachCluster(const Grid& grid, const CoordBBox& box, const Body& body)
 {
     constexpr double kFewLookUps = 1000;
     const Coord size = box.dim();
-    if (double(size[0]) * size[1] * size[2] > kFewLookUps) {
+    const double lookUps = double(size[0]) * size[1] * size[2];
+    if (lookUps > std::min(kFewLookUps, double(grid.clusters.size()))) {
         grid.occupied.forEachIn(
             box, [&](const Coord& at) { body(grid.clusters.find(at)->second); });
         return;
@@ -90,8 +98,8 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
         const int64_t width = int64_t(1) << log2; // no ball of this grid has a larger radius
         CoordBBox near;
         for (int a = 0; a < 3; ++a) {
-            near.min()[a] = int32_t((box.lo[a] - width) >> log2);
-            near.max()[a] = int32_t((box.hi[a] + width) >> log2);
+            near.min()[a] = cellAt((box.lo[a] - width) >> log2);
+            near.max()[a] = cellAt((box.hi[a] + width) >> log2);
         }
         forEachCluster(grid, near >> std::size_t(2), [&](const std::vector<Entry>& entries) {
             for (const Entry& entry : entries) {

@@ -9,8 +9,7 @@
 /// A large ball reaches many cells of the grids of small ones, and nearly all are empty. So balls are
 /// listed by clusters of 4^3 cells, one look-up each, and those of other cells are passed over. (Without
 /// clusters, and with cells of one voxel, hairball-256 spent 90 % of its time on empty cells.) Where many clusters
-/// would be looked up, those that there are come from a list of them, OccupiedCells: objects may have parts that lie
-/// far apart.
+/// would be looked up, OccupiedCells lists those with balls: objects may have parts that lie far apart.
 
 #pragma once
 

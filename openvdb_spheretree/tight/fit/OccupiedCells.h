@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file OccupiedCells.h
-/// @brief Lists the cells of a sparse grid that are in a box, in time that goes by those, not by the box
-/// nor by the cells that there are.
+/// @brief Lists the occupied cells of a sparse grid in a box, in time that grows with those found: neither with the
+/// size of the box nor with the cells elsewhere.
 ///
 /// Cells are grouped by 4^3, groups again by 4^3, and so on: a walk starts where the box is few groups wide, and
-/// goes down into those that there are. Adding and removing take constant time, one look-up as a rule.
+/// goes down into those that are occupied. Adding and removing take constant time, one look-up as a rule.
 
 #pragma once
 
@@ -32,6 +32,7 @@ public:
     template <typename Body>
     void forEachIn(const openvdb::CoordBBox& box, const Body& body) const
     {
+        if (box.empty()) return;
         std::size_t level = 0;
         while (level + 1 < kLevels && countOf(groupsIn(box, level)) > kFewGroups) ++level;
         const openvdb::CoordBBox groups = groupsIn(box, level);

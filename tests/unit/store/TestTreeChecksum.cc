@@ -226,18 +226,35 @@ TEST(TreeChecksum, EveryFlippedBitOfMetadataAndItsKeysIsFound)
 }
 
 /// It would be read as any points, and become the object of another tree.
-TEST(TreeChecksum, ATreeWhoseFormatHasAnotherKeyIsStillOne)
+TEST(TreeChecksum, ATreeWhoseFormatIsMissingIsStillOne)
 {
     const Stored stored(tightSampleTree());
-    for (const PointDataGrid::Ptr& grid : stored.grids()) {
-        const bool isNodes = grid == stored.nodes;
-        const std::string key = isNodes ? "spheretree_format" : "spheretree_cuts_format";
-        EXPECT_EQ(isSphereTree(*grid), isNodes);
-        ASSERT_TRUE((*grid)[key]) << grid->getName();
-        grid->removeMeta(key);
-        EXPECT_TRUE(isSphereTree(*grid)) << grid->getName();
-        EXPECT_THROW(fromPoints(*grid), openvdb::ValueError);
-    }
+    stored.nodes->removeMeta("spheretree_format");
+    EXPECT_TRUE(isSphereTree(*stored.nodes));
+    const std::string message = messageOf<openvdb::ValueError>([&] { fromPoints(*stored.nodes); });
+    EXPECT_NE(message.find("is a damaged sphere-tree"), std::string::npos) << message;
+}
+
+TEST(TreeChecksum, ACompanionWithADamagedFormatIsNoPoints)
+{
+    const auto expectDamaged = [](PointDataGrid& grid, const std::string& key) {
+        EXPECT_FALSE(isSphereTree(grid)) << key;
+        const openvdb::Metadata::Ptr format = grid[key]->copy();
+        grid.removeMeta(key);
+        EXPECT_FALSE(isSphereTree(grid)) << "without " << key;
+        for (const std::size_t at : {std::size_t(0), key.size() / 2, key.size() - 1}) {
+            std::string damaged = key;
+            damaged[at] ^= 4;
+            grid.insertMeta(damaged, *format);
+            EXPECT_TRUE(isSphereTree(grid)) << damaged;
+            EXPECT_THROW(fromPoints(grid), openvdb::ValueError) << damaged;
+            grid.removeMeta(damaged);
+        }
+        grid.insertMeta(key + "2", *format);
+        EXPECT_FALSE(isSphereTree(grid)) << "a key of a later version";
+    };
+    expectDamaged(*Stored(tightSampleTree()).cuts, "spheretree_cuts_format");
+    expectDamaged(*Stored(sampleTree()).dag, "spheretree_dag_format");
 }
 
 TEST(TreeChecksum, EveryFlippedBitOfTheTransformIsFound)

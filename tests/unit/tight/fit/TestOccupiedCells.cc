@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <vector>
 
 namespace {
 
@@ -72,6 +74,7 @@ TEST(OccupiedCells, OfTheWidestBoxAreAll)
     occupied.add(first);
     occupied.add(last);
     EXPECT_EQ(sortedIn(occupied, CoordBBox(first, last)), (std::vector<Coord>{first, last}));
+    EXPECT_TRUE(sortedIn(occupied, CoordBBox()).empty());
 }
 
 } // namespace
