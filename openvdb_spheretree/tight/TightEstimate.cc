@@ -7,13 +7,12 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace openvdb_spheretree::tight {
 
 namespace {
-
-constexpr double kGrowth = 3.5; // of leaf balls, from a level of the pyramid to the next finer one
 
 /// A level of the pyramid that levels are made on, with as many leaf balls as are guessed there.
 struct GuessedObject {
@@ -23,25 +22,36 @@ struct GuessedObject {
 
 GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 {
+    constexpr double kGrowth =
+        3.5; // of leaf balls, from a level of the pyramid to the next finer one
     GuessedObject guess{coarse.steps.size(), double(coarse.leaves.balls.size())};
+    const auto voxels = [&] { return double(detail::countVoxels(*coarse.levels[guess.level])); };
     while (guess.level > 0 && guess.leafBalls < double(size.leafBalls)
-        && detail::countVoxels(*coarse.levels[guess.level]) < size.voxels) {
+        && voxels() < double(size.voxels)) {
         --guess.level;
-        guess.leafBalls *= kGrowth;
+        guess.leafBalls = std::min(kGrowth * guess.leafBalls, voxels());
     }
     return guess;
 }
 
-/// The regions of all leaf balls, as if each were one of a coarse level, as many times as large.
-double bytesOfLeafRegions(
-    const CoarseObject& coarse, const GuessedObject& guess, std::size_t leafNodes)
+/// The regions of all leaf balls, as if each were one of a coarse level, as many times as large. In thin or scattered
+/// objects most of such a ball is empty: there each leaf node is in no more of them than on the coarse level,
+/// but for their number.
+double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess)
 {
-    const double scale = std::exp2(double(coarse.steps.size() - guess.level));
+    const auto leafNodesOf = [&](std::size_t level) {
+        return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
+    };
+    const std::size_t last = coarse.steps.size();
+    const std::size_t leafNodes = leafNodesOf(guess.level), coarseNodes = leafNodesOf(last);
+    const double scale = std::exp2(double(last - guess.level));
     std::vector<ExactSphere> balls = coarse.leaves.balls;
+    WorkingMemory coarseRegions, regions;
+    coarseRegions.addRegions(balls, coarseNodes);
     for (ExactSphere& ball : balls) ball.radiusSq = int64_t(double(ball.radiusSq) * scale * scale);
-    WorkingMemory regions;
     regions.addRegions(balls, leafNodes);
-    return regions.bytes * guess.leafBalls / double(balls.size());
+    const double ofNodes = coarseRegions.bytes * double(leafNodes) / double(coarseNodes);
+    return std::min(regions.bytes, ofNodes) * guess.leafBalls / double(balls.size());
 }
 
 /// Regions of covers at most: each leaf node is in about three of a level's balls.
@@ -99,7 +109,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
         estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(0));
     }
     if (makesLeafRegions(options, allLeaves)) {
-        estimate.bytes += bytesOfLeafRegions(coarse, guess, leafNodes);
+        estimate.bytes += bytesOfLeafRegions(coarse, guess);
     }
     return estimate;
 }

@@ -5,6 +5,7 @@
 /// more than 1 GiB.
 ///
 /// The mutants follow from kSeed and the sample's name, so a failure names one that comes again.
+/// With SPHERETREE_MUTANTS=all in the environment, long files are cut and flipped at every byte as well.
 
 #include "ForkServer.h"
 
@@ -17,6 +18,7 @@
 #include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -34,6 +36,8 @@ constexpr int64_t kRandomMutants = 10000;
 std::vector<std::size_t> placesIn(std::size_t size, std::size_t most)
 {
     constexpr std::size_t kHead = 2048;
+    const char* const wanted = std::getenv("SPHERETREE_MUTANTS");
+    if (wanted && wanted == std::string("all")) most = kHead + size;
     std::set<std::size_t> places;
     for (std::size_t i = 0; i < std::min(size, kHead); ++i) places.insert(i);
     const std::size_t step = std::max<std::size_t>(1, size / (most - kHead));

@@ -144,6 +144,29 @@ TEST_F(MemoryPlanTest, TellsWhatTheLevelsOfATightTreeWillTake)
     }
 }
 
+/// Parts are one voxel each on most levels of the pyramid: their leaf balls do not grow in number there.
+TEST_F(MemoryPlanTest, TheLeafBallsOfPartsThatLieFarApartAreNoMoreThanTheirVoxels)
+{
+    constexpr int kSide = 14, kApart = 64; // parts along an axis, voxels
+    auto parts = openvdb::BoolGrid::create();
+    for (openvdb::Coord at(0); at[0] < kSide; ++at[0]) {
+        for (at[1] = 0; at[1] < kSide; ++at[1]) {
+            for (at[2] = 0; at[2] < kSide; ++at[2]) {
+                const openvdb::Coord first(at[0] * kApart, at[1] * kApart, at[2] * kApart);
+                parts->fill(openvdb::CoordBBox(first, first.offsetBy(2)), true);
+            }
+        }
+    }
+    constexpr int64_t kParts = kSide * kSide * kSide;
+    SphereTreeSettings settings = settingsOf(TreeType::Tight, 0);
+    settings.tight().quality = Quality::Fast;
+    settings.budgeted().budget.spheres = {};
+    const MemoryPlan plan = memoryPlan(*parts, settings);
+    EXPECT_GE(plan.leafBalls, kParts);
+    EXPECT_LE(plan.leafBalls, 27 * kParts);
+    EXPECT_LT(plan.levelsBytes, 30'000.0 * kParts);
+}
+
 /// What levels take is within memory=, too; and what a refusal names is enough.
 TEST_F(MemoryPlanTest, LevelsThatNeedMoreAreRefusedWithTheNumber)
 {
