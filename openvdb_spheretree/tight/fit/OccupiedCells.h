@@ -8,7 +8,7 @@
 
 #pragma once
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h>
 
 #include <array>
 #include <cstddef>
