@@ -15,6 +15,7 @@
 #include <openvdb_spheretree/pyramid/OrPyramid.h>
 #include <openvdb_spheretree/tight/TightTree.h>
 #include <openvdb_spheretree/tree/GivenTree.h>
+#include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/Masks.h>
@@ -223,11 +224,11 @@ void appendPyramidTree(SphereTree& tree, openvdb::MaskTree::Ptr voxels, StageSec
     });
 }
 
-/// @param given  the leaf balls of leaves=given, else null
-SphereTree tightTree(SphereTree tree, const openvdb::BoolGrid& object, const SphereTree* given,
-    StageSeconds& seconds, openvdb::util::NullInterrupter* interrupter)
+SphereTree tightTree(SphereTree tree, const openvdb::BoolGrid& object,
+    const tight::TightStart& start, StageSeconds& seconds,
+    openvdb::util::NullInterrupter* interrupter)
 {
-    tight::appendTightTree(tree, object, given, interrupter, &seconds);
+    tight::appendTightTree(tree, object, start, interrupter, &seconds);
     detail::storeRadii(tree, interrupter);
     if (tree.settings.tight().cover == Cover::Balls) {
         containStoredLeaves(tree, radiiAroundCut(tree), interrupter);
@@ -241,10 +242,9 @@ bool hasGivenLeaves(const SphereTreeSettings& settings)
     return options && options->leaves == Leaves::Given;
 }
 
-} // namespace
-
-SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
-    StageSeconds* seconds, openvdb::util::NullInterrupter* interrupter)
+/// @param last  the tree of the frame before, or null
+SphereTree builtTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
+    const SphereTree* last, StageSeconds& seconds, openvdb::util::NullInterrupter* interrupter)
 {
     settings.validate();
     if (hasGivenLeaves(settings)) {
@@ -257,15 +257,33 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
             openvdb::ValueError, "tree=given is for spheres that were read: nothing builds them");
     }
     SphereTree tree = withoutNodes(object, settings);
-    StageSeconds ownSeconds;
-    if (!seconds) seconds = &ownSeconds;
     if (settings.find<TightOptions>()) {
-        return tightTree(std::move(tree), object, /*given=*/nullptr, *seconds, interrupter);
+        return tightTree(std::move(tree), object, {/*given=*/nullptr, last}, seconds, interrupter);
     }
     auto voxels = voxelsOf(object, FlatAxis(tree.flatAxis));
-    if (settings.isInner()) detail::appendInnerTree(tree, *voxels, *seconds, interrupter);
-    else if (settings.isFit()) nearest::appendNearestTree(tree, *voxels, *seconds, interrupter);
-    else appendPyramidTree(tree, std::move(voxels), *seconds, interrupter);
+    if (settings.isInner()) detail::appendInnerTree(tree, *voxels, seconds, interrupter);
+    else if (settings.isFit()) nearest::appendNearestTree(tree, *voxels, seconds, interrupter);
+    else appendPyramidTree(tree, std::move(voxels), seconds, interrupter);
+    return tree;
+}
+
+} // namespace
+
+SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
+    StageSeconds* seconds, openvdb::util::NullInterrupter* interrupter)
+{
+    StageSeconds ownSeconds;
+    return builtTree(object, settings, nullptr, seconds ? *seconds : ownSeconds, interrupter);
+}
+
+SphereTree buildNextSphereTree(const SphereTree& last, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    StageSeconds ownSeconds;
+    SphereTree tree =
+        builtTree(object, settings, &last, seconds ? *seconds : ownSeconds, interrupter);
+    continueTracks(tree, last, interrupter);
     return tree;
 }
 
@@ -280,7 +298,7 @@ SphereTree buildSphereTreeOver(const WorldSpheres& leaves, const openvdb::BoolGr
     }
     StageSeconds ownSeconds;
     const SphereTree given = givenTree(leaves, object);
-    return tightTree(withoutNodes(object, settings), object, &given,
+    return tightTree(withoutNodes(object, settings), object, {&given, /*last=*/nullptr},
         seconds ? *seconds : ownSeconds, interrupter);
 }
 

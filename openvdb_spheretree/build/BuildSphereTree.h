@@ -29,6 +29,14 @@ namespace openvdb_spheretree {
 SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSettings& settings = {},
     StageSeconds* seconds = nullptr, openvdb::util::NullInterrupter* interrupter = nullptr);
 
+/// @brief The same for the next frame of a sequence: its spheres have the tracks of those that they come from
+/// (SphereTracks.h). Spheres of a tight tree of named counts start where they were, if that makes no level more than a
+/// twentieth worse (FollowedLevels.h).
+/// @param last  the tree of the frame before
+SphereTree buildNextSphereTree(const SphereTree& last, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds = nullptr,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
 /// @brief The same for a tight tree whose level 0 is spheres that come from elsewhere (leaves=given). Those
 /// that hold no voxel of the object are left out. Centers are rounded to 1/16 of a voxel, and radii grow
 /// by as much as that moves them.

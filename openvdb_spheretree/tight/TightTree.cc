@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/measure/LevelMeter.h>
 #include <openvdb_spheretree/tight/level/BottomUpLevels.h>
 #include <openvdb_spheretree/tight/level/CarriedLevels.h>
+#include <openvdb_spheretree/tight/level/FollowedLevels.h>
 #include <openvdb_spheretree/tight/level/FreeCovers.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
 #include <openvdb_spheretree/tight/level/LevelWork.h>
@@ -252,8 +253,8 @@ std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCover
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
-std::vector<TightLevel> levelsOfCounts(
-    const SphereTree& tree, const CoarseObject& coarse, bool areGiven, const LevelMaker& maker)
+std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObject& coarse,
+    const TightStart& start, const LevelMaker& maker)
 {
     const SphereTreeSettings& settings = tree.settings;
     const TightOptions& options = settings.tight();
@@ -267,14 +268,18 @@ std::vector<TightLevel> levelsOfCounts(
     if (!onObject) counts.front() += counts.front() / 8;
     maker.interrupter->expect(LevelWork(maker).ofCounts(int64_t(leafBalls.size()), counts,
         options.quality, coarse.leafNodesBelow(coarse.steps.size())));
-    auto levels = levelsFrom(counts, free, areGiven, options.quality, maker);
+    auto levels = levelsFrom(counts, free, start.given != nullptr, options.quality, maker);
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
         const SampledObject finer(LeafLayout(*coarse.levels[step]));
         levels =
             carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
                 levelMakerFor(settings, finer, leafBalls.size(), maker.interrupter));
     }
-    return levels;
+    if (!start.last) return levels;
+    if (onObject) return followedLevels(*start.last, tree, levels, maker);
+    const SampledObject finest(LeafLayout(*coarse.levels.front()));
+    return followedLevels(*start.last, tree, levels,
+        levelMakerFor(settings, finest, leafBalls.size(), maker.interrupter));
 }
 
 /// @return the object with the given leaf balls.
@@ -290,7 +295,7 @@ CoarseObject objectOf(const SphereTree& given, const FlatAxis& flat,
 
 } // namespace
 
-void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const SphereTree* given,
+void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const TightStart& start,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds)
 {
     const SphereTreeSettings& settings = tree.settings;
@@ -299,8 +304,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
     const FlatAxis flat(tree.flatAxis);
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flat);
     LeafLayout::requireRoom(*voxels); // levels that are made on a coarse object end here, too
-    const CoarseObject coarse = given
-        ? objectOf(*given, flat, voxels, interrupter)
+    const CoarseObject coarse = start.given
+        ? objectOf(*start.given, flat, voxels, interrupter)
         : coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);
     const LeafBalls& leaves = coarse.leaves;
     const bool onObject = coarse.steps.empty();
@@ -314,9 +319,8 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Sp
             levelMakerFor(settings, coarse.samples, leaves.balls.size(), &progress);
         const TightSource source{object, leaves, maker};
         if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source);
-        return allLeaves || options.budget.hasBound()
-            ? levelsOnFinest(tree, source)
-            : levelsOfCounts(tree, coarse, given != nullptr, maker);
+        return allLeaves || options.budget.hasBound() ? levelsOnFinest(tree, source)
+                                                      : levelsOfCounts(tree, coarse, start, maker);
     });
     const std::size_t kept = onObject ? leaves.balls.size() : 0;
     appendLevels(options.cuts ? levels : monotone(levels, kept, tree, object, interrupter), tree);

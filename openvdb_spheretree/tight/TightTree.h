@@ -12,6 +12,7 @@
 ///    counts (FreeCovers.h).
 /// 3. These covers become levels, from the top (TopDownLevels.h) or from the bottom (BottomUpLevels.h).
 /// 4. Levels are carried down the pyramid to the object (CarriedLevels.h).
+/// 5. In a sequence, those of the frame before are taken where they fit about as well (FollowedLevels.h).
 /// With cuts=1 or cover=balls, levels are cuts of one forest of merges instead (MergeForest.h).
 ///
 /// Deterministic: the same bytes for any number of threads.
@@ -26,13 +27,19 @@
 
 namespace openvdb_spheretree::tight {
 
+/// What a tree may start from, beside its object.
+struct TightStart {
+    const SphereTree* given =
+        nullptr; ///< the leaf balls of leaves=given, in the frame of the object (GivenTree.h)
+    const SphereTree* last = nullptr; ///< the tree of the frame before
+};
+
 /// @brief Appends all nodes and levels, and the cuts if the settings say so, to a tree that has its
 /// settings, object and transform. Stored radii are left to the caller.
 /// @param object   that the tree is of
-/// @param given    the leaf balls of leaves=given, in the frame of @a object (GivenTree.h); else null
 /// @param seconds  must not be null
 /// @throw openvdb::ValueError if a bound on the error cannot be reached within the count allowed
-void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const SphereTree* given,
+void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const TightStart& start,
     openvdb::util::NullInterrupter* interrupter, StageSeconds* seconds);
 
 } // namespace openvdb_spheretree::tight

@@ -56,6 +56,12 @@ Vec3d centerOfMass(const Level& level)
     return sum / mass;
 }
 
+double meanRadius(const Level& level)
+{
+    const double sum = std::accumulate(level.radius.begin(), level.radius.end(), 0.0);
+    return sum / double(level.radius.size());
+}
+
 /// Pairs the spheres of one level of two frames.
 class LevelPairing {
 public:
@@ -73,6 +79,9 @@ public:
         pair(now, last);
         return std::move(mTrack);
     }
+
+    /// @return the mean of all pairs after pair(); 0 without one.
+    double meanMovement() const { return mPairs > 0 ? mMovement / double(mPairs) : 0; }
 
 private:
     struct Rest {
@@ -115,7 +124,9 @@ private:
             isTaken[chosen[i]] = true;
             const std::size_t other = columns[chosen[i]];
             mTrack[fewerNow ? rows[i] : other] = mLast.track[fewerNow ? other : rows[i]];
+            mMovement += costs[i * columns.size() + chosen[i]];
         }
+        mPairs += rows.size();
         Rest rest;
         for (std::size_t j = 0; j < columns.size(); ++j) {
             if (!isTaken[j]) (fewerNow ? rest.last : rest.now).push_back(columns[j]);
@@ -168,6 +179,8 @@ private:
     const Vec3d mShift;
     NullInterrupter* mInterrupter;
     std::vector<int32_t> mTrack;
+    std::size_t mPairs = 0;
+    double mMovement = 0; ///< of all pairs
 };
 
 int32_t takeNext(int32_t& next)
@@ -204,6 +217,20 @@ void continueTracks(SphereTree& tree, const SphereTree& last, NullInterrupter* i
     }
     tree.track = std::move(track);
     tree.nextTrack = next;
+}
+
+double movementSince(const SphereTree& last, const SphereTree& tree, NullInterrupter* interrupter)
+{
+    double sum = 0;
+    for (const SphereTreeLevel& range : tree.levels) {
+        if (!last.hasLevel(range.level)) continue;
+        const Level now = levelOf(tree, range), before = levelOf(last, last.level(range.level));
+        LevelPairing pairing(now, before, interrupter);
+        pairing.pair();
+        const double radius = meanRadius(now);
+        if (radius > 0) sum += pairing.meanMovement() / radius;
+    }
+    return sum;
 }
 
 } // namespace openvdb_spheretree

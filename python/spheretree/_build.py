@@ -157,8 +157,8 @@ def build(
     topology, errors
         Count parts, tunnels and cavities of every level's voxels; count the errors of every level.
     like
-        The tree of the frame before, whose spheres keep their `Tree.tracks` in this one. A tree without any has its ids
-        for tracks.
+        The tree of the frame before. Spheres keep their `Tree.tracks`; those of a tight tree of named counts start where
+        they were. A tree without any tracks has its ids for these.
     name
         Of the tree, and of the grid it is saved in.
     memory

@@ -120,8 +120,13 @@ StackItem& selectGivenSpheres(Session& session)
     return **newest;
 }
 
-/// @param leaves  of leaves=given, else null
-SphereTree treeOf(const BoolGrid& object, const spheretree::WorldSpheres* leaves,
+/// What a tree may be built from, beside its object; each may be null.
+struct TreeStart {
+    const spheretree::WorldSpheres* leaves; ///< of leaves=given
+    const SphereTree* last;                 ///< of like=
+};
+
+SphereTree treeOf(const BoolGrid& object, const TreeStart& start,
     const spheretree::SphereTreeSettings& settings, Session& session)
 {
     if (session.verbosity >= Verbosity::Verbose) { // it costs something
@@ -129,9 +134,16 @@ SphereTree treeOf(const BoolGrid& object, const spheretree::WorldSpheres* leaves
     }
     try {
         spheretree::StageSeconds* const seconds = &session.seconds.build;
-        return leaves
-            ? spheretree::buildSphereTreeOver(*leaves, object, settings, seconds, &session.progress)
-            : spheretree::buildSphereTree(object, settings, seconds, &session.progress);
+        Progress* const progress = &session.progress;
+        if (!start.leaves && start.last) {
+            return spheretree::buildNextSphereTree(
+                *start.last, object, settings, seconds, progress);
+        }
+        SphereTree tree = start.leaves
+            ? spheretree::buildSphereTreeOver(*start.leaves, object, settings, seconds, progress)
+            : spheretree::buildSphereTree(object, settings, seconds, progress);
+        if (start.last) spheretree::continueTracks(tree, *start.last, progress);
+        return tree;
     } catch (const openvdb::IoError&) { // of its temporary file
         rethrowNamed("", kOutput);
     }
@@ -188,11 +200,10 @@ void runSpheretree(const ActionCall& call, Session& session)
     warnOfSize(*object, settings.dim, session);
     warnOfDistance(*object, settings, session);
     result.tree = std::make_shared<SphereTree>(
-        treeOf(*object, leaves ? leaves->given.get() : nullptr, settings, session));
+        treeOf(*object, {leaves ? leaves->given.get() : nullptr, last.get()}, settings, session));
     if (leaves && !call.flag("keep")) session.stack.drop(leaves);
     if (call.given("like")) {
-        if (last) spheretree::continueTracks(*result.tree, *last, &session.progress);
-        else spheretree::startTracks(*result.tree);
+        if (!last) spheretree::startTracks(*result.tree);
         remember(*result.tree, session);
     }
     session.remark(counted(result.tree->size(), "sphere") + " on "

@@ -87,8 +87,8 @@ std::vector<OptionSpec> spheretreeOptions()
                 "or it "
                 "writes files without spheres"));
             options.push_back(text("like", "",
-                "a tree of the frame before, whose spheres keep their tracks (numbers) in this "
-                "one: "
+                "a tree of the frame before, where spheres start and whose tracks (numbers) they "
+                "keep: "
                 "previous is the last one of the same name that this line has built; or its age on "
                 "the stack or name"));
             options.push_back(vdbOption("the grid"));

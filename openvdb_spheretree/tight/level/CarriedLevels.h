@@ -6,10 +6,7 @@
 /// part of the time. (dragon-512: 64 balls found at a quarter of the resolution are better than those that
 /// merging finds on all of it.)
 /// 1. Each ball grows until it holds the children of all voxels that it holds (lifted()). So chains stay.
-/// 2. Finest level first, each ball is placed anew for the voxels that it alone has to hold: of its
-///    ancestors' regions, and in levels above, of its children's.
-///
-/// Cost: two or three passes over the voxels in the balls of each level.
+/// 2. All are placed anew (PlacedLevels.h).
 
 #pragma once
 

@@ -83,6 +83,15 @@ std::vector<CoverBall> LevelMaker::placedBetween(
     return quick.placed(cover, goal);
 }
 
+std::vector<CoverBall> LevelMaker::refilled(const std::vector<CoverBall>& cover,
+    const std::vector<CoverBall>& spare, const CoverGoal& goal) const
+{
+    const detail::Step step(interrupter, LevelWork(*this).ofPlacing(int64_t(cover.size())));
+    SearchEffort effort{fit, 0, 0, flat};
+    effort.sweeps = sweeps;
+    return withoutEmpty(improveCover(cover, spare, object, goal, effort, interrupter).balls);
+}
+
 int64_t LevelMaker::dilatedFor(int64_t leafBalls, int64_t count) const
 {
     constexpr int64_t kLeast = 4096; // to merge fewer takes little time

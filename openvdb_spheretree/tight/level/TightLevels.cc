@@ -183,6 +183,24 @@ void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree)
     }
 }
 
+std::vector<TightLevel> levelsOf(const SphereTree& tree)
+{
+    const FlatAxis flat(tree.flatAxis);
+    std::vector<TightLevel> levels(tree.levels.size());
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        const SphereTreeLevel& range = tree.levels[k];
+        for (int32_t id = range.begin; id < range.end; ++id) {
+            const Vec3d center = flat.toZ(tree.spheres.center[id]) * double(kFine);
+            levels[k].balls.push_back(
+                {{std::llround(center[0]), std::llround(center[1]), std::llround(center[2])},
+                    tree.spheres.coverRadiusSq[id]});
+            if (k + 1 == levels.size()) continue;
+            levels[k].parent.push_back(tree.spheres.parent[id] - tree.levels[k + 1].begin);
+        }
+    }
+    return levels;
+}
+
 SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis)
 {
     const FlatAxis flat(flatAxis);

@@ -52,6 +52,9 @@ std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
 /// @param levels  finest first; flat objects are flat along z
 void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
 
+/// @return the levels that were appended to @a tree. Balls of the finest level are not known as digital ones.
+std::vector<TightLevel> levelsOf(const SphereTree& tree);
+
 /// @return the forest as cuts of a SphereTree, without stored radii.
 SphereCuts cutsOf(const std::vector<ForestNode>& forest, int flatAxis);
 
