@@ -193,6 +193,16 @@ int32_t takeNext(int32_t& next)
     return next++;
 }
 
+/// Calls body(range, now, before) for the levels that both trees have.
+template <typename Body>
+void forEachCommonLevel(const SphereTree& tree, const SphereTree& last, const Body& body)
+{
+    for (const SphereTreeLevel& range : tree.levels) {
+        if (!last.hasLevel(range.level)) continue;
+        body(range, levelOf(tree, range), levelOf(last, last.level(range.level)));
+    }
+}
+
 } // namespace
 
 void startTracks(SphereTree& tree)
@@ -205,12 +215,11 @@ void startTracks(SphereTree& tree)
 void continueTracks(SphereTree& tree, const SphereTree& last, NullInterrupter* interrupter)
 {
     std::vector<int32_t> track(std::size_t(tree.size()), -1);
-    for (const SphereTreeLevel& range : tree.levels) {
-        if (!last.hasLevel(range.level)) continue;
-        const Level now = levelOf(tree, range), before = levelOf(last, last.level(range.level));
-        const auto paired = LevelPairing(now, before, interrupter).pair();
-        std::copy(paired.begin(), paired.end(), track.begin() + range.begin);
-    }
+    forEachCommonLevel(
+        tree, last, [&](const SphereTreeLevel& range, const Level& now, const Level& before) {
+            const auto paired = LevelPairing(now, before, interrupter).pair();
+            std::copy(paired.begin(), paired.end(), track.begin() + range.begin);
+        });
     int32_t next = last.track.empty() ? last.size() : last.nextTrack;
     for (int32_t& each : track) {
         if (each < 0) each = takeNext(next);
@@ -222,14 +231,13 @@ void continueTracks(SphereTree& tree, const SphereTree& last, NullInterrupter* i
 double movementSince(const SphereTree& last, const SphereTree& tree, NullInterrupter* interrupter)
 {
     double sum = 0;
-    for (const SphereTreeLevel& range : tree.levels) {
-        if (!last.hasLevel(range.level)) continue;
-        const Level now = levelOf(tree, range), before = levelOf(last, last.level(range.level));
-        LevelPairing pairing(now, before, interrupter);
-        pairing.pair();
-        const double radius = meanRadius(now);
-        if (radius > 0) sum += pairing.meanMovement() / radius;
-    }
+    forEachCommonLevel(
+        tree, last, [&](const SphereTreeLevel&, const Level& now, const Level& before) {
+            LevelPairing pairing(now, before, interrupter);
+            pairing.pair();
+            const double radius = meanRadius(now);
+            if (radius > 0) sum += pairing.meanMovement() / radius;
+        });
     return sum;
 }
 
