@@ -84,23 +84,34 @@ CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
     return result;
 }
 
-/// The nearest pairs. There is room for a few at first, and sixteen times as many in each search that finds more: how many
-/// there are is not known before.
-/// @param pairs  receives limits.wanted of them at most, the nearest first
-SearchEnd findNearestOf(
-    const BodyPair& bodies, detail::NearestLimits limits, std::vector<LeafPair>& pairs)
+/// Pairs of leaves, the nearest first. A few have their place here; more take memory.
+struct NearestPairs {
+    static constexpr int kFew = 64;
+    LeafPair few[kFew];
+    std::vector<LeafPair> many;
+    int count = 0;
+
+    const LeafPair* begin() const { return many.empty() ? few : many.data(); }
+    const LeafPair* end() const { return begin() + count; }
+};
+
+/// There is room for a few at first, and sixteen times as many in each search that finds more: how many there are is not
+/// known before.
+/// @param pairs  receives limits.wanted of them at most
+SearchEnd findNearestOf(const BodyPair& bodies, detail::NearestLimits limits, NearestPairs& pairs)
 {
-    constexpr int64_t kFirst = 64, kMore = 16;
+    constexpr int64_t kFirst = NearestPairs::kFew, kMore = 16;
     const int64_t wanted = limits.wanted;
     int64_t blocks = 0;
     for (int64_t room = std::min(wanted, kFirst);; room = std::min(wanted, kMore * room)) {
-        pairs.assign(std::size_t(room), {});
+        if (room > kFirst) pairs.many.resize(std::size_t(room));
         limits.wanted = int(room);
         int count = 0;
-        SearchEnd end = findNearest(bodies.frame, limits, pairs.data(), count);
+        LeafPair* const place = room > kFirst ? pairs.many.data() : pairs.few;
+        SearchEnd end = findNearest(bodies.frame, limits, place, count);
         blocks += end.blocks;
         if (count < room || room == wanted) {
-            pairs.resize(std::size_t(count));
+            pairs.count = count;
             end.blocks = blocks;
             return end;
         }
@@ -121,11 +132,12 @@ CollisionResult deepestContacts(
     limits.wanted = request.maxContacts;
     limits.below = std::nextafter(search.margin + bodies.frame.rounding, INFINITY);
     limits.maxBlocks = search.maxBlocks;
-    std::vector<LeafPair> pairs;
+    NearestPairs pairs;
     const SearchEnd end = findNearestOf(bodies, limits, pairs);
     result.blocks = end.blocks;
+    contacts.reserve(std::size_t(pairs.count));
     for (const LeafPair& pair : pairs) contacts.push_back(bodies.contact(pair));
-    if (!pairs.empty()) setTouching(result, bodies, pairs[0], request.enableContact);
+    if (pairs.count > 0) setTouching(result, bodies, *pairs.begin(), request.enableContact);
     else if (end.isDecided) setApart(result, bodies, search.margin);
     if (result.isCollision() && request.decideObjects)
         decideObjects(result, bodies, limits.maxBlocks);

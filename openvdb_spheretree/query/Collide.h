@@ -10,9 +10,10 @@
 ///
 /// A mesh has no inside, and a body within another one does not touch it. Spheres do.
 ///
-/// Nothing is allocated but what a list of contacts takes. Results are the same on every instruction set, and calls are
-/// thread-safe. Cost: for "apart" every pair of spheres that meet above the leaves is opened, some 40 blocks of 8
-/// where a dragon of 128 voxels nearly touches another one. Tests: TestCollide.cc, against all pairs of leaves.
+/// Nothing is allocated but what a list of contacts takes, and while more than 64 of them are looked for as much again.
+/// Results are the same on every instruction set, and calls are thread-safe. Cost: for "apart" every pair of spheres that
+/// meet above the leaves is opened, some 40 blocks of 8 where a dragon of 128 voxels nearly touches another one. Tests:
+/// TestCollide.cc, against all pairs of leaves; TestAllocations.cc.
 
 #pragma once
 
