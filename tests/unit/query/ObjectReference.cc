@@ -33,9 +33,10 @@ std::vector<WorldCube> cubes(const QuerySample& sample)
 {
     std::vector<WorldCube> all;
     const Vec3d half(0.5);
+    const double scale = sample.settings.scale;
     for (const Coord& voxel : sample.voxels) {
-        const Vec3d a = sample.tree.transform->indexToWorld(voxel.asVec3d() - half);
-        const Vec3d b = sample.tree.transform->indexToWorld(voxel.asVec3d() + half);
+        const Vec3d a = scale * sample.tree.transform->indexToWorld(voxel.asVec3d() - half);
+        const Vec3d b = scale * sample.tree.transform->indexToWorld(voxel.asVec3d() + half);
         all.push_back({openvdb::math::minComponent(a, b), openvdb::math::maxComponent(a, b)});
     }
     return all;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PosePairs.h"
 
+#include "ObjectReference.h"
+
 #include <gtest/gtest.h>
 
 #include <openvdb/math/Transform.h>
@@ -63,16 +65,17 @@ bool meet(const Cube& a, const Cube& b)
     return true;
 }
 
-std::vector<Cube> cubesOf(const QueryBody& body, const RigidTransform& pose)
+std::vector<Cube> cubesOf(const QueryBody& body, const RigidTransform& pose, double inside)
 {
     const auto& transform = *body.tree.transform;
+    const double scale = body.sample.settings.scale;
     std::vector<Cube> cubes;
     for (const Coord& voxel : body.sample.voxels) {
         Cube cube;
-        cube.center = pose * transform.indexToWorld(voxel.asVec3d());
+        cube.center = pose * (scale * transform.indexToWorld(voxel.asVec3d()));
         for (int axis = 0; axis < 3; ++axis) {
             Vec3d half(0, 0, 0);
-            half[axis] = 0.5 * body.tree.voxelSize();
+            half[axis] = 0.5 * scale * body.tree.voxelSize() - inside;
             cube.half[axis] = pose.rotate(half);
         }
         cubes.push_back(cube);
@@ -82,10 +85,10 @@ std::vector<Cube> cubesOf(const QueryBody& body, const RigidTransform& pose)
 
 /// Pairs of cubes whose centers are that near at most.
 template <typename Visit>
-void forNearCubes(const PosePair& pair, double most, const Visit& visit)
+void forNearCubes(const PosePair& pair, double most, double inside, const Visit& visit)
 {
-    const std::vector<Cube> b = cubesOf(pair.b, pair.poseB);
-    for (const Cube& p : cubesOf(pair.a, pair.poseA)) {
+    const std::vector<Cube> b = cubesOf(pair.b, pair.poseB, inside);
+    for (const Cube& p : cubesOf(pair.a, pair.poseA, inside)) {
         for (const Cube& q : b) {
             if ((p.center - q.center).length() <= most) visit(p, q);
         }
@@ -103,10 +106,10 @@ RigidTransform poseNear(const QueryBody& a, const QueryBody& b, double apart, Ra
             * turn;
     };
     double low = 0, high = 1.01 * (a.query.radius() + b.query.radius());
-    const auto ballsA = leafBalls(a.tree);
+    const auto ballsA = leafBalls(a.sample);
     for (int step = 0; step < 24; ++step) {
         const double middle = 0.5 * (low + high);
-        (smallestGap(ballsA, leafBalls(b.tree, at(middle))) > 0 ? high : low) = middle;
+        (smallestGap(ballsA, leafBalls(b.sample, at(middle))) > 0 ? high : low) = middle;
     }
     return at(high + apart);
 }
@@ -117,14 +120,14 @@ std::string PosePair::name() const { return a.sample.name + " and " + b.sample.n
 
 double PosePair::smallestGap() const
 {
-    return spheretree_test::smallestGap(leafBalls(a.tree, poseA), leafBalls(b.tree, poseB));
+    return spheretree_test::smallestGap(leafBalls(a.sample, poseA), leafBalls(b.sample, poseB));
 }
 
 std::vector<double> PosePair::allGaps() const
 {
     std::vector<double> gaps;
-    const auto ballsB = leafBalls(b.tree, poseB);
-    for (const WorldBall& p : leafBalls(a.tree, poseA)) {
+    const auto ballsB = leafBalls(b.sample, poseB);
+    for (const WorldBall& p : leafBalls(a.sample, poseA)) {
         for (const WorldBall& q : ballsB) gaps.push_back(gap(p, q));
     }
     return gaps;
@@ -132,25 +135,29 @@ std::vector<double> PosePair::allGaps() const
 
 double PosePair::gapOf(const NodePair& nodes) const
 {
-    const auto ball = [](const SphereTree& tree, int32_t id, const RigidTransform& pose) {
-        return WorldBall{
-            pose * tree.centerWorld(id), double(tree.spheres.radiusWorld.at(std::size_t(id)))};
+    const auto ball = [](const QueryBody& body, int32_t id, const RigidTransform& pose) {
+        const double scale = body.sample.settings.scale;
+        return WorldBall{pose * (scale * body.tree.centerWorld(id)),
+            scale * body.tree.spheres.radiusWorld.at(std::size_t(id))};
     };
-    return gap(ball(a.tree, nodes.a, poseA), ball(b.tree, nodes.b, poseB));
+    return gap(ball(a, nodes.a, poseA), ball(b, nodes.b, poseB));
 }
 
-bool PosePair::cubesMeet() const
+bool PosePair::cubesMeet(double inside) const
 {
     bool found = false;
-    const double most = std::sqrt(3.0) * 0.5 * (a.tree.voxelSize() + b.tree.voxelSize());
-    forNearCubes(*this, most, [&](const Cube& p, const Cube& q) { found = found || meet(p, q); });
+    const double most = std::sqrt(3.0) * 0.5
+        * (a.sample.settings.scale * a.tree.voxelSize()
+            + b.sample.settings.scale * b.tree.voxelSize());
+    forNearCubes(
+        *this, most, inside, [&](const Cube& p, const Cube& q) { found = found || meet(p, q); });
     return found;
 }
 
 double PosePair::cubesDistanceAtMost() const
 {
     double least = std::numeric_limits<double>::infinity();
-    forNearCubes(*this, least, [&](const Cube& p, const Cube& q) {
+    forNearCubes(*this, least, 0, [&](const Cube& p, const Cube& q) {
         if ((p.center - q.center).length() - 2 * p.half[0].length() - 2 * q.half[0].length()
             > least)
             return;
@@ -163,9 +170,15 @@ double PosePair::cubesDistanceAtMost() const
 void forEachPosePair(
     Exactness exactness, int count, const std::function<void(const PosePair&)>& test)
 {
+    forEachPosePairOf(querySamples(), exactness, count, test);
+}
+
+void forEachPosePairOf(const std::vector<QuerySample>& samples, Exactness exactness, int count,
+    const std::function<void(const PosePair&)>& test)
+{
     std::vector<QueryBody> bodies;
-    for (const QuerySample& sample : querySamples()) {
-        bodies.push_back({sample, makeQueryTree(sample.tree, exactness), sample.tree});
+    for (const QuerySample& sample : samples) {
+        bodies.push_back({sample, makeQueryTree(sample, exactness), sample.tree});
     }
     Random random(11);
     RigidTransform near;
@@ -200,6 +213,53 @@ void forEachPosePair(
         }
         test({a, b, world, world * poseB});
     }
+}
+
+RigidMotion movedMotion(
+    const RigidTransform& world, const RigidMotion& motion, const RigidTransform& first)
+{
+    const RigidTransform start = world * motion.start() * first;
+    const Vec3d axis = world.rotate(motion.axis());
+    if (motion.radians() == 0) return RigidMotion::line(start, motion.slide() * axis);
+    return RigidMotion::screw(
+        start, world * motion.point(), axis, motion.radians(), motion.slide());
+}
+
+namespace {
+
+/// As turnedTree().
+const RigidTransform& turnOfAxes()
+{
+    static const RigidTransform turn(openvdb::Mat3d(0, 1, 0, 0, 0, 1, 1, 0, 0), Vec3d(0.0));
+    return turn;
+}
+
+} // namespace
+
+TurnedPairs::Turned::Turned(const QueryBody& given, Exactness exactness)
+    : sample{given.sample.name, {}, turnedTree(given.tree, Vec3d(0.0)), given.sample.settings},
+      body{sample, makeQueryTree(sample, exactness), sample.tree}
+{
+    for (const Coord& voxel : given.sample.voxels)
+        sample.voxels.push_back(Coord(voxel[1], voxel[2], voxel[0]));
+}
+
+const QueryBody& TurnedPairs::body(const QueryBody& given)
+{
+    auto& turned = mBodies[&given];
+    if (!turned) turned = std::make_unique<Turned>(given, mExactness);
+    return turned->body;
+}
+
+PosePair TurnedPairs::of(const PosePair& pair)
+{
+    const RigidTransform &turn = turnOfAxes(), back = turn.inverse();
+    return {body(pair.a), body(pair.b), turn * pair.poseA * back, turn * pair.poseB * back};
+}
+
+RigidMotion TurnedPairs::of(const RigidMotion& motion) const
+{
+    return movedMotion(turnOfAxes(), motion, turnOfAxes().inverse());
 }
 
 } // namespace spheretree_test

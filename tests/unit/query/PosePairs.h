@@ -8,14 +8,17 @@
 
 #include <openvdb_spheretree/query/BodyDistance.h>
 #include <openvdb_spheretree/query/Collide.h>
+#include <openvdb_spheretree/query/RigidMotion.h>
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace spheretree_test {
 
-/// A sample with its tree of queries.
+/// A sample with its tree of queries, made with the settings of the sample.
 struct QueryBody {
     const QuerySample& sample;
     QueryTree query;
@@ -58,7 +61,8 @@ struct PosePair {
     double gapOf(const openvdb_spheretree::NodePair& nodes) const;
     /// @}
     /// Whether a voxel cube of a meets one of b: by the 15 axes that separate boxes.
-    bool cubesMeet() const;
+    /// @param inside  world units that all faces are moved inwards by: then they meet whatever rounding of poses has done
+    bool cubesMeet(double inside = 0) const;
     /// What the distance of two voxel cubes is at most: that of points of one to the other.
     double cubesDistanceAtMost() const;
 };
@@ -67,5 +71,32 @@ struct PosePair {
 /// anywhere. The same ones each time. Ends early at the first fatal failure.
 void forEachPosePair(
     Exactness exactness, int count, const std::function<void(const PosePair&)>& test);
+/// The same of other samples.
+void forEachPosePairOf(const std::vector<QuerySample>& samples, Exactness exactness, int count,
+    const std::function<void(const PosePair&)>& test);
+
+/// @return the motion with another pose of the body in front of it, in another world.
+openvdb_spheretree::RigidMotion movedMotion(const RigidTransform& world,
+    const openvdb_spheretree::RigidMotion& motion, const RigidTransform& first = {});
+
+/// The same pairs with the axes of the world and of both trees in another order, as turnedTree().
+class TurnedPairs {
+public:
+    explicit TurnedPairs(Exactness exactness) : mExactness(exactness) {}
+
+    PosePair of(const PosePair& pair);
+    openvdb_spheretree::RigidMotion of(const openvdb_spheretree::RigidMotion& motion) const;
+
+private:
+    const QueryBody& body(const QueryBody& given);
+
+    struct Turned {
+        QuerySample sample;
+        QueryBody body;
+        Turned(const QueryBody& given, Exactness exactness);
+    };
+    Exactness mExactness;
+    std::map<const QueryBody*, std::unique_ptr<Turned>> mBodies;
+};
 
 } // namespace spheretree_test

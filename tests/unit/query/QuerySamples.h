@@ -21,20 +21,28 @@ using openvdb_spheretree::QueryTree;
 using openvdb_spheretree::RigidTransform;
 using openvdb_spheretree::SphereTree;
 
-/// A tree, its object, and what it was made with.
+/// A tree, its object, and what it is asked with.
 struct QuerySample {
     std::string name;
     Voxels voxels;
     SphereTree tree;
+    openvdb_spheretree::QueryTreeSettings settings = {};
 };
 
 /// Tight trees with both covers, extended ones and those of other budgets, over random objects, a
 /// single voxel, two far voxels, and a row of voxels.
 const std::vector<QuerySample>& querySamples();
 
+/// Trees of every other kind that has answers: reversible ones, those centered on miniballs, with leaves that are given, of
+/// coarser levels, without padding, scaled, flat, inside the object, and spheres without any.
+const std::vector<QuerySample>& otherQuerySamples();
+
 /// One tree of @a settings of these voxels.
 QuerySample querySample(const std::string& name, const Voxels& voxels,
     const openvdb_spheretree::SphereTreeSettings& settings);
+
+/// The tree of queries of a sample, as it is asked, but for its exactness.
+QueryTree makeQueryTree(const QuerySample& sample, Exactness exactness);
 
 /// The sample of that name.
 const QuerySample& querySample(const std::string& name);
@@ -52,6 +60,8 @@ struct WorldBall {
 
 /// The leaf spheres of the finest level as they are stored, moved by @a pose.
 std::vector<WorldBall> leafBalls(const SphereTree& tree, const RigidTransform& pose = {});
+/// Those of the level that is asked, scaled as well.
+std::vector<WorldBall> leafBalls(const QuerySample& sample, const RigidTransform& pose = {});
 
 /// @return |a - b| less both radii.
 double gap(const WorldBall& a, const WorldBall& b);

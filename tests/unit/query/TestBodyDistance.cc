@@ -241,6 +241,49 @@ TEST(BodyDistance, SwappedBodiesAreAsFarApart)
     });
 }
 
+TEST(BodyDistance, AMovedWorldHasTheSameDistances)
+{
+    Random random(9);
+    forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
+        const double far = pair.a.tree.voxelSize() * std::pow(10.0, uniform(random, 6, 9));
+        const auto world =
+            RigidTransform::fromTranslation(far * randomDirection(random)) * randomRotation(random);
+        const DistanceResult here = pair.distance(isSigned()),
+                             there = pair.movedBy(world).distance(isSigned());
+        const double rounding = 1e-15 * far + 1e-9;
+        ASSERT_NEAR(there.distance, here.distance, rounding) << pair.name() << far;
+        const Vec3d point = world * here.contact->point();
+        if (there.contact->nodes == here.contact->nodes) {
+            ASSERT_LE((there.contact->point() - point).length(), 1e3 * rounding) << pair.name();
+        }
+    });
+}
+
+TEST(BodyDistance, FarFromTheOriginOfTheWorldObjectsAreNoNearerThanItSays)
+{
+    Random random(10);
+    forEachPosePair(Exactness::Object, 1000, [&](const PosePair& pair) {
+        const double far = pair.a.tree.voxelSize() * std::pow(10.0, uniform(random, 6, 9));
+        const auto world =
+            RigidTransform::fromTranslation(far * randomDirection(random)) * randomRotation(random);
+        const DistanceResult result = pair.movedBy(world).distance();
+        const double rounding = 1e-15 * far + 1e-9,
+                     cubes = pair.cubesMeet() ? 0 : pair.cubesDistanceAtMost();
+        ASSERT_LE(result.distance, cubes + rounding) << pair.name() << far;
+        ASSERT_LE(result.objectsLower, cubes + rounding) << pair.name() << far;
+        ASSERT_LE(result.objectsLower, result.objectsUpper) << pair.name() << far;
+    });
+}
+
+TEST(BodyDistance, AxesInAnotherOrderHaveTheSameDistances)
+{
+    TurnedPairs turned(Exactness::LeafUnion);
+    forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
+        ASSERT_NEAR(pair.distance(isSigned()).distance,
+            turned.of(pair).distance(isSigned()).distance, kRounding);
+    });
+}
+
 TEST(BodyDistance, EveryVectorTargetGivesTheSameAnswersToTheLastBit)
 {
     std::vector<std::vector<double>> answers;

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -419,23 +418,57 @@ TEST(Collide, AMovedWorldGivesTheSameVerdict)
     });
 }
 
+/// From 10^6 to 10^9 voxels away.
+TEST(Collide, FarFromTheOriginOfTheWorldNoTwoCubesThatMeetAreApart)
+{
+    Random random(12);
+    int met = 0, apart = 0;
+    forEachPosePair(Exactness::Object, 3000, [&](const PosePair& pair) {
+        const double far = pair.a.tree.voxelSize() * std::pow(10.0, uniform(random, 6, 9));
+        const auto world =
+            RigidTransform::fromTranslation(far * randomDirection(random)) * randomRotation(random);
+        // Poses there are rounded.
+        const double rounding = 1e-15 * far + 1e-9;
+        const bool isApart = pair.movedBy(world).collide().verdict == Verdict::Apart;
+        (isApart ? apart : met) += 1;
+        ASSERT_FALSE(isApart && pair.cubesMeet(rounding)) << pair.name() << far;
+        ASSERT_FALSE(!isApart && pair.smallestGap() > kRounding + 10 * rounding)
+            << pair.name() << far;
+    });
+    EXPECT_GT(met, 500);
+    EXPECT_GT(apart, 500);
+}
+
+/// The trees themselves lie there, and each is brought back by its pose.
+TEST(Collide, TreesFarFromTheOriginOfTheWorldThatMeetAreNotApart)
+{
+    int met = 0, apart = 0;
+    for (const double voxels : {1e6, 1e7, 1e8, 1e9}) {
+        std::vector<QuerySample> moved;
+        for (const QuerySample& sample : querySamples()) {
+            const double far = voxels * sample.tree.voxelSize();
+            moved.push_back(sample);
+            SphereTree& tree = moved.back().tree;
+            tree = turnedTree(tree, Vec3d(far, -far, 0.5 * far));
+            for (Coord& voxel : moved.back().voxels) voxel = Coord(voxel[1], voxel[2], voxel[0]);
+        }
+        forEachPosePairOf(moved, Exactness::Object, 1000, [&](const PosePair& pair) {
+            const double rounding = 1e-15 * voxels * pair.a.tree.voxelSize() + 1e-9;
+            const bool isApart = pair.collide().verdict == Verdict::Apart;
+            (isApart ? apart : met) += 1;
+            ASSERT_FALSE(isApart && pair.cubesMeet(10 * rounding)) << pair.name() << voxels;
+        });
+    }
+    EXPECT_GT(met, 500);
+    EXPECT_GT(apart, 500);
+}
+
 TEST(Collide, AxesInAnotherOrderGiveTheSameVerdict)
 {
-    const openvdb::Mat3d order(0, 1, 0, 0, 0, 1, 1, 0, 0); // as turnedTree()
-    const RigidTransform turn(order, Vec3d(0.0)), back(order.transpose(), Vec3d(0.0));
-    std::map<const QueryBody*, QueryTree> turned;
-    const auto turnedOf = [&](const QueryBody& body) -> const QueryTree& {
-        const auto found = turned.find(&body);
-        if (found != turned.end()) return found->second;
-        const SphereTree tree = turnedTree(body.tree, Vec3d(0.0));
-        return turned.emplace(&body, makeQueryTree(tree, Exactness::LeafUnion)).first->second;
-    };
+    TurnedPairs turned(Exactness::LeafUnion);
     forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
         if (std::abs(pair.smallestGap()) < 1e-4) return;
-        const auto verdict = collide(
-            turnedOf(pair.a), turn * pair.poseA * back, turnedOf(pair.b), turn * pair.poseB * back)
-                                 .verdict;
-        ASSERT_EQ(pair.collide().verdict, verdict);
+        ASSERT_EQ(pair.collide().verdict, turned.of(pair).collide().verdict);
     });
 }
 

@@ -98,6 +98,50 @@ ContinuousCollisionResult ask(
     return continuousCollide(pair.a.query, motions.a, pair.b.query, motions.b, request);
 }
 
+ContinuousCollisionResult askSwapped(
+    const PosePair& pair, const Motions& motions, const ContinuousCollisionRequest& request)
+{
+    return continuousCollide(pair.b.query, motions.b, pair.a.query, motions.a, request);
+}
+
+/// Holds two answers to the same question against each other. Where spheres graze each other, a rounding decides whether
+/// and when they meet: so rarely that these are counted.
+class SameAnswers {
+public:
+    void add(const ContinuousCollisionResult& one, const ContinuousCollisionResult& other)
+    {
+        ++mAll;
+        const bool isSame = one.isCollide == other.isCollide
+            && std::abs(one.timeOfContact - other.timeOfContact) <= 1e-4;
+        mSame += isSame;
+        mMet += one.isCollide && one.timeOfContact > 0;
+    }
+    ~SameAnswers()
+    {
+        EXPECT_GE(mSame, 0.99 * mAll) << "of " << mAll;
+        EXPECT_GT(mMet, mAll / 10);
+    }
+
+private:
+    int mAll = 0, mSame = 0, mMet = 0;
+};
+
+/// Calls test(pair, motions, request) with motions of both bodies, and of the second one alone.
+template <typename Test>
+void forEachMotion(Exactness exactness, int count, const Test& test)
+{
+    Random random(14);
+    int i = 0;
+    ContinuousCollisionRequest request;
+    request.tolerance = 1e-6;
+    forEachPosePair(exactness, count, [&](const PosePair& pair) {
+        const Motions motions = motionsOf(pair, i++, random);
+        const bool isBoth = i % 2 == 0;
+        const auto still = RigidMotion::line(pair.poseA, Vec3d(0.0));
+        test(pair, Motions{isBoth ? motions.a : still, motions.b}, request);
+    });
+}
+
 } // namespace
 
 /// More seeds than one: an error that a rounding makes is rare (about 1 in 1000 motions, when it was found).
@@ -228,6 +272,62 @@ TEST(ContinuousCollide, WhereTheFirstBodyStandsStillOneThatMovesIsAsked)
         ASSERT_NEAR(gap, 0, kRounding) << pair.name() << i;
     });
     EXPECT_GT(met, 70);
+}
+
+TEST(ContinuousCollide, SwappedBodiesMeetAtTheSameTime)
+{
+    SameAnswers same;
+    forEachMotion(Exactness::LeafUnion, 1000,
+        [&](const auto& pair, const auto& motions, const auto& request) {
+            same.add(ask(pair, motions, request), askSwapped(pair, motions, request));
+        });
+}
+
+TEST(ContinuousCollide, BodiesOfAMovedWorldMeetAtTheSameTime)
+{
+    Random random(15);
+    SameAnswers same;
+    forEachMotion(Exactness::LeafUnion, 1000,
+        [&](const auto& pair, const auto& motions, const auto& request) {
+            const auto world = RigidTransform::fromTranslation(1e6 * randomDirection(random))
+                * randomRotation(random);
+            const Motions moved{movedMotion(world, motions.a), movedMotion(world, motions.b)};
+            same.add(ask(pair, motions, request), ask(pair, moved, request));
+        });
+}
+
+TEST(ContinuousCollide, BodiesOfAxesInAnotherOrderMeetAtTheSameTime)
+{
+    SameAnswers same;
+    TurnedPairs turned(Exactness::LeafUnion);
+    forEachMotion(Exactness::LeafUnion, 1000,
+        [&](const auto& pair, const auto& motions, const auto& request) {
+            const Motions other{turned.of(motions.a), turned.of(motions.b)};
+            same.add(ask(pair, motions, request), ask(turned.of(pair), other, request));
+        });
+}
+
+/// From 10^6 to 10^9 voxels away.
+TEST(ContinuousCollide, FarFromTheOriginOfTheWorldNoTwoCubesMeetBeforeTheTime)
+{
+    Random random(16);
+    int met = 0;
+    forEachMotion(
+        Exactness::Object, 500, [&](const auto& pair, const auto& motions, const auto& request) {
+            const double far = pair.a.tree.voxelSize() * std::pow(10.0, uniform(random, 6, 9));
+            const auto world = RigidTransform::fromTranslation(far * randomDirection(random))
+                * randomRotation(random);
+            const Motions moved{movedMotion(world, motions.a), movedMotion(world, motions.b)};
+            const auto result = ask(pair, moved, request);
+            met += result.isCollide;
+            for (int k = 0; k < 20 && result.timeOfContact > 0; ++k) {
+                const double time = result.timeOfContact * k / 20;
+                const PosePair then = {pair.a, pair.b, motions.a.at(time), motions.b.at(time)};
+                // Poses there are rounded.
+                ASSERT_FALSE(then.cubesMeet(2e-15 * far + 1e-9)) << pair.name() << far;
+            }
+        });
+    EXPECT_GT(met, 100);
 }
 
 TEST(ContinuousCollide, TwoBallsThatMoveMeetWhenTheyShould)
