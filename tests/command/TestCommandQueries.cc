@@ -382,6 +382,33 @@ TEST_F(CommandQueries, TreesWithoutAnswersAreRefusedWithTheReason)
     EXPECT_EQ(run("-read t.vdb -contains point=0,0,0 level=1").exitCode, 0);
 }
 
+TEST_F(CommandQueries, TreesWithoutSpheresAreLeftOutAndNamed)
+{
+    ASSERT_EQ(run("-read a.vol -mask below=0 -spheretree empty=write -write e.vdb").exitCode, 0);
+    for (const char* trees : {"e.vdb t.vdb", "t.vdb e.vdb", "e.vdb"}) {
+        for (const char* ask : {"-collide", "-collide motion=1 translate=1,0,0", "-distance",
+                 "-collide scene=1", "-collide scene=1 motion=1 poses=m.csv"}) {
+            writeText(path("m.csv"), "frame,body,x,y,z\n0,0,0,0,0\n1,0,1,0,0\n");
+            const Result result = run(std::string("-read ") + trees + " " + ask);
+            EXPECT_EQ(result.exitCode, 3) << trees << ask;
+            EXPECT_TRUE(mentions(result.err, "asks two sphere-trees")) << result.err;
+            EXPECT_TRUE(mentions(
+                result.err, "left out: sphere-tree without spheres 'spheretree' (from e.vdb)"))
+                << result.err;
+        }
+    }
+    for (const char* ask : {"-contains point=0,0,0", "-raycast origin=9,9,9 direction=1,0,0",
+             "-collide vdb=0,0", "-distance vdb=0,0"}) {
+        const Result result = run(std::string("-read e.vdb ") + ask);
+        EXPECT_EQ(result.exitCode, 3) << ask;
+        EXPECT_TRUE(mentions(result.err, "without spheres")) << result.err;
+    }
+    // Beside others it touches nothing.
+    const Result scene = run("-quiet -read t.vdb t.vdb e.vdb -collide scene=1 csv=-");
+    EXPECT_EQ(scene.exitCode, 0) << scene.err;
+    EXPECT_TRUE(mentions(scene.out, "touching")) << scene.out;
+}
+
 TEST_F(CommandQueries, FilesOfQuestionsAreNamedWithTheirLine)
 {
     writeText(path("short.csv"), "x,y,z\n1,2,3\n4,5\n");

@@ -23,6 +23,16 @@ using openvdb_spheretree::QueryTreeSettings;
 
 namespace {
 
+/// @return for messages, which trees of the stack are left out, as they have no spheres; nothing if all have some.
+std::string withoutSpheres(const Session& session)
+{
+    std::string all;
+    for (const auto& item : session.stack.items()) {
+        if (item->emptyTree) all += (all.empty() ? "; left out: " : ", ") + item->description();
+    }
+    return all;
+}
+
 /// All trees, or those of vdb=, each once.
 std::vector<const StackItem*> anyItemsOf(const ActionCall& call, Session& session)
 {
@@ -44,7 +54,8 @@ std::vector<const StackItem*> anyItemsOf(const ActionCall& call, Session& sessio
     }
     if (items.size() < 2) {
         throwInput("asks two sphere-trees or more, and there "
-            + std::string(items.empty() ? "is none" : "is one") + ": read others");
+            + std::string(items.empty() ? "is none" : "is one") + ": read others"
+            + withoutSpheres(session));
     }
     return items;
 }
@@ -65,14 +76,16 @@ std::vector<const StackItem*> itemsOf(const ActionCall& call, Session& session, 
     }
     if (items.size() == 1) {
         throwInput("asks two sphere-trees, and there is one: read another one, or ask it against "
-                   "itself with vdb=0,0");
+                   "itself with vdb=0,0"
+            + withoutSpheres(session));
     }
     if (items.size() != 2) {
         throwInput("asks two sphere-trees, and there are " + std::to_string(items.size())
             + (items.empty() ? ""
                              : ": choose with vdb=, the one that stays first, such as vdb=1,0"
                         + std::string(
-                            call.spec().option("scene") ? ", or ask all with scene=1" : "")));
+                            call.spec().option("scene") ? ", or ask all with scene=1" : ""))
+            + withoutSpheres(session));
     }
     return items;
 }
