@@ -118,6 +118,14 @@ SearchEnd findNearestOf(const BodyPair& bodies, detail::NearestLimits limits, Ne
     }
 }
 
+/// The search for the deepest pairs knows no more of bodies that are apart than the margin.
+void boundDistance(CollisionResult& result, const BodyPair& bodies, const SearchLimits& limits)
+{
+    const SearchEnd end = findOverlap(bodies.frame, limits, true);
+    result.blocks += end.blocks;
+    if (end.isDecided && end.lowerBound > limits.margin) setApart(result, bodies, end.lowerBound);
+}
+
 /// The deepest pairs: the nearest ones with gaps up to the margin.
 CollisionResult deepestContacts(
     BodyPair& bodies, const CollisionRequest& request, std::vector<Contact>& contacts)
@@ -138,7 +146,10 @@ CollisionResult deepestContacts(
     contacts.reserve(std::size_t(pairs.count));
     for (const LeafPair& pair : pairs) contacts.push_back(bodies.contact(pair));
     if (pairs.count > 0) setTouching(result, bodies, *pairs.begin(), request.enableContact);
-    else if (end.isDecided) setApart(result, bodies, search.margin);
+    else if (end.isDecided) {
+        setApart(result, bodies, search.margin);
+        if (request.enableDistanceLowerBound) boundDistance(result, bodies, search);
+    }
     if (result.isCollision() && request.decideObjects)
         decideObjects(result, bodies, limits.maxBlocks);
     return result;

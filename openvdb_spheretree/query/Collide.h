@@ -41,12 +41,13 @@ struct CollisionRequest {
     int maxContacts = 1;
     /// Also say where the pair of the result meets.
     bool enableContact = false;
-    /// Also find a lower bound of the distance of bodies that are apart. Some 10% of the time.
+    /// Also find a lower bound of the distance of bodies that are apart. Some 10% of the time; with several contacts a search of
+    /// its own.
     bool enableDistanceLowerBound = false;
     /// Also decide about the objects where the spheres touch: a second search may follow.
     bool decideObjects = false;
     /// No more blocks than this are tested, then the verdict is Undecided. -1: any number. Each search of more than 64
-    /// contacts has this many.
+    /// contacts, and that for the lower bound of several, has this many.
     int64_t maxBlocks = -1;
     /// The pair that touched a moment ago, looked at first. It takes no part where several contacts are asked for.
     NodePair warmStart;
@@ -62,7 +63,7 @@ struct CollisionResult {
     NodePair nodes;
     std::optional<Contact> contact; ///< of these, if asked for
     /// Of bodies that are apart: the distance of the objects, or of the leaf spheres, is no less, each where `verdict` is
-    /// about them. 0 if not asked for.
+    /// about them. Not asked for it is what is known anyway: 0, or the margin.
     double distanceLowerBound = 0;
     int64_t blocks = 0; ///< tested; the same on every machine
 

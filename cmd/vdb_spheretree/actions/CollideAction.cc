@@ -55,12 +55,6 @@ std::vector<PoseAnswer> poseAnswersOf(
             PoseAnswer answer;
             answer.result = spheretree::collide(
                 question.a(), {}, question.b(), question.poses[i], request, &answer.contacts);
-            if (answer.result.verdict != Verdict::Apart || request.maxContacts == 1) return answer;
-            // The search for the deepest knows no lower bound.
-            const int64_t blocks = answer.result.blocks;
-            answer.result =
-                spheretree::collide(question.a(), {}, question.b(), question.poses[i], request);
-            answer.result.blocks += blocks;
             return answer;
         });
 }

@@ -265,6 +265,34 @@ TEST(Collide, FindsTheDeepestPairsInTheirOrder)
     });
 }
 
+TEST(Collide, TheSearchForTheDeepestPairsBoundsTheDistanceToo)
+{
+    int apart = 0, nearTruth = 0;
+    forEachPosePair(Exactness::LeafUnion, 5000, [&](const PosePair& pair) {
+        std::vector<Contact> contacts;
+        CollisionRequest request;
+        request.maxContacts = 5;
+        request.securityMargin = 0.3;
+        const double truth = pair.smallestGap();
+        const CollisionResult plain = pair.collide(request, &contacts);
+        request.enableDistanceLowerBound = true;
+        const CollisionResult bound = pair.collide(request, &contacts);
+        ASSERT_EQ(plain.verdict, bound.verdict);
+        if (bound.verdict != Verdict::Apart) {
+            ASSERT_EQ(bound.distanceLowerBound, 0) << pair.name();
+            return;
+        }
+        ++apart;
+        ASSERT_LE(plain.distanceLowerBound, truth) << pair.name();
+        ASSERT_GE(plain.distanceLowerBound, 0.3 - kRounding) << pair.name();
+        ASSERT_LE(bound.distanceLowerBound, truth) << pair.name();
+        ASSERT_GE(bound.distanceLowerBound, plain.distanceLowerBound) << pair.name();
+        nearTruth += bound.distanceLowerBound > 0.3 + 0.5 * (truth - 0.3);
+    });
+    EXPECT_GT(apart, 1000);
+    EXPECT_GT(nearTruth, apart / 3);
+}
+
 TEST(Collide, AllContactsAreThoseOfAllPairs)
 {
     const auto& samples = querySamples();
