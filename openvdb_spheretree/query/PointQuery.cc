@@ -7,6 +7,7 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace openvdb_spheretree {
@@ -22,6 +23,22 @@ void requireFinite(const Vec3d& point)
     OPENVDB_THROW(openvdb::ValueError,
         "no question can be asked of the point "
             << point << ": its coordinates must be finite, and their squares, too");
+}
+
+/// What the distance to the object is at most, by a leaf.
+double objectUpper(const QueryTree& tree, const Vec3d& point, int32_t leaf)
+{
+    const detail::QueryData& data = tree.data();
+    const detail::FloatSphere sphere = data.spheres.leaf(leaf);
+    const Vec3d away = point - data.origin - Vec3d(sphere.x, sphere.y, sphere.z);
+    const double length = away.length();
+    // Of a leaf that shrinks to less than nothing the center is left.
+    const double byInset = length - std::max(0.0, sphere.r - tree.leafInset());
+    const double byReach = std::max(0.0, length - sphere.r) + tree.leafReach();
+    const double best = std::isfinite(tree.leafInset()) ? std::min(byInset, byReach) : byReach;
+    // Doubles round coordinates of the world, and the few sums above.
+    const double rounding = 0x1p-49 * (point.length() + data.origin.length() + length);
+    return std::max(0.0, best) + rounding;
 }
 
 } // namespace
@@ -41,10 +58,13 @@ PointDistance nearest(const QueryTree& tree, const Vec3d& point, double cutoff)
     PointDistance result;
     result.distance = cutoff;
     result.blocks = hit.blocks;
+    if (tree.holdsObject()) result.objectLower = cutoff;
     if (hit.leaf < 0) return result;
     const detail::LeafDistance found(data, local, hit.leaf);
     if (found.distance > cutoff) return result;
     result.distance = found.distance;
+    if (tree.holdsObject()) result.objectLower = std::max(0.0, found.distance);
+    result.objectUpper = objectUpper(tree, point, hit.leaf);
     result.gradient = found.gradient;
     result.leaf = hit.leaf;
     return result;

@@ -22,6 +22,9 @@
 /// their distance is at most |point - q|. What is left out is no nearer than what was found. So
 /// either the chain's leaf is found, or something as near.
 ///
+/// The distance to O is also at most that to the leaf found, shrunk by leafInset(), which lies in
+/// O; and its own distance, 0 at least, plus leafReach(): `objectUpper`.
+///
 /// All answers are the same on every machine, and for any number of threads that ask. Nothing is
 /// allocated. Tests: TestPointQuery.cc.
 
@@ -43,6 +46,13 @@ struct PointDistance {
     /// In which direction the distance grows fastest: of length 1, away from the leaf's center. It
     /// jumps where another leaf becomes the nearest. 0 at a center, and without a leaf.
     openvdb::Vec3d gradient = openvdb::Vec3d(0.0);
+    /// @name The distance to the object's voxel cubes is between these: 0 of points in it
+    /// By the leaf that was found: `objectUpper` is infinity without one, and where leaves are not known to be near
+    /// the object (QueryTree::leafReach(), leafInset()).
+    /// @{
+    double objectLower = 0;
+    double objectUpper = std::numeric_limits<double>::infinity();
+    /// @}
     int32_t leaf = -1;  ///< QueryTree::nodeId() is its id in the sphere-tree
     int32_t blocks = 0; ///< that were tested: the same on every machine
 

@@ -77,6 +77,38 @@ TEST(PointQuery, TheDistanceIsBetweenThatOfLeavesAndThatOfCubes)
         << "trees with cover=voxels were to leave out leaves that reach out of the object";
 }
 
+TEST(PointQuery, TheDistanceOfTheObjectIsBetweenItsBounds)
+{
+    Random random(21);
+    int narrow = 0, all = 0;
+    for (const QuerySample& sample : querySamples()) {
+        const double voxel = sample.tree.voxelSize();
+        const auto balls = leafBalls(sample.tree);
+        const auto object = cubes(sample);
+        for (const Exactness exactness : {Exactness::Object, Exactness::LeafUnion}) {
+            const QueryTree tree = makeQueryTree(sample.tree, exactness);
+            for (int i = 0; i < 500; ++i) {
+                const Vec3d point = randomPoint(random, balls);
+                const double truth = distanceToCubes(point, object);
+                const PointDistance found = nearest(tree, point);
+                ASSERT_LE(found.objectLower, truth) << sample.name;
+                ASSERT_GE(found.objectUpper, truth) << sample.name;
+                ASSERT_EQ(found.objectLower, std::max(0.0, found.distance));
+                ++all;
+                narrow += found.objectUpper - found.objectLower < 1.8 * voxel;
+                const double cutoff = uniform(random, 0, 2) * tree.radius();
+                const PointDistance near = nearest(tree, point, cutoff);
+                ASSERT_LE(near.objectLower, truth) << sample.name;
+                ASSERT_GE(near.objectUpper, truth) << sample.name;
+                if (near) continue;
+                ASSERT_EQ(near.objectLower, cutoff);
+                ASSERT_EQ(near.objectUpper, kInfinity);
+            }
+        }
+    }
+    EXPECT_EQ(narrow, all) << "leaves reach out of the object by 1.74 voxels at most";
+}
+
 TEST(PointQuery, NoPointOfACubeIsOutside)
 {
     Random random(13);

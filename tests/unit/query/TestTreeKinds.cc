@@ -253,6 +253,33 @@ TEST(TreeKinds, PointsAndRaysMissNoCubeThatIsHeld)
     }
 }
 
+TEST(TreeKinds, TheDistanceOfTheObjectIsBetweenItsBounds)
+{
+    Random random(9);
+    std::set<std::string> bounded;
+    for (const QuerySample& sample : otherQuerySamples()) {
+        if (kindOf(sample) == "given") continue; // has no object
+        const QueryTree tree = makeQueryTree(sample, Exactness::LeafUnion);
+        const auto balls = leafBalls(sample);
+        const auto object = cubes(sample);
+        for (int i = 0; i < 300; ++i) {
+            const Vec3d point = randomPoint(random, balls);
+            const double truth = distanceToCubes(point, object);
+            const PointDistance found = nearest(tree, point);
+            ASSERT_LE(found.objectLower, truth) << sample.name;
+            ASSERT_GE(found.objectUpper, truth) << sample.name;
+            if (std::isfinite(found.objectUpper)) bounded.insert(kindOf(sample));
+            if (!tree.holdsObject()) {
+                ASSERT_EQ(found.objectLower, 0) << sample.name;
+            }
+        }
+    }
+    for (const char* kind :
+        {"reversible", "extended on miniballs", "scaled", "no padding", "inner"})
+        EXPECT_EQ(bounded.count(kind), 1u) << kind;
+    for (const char* kind : {"given leaves", "flat"}) EXPECT_EQ(bounded.count(kind), 0u) << kind;
+}
+
 /// Exactly, or with the reason why not.
 TEST(TreeKinds, PointsAreInTheObjectWhereLeavesAreItsBalls)
 {
