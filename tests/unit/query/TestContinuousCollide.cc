@@ -211,7 +211,7 @@ TEST_P(MotionsOf, NothingMeetsBeforeTheTimeWhereBothMove)
     EXPECT_GT(free, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(ContinuousCollide, MotionsOf, testing::Range(1u, 6u));
+INSTANTIATE_TEST_SUITE_P(ContinuousCollide, MotionsOf, testing::Range(1u, 9u));
 
 TEST(ContinuousCollide, NoTwoCubesMeetBeforeTheTime)
 {
