@@ -98,7 +98,7 @@ const std::vector<QuerySample>& otherQuerySamples()
 {
     static const std::vector<QuerySample> samples = [] {
         std::vector<QuerySample> all;
-        for (uint32_t seed = 1; seed < 4; ++seed) addOtherSamples(all, seed);
+        for (const uint32_t seed : {3, 15, 19, 23}) addOtherSamples(all, seed);
         return all;
     }();
     return samples;
