@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Sanitizers.h
 /// @brief Whether a sanitizer is compiled in, of gcc or clang. Its process has terabytes of addresses,
-/// so that they cannot be limited, and a malloc and handlers of signals of its own.
+/// so that they cannot be limited, and a malloc, an operator new and handlers of signals of its own.
 
 #pragma once
 
@@ -21,5 +21,3 @@ namespace spheretree_test {
 constexpr bool kSanitized = SPHERETREE_TEST_SANITIZED;
 
 } // namespace spheretree_test
-
-#undef SPHERETREE_TEST_SANITIZED

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CountedAllocations.h"
 
+#include "support/Sanitizers.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -11,6 +13,22 @@ namespace {
 
 thread_local bool tIsCounting = false;
 thread_local int tCount = 0;
+
+} // namespace
+
+CountedAllocations::CountedAllocations()
+{
+    tCount = 0;
+    tIsCounting = true;
+}
+
+CountedAllocations::~CountedAllocations() { tIsCounting = false; }
+
+int CountedAllocations::count() const { return tCount; }
+
+#if !SPHERETREE_TEST_SANITIZED // which has operators of its own
+
+namespace {
 
 void* memoryOrNull(std::size_t size)
 {
@@ -35,20 +53,12 @@ void* orThrow(void* memory)
 [[gnu::noinline]] void giveBack(void* memory) { std::free(memory); }
 
 } // namespace
-
-CountedAllocations::CountedAllocations()
-{
-    tCount = 0;
-    tIsCounting = true;
-}
-
-CountedAllocations::~CountedAllocations() { tIsCounting = false; }
-
-int CountedAllocations::count() const { return tCount; }
+#endif
 
 } // namespace spheretree_test
 
-// The library's own operators of arrays call these. (A sanitizer's do not: then arrays are not counted.)
+#if !SPHERETREE_TEST_SANITIZED
+// The standard library's own operators of arrays call these.
 using namespace spheretree_test;
 
 void* operator new(std::size_t size) { return orThrow(memoryOrNull(size)); }
@@ -65,3 +75,4 @@ void operator delete(void* memory) noexcept { giveBack(memory); }
 void operator delete(void* memory, std::size_t) noexcept { giveBack(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { giveBack(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { giveBack(memory); }
+#endif

@@ -6,7 +6,7 @@
 
 namespace spheretree_test {
 
-/// Counts what this thread allocates while it is there. One at a time.
+/// Counts what this thread allocates while it is there, but nothing below a sanitizer. One at a time.
 class CountedAllocations {
 public:
     CountedAllocations();
