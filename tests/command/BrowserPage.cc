@@ -70,6 +70,20 @@ document.body.append(result);
 )html";
 }
 
+/// What the browser's console has, but for complaints of reading pixels: only these scripts do.
+std::string consoleOf(const std::string& text)
+{
+    std::istringstream lines(text);
+    std::string found, line;
+    while (std::getline(lines, line)) {
+        const bool isOwn = line.find("GPU stall due to ReadPixels") != line.npos;
+        if (line.find(":CONSOLE") != line.npos && !isOwn) found += line + "\n";
+    }
+    return found;
+}
+
+} // namespace
+
 std::string fromBase64(const std::string& text)
 {
     const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -85,20 +99,6 @@ std::string fromBase64(const std::string& text)
     }
     return bytes;
 }
-
-/// What the browser's console has, but for complaints of reading pixels: only these scripts do.
-std::string consoleOf(const std::string& text)
-{
-    std::istringstream lines(text);
-    std::string found, line;
-    while (std::getline(lines, line)) {
-        const bool isOwn = line.find("GPU stall due to ReadPixels") != line.npos;
-        if (line.find(":CONSOLE") != line.npos && !isOwn) found += line + "\n";
-    }
-    return found;
-}
-
-} // namespace
 
 std::string browser()
 {

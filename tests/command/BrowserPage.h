@@ -15,6 +15,9 @@ namespace command_test {
 /// @return the browser's name as a command; empty if none is installed.
 std::string browser();
 
+/// @return the bytes that a text in base64 stands for, up to the first letter that belongs to none.
+std::string fromBase64(const std::string& text);
+
 struct BrowserResult {
     nlohmann::json report; ///< what the script gave to `report`, an object; null if it gave none
     std::string console;   ///< what the page had the browser complain of, a line each
