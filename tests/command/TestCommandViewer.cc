@@ -378,6 +378,64 @@ TEST_F(CommandViewerInBrowser, EveryControlHasANameAndCanBeReached)
     }
 }
 
+TEST_F(CommandViewerInBrowser, EachPixelOfACutShowsTheBallThatItIsDeepestIn)
+{
+    writeGrids("ball.vdb", {sphereGrid("ball", 11.3f)});
+    pageOf("-read ball.vdb -spheretree tree=extended");
+    // Tiles leave balls out; here each is tried.
+    const auto report = drive(R"js(
+        const { viewer } = window, [width, height] = [120, 90], all = width * height;
+        const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        const along = (a, t, b) => [0, 1, 2].map((i) => a[i] + t * b[i]);
+        const balls = Array.from({ length: viewer.shapes.length / 4 },
+            (_, i) => ({ center: viewer.shapes.subarray(4 * i, 4 * i + 3), radius: viewer.shapes[4 * i + 3] }));
+        // In front are balls that hold the point of the plane, the one that it is deepest in first.
+        const shownBy = (eye, ray, plane) => {
+            const speed = dot(plane.normal, ray), height = dot(plane.normal, eye) + plane.offset;
+            const cut = -height / speed;
+            let [found, deepest, nearest] = [-1, 0, Infinity];
+            balls.forEach(({ center, radius }, i) => {
+                const from = along(eye, -1, center), middle = -dot(from, ray);
+                const half = Math.sqrt(radius * radius - dot(from, from) + middle * middle);
+                const point = along(from, cut, ray);
+                const depth = speed > 0 ? radius - dot(point, point) / radius : 0;
+                const isKept = (speed > 0) === (middle - half > cut);
+                if (depth > deepest) [found, deepest] = [i, depth];
+                else if (deepest === 0 && half >= 0 && isKept && middle - half < nearest)
+                    [found, nearest] = [i, middle - half];
+            });
+            return found;
+        };
+        const tiles = new viewer.renderer.tiles.constructor();
+        viewer.camera.aspect = width / height;
+        viewer.camera.fit();
+        report.wrong = [];
+        for (const clip of ['z,0.5', 'z,0.3', 'x,0.6', 'y,0.45,flip', 'y,0.8']) {
+            const [axis, at, flip] = clip.split(',');
+            viewer.show({ clip: { axis, at: Number(at), flip: Boolean(flip) } });
+            const view = viewer.camera.view(), look = viewer.currentLook();
+            tiles.find(viewer.shapes, look, view, width, height);
+            let wrong = 0, shown = 0;
+            for (let i = 0; i < all; ++i) {
+                const right = (2 * ((i % width) + 0.5)) / width - 1;
+                const up = (2 * (Math.floor(i / width) + 0.5)) / height - 1;
+                const aside = along(along([0, 0, 0], right * view.halfHeight * view.aspect, view.x),
+                    up * view.halfHeight, view.y);
+                const way = along(aside, -1, view.z);
+                const found = shownBy(view.eye, along([0, 0, 0], 1 / Math.hypot(...way), way), look.clip);
+                shown += found >= 0;
+                wrong += tiles.seen[i] !== found + 1;
+            }
+            report.wrong.push([clip, wrong / shown, shown / all]);
+        }
+    )js");
+    for (const auto& [clip, wrong, shown] :
+        report.at("wrong").get<std::vector<std::tuple<std::string, double, double>>>()) {
+        EXPECT_LE(wrong, 0.005) << clip << ": more than are on outlines, or as deep in two";
+        EXPECT_GE(shown, 0.1) << clip;
+    }
+}
+
 /// Trees of every kind; the pictures of both ways to draw them, which have no code in common but the
 /// formulas of a ball, must agree.
 class CommandViewerOfKind

@@ -6,6 +6,11 @@
 // them do, from above; what begins behind a ball that covers the tile is left out. Tiles begin
 // large, and are cut in four until they are pixels: most balls are left out before they would be
 // many.
+//
+// In a solid that is cut open, hundreds of balls may hold a point of the cut. The one that it is
+// deepest in is seen. Depths of all points where rays of a tile meet the plane are bounded as well,
+// from the farthest of its corners; a ball that is nowhere as deep as another is everywhere is left
+// out. Without that, such a frame of dragon-512 takes three times as long.
 
 /** From where to where a ball is seen along one axis of the view, which is -1 to 1. */
 function seenSpan(center, distance, radius, halfSize) {
@@ -19,11 +24,13 @@ function seenSpan(center, distance, radius, halfSize) {
     ];
 }
 
-/** Balls that may be seen in a tile, and from where rays of the tile may meet each. */
+/** Balls that may be seen in a tile, from where rays of the tile may meet each, and how deep in it
+ *  they may meet the clip plane. */
 class TileList {
     constructor() {
         this.balls = new Uint32Array(1 << 12);
         this.nearest = new Float64Array(1 << 12);
+        this.depth = new Float64Array(1 << 12);
     }
 
     /** Takes over the first `count` balls. */
@@ -32,6 +39,7 @@ class TileList {
             const room = 2 ** Math.ceil(Math.log2(count));
             this.balls = new Uint32Array(room);
             this.nearest = new Float64Array(room);
+            this.depth = new Float64Array(room);
         }
         this.balls.set(balls.length === count ? balls : balls.subarray(0, count));
     }
@@ -177,17 +185,45 @@ class Tiles {
         return { enterMin: -Infinity, enterMax: -Infinity, leaveMin };
     }
 
+    /** Where rays of a tile come into the half-space that is kept: the distance along the one in the
+     *  middle, and how far apart from there others do at most. Null if not all of them do. */
+    #cutOf(level, column, row, ray) {
+        const { plane, pixel, width, height } = this;
+        if (!plane || plane[3] >= 0) return null;
+        const speed = dot(plane, ray),
+            distance = -plane[3] / speed;
+        if (speed <= 0) return null;
+        let spread = 0;
+        for (let corner = 0; corner < 4; ++corner) {
+            const right = (((column + (corner & 1)) << level) - width / 2) * pixel.wide,
+                above = (((row + (corner >> 1)) << level) - height / 2) * pixel.high;
+            const ahead = -plane[3] / (plane[0] * right + plane[1] * above + plane[2]);
+            if (!(ahead >= this.view.near)) return null;
+            spread = Math.max(
+                spread,
+                Math.hypot(
+                    ahead * right - distance * ray[0],
+                    ahead * above - distance * ray[1],
+                    ahead - distance * ray[2],
+                ),
+            );
+        }
+        return { distance, spread: 1.0001 * spread };
+    }
+
     /** Moves balls that may be seen in a tile to the front of the list.
      *  @returns how many there are */
     #keep(level, column, row, count) {
-        const { balls, nearest } = this.levels[level],
+        const { balls, nearest, depth } = this.levels[level],
             values = this.balls;
         const { cosine, sine } = this.angles[level];
         const ray = this.#middleOf(level, column, row),
             [x, y, z] = ray;
         const { enterMin, enterMax, leaveMin } = this.#keptSpan(level, ray);
         const front = this.plane ? Number(kFront) : 0;
+        const cut = this.areSpheres ? this.#cutOf(level, column, row, ray) : null;
         let covered = Infinity,
+            deepest = -Infinity,
             met = 0;
         for (let i = 0; i < count; ++i) {
             const ball = balls[i],
@@ -207,6 +243,16 @@ class Tiles {
             if (!isInside && length * towards + half < enterMin) continue;
             balls[met] = ball;
             const begin = isInside ? -1e6 : length * towards - half;
+            if (cut) {
+                // At a point p it is (r^2 - |p - c|^2) / r.
+                const { distance, spread } = cut;
+                const away2 = length * length + distance * (distance - 2 * length * cosineOf);
+                const away = Math.sqrt(Math.max(0, away2)),
+                    least = Math.max(0, away - spread),
+                    most = away + spread;
+                depth[met] = 1e-9 + outer - (least * least) / outer;
+                if (most < outer) deepest = Math.max(deepest, outer - (most * most) / outer);
+            }
             nearest[met++] = Math.max(begin, enterMin) - front * outer;
             if (isInside || inner < length * sine) continue;
             // Those farthest from it.
@@ -218,7 +264,7 @@ class Tiles {
         }
         let kept = 0;
         for (let i = 0; i < met; ++i) {
-            if (nearest[i] > covered) continue;
+            if (nearest[i] > covered || (cut && depth[i] < deepest)) continue;
             balls[kept] = balls[i];
             nearest[kept++] = nearest[i];
         }
