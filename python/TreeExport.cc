@@ -5,15 +5,19 @@
 #include "Call.h"
 #include "Errors.h"
 #include "Tree.h"
+#include "Volume.h"
 
 #include "files/AtomicFile.h"
 #include "line/Length.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/export/ExportTree.h>
+#include <openvdb_spheretree/measure/MassProperties.h>
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,13 +84,41 @@ ExportSettings settingsOf(const py::dict& words, std::size_t trees)
     return settings;
 }
 
+/// @throw InputError if it is not the object of that tree
+spheretree::MassProperties massOfObject(const Volume& volume, const spheretree::SphereTree& tree,
+    const std::string& path, Interrupter* interrupter)
+{
+    if (!spheretree::isObjectOf(*volume.object, tree)) {
+        throw InputError(path
+            + ": mass=\"object\": the volume has other voxels than those that the tree was built "
+              "of");
+    }
+    return spheretree::massProperties(*volume.object, interrupter).value();
+}
+
+/// @return which options mean nothing to the format, a sentence each.
+std::vector<std::string> idleOptions(
+    const std::vector<std::string>& given, const ExportFormat& format, const std::string& path)
+{
+    std::vector<std::string> notes;
+    for (const spheretree::ExportOption& option : spheretree::exportOptionsOfSome()) {
+        const bool isGiven = std::count(given.begin(), given.end(), option.name) > 0;
+        if (isGiven && !(format.*option.takes)) {
+            notes.push_back(spheretree::idleOptionNote(option, path));
+        }
+    }
+    return notes;
+}
+
 } // namespace
 
 void bindTreeExport(py::module_& module)
 {
     module.def("export",
         [](const std::vector<TreePtr>& trees, const std::string& path,
-            const std::string& formatName, const py::dict& words, const py::object& progress) {
+            const std::string& formatName, const py::dict& words,
+            const std::vector<std::string>& given, const Volume* object,
+            const py::object& progress) {
             const ExportFormat& format = formatOf(path, formatName);
             ExportSettings settings = settingsOf(words, trees.size());
             return resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
@@ -95,11 +127,16 @@ void bindTreeExport(py::module_& module)
                 if (settings.name.empty() && !all.empty()) {
                     settings.name = spheretree::exportNameFor(*all.front(), format, path);
                 }
-                std::vector<std::string> notes;
+                if (object && format.mass && !all.empty()) {
+                    settings.mass = massOfObject(*object, *all.front(), path, interrupter);
+                }
+                std::vector<std::string> notes = idleOptions(given, format, path);
                 command::AtomicFile::checkTarget(path);
                 command::AtomicFile file(path);
                 file.write([&](std::iostream& out) {
-                    notes = spheretree::exportTrees(all, format, settings, out, interrupter);
+                    const auto more =
+                        spheretree::exportTrees(all, format, settings, out, interrupter);
+                    notes.insert(notes.end(), more.begin(), more.end());
                 });
                 if (!interrupter->wasInterrupted()) file.commit();
                 return notes;

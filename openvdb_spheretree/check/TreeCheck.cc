@@ -38,6 +38,8 @@
 namespace openvdb_spheretree {
 namespace {
 
+constexpr double kMuchOfVoxel = 1e-3; ///< farther away from there, an object lies elsewhere
+
 using detail::Offenders;
 using Check = detail::CheckReport;
 
@@ -99,7 +101,7 @@ void checkTransform(Check& check)
         const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
         farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
     }
-    if (farthest <= 1e-3 * check.object.voxelSize()[0]) return;
+    if (farthest <= kMuchOfVoxel * check.object.voxelSize()[0]) return;
     check.fail("the object's transform is not the tree's: the corners of its box (voxels of ",
         check.object.voxelSize()[0], ", first corner at ",
         check.object.transform().indexToWorld(box.min()), ") lie up to ", farthest,
@@ -383,6 +385,19 @@ std::string toString(FaultKind kind)
     case FaultKind::Errors: break;
     }
     return "errors";
+}
+
+bool isObjectOf(const openvdb::BoolGrid& object, const SphereTree& tree)
+{
+    const auto& info = tree.object;
+    if (int64_t(object.activeVoxelCount()) != info.voxels) return false;
+    if (object.evalActiveVoxelBoundingBox() != info.bbox) return false;
+    const double much = kMuchOfVoxel * tree.voxelSize();
+    for (const openvdb::Coord& corner : {info.bbox.min(), info.bbox.max()}) {
+        const auto here = object.transform().indexToWorld(corner);
+        if ((here - tree.transform->indexToWorld(corner)).length() > much) return false;
+    }
+    return true;
 }
 
 std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,

@@ -69,4 +69,8 @@ struct TreeFault {
 std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::BoolGrid& object,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
+/// @return whether a grid is what a tree was built over, as far as a glance tells: as many voxels, in the same box, in
+///         the same place of the world.
+bool isObjectOf(const openvdb::BoolGrid& object, const SphereTree& tree);
+
 } // namespace openvdb_spheretree

@@ -4,6 +4,7 @@
 #include "ExportWriters.h"
 #include "NanoVdbWriter.h"
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
 
 #include <algorithm>
@@ -130,6 +131,24 @@ const std::vector<ExportFormat>& exportFormats()
 {
     static const std::vector<ExportFormat> formats = makeFormats();
     return formats;
+}
+
+const std::vector<ExportOption>& exportOptionsOfSome()
+{
+    static const std::vector<ExportOption> options = {
+        {"link", &ExportFormat::link, "hold no links"},
+        {"mass", &ExportFormat::mass, "hold no mass"},
+        {"density", &ExportFormat::mass, "hold no mass"},
+        {"start", &ExportFormat::samples, "hold no samples over time"},
+        {"fps", &ExportFormat::samples, "hold no samples over time"},
+        {"up", &ExportFormat::up, "say no axis that is up"}};
+    return options;
+}
+
+std::string idleOptionNote(const ExportOption& option, const std::string& path)
+{
+    return std::string(option.name) + "= changes nothing, as " + detail::lowerExtension(path)
+        + " files " + option.lacks;
 }
 
 const ExportFormat* findExportFormat(const std::string& extension, const std::string& name)

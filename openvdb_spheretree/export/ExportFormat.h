@@ -55,6 +55,19 @@ struct ExportFormat {
         const std::vector<detail::ExportScene>& samples, const detail::ExportSink& out) = nullptr;
 };
 
+/// An option of export that means something to formats of one kind alone.
+struct ExportOption {
+    const char* name;
+    bool ExportFormat::*takes; ///< whether a format heeds it
+    const char* lacks;         ///< why others do not: ".ply files hold no links"
+};
+
+/// @return all of them; what other options say holds for any format.
+const std::vector<ExportOption>& exportOptionsOfSome();
+
+/// @return a sentence: that an option which was given changes nothing in a file, as its format lacks what it is about.
+std::string idleOptionNote(const ExportOption& option, const std::string& path);
+
 /// @return all of them, in the order in which they are listed.
 const std::vector<ExportFormat>& exportFormats();
 

@@ -6,10 +6,11 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 from . import _spheretree
-from ._volume import Progress, writable
+from ._volume import Progress, VolumeLike, writable
+from ._volume import volume as as_volume
 
 if TYPE_CHECKING:
     from ._tree import Tree
@@ -49,17 +50,20 @@ def export(
     units: str = "m",
     scale: float = 1.0,
     frame: str = "world",
-    up: str = "y",
-    link: str = "object",
+    up: Optional[str] = None,
+    link: Optional[str] = None,
     name: str = "",
-    density: float = 1000.0,
-    start: float = 1.0,
-    fps: float = 24.0,
+    mass: Optional[str] = None,
+    volume: Optional[VolumeLike] = None,
+    density: Optional[float] = None,
+    start: Optional[float] = None,
+    fps: Optional[float] = None,
     progress: Progress = None,
 ) -> None:
     """Write a tree as a file of another tool, with the same bytes as the command's -write.
 
-    What the format has no room for is a warning. The file is there whole or as it was before.
+    What the format has no room for is a UserWarning, and so is an option that means nothing to it. The file is there
+    whole or as it was before.
 
     Parameters
     ----------
@@ -80,21 +84,25 @@ def export(
         "world"; "centroid": around the center of mass of the spheres; "principal": turned to their principal
         axes, too.
     up
-        "y" or "z": which axis of the tree is up, for USD and glTF.
+        "y" (the default) or "z": which axis of the tree is up, for USD and glTF.
     link, name
-        The link of a robot that the spheres belong to; the name of the robot, model or prim, by default that of
-        the tree, or of a robot that of the file where the tree has none of its own.
+        The link of a robot that the spheres belong to, by default "object"; the name of the robot, model or
+        prim, by default that of the tree, or of a robot that of the file where the tree has none of its own.
+    mass, volume
+        For formats with a mass. "spheres" (the default): mass, center of mass and inertia are those of the union of
+        the spheres; "object": those of the voxels of `volume`, which the tree was built over.
     density
-        Mass of a cubed unit of the file, for formats with a mass.
+        Mass of a cubed unit of the file, for formats with a mass: 1000 by default, that of water in metres.
     start, fps
-        The time of the first of several trees, each a frame; and how many frames a second has.
+        The time of the first of several trees, each a frame, by default 1; and how many frames a second has, by
+        default 24.
     progress
         As for `build()`.
 
     Raises
     ------
     InputError
-        The format cannot hold what is asked for.
+        The format cannot hold what is asked for, or the volume is not that of the tree.
     OSError
         The file cannot be written.
 
@@ -102,11 +110,19 @@ def export(
     >>> tree = spheretree.build(numpy.ones((9, 9, 9), bool), spheres=[8, 1], quality="fast")
     >>> spheretree.export(tree, "cube.urdf", level=0, link="cube")
     """
-    words = {
-        "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "up": up,
-        "link": link, "name": name, "density": float(density), "start": float(start), "fps": float(fps),
+    if mass not in (None, "spheres", "object"):
+        raise _spheretree.InputError(f'mass="{mass}" is none of "spheres", "object"')
+    if (mass == "object") != (volume is not None):
+        raise _spheretree.InputError('mass="object" is the mass of volume=, and each needs the other')
+    defaults = {"up": "y", "link": "object", "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
+    wanted = {"up": up, "link": link, "mass": mass, "density": density, "start": start, "fps": fps}
+    given = {key: value for key, value in wanted.items() if value is not None}
+    words: dict[str, Any] = {
+        "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "name": name,
+        **defaults, **given,
     }
+    own = None if volume is None else as_volume(volume)._handle
     several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
     handles = [tree._handle for tree in several]
-    for note in _spheretree.export(handles, writable(path), format, words, progress):
+    for note in _spheretree.export(handles, writable(path), format, words, list(given), own, progress):
         warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)

@@ -3,6 +3,8 @@
 import json
 import os
 import subprocess
+import warnings
+import xml.etree.ElementTree as xml
 
 import numpy as np
 import pytest
@@ -33,6 +35,55 @@ def test_the_bytes_are_those_of_the_command(tree, tmp_path, monkeypatch):
 def test_what_there_is_no_room_for_is_a_warning(tree, tmp_path):
     with pytest.warns(UserWarning, match="holds one level"):
         spheretree.export(tree, tmp_path / "t.urdf")
+
+
+def test_an_option_that_means_nothing_to_a_format_is_a_warning(tree, tmp_path):
+    words = {"link": "arm", "mass": "spheres", "density": 5, "start": 2, "fps": 25, "up": "z"}
+    what = {"link": "hold no links", "mass": "hold no mass", "density": "hold no mass",
+            "start": "hold no samples over time", "fps": "hold no samples over time", "up": "say no axis that is up"}
+    path = tmp_path / "t.ply"
+    for name, value in words.items():
+        with pytest.warns(UserWarning) as warned:
+            spheretree.export(tree, path, **{name: value})
+        assert [str(each.message) for each in warned] == [
+            f"{path}: {name}= changes nothing, as .ply files {what[name]}"]
+        assert warned[0].filename == __file__, "it names the line of the call"
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message=".*changes nothing")
+        spheretree.export(tree, path)
+        spheretree.export(tree, tmp_path / "t.urdf", level=0, link="arm", mass="spheres", density=5)
+        spheretree.export(tree, tmp_path / "t.usda", start=2, fps=25, up="z")
+
+
+def test_the_mass_is_that_of_the_object_where_it_is_asked_for(tree, tmp_path):
+    volume = spheretree.volume(np.ones((30, 14, 8), bool), anisotropy=0.01)
+
+    def mass_of(name, **words):
+        spheretree.export(tree, tmp_path / name, level=0, density=2000, **words)
+        inertial = xml.parse(tmp_path / name).getroot().find("link/inertial")
+        return (float(inertial.find("mass").get("value")),
+                [float(v) for v in inertial.find("origin").get("xyz").split()],
+                float(inertial.find("inertia").get("izz")))
+
+    mass, center, izz = mass_of("o.urdf", mass="object", volume=volume)
+    assert mass == pytest.approx(2000 * 30 * 14 * 8 * 1e-6)
+    assert center == pytest.approx([0.145, 0.065, 0.035])
+    assert izz == pytest.approx(mass * (0.3**2 + 0.14**2) / 12)
+    spheres = mass_of("s.urdf")
+    assert spheres[0] > 1.01 * mass, "spheres that cover it are heavier"
+    assert mass_of("m.urdf", mass="spheres") == spheres
+
+
+@pytest.mark.parametrize("words, why", [
+    ({"mass": "object"}, "each needs the other"),
+    ({"volume": np.ones((30, 14, 8), bool)}, "each needs the other"),
+    ({"mass": "voxels"}, 'mass="voxels" is none of'),
+    ({"mass": "object", "volume": np.ones((30, 14, 9), bool)}, "other voxels"),
+])
+def test_a_mass_of_nothing_or_of_another_object_is_refused(tree, tmp_path, words, why):
+    with pytest.raises(spheretree.InputError, match=why):
+        spheretree.export(tree, tmp_path / "t.urdf", level=0, **words)
+    assert not (tmp_path / "t.urdf").exists()
 
 
 def test_several_trees_are_samples_over_time(tree, tmp_path):

@@ -8,6 +8,7 @@
 
 #include <openvdb/points/PointDataGrid.h>
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 #include <openvdb_spheretree/solid/MeshSolid.h>
@@ -218,20 +219,6 @@ void runMask(const ActionCall& call, Session& session)
     session.seconds.mask += watch.seconds();
 }
 
-/// @return whether a tree has @a object for its object: the same voxels in the same place.
-bool isObjectOf(const openvdb::BoolGrid& object, const spheretree::SphereTree& tree)
-{
-    const auto& info = tree.object;
-    if (int64_t(object.activeVoxelCount()) != info.voxels) return false;
-    if (object.evalActiveVoxelBoundingBox() != info.bbox) return false;
-    const double much = 1e-3 * tree.voxelSize(); // as for -check
-    for (const openvdb::Coord& corner : {info.bbox.min(), info.bbox.max()}) {
-        const auto here = object.transform().indexToWorld(corner);
-        if ((here - tree.transform->indexToWorld(corner)).length() > much) return false;
-    }
-    return true;
-}
-
 } // namespace
 
 bool isObjectGrid(const StackItem& item)
@@ -295,7 +282,7 @@ openvdb::BoolGrid::Ptr objectOfTree(
         settings.coverage = coverage;
         try {
             const auto object = objectOf(item, settings, session);
-            if (isObjectOf(*object, tree)) return object;
+            if (spheretree::isObjectOf(*object, tree)) return object;
             if (spheretree::coverageOf(*object) != coverage) return nullptr; // the same for each
         } catch (const CommandError&) { // no voxel is of that kind
         }

@@ -174,19 +174,6 @@ void requireNoOptions(const ActionCall& call, const std::string& path)
     }
 }
 
-/// An option, and what a format must have for it to mean anything.
-struct OptionOfFormats {
-    const char* name;
-    bool ExportFormat::*has;
-    const char* what;
-};
-
-constexpr OptionOfFormats kOptionsOfFormats[] = {{"link", &ExportFormat::link, "hold no links"},
-    {"mass", &ExportFormat::mass, "hold no mass"}, {"density", &ExportFormat::mass, "hold no mass"},
-    {"start", &ExportFormat::samples, "hold no samples over time"},
-    {"fps", &ExportFormat::samples, "hold no samples over time"},
-    {"up", &ExportFormat::up, "say no axis that is up"}};
-
 /// The camera of a picture has a direction that is up.
 bool isTakenByPicture(const ActionCall& call, const std::string& option, const std::string& path)
 {
@@ -198,15 +185,14 @@ void noteIdleOptions(
     const ActionCall& call, const std::string& path, const ExportFormat& format, Session& session)
 {
     const auto files = call.list("files");
-    for (const OptionOfFormats& option : kOptionsOfFormats) {
-        if (!call.given(option.name) || format.*option.has) continue;
+    for (const spheretree::ExportOption& option : spheretree::exportOptionsOfSome()) {
+        if (!call.given(option.name) || format.*option.takes) continue;
         const bool isTaken = std::any_of(files.begin(), files.end(), [&](const std::string& file) {
             const ExportFormat* const other = exportFormatOf(call, file);
-            return other ? other->*option.has : isTakenByPicture(call, option.name, file);
+            return other ? other->*option.takes : isTakenByPicture(call, option.name, file);
         });
         if (isTaken) continue;
-        session.note(path + ": " + option.name + "= changes nothing, as "
-            + spheretree::detail::lowerExtension(path) + " files " + option.what);
+        session.note(path + ": " + spheretree::idleOptionNote(option, path));
     }
 }
 
