@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads a robot with MuJoCo, and prints its spheres (x y z radius, in the frame of their body) and the mass and
-// moments of inertia of its last body.
+// Loads a robot with MuJoCo, and prints its spheres (x y z radius, in the frame of their body) and of its last body the
+// mass, the moments of inertia, the center of mass and the inertia about it: xx yy zz xy xz yz, along the body's axes.
 
 #include <mujoco/mujoco.h>
 
@@ -23,8 +23,19 @@ int main(int count, char** arguments)
     }
     const int body = model->nbody - 1;
     const mjtNum* const inertia = model->body_inertia + 3 * body;
-    std::printf("mass %.17g %.17g %.17g %.17g\n", model->body_mass[body], inertia[0], inertia[1],
-        inertia[2]);
+    std::printf("mass %.17g", model->body_mass[body]);
+    for (int i = 0; i < 3; ++i) std::printf(" %.17g", inertia[i]);
+    for (int i = 0; i < 3; ++i) std::printf(" %.17g", model->body_ipos[3 * body + i]);
+    mjtNum axes[9]; // its columns are the principal axes
+    mju_quat2Mat(axes, model->body_iquat + 4 * body);
+    const int entries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+    for (const auto& entry : entries) {
+        mjtNum sum = 0;
+        for (int i = 0; i < 3; ++i)
+            sum += axes[3 * entry[0] + i] * inertia[i] * axes[3 * entry[1] + i];
+        std::printf(" %.17g", sum);
+    }
+    std::printf("\n");
     mj_deleteModel(model);
     return 0;
 }

@@ -45,13 +45,31 @@ def read_mujoco(trees):
         lines = [line.split() for line in output_of(program, path, cwd=trees.folder).splitlines()]
         found = [Sphere(*map(float, line[1:])) for line in lines if line[0] == "sphere"]
         require_covered(found, trees.finest("turned.vdb"))
-        if name.endswith(".urdf"):
-            continue  # MuJoCo makes its only link part of the world, without a mass
         mass = mass_of(trees)
-        total, *moments = (float(word) for word in next(l for l in lines if l[0] == "mass")[1:])
+        if name.endswith(".urdf"):
+            lines = [line.split() for line in output_of(program, on_a_base(path), cwd=trees.folder).splitlines()]
+        total, *numbers = (float(word) for word in next(l for l in lines if l[0] == "mass")[1:])
         require_near(total, 1000 * mass["volume"], 1e-9, "mass")
-        for moment, expected in zip(sorted(moments), sorted(mass["principal_moments"])):
+        for found, expected in zip(numbers[3:], mass["center"]):
+            require_near(found, expected, 1e-9, "center of mass")
+        for moment, expected in zip(sorted(numbers[:3]), sorted(mass["principal_moments"])):
             require_near(moment, 1000 * expected, 1e-6, "moment of inertia")
+        # Turned back, the moments are the matrix of the body.
+        for found, (row, column) in zip(numbers[6:], ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
+            off = abs(found - 1000 * mass["inertia"][row][column])
+            assert off <= 1e-6 * 1000 * max(mass["principal_moments"]), (name, row, column, off)
+
+
+def on_a_base(path):
+    """MuJoCo makes the first link of an .urdf part of the world, without a mass: here that is another link."""
+    robot = path.read_text()
+    head, link = robot.split("  <link ", 1)
+    name = link.split('"')[1]
+    joint = ('  <joint name="free" type="floating"><parent link="base"/>'
+             f'<child link="{name}"/></joint>\n</robot>')
+    moving = path.with_name("moving.urdf")
+    moving.write_text(head + '  <link name="base"/>\n  <link ' + link.replace("</robot>", joint))
+    return moving
 
 
 def read_urdfdom(trees):
@@ -121,9 +139,13 @@ def read_lammps(trees):
         "atom_style hybrid sphere molecular\nregion box block -9 9 -9 9 -9 9\ncreate_box 1 box\ncomm_modify cutoff 9\n"
         "molecule clump clump.mol\ncreate_atoms 0 single 0 0 0 mol clump 1234 rotate 0 0 0 1\n"
         "dump all all custom 1 out.dump id x y z radius\ndump_modify all sort id format float %.17g\n"
-        "thermo_style custom step\nfix move all rigid/small molecule mol clump\nrun 0\n")
+        "thermo_style custom step\nfix move all rigid/small molecule mol clump\n"
+        "compute body all rigid/local move mass\ndump bodies all local 1 out.body c_body\n"
+        "dump_modify bodies format float %.17g\nrun 0\n")
     text = output_of("lmp", "-in", "in.clump", cwd=trees.folder)
     assert "ERROR" not in text, text
+    (total,) = map(float, (trees.folder / "out.body").read_text().split("c_body")[1].split())
+    require_near(total, 2500 * mass_of(trees)["volume"], 1e-9, "mass")
     rows = (trees.folder / "out.dump").read_text().split("radius\n")[1].splitlines()
     found = [Sphere(*map(float, row.split()[1:])) for row in rows]
     expected = trees.finest("turned.vdb")

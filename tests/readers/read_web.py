@@ -79,18 +79,27 @@ def read_gltf(trees):
         path = trees.write("turned.vdb", "tree.glb", *options)
         report = node(trees, "validate.mjs", path)
         assert report["errors"] == 0 and report["warnings"] == 0, report
-        scene = node(trees, "three_gltf.mjs", path)
-        finest = trees.finest("turned.vdb")
+        scenes = node(trees, "three_gltf.mjs", path)
+        all_spheres = trees.spheres("turned.vdb")
+        finest = [sphere for sphere in all_spheres if sphere.level == 0]
         if triangles:
-            assert scene["triangles"] == triangles * len(finest)
+            assert [scene["triangles"] for scene in scenes] == [triangles * len(finest)]
             continue
-        found = [Sphere(*sphere) for sphere in scene["spheres"]]
-        # What is up along z in the tree is so along y in glTF.
-        turned = [sphere._replace(y=sphere.z, z=-sphere.y) for sphere in finest]
-        assert len(found) == len(turned)
-        for a, b in zip(found, turned):
-            assert all(abs(a[i] - b[i]) < 1e-5 for i in range(4)), (a, b)
-        assert scene["ids"] == [sphere.id for sphere in finest]
+        # A scene is a level; the finest is shown.
+        assert len(scenes) == 1 + max(sphere.level for sphere in all_spheres) == 3, len(scenes)
+        for level, scene in enumerate(scenes):
+            require_level(scene, [sphere for sphere in all_spheres if sphere.level == level])
+
+
+def require_level(scene, spheres):
+    found = [Sphere(*sphere) for sphere in scene["spheres"]]
+    # What is up along z in the tree is so along y in glTF.
+    turned = [sphere._replace(y=sphere.z, z=-sphere.y) for sphere in spheres]
+    assert len(found) == len(turned)
+    for a, b in zip(found, turned):
+        assert all(abs(a[i] - b[i]) < 1e-5 for i in range(4)), (a, b)
+    assert scene["ids"] == [sphere.id for sphere in spheres]
+    assert scene["parents"] == [sphere.parent for sphere in spheres]
 
 
 READERS = {name[5:]: function for name, function in list(globals().items())
