@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run by Blender: every level has its spheres, where and as large as the table says; renders one picture.
+"""Run by Blender: every level has its spheres, where and as large as the table says, in the colours of their parents;
+renders one picture, and looks for these colours in it.
 
     blender -b -noaudio --factory-startup --python test_import.py -- tree.csv picture.png
 """
 
+import colorsys
 import math
 import sys
 from pathlib import Path
@@ -14,12 +16,33 @@ sys.path.insert(0, str(Path(__file__).parent))
 import import_spheretree  # noqa: E402
 
 
-def spheres_shown():
-    """Center and radius of all points that Blender would draw."""
+def clouds_shown():
+    """The points that Blender would draw."""
     graph = bpy.context.evaluated_depsgraph_get()
-    clouds = [item.object.data for item in graph.object_instances
-              if type(item.object.data).__name__ == "PointCloud"]
-    return sorted((*point.co, point.radius) for cloud in clouds for point in cloud.points)
+    return [item.object.data for item in graph.object_instances
+            if type(item.object.data).__name__ == "PointCloud"]
+
+
+def spheres_shown():
+    """Center and radius of all points."""
+    return sorted((*point.co, point.radius) for cloud in clouds_shown() for point in cloud.points)
+
+
+def check_colors(rows, level):
+    """Siblings share a colour, and others have another one."""
+    parents = {}
+    for row in rows:
+        if int(row["level"]) == level:
+            parents[tuple(round(float(row[axis]), 4) for axis in "xyz")] = int(row["parent"])
+    by_parent = {}
+    for cloud in clouds_shown():
+        for point, value in zip(cloud.points, cloud.attributes["sphere_color"].data):
+            parent = parents[tuple(round(part, 4) for part in point.co)]
+            by_parent.setdefault(parent, set()).add(tuple(round(part, 4) for part in value.color))
+    assert set(by_parent) == set(parents.values()), level
+    assert all(len(colors) == 1 for colors in by_parent.values()), (level, by_parent)
+    different = set().union(*by_parent.values())
+    assert len(different) == len(by_parent), (level, by_parent)
 
 
 def check(path, tree):
@@ -33,6 +56,7 @@ def check(path, tree):
         assert len(shown) == len(expected), (level, len(shown), len(expected))
         for a, b in zip(shown, expected):
             assert all(math.isclose(p, q, rel_tol=1e-5, abs_tol=1e-5) for p, q in zip(a, b)), (a, b)
+        check_colors(rows, level)
 
 
 def render(tree, path):
@@ -63,6 +87,18 @@ def render(tree, path):
     bpy.ops.render.render(write_still=True)
 
 
+def check_picture(path):
+    """The 30 parents of the finest level have hues all around the circle, of which the lamp leaves most."""
+    image = bpy.data.images.load(path)
+    numbers = list(image.pixels)
+    counts = [0] * 12
+    for i in range(0, len(numbers), 4):
+        hue, saturation, value = colorsys.rgb_to_hsv(*(min(part, 1) for part in numbers[i:i + 3]))
+        if saturation > 0.3 and value > 0.1:
+            counts[int(12 * hue) % 12] += 1
+    assert sum(count > 50 for count in counts) >= 6, counts
+
+
 def main():
     path, picture = sys.argv[sys.argv.index("--") + 1:]
     for thing in list(bpy.data.objects):
@@ -73,6 +109,7 @@ def main():
     tree.rotation_euler.x = math.pi / 2  # the picture is of something that has y up
     bpy.context.view_layer.update()
     render(tree, picture)
+    check_picture(picture)
     print("all spheres are there")
 
 
