@@ -29,8 +29,9 @@ enum Trait : unsigned {
     kXml = 2048,
     kWord = 4096,
     kIdentifier = 8192,
-    kEmpty = 16384, ///< ExportFormat::empty
-    kUp = 32768     ///< ExportFormat::up
+    kEmpty = 16384,   ///< ExportFormat::empty
+    kUp = 32768,      ///< ExportFormat::up
+    kFloatIds = 65536 ///< ExportFormat::floatIds
 };
 
 struct Row {
@@ -62,7 +63,7 @@ constexpr Row kRows[] = {
         kFloats | kAllLevels | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
     {"ply", ".ply", "Open3D, meshio", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
     {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord | kEmpty, detail::writePlyAscii},
-    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp, detail::writeGlb},
+    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp | kFloatIds, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels, detail::writeNanoVdbPoints},
 
@@ -110,6 +111,7 @@ ExportFormat makeFormat(const Row& row)
     format.metres = has(kMetres);
     format.up = has(kUp);
     format.positiveRadii = has(kPositiveRadii);
+    format.floatIds = has(kFloatIds);
     format.ordersIds = has(kOrdersIds);
     if (format.name == "nanovdb" && !writesNanoVdb()) {
         format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";

@@ -40,14 +40,15 @@ struct ExportFormat {
     std::string keeps;                   ///< of a tree
     ExportNumbers numbers = ExportNumbers::Decimal;
     ExportNames names = ExportNames::Bytes;
-    bool link = false;          ///< holds the name of a link
-    bool empty = false;         ///< can be a file without spheres
-    bool allLevels = false;     ///< holds more than one level
-    bool samples = false;       ///< holds several trees, as samples over time
-    bool mass = false;          ///< has a mass and inertia
-    bool up = false;            ///< says which axis is up
-    bool metres = false;        ///< its readers take its numbers for metres
-    bool ordersIds = false;     ///< its ids count from the top level on: tracks have no place
+    bool link = false;      ///< holds the name of a link
+    bool empty = false;     ///< can be a file without spheres
+    bool allLevels = false; ///< holds more than one level
+    bool samples = false;   ///< holds several trees, as samples over time
+    bool mass = false;      ///< has a mass and inertia
+    bool up = false;        ///< says which axis is up
+    bool metres = false;    ///< its readers take its numbers for metres
+    bool floatIds = false;  ///< its ids are floats, which are whole up to 2^24: beyond, it has none
+    bool ordersIds = false; ///< its ids count from the top level on: tracks have no place
     bool positiveRadii = false; ///< its readers refuse a radius of 0
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;

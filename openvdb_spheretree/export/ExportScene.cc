@@ -232,6 +232,21 @@ ExportScene emptyScene(const SphereTree& tree, const ExportFormat& format,
     return scene;
 }
 
+/// Ids are many, or are tracks of a long sequence.
+void noteIds(const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    if (!format.floatIds) return;
+    std::string levels;
+    for (const ExportLevel& level : scene.levels) {
+        if (level.idsAreFloats()) continue;
+        levels += (levels.empty() ? "" : ", ") + std::to_string(level.number);
+    }
+    if (levels.empty()) return;
+    notes.push_back(format.name
+        + " has its ids as floats, which count to 16777216: ids and parents of level " + levels
+        + " are left out");
+}
+
 void requirePositive(const ExportScene& scene, const ExportFormat& format)
 {
     int64_t zero = 0;
@@ -245,6 +260,12 @@ void requirePositive(const ExportScene& scene, const ExportFormat& format)
 }
 
 } // namespace
+
+bool ExportLevel::idsAreFloats() const
+{
+    constexpr int32_t kMostExact = 1 << 24;
+    return std::all_of(ids.begin(), ids.end(), [](int32_t id) { return id <= kMostExact; });
+}
 
 std::size_t ExportScene::sphereCount() const
 {
@@ -310,6 +331,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
             if (format.samples) sortByTrack(level);
         }
     }
+    noteIds(scene, format, notes);
     if (format.positiveRadii) requirePositive(scene, format);
     return scene;
 }

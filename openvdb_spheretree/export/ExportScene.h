@@ -25,6 +25,8 @@ struct ExportLevel {
     std::vector<int32_t> parents; ///< the same of the parents; -1 where one is not in the file
 
     std::size_t size() const { return centers.size(); }
+    /// @return whether floats hold all ids: they count to 2^24.
+    bool idsAreFloats() const;
 };
 
 struct ExportScene {

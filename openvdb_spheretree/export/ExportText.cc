@@ -77,17 +77,20 @@ ExportText& ExportText::operator<<(double length)
     const auto count = int(end - digits.data());
     if (units < 0) mBytes += '-';
     const int beforePoint = count - mDecimals;
-    if (beforePoint <= 0) {
+    int kept = count; // without zeros at the end
+    while (kept > std::max(beforePoint, 0) && digits[std::size_t(kept - 1)] == '0') --kept;
+    if (kept == 0) {
+        mBytes += "0.0";
+    } else if (beforePoint <= 0) {
         mBytes += "0.";
         mBytes.append(std::size_t(-beforePoint), '0');
-        mBytes.append(digits.data(), std::size_t(count));
+        mBytes.append(digits.data(), std::size_t(kept));
     } else {
         mBytes.append(digits.data(), std::size_t(beforePoint));
         mBytes += '.';
-        mBytes.append(digits.data() + beforePoint, std::size_t(mDecimals));
+        if (kept == beforePoint) mBytes += '0';
+        mBytes.append(digits.data() + beforePoint, std::size_t(kept - beforePoint));
     }
-    while (mBytes.back() == '0') mBytes.pop_back();
-    if (mBytes.back() == '.') mBytes += '0';
     return *this;
 }
 

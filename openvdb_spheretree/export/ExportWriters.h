@@ -8,6 +8,7 @@
 #include "ExportBuffer.h"
 #include "ExportScene.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace openvdb_spheretree::detail {
@@ -38,6 +39,8 @@ void writeNanoVdbPoints(const std::vector<ExportScene>& samples, const ExportSin
 void writeMeshObj(const std::vector<ExportScene>& samples, const ExportSink& out);
 void writeMeshStl(const std::vector<ExportScene>& samples, const ExportSink& out);
 void writeMeshGlb(const std::vector<ExportScene>& samples, const ExportSink& out);
+/// @throw openvdb::ValueError if an .stl cannot have so many: it counts them in 32 bits
+void requireStlTriangles(uint64_t triangles);
 void writeUnrealObj(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}
 

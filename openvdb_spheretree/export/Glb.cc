@@ -6,8 +6,6 @@
 #include "GlbFile.h"
 #include "UnitSphere.h"
 
-#include <algorithm>
-
 namespace openvdb_spheretree::detail {
 
 namespace {
@@ -61,10 +59,7 @@ Instances addInstances(GlbFile& file, const ExportLevel& level)
     instances.scale = file.addArray("VEC3", GlbFile::Float, count, [&level](ExportBytes& bytes) {
         for (const double radius : level.radii) putFloats(bytes, openvdb::Vec3d(radius));
     });
-    // Attributes are floats in glTF, and floats count to 2^24.
-    constexpr int32_t kMostExact = 1 << 24;
-    const auto most = std::max_element(level.ids.begin(), level.ids.end());
-    if (count > 0 && *most > kMostExact) return instances;
+    if (!level.idsAreFloats()) return instances; // and attributes are floats in glTF
     for (const auto& [name, ids] :
         {std::pair("_ID", &level.ids), std::pair("_PARENT", &level.parents)}) {
         const int accessor =

@@ -11,6 +11,15 @@
 
 namespace openvdb_spheretree::detail {
 
+void requireGlbSize(uint64_t fileBytes)
+{
+    if (fileBytes > std::numeric_limits<uint32_t>::max()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "a .glb holds 4 GiB at most, and this one would have "
+                << fileBytes << " bytes: choose a coarser level with level= or spheres=");
+    }
+}
+
 int GlbFile::addArray(const std::string& type, Component component, std::size_t count,
     std::function<void(ExportBytes&)> put)
 {
@@ -96,11 +105,7 @@ void GlbFile::write(const std::function<void(JsonWriter&)>& writeScenes,
     std::string text = json(writeScenes, extension, bufferBytes);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const uint64_t fileBytes = 12 + 8 + text.size() + 8 + bufferBytes;
-    if (fileBytes > std::numeric_limits<uint32_t>::max()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "a .glb holds 4 GiB at most, and this one would have "
-                << fileBytes << " bytes: choose a coarser level with level= or spheres=");
-    }
+    requireGlbSize(fileBytes);
     ExportBytes bytes(out);
     bytes.put(std::string("glTF"));
     bytes.put(uint32_t(2));

@@ -17,6 +17,9 @@
 
 namespace openvdb_spheretree::detail {
 
+/// @throw openvdb::ValueError if a .glb cannot be of that size: its header has 32 bits for it
+void requireGlbSize(uint64_t fileBytes);
+
 class GlbFile {
 public:
     enum Component { UnsignedInt = 5125, Float = 5126 };

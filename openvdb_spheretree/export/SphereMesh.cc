@@ -65,17 +65,22 @@ void writeUnrealObj(const std::vector<ExportScene>& samples, const ExportSink& o
         scene, [&](std::size_t i) { return name + twoDigits(i + 1); }, out);
 }
 
+void requireStlTriangles(uint64_t triangles)
+{
+    if (triangles > std::numeric_limits<uint32_t>::max()) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "a .stl counts its triangles in 32 bits, and here are "
+                << triangles << ": choose a coarser level with level= or spheres=");
+    }
+}
+
 /// Binary, as all readers take it: a header of 80 bytes, and 50 bytes a triangle.
 void writeMeshStl(const std::vector<ExportScene>& samples, const ExportSink& out)
 {
     const ExportLevel& level = samples.front().finest();
     const UnitSphere shape = meshShapeFor(level.size());
     const uint64_t triangles = uint64_t(level.size()) * shape.triangles.size();
-    if (triangles > std::numeric_limits<uint32_t>::max()) {
-        OPENVDB_THROW(openvdb::ValueError,
-            "a .stl counts its triangles in 32 bits, and here are "
-                << triangles << ": choose a coarser level with level= or spheres=");
-    }
+    requireStlTriangles(triangles);
     ExportBytes bytes(out);
     std::string header = "spheres of " + oneWord(samples.front().name);
     header.resize(80, ' ');

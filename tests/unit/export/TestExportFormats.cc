@@ -3,6 +3,8 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/export/ExportTree.h>
+#include <openvdb_spheretree/export/ExportWriters.h>
+#include <openvdb_spheretree/export/GlbFile.h>
 
 #include "support/Messages.h"
 #include "support/SampleTrees.h"
@@ -218,6 +220,63 @@ TEST(ExportFormats, ACompleteTreeThatWouldExplodeIsRefused)
     settings.level = 0;
     EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] { written(tree, sph, settings); }),
         "begins with one sphere"));
+}
+
+TEST(ExportFormats, WhatABinaryFileCannotCountIsRefusedBeforeItIsBegun)
+{
+    constexpr uint64_t kMost = 0xffffffffu;
+    EXPECT_NO_THROW(detail::requireStlTriangles(kMost));
+    const std::string stl =
+        messageOf<openvdb::ValueError>([] { detail::requireStlTriangles(kMost + 1); });
+    EXPECT_TRUE(mentions(stl, "4294967296: choose a coarser level with level= or spheres=")) << stl;
+    EXPECT_NO_THROW(detail::requireGlbSize(kMost));
+    const std::string glb =
+        messageOf<openvdb::ValueError>([] { detail::requireGlbSize(kMost + 1); });
+    EXPECT_TRUE(mentions(glb, "4294967296 bytes: choose a coarser level")) << glb;
+
+    // Arrays are counted before they are written: these two would have 5 GiB.
+    detail::GlbFile file;
+    bool isWritten = false;
+    for (int i = 0; i < 2; ++i) {
+        file.addArray("SCALAR", detail::GlbFile::Float, std::size_t(5) << 27,
+            [&](detail::ExportBytes&) { isWritten = true; });
+    }
+    std::ostringstream out;
+    EXPECT_THROW(file.write([](JsonWriter&) {}, "", detail::ExportSink(out)), openvdb::ValueError);
+    EXPECT_TRUE(out.str().empty());
+    EXPECT_FALSE(isWritten);
+}
+
+TEST(ExportFormats, IdsThatFloatsCannotHoldAreSaidAndLeftOut)
+{
+    SphereTree tree = someTree(3);
+    const ExportFormat& glb = *findExportFormat(".glb");
+    const auto notesOf = [&](int32_t largest, std::string& bytes) {
+        tree.track.resize(tree.spheres.parent.size());
+        for (std::size_t i = 0; i < tree.track.size(); ++i) tree.track[i] = int32_t(i);
+        tree.track.back() = largest;
+        tree.nextTrack = largest + 1;
+        std::ostringstream out;
+        const auto notes = exportTree(tree, glb, {}, out);
+        bytes = out.str();
+        return notes;
+    };
+    constexpr int32_t kMost = 1 << 24;
+    std::string held, tooLarge;
+    EXPECT_TRUE(notesOf(kMost, held).empty());
+    const auto notes = notesOf(kMost + 1, tooLarge);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0],
+        "glb has its ids as floats, which count to 16777216: ids and parents of level 0 are left "
+        "out");
+    const auto countOf = [](const std::string& text, const std::string& part) {
+        std::size_t count = 0;
+        for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(countOf(held, "\"_ID\""), tree.levels.size());
+    EXPECT_EQ(countOf(tooLarge, "\"_ID\""), tree.levels.size() - 1) << "other levels have theirs";
 }
 
 } // namespace
