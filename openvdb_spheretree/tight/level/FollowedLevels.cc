@@ -146,7 +146,7 @@ std::vector<TightLevel> grownOver(
 bool areAboutAsGood(const std::vector<TightLevel>& levels, const std::vector<TightLevel>& fresh,
     const LevelMaker& maker)
 {
-    constexpr double kWorse = 1.15;
+    constexpr double kWorse = 8.0 / 7;
     for (std::size_t k = 0; k < levels.size(); ++k) {
         if (maker.costOf(levels[k].balls) > kWorse * maker.costOf(fresh[k].balls)) return false;
     }

@@ -75,14 +75,14 @@ double meanMovement(const SphereTree& now, const SphereTree& last)
 
 TEST(NextSphereTree, SpheresOfABodyThatTwistsStartWhereTheyWere)
 {
-    SphereTree last = firstTree(twisted(0)), lastAnew = last;
+    SphereTree last = firstTree(twisted(0), Quality::Fast), lastAnew = last;
     double moved = 0, movedAnew = 0;
     for (int frame = 1; frame <= 6; ++frame) {
         SCOPED_TRACE(frame);
         const Voxels voxels = twisted(0.06 * frame);
         const auto grid = gridOf(voxels);
-        SphereTree next = buildNextSphereTree(last, *grid, settingsOf(Quality::Normal));
-        SphereTree anew = buildSphereTree(*grid, settingsOf(Quality::Normal));
+        SphereTree next = buildNextSphereTree(last, *grid, settingsOf(Quality::Fast));
+        SphereTree anew = buildSphereTree(*grid, settingsOf(Quality::Fast));
         continueTracks(anew, lastAnew);
         expectSound(next, *grid, voxels);
         computeLevelErrors(next, *grid);
@@ -127,8 +127,9 @@ TEST(NextSphereTree, IsMadeAnewWhereTheOneBeforeIsOfNoUse)
         EXPECT_TRUE(sameNodes(buildNextSphereTree(last, *grid, settingsOf(Quality::Fast)), anew))
             << what;
     };
-    expectAnew(firstTree(shapes::ball(200)), "another object");
-    expectAnew(firstTree(twisted(0.5, Coord(100000, 0, 1))), "somewhere else");
+    expectAnew(firstTree(shapes::ball(200), Quality::Fast), "another object");
+    expectAnew(firstTree(twisted(0.5, Coord(100000, 0, 1)), Quality::Fast), "somewhere else");
+    expectAnew(firstTree(twisted(-1.5), Quality::Fast), "one that has turned too far");
     const SphereTree best = firstTree(voxels, Quality::Best);
     SphereTree wide = best;
     wide.transform = openvdb::math::Transform::createLinearTransform(2);
@@ -139,6 +140,21 @@ TEST(NextSphereTree, IsMadeAnewWhereTheOneBeforeIsOfNoUse)
     expectAnew(keepLevel(best, 1), "other levels");
     expectAnew(buildSphereTree(*grid, settingsFor(TreeType::Extended)), "another kind");
     EXPECT_FALSE(sameNodes(buildNextSphereTree(best, *grid, settingsOf(Quality::Fast)), anew));
+}
+
+/// They hold all voxels, but are far too large.
+TEST(NextSphereTree, SpheresThatAreTooLargeDoNotStay)
+{
+    const auto grid = gridOf(twisted(1));
+    SphereTree last = firstTree(twisted(1), Quality::Fast);
+    for (int64_t& radiusSq : last.spheres.coverRadiusSq) radiusSq *= 4;
+    SphereTree next = buildNextSphereTree(last, *grid, settingsOf(Quality::Fast));
+    SphereTree anew = buildSphereTree(*grid, settingsOf(Quality::Fast));
+    computeLevelErrors(next, *grid);
+    computeLevelErrors(anew, *grid);
+    for (std::size_t k = 0; k < next.levels.size(); ++k) {
+        EXPECT_LE(next.levels[k].error->hammingPercent, 1.2 * anew.levels[k].error->hammingPercent);
+    }
 }
 
 TEST(NextSphereTree, OfAFlatObject)
