@@ -31,7 +31,7 @@ SphereTree buildSphereTree(const openvdb::BoolGrid& object, const SphereTreeSett
 
 /// @brief The same for the next frame of a sequence: its spheres have the tracks of those that they come from
 /// (SphereTracks.h). Spheres of a tight tree of named counts start where they were, if that makes no level more than a
-/// twentieth worse (FollowedLevels.h).
+/// seventh worse, counted on samples (FollowedLevels.h).
 /// @param last  the tree of the frame before
 SphereTree buildNextSphereTree(const SphereTree& last, const openvdb::BoolGrid& object,
     const SphereTreeSettings& settings, StageSeconds* seconds = nullptr,

@@ -23,8 +23,8 @@ struct MemoryPlan {
     bool packed = false;      ///< whether labels are compressed; else all are kept in memory
     int64_t packedBytes = 0;  ///< of all labels before they are compressed, if they are
     int64_t storedBytes = 0;  ///< of compressed labels that may stay in memory; others go to a file
-    /// @name Of a tight tree's levels, within a factor of three; of small parts far apart at most what as many balls as
-    /// voxels would take. 0 for other trees, and over given spheres.
+    /// @name Of a tight tree's levels, within a factor of three. Of small parts far apart they may be many times too large,
+    /// but no more leaf balls are guessed than there are voxels. 0 for other trees, and over given spheres.
     /// @{
     int64_t leafBalls = 0;
     double levelsBytes = 0;   ///< at its peak; labels are gone then

@@ -36,8 +36,9 @@ double objectUpper(const QueryTree& tree, const Vec3d& point, int32_t leaf)
     const double byInset = length - std::max(0.0, sphere.r - tree.leafInset());
     const double byReach = std::max(0.0, length - sphere.r) + tree.leafReach();
     const double best = std::isfinite(tree.leafInset()) ? std::min(byInset, byReach) : byReach;
-    // Doubles round coordinates of the world, and the few sums above.
-    const double rounding = 0x1p-49 * (point.length() + data.origin.length() + length);
+    // Floats round centers, by 2^-24 of a coordinate; doubles those of the world, and the few sums above.
+    const double rounding = 0x1p-23 * double(data.spheres.extent)
+        + 0x1p-49 * (point.length() + data.origin.length() + length);
     return std::max(0.0, best) + rounding;
 }
 

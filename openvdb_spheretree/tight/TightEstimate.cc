@@ -35,8 +35,8 @@ GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 }
 
 /// The regions of all leaf balls, as if each were one of a coarse level, as many times as large. In thin or scattered
-/// objects most of such a ball is empty: there each leaf node is in no more of them than on the coarse level,
-/// but for their number.
+/// objects most of such a ball is empty: there, a leaf node is in as many of them as on the coarse level, times the
+/// ratio of their numbers.
 double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess)
 {
     const auto leafNodesOf = [&](std::size_t level) {

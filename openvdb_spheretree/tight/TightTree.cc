@@ -268,6 +268,10 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
     if (!onObject) counts.front() += counts.front() / 8;
     maker.interrupter->expect(LevelWork(maker).ofCounts(int64_t(leafBalls.size()), counts,
         options.quality, coarse.leafNodesBelow(coarse.steps.size())));
+    if (start.last) {
+        const LevelWork onFinest(maker, std::size_t(detail::leafNodesOf(*coarse.levels.front())));
+        for (const int64_t count : counts) maker.interrupter->expect(onFinest.ofPlacing(count));
+    }
     auto levels = levelsFrom(counts, free, start.given != nullptr, options.quality, maker);
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
         const SampledObject finer(LeafLayout(*coarse.levels[step]));

@@ -235,8 +235,8 @@ double movementSince(const SphereTree& last, const SphereTree& tree, NullInterru
         tree, last, [&](const SphereTreeLevel&, const Level& now, const Level& before) {
             LevelPairing pairing(now, before, interrupter);
             pairing.pair();
-            const double radius = meanRadius(now);
-            if (radius > 0) sum += pairing.meanMovement() / radius;
+            const double radius = meanRadius(before);
+            sum += pairing.meanMovement() / (radius > 0 ? radius : last.voxelSize());
         });
     return sum;
 }

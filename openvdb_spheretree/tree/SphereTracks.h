@@ -41,7 +41,7 @@ void continueTracks(SphereTree& tree, const SphereTree& last,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// @return how far the spheres of a level have moved since the frame before, on average over those that are paired, in mean
-///         radii of the level: the sum over all levels. 0 if no level has spheres in both.
+///         radii that they had (in voxels if these are 0): the sum over all levels. 0 if no level has spheres in both.
 double movementSince(const SphereTree& last, const SphereTree& tree,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 

@@ -116,7 +116,8 @@ def export(
         raise _spheretree.InputError('mass="object" is the mass of volume=, and each needs the other')
     defaults = {"up": "y", "link": "object", "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
     wanted = {"up": up, "link": link, "mass": mass, "density": density, "start": start, "fps": fps}
-    given = {key: value for key, value in wanted.items() if value is not None}
+    given = {key: float(value) if key in ("density", "start", "fps") else value
+             for key, value in wanted.items() if value is not None}
     words: dict[str, Any] = {
         "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "name": name,
         **defaults, **given,

@@ -3,17 +3,22 @@
 
 #include "GroupedCover.h"
 #include "PlacedLevels.h"
+#include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
+#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 #include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace openvdb_spheretree::tight {
 
@@ -49,6 +54,14 @@ bool areNear(const std::vector<TightLevel>& levels, const openvdb::CoordBBox& bo
     });
 }
 
+/// @return the lengths of the sides. The box may come from a file, so differences may need 33 bits.
+std::array<int64_t, 3> sidesOf(const openvdb::CoordBBox& box)
+{
+    std::array<int64_t, 3> sides{};
+    for (int a = 0; a < 3; ++a) sides[a] = int64_t(box.max()[a]) - box.min()[a];
+    return sides;
+}
+
 bool areOfOneKind(const SphereTree& last, const SphereTree& tree)
 {
     constexpr double kRounding = 1e-9;
@@ -69,7 +82,7 @@ std::vector<TightLevel> movedLevels(const SphereTree& last, const SphereTree& tr
     }
     std::vector<TightLevel> levels = levelsOf(last);
     const openvdb::CoordBBox before = flat.toZ(last.object.bbox), now = flat.toZ(tree.object.bbox);
-    if (before.dim() == now.dim()) {
+    if (sidesOf(before) == sidesOf(now)) {
         int64_t way[3];
         for (int a = 0; a < 3; ++a) way[a] = int64_t(now.min()[a]) - before.min()[a];
         move(levels, way);
@@ -79,15 +92,21 @@ std::vector<TightLevel> movedLevels(const SphereTree& last, const SphereTree& tr
     return areNear(levels, now) ? levels : std::vector<TightLevel>();
 }
 
-/// @return the voxels that have no chain of balls, as an object of their own.
-SampleLevel withoutChain(const std::vector<TightLevel>& levels, const LevelMaker& maker)
+struct Chains {
+    SampleLevel bare; ///< voxels that have none, as an object of their own
+    bool areAllUsed;  ///< each ball of the finest level holds voxels that have one
+};
+
+Chains chainsOf(const std::vector<TightLevel>& levels, const LevelMaker& maker)
 {
     const SampleLevel& object = maker.object.level(0);
     std::vector<VoxelRegion> chains;
     for (std::size_t k = levels.size(); k-- > 0;) chains = chainRegions(levels[k], chains, maker);
     std::vector<LeafMask> left;
     for (std::size_t leaf = 0; leaf < object.leafCount(); ++leaf) left.push_back(object.mask(leaf));
+    bool areAllUsed = true;
     for (const VoxelRegion& chain : chains) {
+        areAllUsed = areAllUsed && !chain.empty();
         for (const RegionLeaf& part : chain) left[part.leaf] -= part.mask;
     }
     std::vector<openvdb::Coord> origins;
@@ -97,50 +116,47 @@ SampleLevel withoutChain(const std::vector<TightLevel>& levels, const LevelMaker
         origins.push_back(object.origin(leaf));
         masks.push_back(left[leaf]);
     }
-    return {std::move(origins), std::move(masks)};
-}
-
-/// A voxel without a chain, and the ball of the finest level that is to hold it.
-struct Claim {
-    openvdb::Coord voxel;
-    int32_t ball;
-};
-
-/// @return each voxel with the ball that has to grow the least.
-std::vector<std::vector<Claim>> claimsOf(
-    const SampleLevel& bare, const std::vector<ExactSphere>& balls, const LevelMaker& maker)
-{
-    constexpr int32_t kNone = -1;
-    const BallGrid grid(balls);
-    std::vector<std::vector<Claim>> claims(bare.leafCount());
-    detail::parallelFor(claims.size(), maker.interrupter, [&](std::size_t leaf) {
-        bare.mask(leaf).visitOn([&](uint32_t index) {
-            const openvdb::Coord voxel = bare.origin(leaf).offsetBy(
-                int32_t(index >> 6), int32_t(index >> 3 & 7), int32_t(index & 7));
-            const auto nearest = grid.nearest(kNone, voxelBall(voxel), 1);
-            claims[leaf].push_back({voxel, nearest.front()});
-        });
-    });
-    return claims;
+    return {{std::move(origins), std::move(masks)}, areAllUsed};
 }
 
 /// @param bare  voxels without a chain
-/// @return the levels with balls grown until those have one.
+/// @return the levels with balls grown until those have one: each goes to the ball that has to grow the least.
 std::vector<TightLevel> grownOver(
     const SampleLevel& bare, std::vector<TightLevel> levels, const LevelMaker& maker)
 {
-    for (const auto& claims : claimsOf(bare, levels.front().balls, maker)) {
-        for (const Claim& claim : claims) {
-            std::size_t node = std::size_t(claim.ball);
-            for (TightLevel& level : levels) {
-                ExactSphere& ball = level.balls[node];
-                ball.radiusSq =
-                    std::max(ball.radiusSq, radiusSqToHold(ball, voxelBall(claim.voxel)));
-                if (!level.parent.empty()) node = std::size_t(level.parent[node]);
+    constexpr int32_t kNone = -1;
+    const BallGrid grid(levels.front().balls);
+    std::vector<std::vector<std::atomic<int64_t>>> radiiSq; // of each level
+    for (const TightLevel& level : levels) radiiSq.emplace_back(level.balls.size()); // 0
+    detail::parallelFor(bare.leafCount(), maker.interrupter, [&](std::size_t leaf) {
+        bare.mask(leaf).visitOn([&](uint32_t index) {
+            const ExactSphere voxel = voxelBall(bare.origin(leaf).offsetBy(
+                int32_t(index >> 6), int32_t(index >> 3 & 7), int32_t(index & 7)));
+            auto node = std::size_t(grid.nearest(kNone, voxel, 1).front());
+            for (std::size_t k = 0; k < levels.size(); ++k) {
+                const ExactSphere& ball = levels[k].balls[node];
+                detail::raiseTo(radiiSq[k][node], radiusSqToHold(ball, voxel));
+                if (!levels[k].parent.empty()) node = std::size_t(levels[k].parent[node]);
             }
+        });
+    });
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        for (std::size_t i = 0; i < radiiSq[k].size(); ++i) {
+            int64_t& radiusSq = levels[k].balls[i].radiusSq;
+            radiusSq = std::max(radiusSq, radiiSq[k][i].load());
         }
     }
     return levels;
+}
+
+/// @return whether there may be as much memory as the regions of all balls take.
+bool haveRoom(const std::vector<TightLevel>& levels, const LevelMaker& maker)
+{
+    std::vector<ExactSphere> all;
+    for (const TightLevel& level : levels) {
+        all.insert(all.end(), level.balls.begin(), level.balls.end());
+    }
+    return maker.regionMemory(all).fits(maker.memory);
 }
 
 bool areAboutAsGood(const std::vector<TightLevel>& levels, const std::vector<TightLevel>& fresh,
@@ -169,11 +185,13 @@ std::vector<TightLevel> followedLevels(const SphereTree& last, const SphereTree&
 {
     const auto counts = tree.settings.tight().budget.counts(INT64_MAX);
     const auto start = movedLevels(last, tree, counts, FlatAxis(tree.flatAxis));
-    if (start.size() != fresh.size() || start.empty()) return fresh;
-    const SampleLevel bare = withoutChain(start, maker);
-    if (bare.leafCount() == 0 && areAboutAsGood(start, fresh, maker)) return start;
-    const auto placed =
-        placedLevels(grownOver(bare, start, maker), counts.front(), maker, fresh.front().balls);
+    if (start.size() != fresh.size() || start.empty() || !haveRoom(start, maker)) return fresh;
+    const Chains chains = chainsOf(start, maker);
+    const bool holds = chains.bare.leafCount() == 0 && chains.areAllUsed;
+    if (holds && areAboutAsGood(start, fresh, maker)) return start;
+    const auto grown = grownOver(chains.bare, start, maker);
+    if (!haveRoom(grown, maker)) return fresh;
+    const auto placed = placedLevels(grown, counts.front(), maker, fresh.front().balls);
     const auto movement = [&](const std::vector<TightLevel>& levels) {
         return movementOf(levels, tree, last, maker);
     };

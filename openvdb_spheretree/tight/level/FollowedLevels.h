@@ -7,10 +7,13 @@
 /// 1. A voxel without a chain goes to the ball of the finest level that is nearest. This ball and its ancestors grow
 ///    until they hold it. Now all voxels have chains.
 /// 2. All balls are placed anew (PlacedLevels.h).
-/// 3. They are taken if no level costs more by a seventh than the one that is made without the frame before, and if
-///    they have moved less (SphereTracks.h). Levels that need no growth and cost no more than that stay as they are.
+/// 3. They are taken if no level costs more by a seventh, counted on samples, than the one that is made without the frame
+///    before, and if they have moved less (SphereTracks.h).
+/// Levels whose balls are all of use, need no growth and cost no more than that stay as they are. Where memory is too
+/// small for the regions of all balls, the levels made without the frame before are taken.
 ///
-/// Cost: that of carrying levels down by one level of the pyramid.
+/// Cost: that of placing levels anew, a search for the nearest ball for each voxel without a chain, and two pairings of
+/// all spheres.
 
 #pragma once
 

@@ -8,7 +8,6 @@
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
-#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -131,11 +130,16 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
     return groupedCut(mergeToCount(model, kNeighbours, count, interrupter), balls, count);
 }
 
-void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const
+WorkingMemory LevelMaker::regionMemory(const std::vector<ExactSphere>& balls) const
 {
     const std::size_t leafNodes = object.level(0).leafCount();
-    const WorkingMemory needed = WorkingMemory().addSamples(leafNodes).addRegions(balls, leafNodes);
-    needed.require(memory, "the regions of " + std::to_string(balls.size()) + " balls");
+    return WorkingMemory().addSamples(leafNodes).addRegions(balls, leafNodes);
+}
+
+void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const
+{
+    regionMemory(balls).require(
+        memory, "the regions of " + std::to_string(balls.size()) + " balls");
 }
 
 double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const

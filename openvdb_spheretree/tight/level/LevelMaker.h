@@ -9,6 +9,7 @@
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 #include <openvdb_spheretree/tight/region/VoxelRegion.h>
+#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 #include <openvdb_spheretree/tight/search/CoverSearch.h>
 #include <openvdb_spheretree/tree/SphereTreeSettings.h>
@@ -87,7 +88,9 @@ struct LevelMaker {
     /// @param regions  voxels of each ball; together the object
     std::vector<CoverBall> mergedWithSlack(
         const std::vector<CoverBall>& balls, std::vector<VoxelRegion> regions, int64_t count) const;
-    /// @throw openvdb::ValueError if the regions of the balls need more than `memory`
+    /// @return what the regions of the balls take, with the samples.
+    WorkingMemory regionMemory(const std::vector<ExactSphere>& balls) const;
+    /// @throw openvdb::ValueError if that is more than `memory`
     void requireRoomForRegions(const std::vector<ExactSphere>& balls) const;
     /// @return how many voxels outside the object the balls hold together, counted on samples.
     double costOf(const std::vector<ExactSphere>& balls) const;

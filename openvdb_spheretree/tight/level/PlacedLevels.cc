@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -63,7 +64,7 @@ private:
             ? ungrouped(mSpare)
             : dealtOut(mSpare, mLevels[1], mChains[1], mMaker).balls;
         constexpr ExactSphere kEmpty{{}, -1};
-        cover.resize(std::size_t(mMost), {kEmpty, -1});
+        cover.resize(std::max(cover.size(), std::size_t(mMost)), {kEmpty, -1});
         return mMaker.refilled(cover, spare, goal);
     }
 

@@ -2,8 +2,8 @@
 /// @file PlacedLevels.h
 /// @brief Levels with chains whose balls are larger than they need be: all are placed anew, and the chains stay.
 ///
-/// Finest level first, each ball is placed anew for the voxels that it alone has to hold: of its ancestors'
-/// regions, and in levels above, of its children's.
+/// Finest level first, each ball is placed anew for those voxels in its ancestors that no other ball of the level holds;
+/// above the finest level, only for those of them that its children hold.
 ///
 /// Cost: two or three passes over the voxels in the balls of each level.
 

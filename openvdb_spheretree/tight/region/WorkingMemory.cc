@@ -37,6 +37,11 @@ WorkingMemory& WorkingMemory::addRegions(
     return *this;
 }
 
+bool WorkingMemory::fits(int64_t memory) const
+{
+    return bytes <= double(detail::allowedMemory(memory));
+}
+
 void WorkingMemory::require(int64_t memory, const std::string& what) const
 {
     detail::requireAllowed(bytes, memory, what,

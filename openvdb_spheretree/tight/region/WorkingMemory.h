@@ -25,6 +25,7 @@ struct WorkingMemory {
     WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 
     /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
+    bool fits(int64_t memory) const;
     /// @throw openvdb::ValueError if it is more
     void require(int64_t memory, const std::string& what) const;
 };

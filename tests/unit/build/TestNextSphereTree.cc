@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -140,6 +141,33 @@ TEST(NextSphereTree, IsMadeAnewWhereTheOneBeforeIsOfNoUse)
     expectAnew(keepLevel(best, 1), "other levels");
     expectAnew(buildSphereTree(*grid, settingsFor(TreeType::Extended)), "another kind");
     EXPECT_FALSE(sameNodes(buildNextSphereTree(best, *grid, settingsOf(Quality::Fast)), anew));
+}
+
+/// Its sphere costs next to nothing, and every other voxel keeps its chain.
+TEST(NextSphereTree, TheSphereOfAPartThatIsGoneGoes)
+{
+    const Voxels rest = twisted(1);
+    Voxels voxels = rest;
+    for (int z = 0; z < 3; ++z) voxels.push_back(Coord(40, 4, 20 + z));
+    voxels.push_back(rest.back().offsetBy(1, 0, 0)); // so that the box changes
+    SphereTreeSettings settings = settingsOf(Quality::Fast);
+    const SphereTree last = buildSphereTree(*gridOf(voxels), settings);
+    const auto grid = gridOf(rest);
+    const SphereTree next = buildNextSphereTree(last, *grid, settings);
+    expectSound(next, *grid, rest);
+    for (int32_t id = next.levels.front().begin; id < next.levels.front().end; ++id) {
+        const auto isHeld = [&](const Coord& voxel) { return holds(next, id, voxel); };
+        EXPECT_TRUE(std::any_of(rest.begin(), rest.end(), isHeld)) << "sphere " << id;
+    }
+}
+
+TEST(NextSphereTree, APartThatComesFarAwayIsCovered)
+{
+    const SphereTree last = firstTree(twisted(1), Quality::Fast);
+    Voxels voxels = twisted(1);
+    for (const Coord& voxel : shapes::ball(9)) voxels.push_back(voxel.offsetBy(300, 200, 100));
+    const auto grid = gridOf(voxels);
+    expectSound(buildNextSphereTree(last, *grid, settingsOf(Quality::Fast)), *grid, voxels);
 }
 
 /// They hold all voxels, but are far too large.

@@ -229,15 +229,17 @@ TEST(SphereTracks, ThereAreNoMoreThanNumbers)
     EXPECT_TRUE(tree.track.empty());
 }
 
-/// Two spheres, one of which has moved by 3, around the same middle: both have moved by 1.5 from there.
-TEST(SphereTracks, MovementIsTheMeanOfPairsInMeanRadii)
+/// Two spheres go apart, then grow.
+TEST(SphereTracks, MovementIsTheMeanOfPairsInMeanRadiiOfTheFrameBefore)
 {
     const SphereTree last = treeAt({{0, 0, 0}, {10, 0, 0}}, {2, 2});
     EXPECT_EQ(movementSince(last, last), 0);
     const SphereTree apart = treeAt({{-1.5, 0, 0}, {11.5, 0, 0}}, {2, 2});
     EXPECT_NEAR(movementSince(last, apart), 1.5 / 2, 1e-9);
     const SphereTree grown = treeAt({{0, 0, 0}, {10, 0, 0}}, {4, 4});
-    EXPECT_NEAR(movementSince(last, grown), 2.0 / 4, 1e-9);
+    EXPECT_NEAR(movementSince(last, grown), 2.0 / 2, 1e-9);
+    const SphereTree points = treeAt({{0, 0, 0}, {10, 0, 0}}, {0, 0});
+    EXPECT_NEAR(movementSince(points, last), 2.0 / 1, 1e-9);
     SphereTree other = apart;
     other.levels.front().level = 1;
     EXPECT_EQ(movementSince(last, other), 0);
