@@ -21,7 +21,7 @@ openvdb::Int32Grid::Ptr distanceTransform(const openvdb::BoolGrid& object, int d
 
     std::array<uint32_t, kLeafVoxels> place; // in the grid's leaf, of a voxel of the turned one
     for (uint32_t k = 0; k < kLeafVoxels; ++k) {
-        place[k] = leafIndex(flat.fromZ(openvdb::Coord(k >> 6, k >> 3 & 7, k & 7)));
+        place[k] = leafIndex(flat.fromZ(leafVoxel(openvdb::Coord(0), k)));
     }
     using Leaf = openvdb::Int32Tree::LeafNodeType;
     std::vector<std::unique_ptr<Leaf>> leaves(layout.leafCount());

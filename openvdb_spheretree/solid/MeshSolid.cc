@@ -190,8 +190,7 @@ MissedSurface missedSurface(
         const detail::VoxelCube& cube = missed.cubes[i]; // of 8: surfaces have no tiles
         cube.mask.visitOn([&](uint32_t offset) {
             openvdb::Coord at;
-            const openvdb::Coord voxel =
-                cube.origin.offsetBy(offset >> 6, offset >> 3 & 7, offset & 7);
+            const openvdb::Coord voxel = leafVoxel(cube.origin, offset);
             furthestSq[i] = std::max(furthestSq[i], nearest.nearest(voxel, at));
         });
     });

@@ -78,7 +78,7 @@ public:
     /// @return the coordinates of a voxel of a leaf, by leafIndex().
     openvdb::Coord voxel(uint32_t leaf, uint32_t offset) const
     {
-        return mOrigins[leaf].offsetBy(offset >> 6, offset >> 3 & 7, offset & 7);
+        return leafVoxel(mOrigins[leaf], offset);
     }
 
     /// @return the leaf @a steps leaves further along @a axis; it must be in the same run.

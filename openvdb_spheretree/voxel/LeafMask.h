@@ -23,6 +23,12 @@ inline uint32_t leafIndex(const openvdb::Coord& ijk)
     return uint32_t(ijk[0] & 7) << 6 | uint32_t(ijk[1] & 7) << 3 | uint32_t(ijk[2] & 7);
 }
 
+/// @return the voxel of an index, in the leaf whose first voxel is @a origin.
+inline openvdb::Coord leafVoxel(const openvdb::Coord& origin, uint32_t index)
+{
+    return origin.offsetBy(int32_t(index >> 6), int32_t(index >> 3 & 7), int32_t(index & 7));
+}
+
 /// An aggregate: LeafMask{} is the empty set.
 struct LeafMask : std::array<uint64_t, 8> {
     static LeafMask full() { return {{~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull}}; }

@@ -53,7 +53,7 @@ LeafMask SolidBall::leaf(const Coord& origin) const
 {
     LeafMask mask{};
     for (uint32_t n = 0; n < kLeafVoxels; ++n) {
-        const Coord q = origin.offsetBy(int(n >> 6), int(n >> 3 & 7), int(n & 7));
+        const Coord q = leafVoxel(origin, n);
         if (square(q[0]) + square(q[1]) + square(q[2]) < mRadiusSq) mask.setOn(n);
     }
     return mask;
