@@ -20,16 +20,21 @@ struct GuessedObject {
     double leafBalls = 0;
 };
 
+std::size_t leafNodesOf(const CoarseObject& coarse, std::size_t level)
+{
+    return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
+}
+
 GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 {
-    constexpr double kGrowth =
-        3.5; // of leaf balls, from a level of the pyramid to the next finer one
+    // Of leaf balls, from a level of the pyramid to the next finer one.
+    constexpr double kGrowth = 3.5;
     GuessedObject guess{coarse.steps.size(), double(coarse.leaves.balls.size())};
-    const auto voxels = [&] { return double(detail::countVoxels(*coarse.levels[guess.level])); };
-    while (guess.level > 0 && guess.leafBalls < double(size.leafBalls)
-        && voxels() < double(size.voxels)) {
+    int64_t voxels = detail::countVoxels(*coarse.levels[guess.level]);
+    while (guess.level > 0 && guess.leafBalls < double(size.leafBalls) && voxels < size.voxels) {
         --guess.level;
-        guess.leafBalls = std::min(kGrowth * guess.leafBalls, voxels());
+        voxels = detail::countVoxels(*coarse.levels[guess.level]);
+        guess.leafBalls = std::min(kGrowth * guess.leafBalls, double(voxels));
     }
     return guess;
 }
@@ -39,11 +44,9 @@ GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 /// ratio of their numbers.
 double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess)
 {
-    const auto leafNodesOf = [&](std::size_t level) {
-        return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
-    };
     const std::size_t last = coarse.steps.size();
-    const std::size_t leafNodes = leafNodesOf(guess.level), coarseNodes = leafNodesOf(last);
+    const std::size_t leafNodes = leafNodesOf(coarse, guess.level),
+                      coarseNodes = leafNodesOf(coarse, last);
     const double scale = std::exp2(double(last - guess.level));
     std::vector<ExactSphere> balls = coarse.leaves.balls;
     WorkingMemory coarseRegions, regions;
@@ -80,10 +83,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const CoarseObject coarse = coarseObject(voxels, settings, kEnough, interrupter, &seconds);
     const GuessedObject guess = guessedObject(coarse, sizeFor(options));
     const auto leafBalls = int64_t(guess.leafBalls);
-    const auto leafNodesOf = [&](std::size_t level) {
-        return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
-    };
-    const std::size_t leafNodes = leafNodesOf(guess.level);
+    const std::size_t leafNodes = leafNodesOf(coarse, guess.level);
     const LevelMaker maker =
         levelMakerFor(settings, coarse.samples, std::size_t(leafBalls), nullptr);
     const LevelWork work(maker, leafNodes);
@@ -93,7 +93,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     TightEstimate estimate;
     estimate.leafBalls = guess.leafBalls;
     WorkingMemory memory;
-    memory.addSamples(leafNodesOf(0)).addMerging(std::size_t(leafBalls));
+    memory.addSamples(leafNodesOf(coarse, 0)).addMerging(std::size_t(leafBalls));
     estimate.bytes = memory.bytes;
     if (options.cuts || options.cover == Cover::Balls) {
         estimate.seconds = secondsOfForest(options, guess.leafBalls);
@@ -106,7 +106,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     } else {
         estimate.seconds =
             work.ofCounts(leafBalls, counts, options.quality, coarse.leafNodesBelow(guess.level));
-        estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(0));
+        estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(coarse, 0));
     }
     if (makesLeafRegions(options, allLeaves)) {
         estimate.bytes += bytesOfLeafRegions(coarse, guess);

@@ -273,17 +273,17 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
         for (const int64_t count : counts) maker.interrupter->expect(onFinest.ofPlacing(count));
     }
     auto levels = levelsFrom(counts, free, start.given != nullptr, options.quality, maker);
+    std::optional<SampledObject> finer;
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
-        const SampledObject finer(LeafLayout(*coarse.levels[step]));
+        finer.emplace(LeafLayout(*coarse.levels[step]));
         levels =
             carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
-                levelMakerFor(settings, finer, leafBalls.size(), maker.interrupter));
+                levelMakerFor(settings, *finer, leafBalls.size(), maker.interrupter));
     }
     if (!start.last) return levels;
-    if (onObject) return followedLevels(*start.last, tree, levels, maker);
-    const SampledObject finest(LeafLayout(*coarse.levels.front()));
     return followedLevels(*start.last, tree, levels,
-        levelMakerFor(settings, finest, leafBalls.size(), maker.interrupter));
+        levelMakerFor(
+            settings, finer ? *finer : coarse.samples, leafBalls.size(), maker.interrupter));
 }
 
 /// @return the object with the given leaf balls.

@@ -7,7 +7,6 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
-#include <openvdb_spheretree/tight/region/WorkingMemory.h>
 #include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
@@ -130,8 +129,7 @@ std::vector<TightLevel> grownOver(
     for (const TightLevel& level : levels) radiiSq.emplace_back(level.balls.size()); // 0
     detail::parallelFor(bare.leafCount(), maker.interrupter, [&](std::size_t leaf) {
         bare.mask(leaf).visitOn([&](uint32_t index) {
-            const ExactSphere voxel = voxelBall(bare.origin(leaf).offsetBy(
-                int32_t(index >> 6), int32_t(index >> 3 & 7), int32_t(index & 7)));
+            const ExactSphere voxel = voxelBall(leafVoxel(bare.origin(leaf), index));
             auto node = std::size_t(grid.nearest(kNone, voxel, 1).front());
             for (std::size_t k = 0; k < levels.size(); ++k) {
                 const ExactSphere& ball = levels[k].balls[node];
@@ -149,22 +147,20 @@ std::vector<TightLevel> grownOver(
     return levels;
 }
 
-/// @return whether there may be as much memory as the regions of all balls take.
-bool haveRoom(const std::vector<TightLevel>& levels, const LevelMaker& maker)
+std::vector<double> costsOf(const std::vector<TightLevel>& levels, const LevelMaker& maker)
 {
-    std::vector<ExactSphere> all;
-    for (const TightLevel& level : levels) {
-        all.insert(all.end(), level.balls.begin(), level.balls.end());
-    }
-    return maker.regionMemory(all).fits(maker.memory);
+    std::vector<double> costs;
+    for (const TightLevel& level : levels) costs.push_back(maker.costOf(level.balls));
+    return costs;
 }
 
-bool areAboutAsGood(const std::vector<TightLevel>& levels, const std::vector<TightLevel>& fresh,
+/// @param costs  of levels made without the frame before
+bool areAboutAsGood(const std::vector<TightLevel>& levels, const std::vector<double>& costs,
     const LevelMaker& maker)
 {
     constexpr double kWorse = 8.0 / 7;
     for (std::size_t k = 0; k < levels.size(); ++k) {
-        if (maker.costOf(levels[k].balls) > kWorse * maker.costOf(fresh[k].balls)) return false;
+        if (maker.costOf(levels[k].balls) > kWorse * costs[k]) return false;
     }
     return true;
 }
@@ -185,17 +181,19 @@ std::vector<TightLevel> followedLevels(const SphereTree& last, const SphereTree&
 {
     const auto counts = tree.settings.tight().budget.counts(INT64_MAX);
     const auto start = movedLevels(last, tree, counts, FlatAxis(tree.flatAxis));
-    if (start.size() != fresh.size() || start.empty() || !haveRoom(start, maker)) return fresh;
+    if (start.size() != fresh.size() || start.empty()) return fresh;
+    if (!maker.regionMemory(allBalls(start)).fits(maker.memory)) return fresh;
+    const std::vector<double> costs = costsOf(fresh, maker);
     const Chains chains = chainsOf(start, maker);
     const bool holds = chains.bare.leafCount() == 0 && chains.areAllUsed;
-    if (holds && areAboutAsGood(start, fresh, maker)) return start;
+    if (holds && areAboutAsGood(start, costs, maker)) return start;
     const auto grown = grownOver(chains.bare, start, maker);
-    if (!haveRoom(grown, maker)) return fresh;
+    if (!maker.regionMemory(allBalls(grown)).fits(maker.memory)) return fresh;
     const auto placed = placedLevels(grown, counts.front(), maker, fresh.front().balls);
     const auto movement = [&](const std::vector<TightLevel>& levels) {
         return movementOf(levels, tree, last, maker);
     };
-    return areAboutAsGood(placed, fresh, maker) && movement(placed) < movement(fresh) ? placed
+    return areAboutAsGood(placed, costs, maker) && movement(placed) < movement(fresh) ? placed
                                                                                       : fresh;
 }
 

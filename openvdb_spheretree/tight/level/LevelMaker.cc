@@ -64,13 +64,13 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     return std::move(best.balls);
 }
 
-std::vector<CoverBall> LevelMaker::placed(
-    const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop) const
+std::vector<CoverBall> LevelMaker::placed(const std::vector<CoverBall>& cover,
+    const CoverGoal& goal, bool drop, const std::vector<CoverBall>& spare) const
 {
     const detail::Step step(interrupter, LevelWork(*this).ofPlacing(int64_t(cover.size())));
     SearchEffort effort{fit, 0, 0, flat};
     effort.sweeps = sweeps;
-    auto balls = improveCover(cover, {}, object, goal, effort, interrupter).balls;
+    auto balls = improveCover(cover, spare, object, goal, effort, interrupter).balls;
     return drop ? withoutEmpty(std::move(balls)) : balls;
 }
 
@@ -80,15 +80,6 @@ std::vector<CoverBall> LevelMaker::placedBetween(
     LevelMaker quick(*this);
     quick.sweeps = std::min(sweeps, kFewSweeps);
     return quick.placed(cover, goal);
-}
-
-std::vector<CoverBall> LevelMaker::refilled(const std::vector<CoverBall>& cover,
-    const std::vector<CoverBall>& spare, const CoverGoal& goal) const
-{
-    const detail::Step step(interrupter, LevelWork(*this).ofPlacing(int64_t(cover.size())));
-    SearchEffort effort{fit, 0, 0, flat};
-    effort.sweeps = sweeps;
-    return withoutEmpty(improveCover(cover, spare, object, goal, effort, interrupter).balls);
 }
 
 int64_t LevelMaker::dilatedFor(int64_t leafBalls, int64_t count) const

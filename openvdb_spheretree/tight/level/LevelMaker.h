@@ -59,15 +59,13 @@ struct LevelMaker {
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
     /// @return the cover with each ball placed anew until nothing changes; without those that no
     /// voxel needs if @a drop is given.
-    std::vector<CoverBall> placed(
-        const std::vector<CoverBall>& cover, const CoverGoal& goal, bool drop = true) const;
+    /// @param spare  a cover, too: empty balls, and those that no voxel needs, move to places of these where
+    ///               that gains something
+    std::vector<CoverBall> placed(const std::vector<CoverBall>& cover, const CoverGoal& goal,
+        bool drop = true, const std::vector<CoverBall>& spare = {}) const;
     /// The same with few sweeps, for balls that will be merged further: what more sweeps gain is lost then.
     std::vector<CoverBall> placedBetween(
         const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
-    /// The same; empty balls, and those that no voxel needs, move to where they gain something.
-    /// @param spare  balls to put there: a cover, too
-    std::vector<CoverBall> refilled(const std::vector<CoverBall>& cover,
-        const std::vector<CoverBall>& spare, const CoverGoal& goal) const;
     /// @return how many balls leaf balls are merged to at once, on the way to @a count.
     int64_t firstTowards(int64_t count) const { return placesStart ? count + count / 2 : count; }
     /// @return to about how many balls @a leafBalls are dilated and pruned before they are merged to @a count; 0: they

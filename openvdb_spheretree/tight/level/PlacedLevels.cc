@@ -24,11 +24,7 @@ public:
         : mLevels(std::move(levels)), mMost(most), mMaker(maker), mVoxels(maker.object.level(0)),
           mSpare(spare), mChains(mLevels.size() + 1)
     {
-        std::vector<ExactSphere> all;
-        for (const TightLevel& level : mLevels) {
-            all.insert(all.end(), level.balls.begin(), level.balls.end());
-        }
-        mMaker.requireRoomForRegions(all);
+        mMaker.requireRoomForRegions(allBalls(mLevels));
         for (std::size_t k = mLevels.size(); k-- > 1;) {
             mChains[k] = chainRegions(mLevels[k], mChains[k + 1], mMaker);
         }
@@ -50,22 +46,19 @@ private:
         std::vector<CoverBall> cover = ungrouped(level.balls);
         for (std::size_t i = 0; !isOnly && i < cover.size(); ++i) cover[i].group = level.parent[i];
         const VoxelGoal goal = isOnly ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mChains[1]);
-        cover = mSpare.empty() ? mMaker.placed(cover, goal) : refilled(std::move(cover), goal);
+        const std::vector<CoverBall> spare = spareInGroups();
+        if (!spare.empty()) cover.resize(std::max(cover.size(), std::size_t(mMost)));
+        cover = mMaker.placed(cover, goal, true, spare);
         if (int64_t(cover.size()) > mMost) cover = mMaker.placed(fewer(cover), goal);
         level.balls = ballsOf(cover);
         if (!isOnly) level.parent = groupsOf(cover);
         mRegions = regionsOf(level.balls, mVoxels, mMaker.interrupter);
     }
 
-    /// @return the cover placed anew, and with as many balls as there may be.
-    std::vector<CoverBall> refilled(std::vector<CoverBall> cover, const VoxelGoal& goal) const
+    std::vector<CoverBall> spareInGroups() const
     {
-        const std::vector<CoverBall> spare = mLevels.size() == 1
-            ? ungrouped(mSpare)
-            : dealtOut(mSpare, mLevels[1], mChains[1], mMaker).balls;
-        constexpr ExactSphere kEmpty{{}, -1};
-        cover.resize(std::max(cover.size(), std::size_t(mMost)), {kEmpty, -1});
-        return mMaker.refilled(cover, spare, goal);
+        if (mSpare.empty() || mLevels.size() == 1) return ungrouped(mSpare);
+        return dealtOut(mSpare, mLevels[1], mChains[1], mMaker).balls;
     }
 
     /// @return the finest balls merged to as many as there may be, each within its group.

@@ -22,6 +22,7 @@ namespace openvdb_spheretree::tight {
 /// @param spare   a cover. Of the finest level, balls that no voxel needs move to places of these; if there are none, such
 ///                balls are dropped.
 /// @return the levels, without balls that no chain needs.
+/// @throw openvdb::ValueError if they need more memory than the maker may take
 std::vector<TightLevel> placedLevels(std::vector<TightLevel> levels, int64_t most,
     const LevelMaker& maker, const std::vector<ExactSphere>& spare = {});
 

@@ -91,6 +91,15 @@ std::vector<int32_t> appendLevel(
 
 } // namespace
 
+std::vector<ExactSphere> allBalls(const std::vector<TightLevel>& levels)
+{
+    std::vector<ExactSphere> all;
+    for (const TightLevel& level : levels) {
+        all.insert(all.end(), level.balls.begin(), level.balls.end());
+    }
+    return all;
+}
+
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count)
 {
     std::vector<int32_t> nodes;

@@ -22,6 +22,9 @@ struct TightLevel {
     std::vector<MedialBall> digital;
 };
 
+/// @return the balls of all levels.
+std::vector<ExactSphere> allBalls(const std::vector<TightLevel>& levels);
+
 /// @return the nodes of the cut with @a count balls, ascending.
 std::vector<int32_t> cutOf(const std::vector<ForestNode>& forest, int64_t count);
 

@@ -25,7 +25,9 @@ struct WorkingMemory {
     WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 
     /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
+    /// @return whether it is no more
     bool fits(int64_t memory) const;
+    /// @param memory  as of fits()
     /// @throw openvdb::ValueError if it is more
     void require(int64_t memory, const std::string& what) const;
 };
