@@ -122,23 +122,6 @@ void requireWholeVoxels(const Volume& volume, const spheretree::SphereTreeSettin
         "not: make it with coverage=\"whole\"");
 }
 
-/// @param leaves  of leaves=given, else null
-/// @param last    the tree of the frame before, or null
-spheretree::SphereTree treeOf(const Volume& volume, const spheretree::SphereTreeSettings& settings,
-    const spheretree::WorldSpheres* leaves, const spheretree::SphereTree* last,
-    Interrupter* interrupter)
-{
-    const openvdb::BoolGrid& object = *volume.object;
-    if (!leaves && last) {
-        return spheretree::buildNextSphereTree(*last, object, settings, nullptr, interrupter);
-    }
-    spheretree::SphereTree tree = leaves
-        ? spheretree::buildSphereTreeOver(*leaves, object, settings, nullptr, interrupter)
-        : spheretree::buildSphereTree(object, settings, nullptr, interrupter);
-    if (last) spheretree::continueTracks(tree, *last, interrupter);
-    return tree;
-}
-
 TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::object& given,
     const TreePtr& like, CallSettings call)
 {
@@ -155,8 +138,10 @@ TreePtr build(const Volume& volume, const Texts& texts, bool errors, const py::o
     }
     const auto& wanted = settings; // a structured binding is not captured
     return resultOfCall(call, [&](Interrupter* interrupter) {
-        spheretree::SphereTree tree = treeOf(volume, wanted, leaves ? &*leaves : nullptr,
-            like ? &like->get() : nullptr, interrupter);
+        const spheretree::TreeStart start{
+            leaves ? &*leaves : nullptr, like ? &like->get() : nullptr};
+        spheretree::SphereTree tree =
+            spheretree::buildSphereTreeFrom(start, *volume.object, wanted, nullptr, interrupter);
         if (errors) spheretree::computeLevelErrors(tree, *volume.object, interrupter);
         return std::make_shared<Tree>(std::move(tree));
     });

@@ -302,4 +302,17 @@ SphereTree buildSphereTreeOver(const WorldSpheres& leaves, const openvdb::BoolGr
         seconds ? *seconds : ownSeconds, interrupter);
 }
 
+SphereTree buildSphereTreeFrom(const TreeStart& start, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    if (!start.leaves) {
+        return start.last ? buildNextSphereTree(*start.last, object, settings, seconds, interrupter)
+                          : buildSphereTree(object, settings, seconds, interrupter);
+    }
+    SphereTree tree = buildSphereTreeOver(*start.leaves, object, settings, seconds, interrupter);
+    if (start.last) continueTracks(tree, *start.last, interrupter);
+    return tree;
+}
+
 } // namespace openvdb_spheretree

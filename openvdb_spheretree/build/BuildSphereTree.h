@@ -47,4 +47,15 @@ SphereTree buildSphereTreeOver(const WorldSpheres& leaves, const openvdb::BoolGr
     const SphereTreeSettings& settings, StageSeconds* seconds = nullptr,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
+/// What a tree may start from, beside its object; each may be null.
+struct TreeStart {
+    const WorldSpheres* leaves = nullptr; ///< of leaves=given: as of buildSphereTreeOver()
+    const SphereTree* last = nullptr;     ///< as of buildNextSphereTree()
+};
+
+/// @brief The one of the above that fits. A tree of leaves=given is made without the frame before, and has its tracks.
+SphereTree buildSphereTreeFrom(const TreeStart& start, const openvdb::BoolGrid& object,
+    const SphereTreeSettings& settings, StageSeconds* seconds = nullptr,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
+
 } // namespace openvdb_spheretree

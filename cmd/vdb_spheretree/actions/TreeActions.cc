@@ -120,30 +120,15 @@ StackItem& selectGivenSpheres(Session& session)
     return **newest;
 }
 
-/// What a tree may be built from, beside its object; each may be null.
-struct TreeStart {
-    const spheretree::WorldSpheres* leaves; ///< of leaves=given
-    const SphereTree* last;                 ///< of like=
-};
-
-SphereTree treeOf(const BoolGrid& object, const TreeStart& start,
+SphereTree treeOf(const BoolGrid& object, const spheretree::TreeStart& start,
     const spheretree::SphereTreeSettings& settings, Session& session)
 {
     if (session.verbosity >= Verbosity::Verbose) { // it costs something
         session.remark(toString(spheretree::memoryPlan(object, settings, &session.progress)));
     }
     try {
-        spheretree::StageSeconds* const seconds = &session.seconds.build;
-        Progress* const progress = &session.progress;
-        if (!start.leaves && start.last) {
-            return spheretree::buildNextSphereTree(
-                *start.last, object, settings, seconds, progress);
-        }
-        SphereTree tree = start.leaves
-            ? spheretree::buildSphereTreeOver(*start.leaves, object, settings, seconds, progress)
-            : spheretree::buildSphereTree(object, settings, seconds, progress);
-        if (start.last) spheretree::continueTracks(tree, *start.last, progress);
-        return tree;
+        return spheretree::buildSphereTreeFrom(
+            start, object, settings, &session.seconds.build, &session.progress);
     } catch (const openvdb::IoError&) { // of its temporary file
         rethrowNamed("", kOutput);
     }
