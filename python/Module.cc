@@ -7,12 +7,13 @@
 #include "Tree.h"
 #include "Volume.h"
 
-#include <openvdb/openvdb.h>
+#include "base/OpenVdb.h"
+
 #include <pybind11/pybind11.h>
 
 PYBIND11_MODULE(_spheretree, module)
 {
-    openvdb::initialize();
+    command::initializeOpenVdb();
     module.doc() = "What the package spheretree calls. Not for use by itself.";
     module.attr("version") = SPHERETREE_VERSION;
     binding::bindErrors(module);
