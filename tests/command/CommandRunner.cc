@@ -35,6 +35,25 @@ std::string readText(const std::filesystem::path& path)
     return text.str();
 }
 
+std::vector<std::map<std::string, std::string>> rowsOfCsv(const std::string& text)
+{
+    std::istringstream lines(text);
+    std::vector<std::string> columns;
+    std::vector<std::map<std::string, std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> cells;
+        std::istringstream in(line);
+        for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+        if (columns.empty()) {
+            columns = cells;
+            continue;
+        }
+        rows.emplace_back();
+        for (std::size_t i = 0; i < columns.size(); ++i) rows.back()[columns[i]] = cells.at(i);
+    }
+    return rows;
+}
+
 bool mentions(const std::string& text, const std::string& part)
 {
     return text.find(part) != std::string::npos;

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Result {
 std::string program();
 
 std::string readText(const std::filesystem::path& path);
+/// @return the rows of a .csv, each by the names of its columns.
+std::vector<std::map<std::string, std::string>> rowsOfCsv(const std::string& text);
 
 void writeText(const std::filesystem::path& path, const std::string& text);
 bool mentions(const std::string& text, const std::string& part);

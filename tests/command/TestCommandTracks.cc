@@ -52,23 +52,7 @@ protected:
     /// Rows of a .csv as column -> text.
     std::vector<std::map<std::string, std::string>> rowsOf(const std::string& name) const
     {
-        std::istringstream text(readText(path(name)));
-        const auto cells = [](const std::string& line) {
-            std::vector<std::string> words;
-            std::istringstream in(line);
-            for (std::string word; std::getline(in, word, ',');) words.push_back(word);
-            return words;
-        };
-        std::string line;
-        std::getline(text, line);
-        const auto columns = cells(line);
-        std::vector<std::map<std::string, std::string>> rows;
-        while (std::getline(text, line)) {
-            const auto words = cells(line);
-            rows.emplace_back();
-            for (std::size_t i = 0; i < columns.size(); ++i) rows.back()[columns[i]] = words.at(i);
-        }
-        return rows;
+        return command_test::rowsOfCsv(readText(path(name)));
     }
 
     std::map<std::string, openvdb::Vec3d> centersByTrack(const std::string& name) const

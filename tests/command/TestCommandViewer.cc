@@ -110,20 +110,9 @@ protected:
     /// The rows of a .csv by the number of the sphere, its columns by name.
     std::map<int, std::map<std::string, std::string>> table(const std::string& name) const
     {
-        std::istringstream lines(readText(path(name)));
-        std::string line, cell;
-        std::vector<std::string> columns;
         std::map<int, std::map<std::string, std::string>> rows;
-        while (std::getline(lines, line)) {
-            std::istringstream cells(line);
-            std::vector<std::string> row;
-            while (std::getline(cells, cell, ',')) row.push_back(cell);
-            if (columns.empty()) {
-                columns = row;
-                continue;
-            }
-            auto& entry = rows[std::stoi(row.at(1))];
-            for (size_t i = 0; i < columns.size(); ++i) entry[columns[i]] = row.at(i);
+        for (const auto& row : command_test::rowsOfCsv(readText(path(name)))) {
+            rows[std::stoi(row.at("id"))] = row;
         }
         return rows;
     }

@@ -76,18 +76,9 @@ protected:
     /// Rows of t.csv by the number of the sphere, its columns by name.
     std::map<std::string, std::map<std::string, std::string>> rows() const
     {
-        std::istringstream lines(readText(path("t.csv")));
-        std::vector<std::string> columns;
         std::map<std::string, std::map<std::string, std::string>> all;
-        for (std::string line; std::getline(lines, line);) {
-            std::istringstream cells(line);
-            std::vector<std::string> row;
-            for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
-            if (columns.empty()) {
-                columns = row;
-                continue;
-            }
-            for (size_t i = 0; i < columns.size(); ++i) all[row.at(1)][columns[i]] = row.at(i);
+        for (const auto& row : command_test::rowsOfCsv(readText(path("t.csv")))) {
+            all[row.at("id")] = row;
         }
         return all;
     }
