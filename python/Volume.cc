@@ -11,11 +11,13 @@
 #include <openvdb_spheretree/input/array/ArrayFile.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace py = pybind11;
@@ -53,8 +55,7 @@ NumberType typeOf(const py::array& array)
     }
     throw InputError("volume is of dtype " + std::string(py::str(array.dtype()))
         + ": it must be bool, an integer of 8 to 64 bits, float32 or float64; volume.astype() "
-          "converts "
-          "it");
+          "converts it");
 }
 
 /// Along x, y and z, whichever order the array has. Of a flat array z is one voxel.
@@ -146,20 +147,27 @@ struct Placement {
         matrix; ///< in place of both: rows, for columns (x, y, z, 1)
 };
 
-openvdb::math::Transform::Ptr transformOf(const Placement& place)
+/// @throw openvdb::Exception by names that no argument has
+openvdb::math::Transform::Ptr gridTransformOf(const Placement& place)
 {
     using spheretree::detail::transformOf;
+    if (place.matrix) return transformOf(openvdb::Mat4d(place.matrix->data()).transpose());
+    auto transform = transformOf(openvdb::Vec3d(place.spacing.data()));
+    const openvdb::Vec3d origin(place.origin.data());
+    if (origin != openvdb::Vec3d(0)) transform->postTranslate(origin);
+    return transform;
+}
+
+openvdb::math::Transform::Ptr transformOf(const Placement& place)
+{
     try {
-        if (place.matrix) return transformOf(openvdb::Mat4d(place.matrix->data()).transpose());
-        auto transform = transformOf(openvdb::Vec3d(place.spacing.data()));
-        const openvdb::Vec3d origin(place.origin.data());
-        if (origin != openvdb::Vec3d(0)) transform->postTranslate(origin);
-        return transform;
-    } catch (const openvdb::Exception&) { // by names that no argument has
-        throw InputError(std::string(place.matrix ? "matrix" : "anisotropy and origin")
-            + ": OpenVDB has no transform for these voxels: they have no volume, or one below "
-              "3e-15, or are too far from the origin; choose another unit of length");
+        auto transform = gridTransformOf(place);
+        if (std::isfinite(spheretree::largestStretch(*transform))) return transform;
+    } catch (const openvdb::Exception&) { // told below
     }
+    throw InputError(std::string(place.matrix ? "matrix" : "anisotropy and origin")
+        + ": OpenVDB has no transform for these voxels: they have no volume, or one below 3e-15, "
+          "or are too large, or too far from the origin; choose another unit of length");
 }
 
 // ---- Arrays

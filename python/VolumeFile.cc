@@ -60,20 +60,11 @@ void requireRelevant(const ObjectRequest& request, const GridBase& grid)
     }
 }
 
-bool hasCubes(const GridBase& grid)
-{
-    try {
-        spheretree::requireUniformVoxels(grid);
-        return true;
-    } catch (const openvdb::ValueError&) {
-        return false;
-    }
-}
-
 GridBase::ConstPtr withCubes(const GridBase::ConstPtr& grid, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter)
 {
-    if (hasCubes(*grid) || !spheretree::isObjectGrid(*grid)) return grid;
+    if (spheretree::hasCubicVoxels(grid->transform()) || !spheretree::isObjectGrid(*grid))
+        return grid;
     const bool nearest = !request.settings.labels.empty();
     try {
         return spheretree::resampled(*grid, spheretree::shortestVoxelEdge(*grid),

@@ -121,6 +121,11 @@ std::vector<int64_t> countsFromString(const std::string& text)
         int64_t count = 0;
         const auto parsed = std::from_chars(at, end, count);
         const bool last = parsed.ptr == end;
+        if (parsed.ec == std::errc::result_out_of_range) {
+            OPENVDB_THROW(openvdb::ValueError,
+                "spheres=" << detail::inQuotes(text) << " is out of range: a level has 1 to "
+                           << SphereBudget::kMaxSpheres << " spheres, such as 8,64,512");
+        }
         if (parsed.ec != std::errc() || (!last && *parsed.ptr != ',')) {
             OPENVDB_THROW(openvdb::ValueError,
                 "spheres=" << detail::inQuotes(text)

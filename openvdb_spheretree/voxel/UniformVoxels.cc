@@ -26,6 +26,8 @@ struct VoxelEdges {
         edge[2] = map->applyJacobian({0, 0, 1});
         for (int i = 0; i < 3; ++i) length[i] = edge[i].length();
     }
+    bool areEquallyLong() const { return longest() - shortest() <= kTolerance * length[0]; }
+    bool areOrthogonal() const { return skew() <= kTolerance; }
     double longest() const { return *std::max_element(length, length + 3); }
     double shortest() const { return *std::min_element(length, length + 3); }
     /// The largest cosine of the angle between two edges.
@@ -71,15 +73,19 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
                 << " lies " << far << " away from the world's origin, too far for voxels of "
                 << length[0] << ", which have no places of their own there: move it nearer");
     }
-    const bool uniform = voxel.longest() - voxel.shortest() <= kTolerance * length[0];
-    const bool orthogonal = voxel.skew() <= kTolerance;
-    if (uniform && orthogonal) return;
+    if (voxel.areEquallyLong() && voxel.areOrthogonal()) return;
     OPENVDB_THROW(openvdb::ValueError,
         detail::describe(grid)
             << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
-            << (orthogonal ? "" : ", and its axes are sheared")
+            << (voxel.areOrthogonal() ? "" : ", and its axes are sheared")
             << "; spheres need cubic voxels: resample it to a uniform voxel size (-resample voxel="
             << voxel.shortest() << ")");
+}
+
+bool hasCubicVoxels(const openvdb::math::Transform& transform)
+{
+    const VoxelEdges voxel(transform);
+    return transform.isLinear() && voxel.areEquallyLong() && voxel.areOrthogonal();
 }
 
 std::string detail::describe(const openvdb::GridBase& grid)

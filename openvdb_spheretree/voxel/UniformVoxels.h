@@ -16,6 +16,9 @@ namespace openvdb_spheretree {
 /// @throw openvdb::ValueError naming the grid and its voxel size, unless its voxels are cubes
 void requireUniformVoxels(const openvdb::GridBase& grid);
 
+/// @return whether they are cubes, by the same measure; also where they are too far away to be told apart.
+bool hasCubicVoxels(const openvdb::math::Transform& transform);
+
 /// @return an upper bound of the world units a voxel, over all directions: the voxel size, a hair
 ///         more where voxels are cubes only nearly.
 double largestStretch(const openvdb::math::Transform& transform);

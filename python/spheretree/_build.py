@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _spheretree
 from ._spheretree import InputError
 from ._tree import Tree
-from ._volume import Axes, Coverage, Number, Numbers, Progress, Units, VolumeLike, part_of, thread_count
+from ._volume import Axes, Coverage, Number, Numbers, Progress, Units, VolumeLike, part_of, text, thread_count
 from ._volume import volume as as_volume
 
 Counts = Union[int, Sequence[int], "npt.NDArray[Any]"]
@@ -23,12 +23,12 @@ _OTHER_NAMES = {"pyramid_origin": "origin"}  # where the command's name is taken
 _READING = 0.1  # the part of a build that reading the volume is said to take
 
 
-def _text(name: str, value: object) -> str:
+def _setting(name: str, value: object) -> str:
     """A setting as it is typed on the command line."""
     if isinstance(value, str):
         if not value:
             raise InputError(f"{name} is empty")
-        return value
+        return text(name, value)
     if isinstance(value, (bool, np.bool_)):
         return "1" if value else "0"
     if isinstance(value, (int, np.integer)):
@@ -36,7 +36,7 @@ def _text(name: str, value: object) -> str:
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
     if isinstance(value, (Sequence, np.ndarray)):
-        return ",".join(_text(name, item) for item in value)
+        return ",".join(_setting(name, item) for item in value)
     raise TypeError(f"{name} must not be {type(value).__name__}")
 
 
@@ -199,7 +199,7 @@ def build(
         volume, axes=axes, anisotropy=anisotropy, origin=origin, matrix=matrix, threshold=threshold, above=above,
         below=below, label=label, iso=iso, coverage=_coverage(coverage, strict), largest=largest, fill=fill,
         grid=grid, units=units, voxel=voxel, resolution=resolution, gap=gap, progress=part_of(progress, 0, _READING), threads=threads)
-    settings = {_OTHER_NAMES.get(key, key): _text(key, keywords[key])
+    settings = {_OTHER_NAMES.get(key, key): _setting(key, keywords[key])
                 for key in _DEFAULTS if keywords[key] != _DEFAULTS[key]}
     if spheres is not None:
         settings["spheres"] = _count_text(spheres)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._spheretree import InputError
-from ._volume import Progress, real_array, thread_count
+from ._volume import Progress, real_array, thread_count, whole_number
 
 if TYPE_CHECKING:
     from ._tree import Tree
@@ -115,7 +115,7 @@ class Query:
     __slots__ = ("_handle", "tree")
 
     def __init__(self, tree: Tree, exact: bool, level: int | None, scale: float) -> None:
-        if level is not None and level < 0:
+        if level is not None and whole_number("level", level, 32) < 0:
             raise InputError(f"level={level}: levels are counted from 0, the finest")
         self.tree = tree
         self._handle = _spheretree.make_query(tree._handle, bool(exact), -1 if level is None else level, float(scale))

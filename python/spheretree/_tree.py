@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._query import Query
-from ._volume import Progress, VolumeLike, is_mesh_file, readable, thread_count, unit_of_length, writable
+from ._volume import Progress, VolumeLike, is_mesh_file, readable, text, thread_count, unit_of_length, whole_number, writable
 from ._volume import volume as as_volume
 
 
@@ -146,11 +146,11 @@ class Tree:
 
     def level(self, level: int) -> Tree:
         """One level as a tree of its own, with ids from 0."""
-        return Tree(self._handle.level(level))
+        return Tree(self._handle.level(whole_number("level", level, 32)))
 
     def cut(self, spheres: int) -> Tree:
         """The tree of one level with at most so many spheres, of a tree that was built with cuts=True."""
-        return Tree(self._handle.cut(spheres))
+        return Tree(self._handle.cut(whole_number("spheres", spheres, 64)))
 
     def query(self, *, exact: bool = False, level: int | None = None, scale: float = 1) -> Query:
         """The tree made ready for questions: collision, distance, points, rays.
@@ -265,7 +265,7 @@ def load(path: str | os.PathLike[str], name: str | None = None, *, progress: Pro
     >>> spheretree.load("cube.vdb")
     <spheretree.Tree 'spheretree': 8, 1 spheres on 2 levels>
     """
-    return Tree(_spheretree.load(readable(path), name or "", progress))
+    return Tree(_spheretree.load(readable(path), "" if name is None else text("name", name), progress))
 
 
 def read_points(path: str | os.PathLike[str], *, progress: Progress = None) -> dict[str, dict[str, Any]]:

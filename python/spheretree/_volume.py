@@ -124,17 +124,37 @@ def writable(path: str | os.PathLike[str]) -> bytes:
     return name
 
 
+def text(name: str, value: object) -> str:
+    """A text that the system and files can have."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be a str, not {type(value).__name__}")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name}={value!r} holds half of a character (a lone surrogate), which UTF-8 has not") from None
+    return value
+
+
+def whole_number(name: str, value: object, bits: int) -> int:
+    """An integer that C++ has room for."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} must be a whole number, not {type(value).__name__}")
+    if not -(2 ** (bits - 1)) <= value < 2 ** (bits - 1):
+        raise InputError(f"{name}={value} is beyond {bits} bits")
+    return int(value)
+
+
 def _number(name: str, value: object) -> int | float:
     """A finite number as Python has it: integers stay whole."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    number = int(value) if isinstance(value, (int, np.integer)) else float(value)
-    if not np.isfinite(float(number)):
+    if isinstance(value, (int, np.integer)):
+        return whole_number(name, value, 64)
+    number = float(value)
+    if not np.isfinite(number):
         raise InputError(f"{name}={value} is not a finite number")
-    if isinstance(number, int) and not -(2**63) <= number < 2**63:
-        raise InputError(f"{name}={value} is beyond 64 bits")
     return number
 
 
@@ -167,12 +187,9 @@ def _vector(name: str, value: Numbers, length: int) -> list[float]:
 
 def _labels(value: int | Sequence[int]) -> list[int]:
     items = [value] if isinstance(value, (int, np.integer)) else list(value)
-    for item in items:
-        if isinstance(item, (bool, np.bool_)) or not isinstance(item, (int, np.integer)):
-            raise TypeError(f"label must be a whole number, or several, not {type(item).__name__}")
     if not items:
         raise InputError("label names no value")
-    return [int(_number("label", item)) for item in items]
+    return [whole_number("label", item, 64) for item in items]
 
 
 def _object_keywords(
@@ -258,7 +275,7 @@ def _of_array(
     needs_values = array.dtype.kind in "biuf" and array.size > 0 and (not cubes or {"coverage", "strict"} & set(wanted))
     place_keywords = {
         "reversed": is_reversed, "spacing": spacing, "origin": place, "matrix": rows, "cubes": cubes,
-        "name": "volume" if name is None else name,
+        "name": "volume" if name is None else text("name", name),
         "background": _background(array, wanted) if needs_values else 0.0,
     }
     return Volume(_spheretree.volume_of_array(array, place_keywords, wanted, progress, thread_count(threads)))
@@ -392,8 +409,8 @@ def volume(
         result = _of_array(source, axes, anisotropy, origin, matrix, name, wanted, progress, threads)
     else:
         result = _of_grid(source, wanted, progress, threads)
-    for text in result._handle.warnings:
-        warnings.warn(text, stacklevel=2)
+    for warning in result._handle.warnings:
+        warnings.warn(warning, stacklevel=2)
     return result
 
 
@@ -410,11 +427,9 @@ def is_mesh_file(volume: object) -> bool:
 
 def unit_of_length(units: object) -> str:
     """The name of a unit; which there are the command knows."""
-    if not isinstance(units, str):
-        raise TypeError(f"units must be a str, not {type(units).__name__}")
-    if not units:
+    if text("units", units) == "":
         raise InputError("units='' names no unit")
-    return units
+    return str(units)
 
 
 def _of_file(
@@ -435,6 +450,8 @@ def _of_file(
             raise InputError(f"{name}={given[name]} is out of range: it takes numbers above 0")
     if "voxel" in given and "resolution" in given:
         raise InputError("voxel and resolution exclude each other")
-    if "grid" in given and not os.fspath(path).lower().endswith(".vdb"):
-        raise InputError(f"grid is of .vdb files, and {os.fspath(path)} is none")
+    if "grid" in given:
+        text("grid", given["grid"])
+        if not os.fspath(path).lower().endswith(".vdb"):
+            raise InputError(f"grid is of .vdb files, and {os.fspath(path)} is none")
     return Volume(_spheretree.volume_of_file(readable(path), given, wanted, progress, thread_count(threads)))

@@ -206,6 +206,9 @@ def test_a_level_and_a_cut_are_trees(bone):
     level = tree.level(1)
     assert np.array_equal(level.radii, tree.levels[1].radii) and (level.parents == -1).all()
     assert len(tree.cut(5)) == 5
+    for ask in tree.level, tree.cut, lambda number: tree.query(level=number):
+        with pytest.raises(spheretree.InputError, match="=1180591620717411303424 is beyond"):
+            ask(2**70)
     with pytest.raises(spheretree.InputError):
         tree.level(9)
     with pytest.raises(spheretree.InputError):
@@ -242,6 +245,8 @@ def test_strict_spheres_are_of_voxels_that_are_whole():
     ({"tree": "oak"}, "tree=oak"),
     ({"spheres": 0}, "spheres"),
     ({"spheres": []}, "spheres names no number"),
+    ({"spheres": [8, 2**70]}, "spheres='8,1180591620717411303424' is out of range: a level has 1 to"),
+    ({"name": "\ud800"}, "name='.* half of a character"),
     ({"spheres": [8, 4], "error": 5}, "spheres"),
     ({"spheres": 8, "branching": 4}, "branching"),
     ({"tree": "extended", "quality": "fast"}, "quality=fast is for tree=tight, not for tree=extended"),
@@ -283,7 +288,7 @@ def test_keywords_are_the_options_of_the_command_with_their_defaults():
     table = {row["name"]: row for row in _spheretree.settings_table()}
     assert own.keys() == table.keys()
     for name, row in table.items():
-        default = "" if own[name] is None else _build._text(name, own[name])
+        default = "" if own[name] is None else _build._setting(name, own[name])
         assert default == ("" if name == "dim" else row["default"]), name
 
 

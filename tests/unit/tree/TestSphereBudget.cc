@@ -153,7 +153,11 @@ TEST(SphereBudget, WhatIsNoListOfCountsIsAnErrorThatShowsIt)
     EXPECT_TRUE(mentions(whyNoCounts("0"), "spheres=0 is out of range"));
     EXPECT_TRUE(mentions(whyNoCounts("8,-1"), "spheres=-1 is out of range"));
     EXPECT_TRUE(mentions(whyNoCounts("2147483648"), "spheres=2147483648 is out of range"));
+    for (const char* text : {"99999999999999999999", "8,9223372036854775808"}) {
+        EXPECT_TRUE(mentions(whyNoCounts(text), "' is out of range: a level has 1 to "));
+    }
     EXPECT_LT(whyNoCounts(std::string(100000, 'x')).size(), 300u);
+    EXPECT_LT(whyNoCounts(std::string(100000, '9')).size(), 300u);
 }
 
 TEST(SphereBudget, ADistanceIsInWorldUnitsOrInVoxels)

@@ -55,10 +55,12 @@ TEST(UniformVoxels, VoxelsThatAreNotCubesAreAnErrorThatNamesGridAndSize)
         EXPECT_TRUE(mentions(why, "'dot'"));
         EXPECT_TRUE(mentions(why, " x "));
         EXPECT_TRUE(mentions(why, "resample"));
+        EXPECT_FALSE(hasCubicVoxels(*mapped(map)));
     }
     const auto sheared = Transform::createLinearTransform(1.0);
     sheared->preShear(0.5, X_AXIS, Y_AXIS);
     EXPECT_TRUE(mentions(whyNot(*dotWith(sheared)), "sheared"));
+    EXPECT_FALSE(hasCubicVoxels(*sheared));
 }
 
 TEST(UniformVoxels, AxesThatLeanALittleTowardsOneAnotherOrApartAreSheared)
@@ -114,6 +116,7 @@ TEST(UniformVoxels, AFrustumIsAnErrorThatSaysSo)
     const auto frustum = openvdb::math::Transform::createFrustumTransform(
         openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(10)), 0.5, 10.0, 1.0);
     EXPECT_TRUE(mentions(whyNot(*dotWith(frustum)), "frustum"));
+    EXPECT_FALSE(hasCubicVoxels(*frustum));
 }
 
 TEST(UniformVoxels, InfinitiesAndNansInTheTransformAreErrors)
@@ -136,6 +139,7 @@ TEST(UniformVoxels, AreTooFarAwayWhereDoublesAreFartherApart)
             transform->postTranslate({0, -voxels * voxel, 0});
             if (voxels == 0x1p53) EXPECT_NO_THROW(requireUniformVoxels(*dotWith(transform)));
             else EXPECT_TRUE(mentions(whyNot(*dotWith(transform)), "move it nearer"));
+            EXPECT_TRUE(hasCubicVoxels(*transform)) << "wherever they are";
         }
     }
 }
@@ -153,5 +157,6 @@ TEST(UniformVoxels, RotatedMirroredAndTinyCubesAreCubes)
             mapped(MapBase::Ptr(new ScaleMap({1, 1 + 1e-8, 1}))),
             Transform::createLinearTransform(1e-4)}) {
         EXPECT_NO_THROW(requireUniformVoxels(*dotWith(transform))) << *transform;
+        EXPECT_TRUE(hasCubicVoxels(*transform)) << *transform;
     }
 }
