@@ -77,7 +77,7 @@ ExportSettings settingsOf(const py::dict& words, std::size_t trees)
     settings.scale = words["scale"].cast<double>() / *metres;
     settings.density = words["density"].cast<double>();
     settings.framesPerSecond = words["fps"].cast<double>();
-    settings.link = words["link"].cast<std::string>();
+    settings.links = words["link"].cast<std::vector<std::string>>();
     settings.name = words["name"].cast<std::string>();
     const auto start = words["start"].cast<double>();
     for (std::size_t i = 0; i < trees; ++i) settings.sampleTimes.push_back(start + double(i));
@@ -125,7 +125,7 @@ void bindTreeExport(py::module_& module)
                 std::vector<const spheretree::SphereTree*> all;
                 for (const TreePtr& tree : trees) all.push_back(&tree->get());
                 if (settings.name.empty() && !all.empty()) {
-                    settings.name = spheretree::exportNameFor(*all.front(), format, path);
+                    settings.name = spheretree::exportNameFor(all, format, path);
                 }
                 if (object && format.mass && !all.empty()) {
                     settings.mass = massOfObject(*object, *all.front(), path, interrupter);

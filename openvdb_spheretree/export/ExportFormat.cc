@@ -29,9 +29,10 @@ enum Trait : unsigned {
     kXml = 2048,
     kWord = 4096,
     kIdentifier = 8192,
-    kEmpty = 16384,   ///< ExportFormat::empty
-    kUp = 32768,      ///< ExportFormat::up
-    kFloatIds = 65536 ///< ExportFormat::floatIds
+    kEmpty = 16384,    ///< ExportFormat::empty
+    kUp = 32768,       ///< ExportFormat::up
+    kFloatIds = 65536, ///< ExportFormat::floatIds
+    kLinks = 131072    ///< ExportFormat::links
 };
 
 struct Row {
@@ -44,6 +45,7 @@ struct Row {
 };
 
 constexpr char kSpheres[] = "a level: centers, radii";
+constexpr char kLinkSpheres[] = "a level of each of its links: centers, radii";
 constexpr char kBody[] = "a level: centers, radii; mass, center of mass, inertia";
 constexpr char kTree[] = "all levels: centers, radii, ids, parents";
 constexpr char kTriangles[] = "a level as triangles";
@@ -52,10 +54,10 @@ constexpr char kTriangles[] = "a level as triangles";
 constexpr Row kRows[] = {
     {"urdf", ".urdf", "ROS, MuJoCo", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeUrdf},
     {"mjcf", ".mjcf .xml", "MuJoCo", kBody, kMass | kMetres | kPositiveRadii | kLink | kXml, detail::writeMjcf},
-    {"srdf", ".srdf", "MoveIt", kSpheres, kMetres | kPositiveRadii | kLink | kXml, detail::writeSrdf},
-    {"curobo", ".yml .yaml", "cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeCurobo},
-    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kSpheres, kMetres | kPositiveRadii | kLink | kUtf8, detail::writeXrdf},
-    {"lula", ".yml .yaml", "Isaac Sim's Lula", kSpheres, kMetres | kPositiveRadii | kByName | kLink | kUtf8, detail::writeLula},
+    {"srdf", ".srdf", "MoveIt", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kXml, detail::writeSrdf},
+    {"curobo", ".yml .yaml", "cuRobo", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kUtf8, detail::writeCurobo},
+    {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kUtf8, detail::writeXrdf},
+    {"lula", ".yml .yaml", "Isaac Sim's Lula", kLinkSpheres, kMetres | kPositiveRadii | kByName | kLink | kLinks | kUtf8, detail::writeLula},
     {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName, detail::writeFoam},
     {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
 
@@ -104,6 +106,7 @@ ExportFormat makeFormat(const Row& row)
     if (has(kWord)) format.names = ExportNames::Word;
     if (has(kIdentifier)) format.names = ExportNames::Identifier;
     format.link = has(kLink);
+    format.links = has(kLinks);
     format.empty = has(kEmpty);
     format.allLevels = has(kAllLevels);
     format.samples = has(kSamples);

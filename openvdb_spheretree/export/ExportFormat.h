@@ -41,6 +41,7 @@ struct ExportFormat {
     ExportNumbers numbers = ExportNumbers::Decimal;
     ExportNames names = ExportNames::Bytes;
     bool link = false;      ///< holds the name of a link
+    bool links = false;     ///< holds several trees, each the spheres of a link of one robot
     bool empty = false;     ///< can be a file without spheres
     bool allLevels = false; ///< holds more than one level
     bool samples = false;   ///< holds several trees, as samples over time
@@ -53,7 +54,7 @@ struct ExportFormat {
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;
     void (*write)(
-        const std::vector<detail::ExportScene>& samples, const detail::ExportSink& out) = nullptr;
+        const std::vector<detail::ExportScene>& scenes, const detail::ExportSink& out) = nullptr;
 };
 
 /// An option of export that means something to formats of one kind alone.

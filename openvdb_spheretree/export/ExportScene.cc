@@ -206,12 +206,14 @@ void sortByTrack(ExportLevel& level)
 
 /// @return a scene without levels yet.
 ExportScene sceneFor(const SphereTree& tree, const ExportFormat& format,
-    const ExportSettings& settings, std::vector<std::string>& notes)
+    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes)
 {
     ExportScene scene;
     scene.name = settings.name.empty() ? tree.settings.name : settings.name;
-    scene.link = settings.link;
+    if (format.link) scene.link = settings.links[place];
     requireNames(scene, format, notes);
+    const auto& times = settings.sampleTimes;
+    scene.sample = times.empty() ? double(place + 1) : times[place];
     scene.metersPerUnit = settings.metersPerUnit;
     scene.up = settings.up;
     scene.framesPerSecond = settings.framesPerSecond;
@@ -221,13 +223,13 @@ ExportScene sceneFor(const SphereTree& tree, const ExportFormat& format,
 
 /// @return the scene of a tree of no object.
 ExportScene emptyScene(const SphereTree& tree, const ExportFormat& format,
-    const ExportSettings& settings, std::vector<std::string>& notes)
+    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes)
 {
     if (!format.empty) {
         OPENVDB_THROW(openvdb::ValueError,
             "there are no spheres, and " << format.name << " has no room for none");
     }
-    ExportScene scene = sceneFor(tree, format, settings, notes);
+    ExportScene scene = sceneFor(tree, format, settings, place, notes);
     if (!format.samples) scene.levels.resize(1); // others' samples say which levels there are
     return scene;
 }
@@ -293,10 +295,10 @@ openvdb::BBoxd ExportScene::boxOf(const ExportLevel& level)
 }
 
 ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
-    const ExportSettings& settings, std::vector<std::string>& notes,
+    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes,
     openvdb::util::NullInterrupter* interrupter)
 {
-    if (whole.levels.empty()) return emptyScene(whole, format, settings, notes);
+    if (whole.levels.empty()) return emptyScene(whole, format, settings, place, notes);
     requireSpheres(whole);
     const std::optional<SphereTree> part = chosenPart(whole, format, settings, notes);
     const SphereTree& tree = part ? *part : whole;
@@ -308,7 +310,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const FileFrame frame(settings, ofUnion);
     if (needsUnion) noteMass(tree.levels.front(), notes);
 
-    ExportScene scene = sceneFor(tree, format, settings, notes);
+    ExportScene scene = sceneFor(tree, format, settings, place, notes);
     if (format.mass) {
         scene.mass = frame.toFile(settings.mass.value_or(ofUnion), settings.density);
     }

@@ -51,10 +51,11 @@ struct ExportScene {
 
 /// @param tree   without levels it is that of no object, and the scene has one level without spheres,
 ///               or none in a format with samples
+/// @param place  of the tree among those of the file
 /// @param notes  receives what of the tree is not in the scene
 /// @throw openvdb::ValueError if the format cannot hold it
 ExportScene makeScene(const SphereTree& tree, const ExportFormat& format,
-    const ExportSettings& settings, std::vector<std::string>& notes,
+    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes,
     openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::detail

@@ -56,9 +56,16 @@ int controlAt(const std::string& text, std::size_t i)
 
 } // namespace
 
-ExportText::ExportText(const ExportSink& out, int decimals)
-    : ExportBuffer(out), mDecimals(decimals), mUnits(std::pow(10.0, decimals))
-{}
+ExportText::ExportText(const ExportSink& out, int decimals) : ExportBuffer(out)
+{
+    useDecimals(decimals);
+}
+
+void ExportText::useDecimals(int decimals)
+{
+    mDecimals = decimals;
+    mUnits = std::pow(10.0, decimals);
+}
 
 ExportText& ExportText::writeWhole(int64_t number)
 {

@@ -19,6 +19,8 @@ class ExportText : public ExportBuffer {
 public:
     /// @param decimals  at most so many of a length; all lengths must be multiples of 10^-decimals (ExportScene)
     ExportText(const ExportSink& out, int decimals);
+    /// The same for lengths that follow.
+    void useDecimals(int decimals);
 
     ExportText& operator<<(std::string_view text)
     {

@@ -4,12 +4,14 @@
 #include "ExportBuffer.h"
 #include "ExportNames.h"
 #include "ExportScene.h"
+#include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace openvdb_spheretree {
 
@@ -18,7 +20,7 @@ namespace {
 void requireSettings(const ExportFormat& format, const ExportSettings& settings, std::size_t trees)
 {
     if (trees == 0) OPENVDB_THROW(openvdb::ValueError, "there is no sphere-tree to write");
-    if (trees > 1 && !format.samples) {
+    if (trees > 1 && !format.samples && !format.links) {
         OPENVDB_THROW(
             openvdb::ValueError, format.name << " holds one sphere-tree, and there are " << trees);
     }
@@ -32,7 +34,28 @@ void requireSettings(const ExportFormat& format, const ExportSettings& settings,
         OPENVDB_THROW(
             openvdb::ValueError, name << "=" << value << " is out of range: it is positive");
     }
-    if (settings.link.empty()) OPENVDB_THROW(openvdb::ValueError, "link= names no link");
+}
+
+/// Readers would take the spheres of one of two links of a name for all of it.
+void requireLinks(const ExportFormat& format, const ExportSettings& settings, std::size_t trees)
+{
+    if (!format.link) return;
+    if (settings.links.size() != trees) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "there are " << settings.links.size() << " names of links for " << trees
+                         << (trees == 1 ? " sphere-tree" : " sphere-trees"));
+    }
+    std::set<std::string> names;
+    for (const std::string& link : settings.links) {
+        if (link.empty()) OPENVDB_THROW(openvdb::ValueError, "link= names no link");
+        if (names.insert(link).second) continue;
+        OPENVDB_THROW(openvdb::ValueError,
+            "two sphere-trees are of the link " << detail::inQuotes(link) << ": give each its own");
+    }
+}
+
+void requireTimes(const ExportSettings& settings, std::size_t trees)
+{
     const auto& times = settings.sampleTimes;
     if (times.empty()) return;
     if (times.size() != trees) {
@@ -48,12 +71,13 @@ void requireSettings(const ExportFormat& format, const ExportSettings& settings,
 
 } // namespace
 
-std::string exportNameFor(
-    const SphereTree& tree, const ExportFormat& format, const std::string& path)
+std::string exportNameFor(const std::vector<const SphereTree*>& trees, const ExportFormat& format,
+    const std::string& path)
 {
     const std::string stem = std::filesystem::path(path).stem().string();
-    const bool hasOwn = tree.settings.name != SphereTreeSettings().name;
-    return format.link && !hasOwn && detail::holdsName(format, stem) ? stem : tree.settings.name;
+    const std::string& name = trees.front()->settings.name;
+    const bool hasOwn = trees.size() == 1 && name != SphereTreeSettings().name;
+    return format.link && !hasOwn && detail::holdsName(format, stem) ? stem : name;
 }
 
 std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& format,
@@ -67,19 +91,23 @@ std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees
     openvdb::util::NullInterrupter* interrupter)
 {
     requireSettings(format, settings, trees.size());
+    requireLinks(format, settings, trees.size());
+    requireTimes(settings, trees.size());
     std::vector<std::string> notes;
-    std::vector<detail::ExportScene> samples;
-    for (const SphereTree* tree : trees) {
+    std::vector<detail::ExportScene> scenes;
+    for (std::size_t i = 0; i < trees.size(); ++i) {
         std::vector<std::string> more;
-        samples.push_back(detail::makeScene(*tree, format, settings, more, interrupter));
-        const std::size_t count = samples.size();
-        const auto& times = settings.sampleTimes;
-        samples.back().sample = times.empty() ? double(count) : times[count - 1];
+        scenes.push_back(detail::makeScene(*trees[i], format, settings, i, more, interrupter));
         for (const std::string& note : more) {
-            if (!std::count(notes.begin(), notes.end(), note)) notes.push_back(note);
+            const bool isOfALink = trees.size() > 1 && format.links;
+            const std::string whose =
+                isOfALink ? "link " + detail::inQuotes(settings.links[i]) + ": " : "";
+            if (!std::count(notes.begin(), notes.end(), whose + note)) {
+                notes.push_back(whose + note);
+            }
         }
     }
-    format.write(samples, {out, interrupter});
+    format.write(scenes, {out, interrupter});
     return notes;
 }
 

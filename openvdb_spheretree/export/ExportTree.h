@@ -49,8 +49,9 @@ struct ExportSettings {
     /// Of the body whose mass, center and inertia such formats get, in world space; by default the union of the
     /// spheres of the finest level in the file.
     std::optional<MassProperties> mass;
-    std::string link = "object"; ///< the link of a robot that the spheres belong to
-    std::string name;            ///< of the robot, model or prim; by default that of the tree
+    /// The link of a robot that the spheres belong to; of several trees, that of each.
+    std::vector<std::string> links = {"object"};
+    std::string name; ///< of the robot, model or prim; by default that of the tree
     /// How many units of sample times a second has, for formats with samples.
     double framesPerSecond = 24;
     /// The times of several trees, rising; empty: 1, 2, 3 and so on.
@@ -58,9 +59,9 @@ struct ExportSettings {
 };
 
 /// @return the name for a file that is given none: that of the tree; and of a robot's file its own, without folder and
-/// extension, where the tree is called as all are by default.
-std::string exportNameFor(
-    const SphereTree& tree, const ExportFormat& format, const std::string& path);
+/// extension, where the tree is called as all are by default, or where there are several.
+std::string exportNameFor(const std::vector<const SphereTree*>& trees, const ExportFormat& format,
+    const std::string& path);
 
 /// @brief Write one tree. One without levels, that of no object, is a file without spheres where the format has room
 /// for none.
@@ -71,8 +72,9 @@ std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& 
     const ExportSettings& settings, std::ostream& out,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @brief Write trees that are the samples of one thing over time, in formats that hold time.
-/// @param trees  at least one; of one length of level list each, if levels are asked for by number
+/// @brief Write trees that are the samples of one thing over time, in formats that hold time; or the links of one robot,
+/// each in its own frame, in formats that hold several.
+/// @param trees  at least one; of samples each with the levels that are asked for by number
 std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees,
     const ExportFormat& format, const ExportSettings& settings, std::ostream& out,
     openvdb::util::NullInterrupter* interrupter = nullptr);

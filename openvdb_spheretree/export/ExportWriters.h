@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file ExportWriters.h
 /// @brief A function for each format of the table in ExportFormat.cc. They write scenes as they are: what
-/// cannot be in a file was refused, rounded or left out before. All but those with `samples` get one scene.
+/// cannot be in a file was refused, rounded or left out before. All but those with `samples` or `links` get one scene.
 
 #pragma once
 
@@ -17,10 +17,10 @@ namespace openvdb_spheretree::detail {
 /// @{
 void writeUrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
 void writeMjcf(const std::vector<ExportScene>& samples, const ExportSink& out);
-void writeSrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
-void writeCurobo(const std::vector<ExportScene>& samples, const ExportSink& out);
-void writeXrdf(const std::vector<ExportScene>& samples, const ExportSink& out);
-void writeLula(const std::vector<ExportScene>& samples, const ExportSink& out);
+void writeSrdf(const std::vector<ExportScene>& links, const ExportSink& out);
+void writeCurobo(const std::vector<ExportScene>& links, const ExportSink& out);
+void writeXrdf(const std::vector<ExportScene>& links, const ExportSink& out);
+void writeLula(const std::vector<ExportScene>& links, const ExportSink& out);
 void writeFoam(const std::vector<ExportScene>& samples, const ExportSink& out);
 void writeMorphIt(const std::vector<ExportScene>& samples, const ExportSink& out);
 /// @}

@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 from . import _spheretree
-from ._volume import Progress, VolumeLike, writable
+from ._volume import Progress, VolumeLike, text, whole_number, writable
 from ._volume import volume as as_volume
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def export(
     scale: float = 1.0,
     frame: str = "world",
     up: Optional[str] = None,
-    link: Optional[str] = None,
+    link: Union[str, Sequence[str], None] = None,
     name: str = "",
     mass: Optional[str] = None,
     volume: Optional[VolumeLike] = None,
@@ -60,7 +60,7 @@ def export(
     fps: Optional[float] = None,
     progress: Progress = None,
 ) -> None:
-    """Write a tree as a file of another tool, with the same bytes as the command's -write.
+    """Write a tree, or several, as a file of another tool, with the same bytes as the command's -write.
 
     What the format has no room for is a UserWarning, and so is an option that means nothing to it. The file is there
     whole or as it was before.
@@ -68,7 +68,8 @@ def export(
     Parameters
     ----------
     trees
-        A tree; of USD also several, which are samples over time.
+        A tree; of USD also several, which are samples over time; of `.yml`, `.xrdf` and `.srdf` several, each the
+        spheres of a link.
     path
         The extension says which format: `export_formats()` lists them.
     format
@@ -85,9 +86,12 @@ def export(
         axes, too.
     up
         "y" (the default) or "z": which axis of the tree is up, for USD and glTF.
-    link, name
-        The link of a robot that the spheres belong to, by default "object"; the name of the robot, model or
-        prim, by default that of the tree, or of a robot that of the file where the tree has none of its own.
+    link
+        The link of a robot that the spheres belong to, by default "object"; of several trees that of each, by default
+        their names.
+    name
+        The name of the robot, model or prim, by default that of the tree, or of a robot that of the file where the tree
+        has none of its own.
     mass, volume
         For formats with a mass. "spheres" (the default): mass, center of mass and inertia are those of the union of
         the spheres; "object": those of the voxels of `volume`, which the tree was built over.
@@ -114,16 +118,28 @@ def export(
         raise _spheretree.InputError(f'mass="{mass}" is none of "spheres", "object"')
     if (mass == "object") != (volume is not None):
         raise _spheretree.InputError('mass="object" is the mass of volume=, and each needs the other')
-    defaults = {"up": "y", "link": "object", "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
-    wanted = {"up": up, "link": link, "mass": mass, "density": density, "start": start, "fps": fps}
+    several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
+    links = _links(link, several)
+    defaults = {"up": "y", "link": links, "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
+    wanted: dict[str, Any] = {"up": up, "link": None if link is None else links, "mass": mass, "density": density,
+                              "start": start, "fps": fps}
     given = {key: float(value) if key in ("density", "start", "fps") else value
              for key, value in wanted.items() if value is not None}
     words: dict[str, Any] = {
-        "level": level, "spheres": spheres, "units": units, "scale": float(scale), "frame": frame, "name": name,
-        **defaults, **given,
+        "level": None if level is None else whole_number("level", level, 32),
+        "spheres": None if spheres is None else whole_number("spheres", spheres, 64),
+        "units": units, "scale": float(scale), "frame": frame, "name": name, **defaults, **given,
     }
+    for key in ("units", "frame", "name", "up"):
+        text(key, words[key])
     own = None if volume is None else as_volume(volume)._handle
-    several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
     handles = [tree._handle for tree in several]
-    for note in _spheretree.export(handles, writable(path), format, words, list(given), own, progress):
+    for note in _spheretree.export(handles, writable(path), text("format", format), words, list(given), own, progress):
         warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
+
+
+def _links(link: Union[str, Sequence[str], None], trees: Sequence[Tree]) -> list[str]:
+    """The link of each tree."""
+    if link is None:
+        return ["object"] if len(trees) == 1 else [tree.name for tree in trees]
+    return [text("link", word) for word in ([link] if isinstance(link, str) else link)]

@@ -158,6 +158,52 @@ TEST_F(CommandExport, SeveralTreesAreSamplesOfOneStage)
     EXPECT_EQ(times("-for i=3,0,-1 -read tree.vdb -end"), (std::array<bool, 3>{true, true, true}));
 }
 
+TEST_F(CommandExport, SeveralTreesAreLinksOfOneRobot)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree spheres=3 name=palm -write palm.vdb").exitCode, 0);
+    const auto linksOf = [&](const std::string& line) {
+        const Result result = run(line + " -write robot.yml level=0");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_FALSE(mentions(result.err, "samples")) << result.err;
+        const std::string text = readText(path("robot.yml"));
+        const std::string before = "collision_link_names: [";
+        const std::size_t begin = text.find(before) + before.size();
+        return text.substr(begin, text.find(']', begin) - begin);
+    };
+    EXPECT_EQ(linksOf("-read tree.vdb palm.vdb"), "\"tree\", \"palm\"");
+    ASSERT_EQ(run("-read tree.vdb -write arm.vdb").exitCode, 0);
+    EXPECT_EQ(linksOf("-read tree.vdb arm.vdb palm.vdb"), "\"tree\", \"arm\", \"palm\"");
+    EXPECT_EQ(linksOf("-each link=upper,lower -read a.vol -spheretree spheres=3 name={$link} -end"),
+        "\"upper\", \"lower\"");
+    EXPECT_EQ(
+        run("-read tree.vdb tree.vdb -write robot.xrdf robot.srdf link=left,right").exitCode, 0);
+    EXPECT_TRUE(mentions(readText(path("robot.srdf")), "<robot name=\"robot\">"));
+    EXPECT_TRUE(mentions(readText(path("robot.srdf")), "approximation link=\"right\">"));
+}
+
+TEST_F(CommandExport, LinksWithoutANameOfTheirOwnAreRefused)
+{
+    const struct {
+        const char* line;
+        const char* why;
+    } cases[] = {
+        {"-read tree.vdb tree.vdb -write robot.yml",
+            "robot.yml: several sphere-trees are called 'spheretree'"},
+        {"-read a.vol -spheretree -read a.vol -spheretree -write robot.yml", "link=A,B"},
+        {"-read tree.vdb tree.vdb -write robot.yml link=arm", "names 1 link for 2 sphere-trees"},
+        {"-read tree.vdb -write robot.yml link=arm,hand", "names 2 links for 1 sphere-tree:"},
+        {"-read tree.vdb tree.vdb -write robot.yml link=arm,arm", "are of the link 'arm'"},
+        {"-read tree.vdb tree.vdb -write robot.urdf link=arm,hand", "holds one sphere-tree"},
+    };
+    for (const auto& bad : cases) {
+        const Result result = run(bad.line);
+        EXPECT_EQ(result.exitCode, 3) << bad.line << "\n" << result.err;
+        EXPECT_TRUE(mentions(result.err, bad.why)) << result.err;
+    }
+    EXPECT_FALSE(exists("robot.yml"));
+    EXPECT_FALSE(exists("robot.urdf"));
+}
+
 TEST_F(CommandExport, AnObjectAsVol)
 {
     const Result result = run("-read a.vol -write b.vol -read b.vol -write c.vol");

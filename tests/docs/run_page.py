@@ -29,14 +29,21 @@ def write_box(out, low, high):
             out.write("endloop\nendfacet\n")
 
 
-def write_gripper(path):
-    """A palm and two fingers, in millimetres; parts overlap, as they do in models of parts."""
+def write_boxes(path, *boxes):
     with open(path, "w") as out:
-        out.write("solid gripper\n")
-        write_box(out, (-40, -15, 0), (40, 15, 20))
-        write_box(out, (-40, -8, 10), (-28, 8, 70))
-        write_box(out, (28, -8, 10), (40, 8, 70))
-        out.write("endsolid gripper\n")
+        out.write("solid boxes\n")
+        for low, high in boxes:
+            write_box(out, low, high)
+        out.write("endsolid boxes\n")
+
+
+def write_grippers(folder):
+    """A palm and two fingers, in millimetres: in one mesh, where parts overlap as they do in models of parts, and as links."""
+    palm = ((-40, -15, 0), (40, 15, 20))
+    write_boxes(folder / "gripper.stl", palm, ((-40, -8, 10), (-28, 8, 70)), ((28, -8, 10), (40, 8, 70)))
+    (folder / "links").mkdir()
+    write_boxes(folder / "links" / "palm.stl", palm)
+    write_boxes(folder / "links" / "finger.stl", ((-6, -8, 0), (6, 8, 60)))
 
 
 def write_slices(folder):
@@ -57,7 +64,7 @@ def make_inputs(program, folder):
     def run(*words):
         subprocess.run([program, "-quiet", *words], cwd=folder, check=True)
 
-    write_gripper(folder / "gripper.stl")
+    write_grippers(folder)
     write_slices(folder)
     run("-generate", "terrain", "voxels=20000", "name=scan", "-write", "scan.vdb")
     run("-generate", "menger", "voxels=20000", "name=part", "-write", "part.vdb")

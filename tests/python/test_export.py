@@ -94,6 +94,24 @@ def test_several_trees_are_samples_over_time(tree, tmp_path):
         spheretree.export([tree, tree], tmp_path / "t.ply")
 
 
+def test_several_trees_are_links_of_one_robot(tree, tmp_path):
+    palm = spheretree.build(np.ones((9, 9, 9), bool), spheres=3, quality="fast", name="palm")
+    path = tmp_path / "robot.yml"
+    spheretree.export([tree, palm], path, level=0)
+    assert f'collision_link_names: ["{tree.name}", "palm"]' in path.read_text()
+    assert '"robot.urdf"' in path.read_text()
+    spheretree.export([palm, palm], path, link=["left", "right"])
+    assert 'collision_link_names: ["left", "right"]' in path.read_text()
+    for link, why in (("left", "1 names of links for 2"), (["left"], "1 names of links"), (None, "the link 'palm'"),
+                      (["left", "left"], "the link 'left'")):
+        with pytest.raises(spheretree.InputError, match=why):
+            spheretree.export([palm, palm], path, link=link)
+    for link in 5, [5], ["left", None]:
+        with pytest.raises(TypeError):
+            spheretree.export([palm, palm], path, link=link)
+    assert 'collision_link_names: ["left", "right"]' in path.read_text()
+
+
 def test_a_level_as_numbers(tree, tmp_path):
     spheretree.export(tree, tmp_path / "t.json", format="morphit", spheres=5)
     read = json.load(open(tmp_path / "t.json"))
@@ -109,6 +127,9 @@ def test_a_level_as_numbers(tree, tmp_path):
     ({"path": "t.usda", "units": "mile"}, 'units="mile"'),
     ({"path": "t.usda", "frame": "body"}, 'frame="body"'),
     ({"path": "t.usda", "level": 9}, "level 9"),
+    ({"path": "t.usda", "level": 2**70}, "level=.* is beyond 32 bits"),
+    ({"path": "t.usda", "spheres": 2**70}, "spheres=.* is beyond 64 bits"),
+    ({"path": "t.usda", "name": "\ud800"}, "name='.* half of a character"),
     ({"path": "t.usda", "scale": 0}, "scale=0"),
 ])
 def test_what_is_wrong_is_said_and_leaves_the_old_file(tree, tmp_path, words, why):

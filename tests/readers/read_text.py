@@ -60,6 +60,39 @@ def read_lula(trees):
     require_covered(yaml_spheres(links[0]["gripper"]), trees.finest("turned.vdb"))
 
 
+def read_links(trees):
+    """A robot of two links, each a tree of its own, called after their files or as it is typed."""
+    import yaml
+
+    trees.run("-read", "bent.vdb", "-spheretree", "spheres=12", "quality=fast", "-write", "palm.vdb")
+
+    def require(links, names=("turned", "palm")):
+        assert list(links) == list(names), list(links)
+        for name, spheres in zip(names, links.values()):
+            require_covered(spheres, trees.finest(dict(zip(names, ("turned.vdb", "palm.vdb")))[name]))
+
+    def spheres_of(links):
+        return {name: yaml_spheres(entries) for name, entries in links.items()}
+
+    both = ("-read", "turned.vdb", "palm.vdb", "-write")
+    trees.run(*both, "robot.yml", "robot.xrdf", "robot.srdf", "level=0")
+    kinematics = yaml.safe_load(open(trees.folder / "robot.yml"))["robot_cfg"]["kinematics"]
+    assert kinematics["collision_link_names"] == ["turned", "palm"] and kinematics["urdf_path"] == "robot.urdf"
+    assert kinematics["self_collision_buffer"] == {"turned": 0.0, "palm": 0.0}
+    require(spheres_of(kinematics["collision_spheres"]))
+    xrdf = yaml.safe_load(open(trees.folder / "robot.xrdf"))
+    assert xrdf["collision"]["geometry"] == "robot" and set(xrdf["collision"]["buffer_distance"]) == {"turned", "palm"}
+    require(spheres_of(xrdf["geometry"]["robot"]["spheres"]))
+    root = xml.parse(trees.folder / "robot.srdf").getroot()
+    assert root.get("name") == "robot"
+    require({link.get("link"): of_rows(s.get("center").split() + [s.get("radius")] for s in link.findall("sphere"))
+             for link in root.findall("link_sphere_approximation")})
+    trees.run(*both, "lula.yml", "format=lula", "link=große hand,palm")
+    lula = yaml.safe_load(open(trees.folder / "lula.yml", encoding="utf-8"))["collision_spheres"]
+    assert [len(entry) for entry in lula] == [1, 1]
+    require(spheres_of({name: entry[name] for entry in lula for name in entry}), ("große hand", "palm"))
+
+
 def read_foam(trees):
     levels = json.load(open(trees.write("turned.vdb", "foam.json", "format=foam")))
     assert all(set(level) == {"mean", "best", "worst", "spheres"} for level in levels)

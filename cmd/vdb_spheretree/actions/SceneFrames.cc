@@ -138,23 +138,18 @@ std::vector<SceneFrame> framesOf(
 
 std::vector<std::string> labelsOf(const Session& session, const SceneBodies& bodies)
 {
-    std::vector<std::string> names, files, ages;
+    std::vector<const StackItem*> items;
+    std::vector<std::string> ages;
     for (const QueryBody& body : bodies) {
         int age = 0;
         auto item = session.stack.items().rbegin();
         for (; (*item)->tree.get() != body.spheres; ++item) age += (*item)->mesh ? 0 : 1;
-        names.push_back(body.name);
-        files.push_back((*item)->fileStem());
+        items.push_back(item->get());
         ages.push_back(std::to_string(age));
     }
-    const auto isOnce = [](const std::vector<std::string>& all, const std::string& one) {
-        return !one.empty() && std::count(all.begin(), all.end(), one) == 1;
-    };
-    std::vector<std::string> labels;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const bool isFile =
-            isOnce(files, files[i]) && std::count(names.begin(), names.end(), files[i]) == 0;
-        labels.push_back(isOnce(names, names[i]) ? names[i] : isFile ? files[i] : ages[i]);
+    std::vector<std::string> labels = distinctNames(items);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i].empty()) labels[i] = ages[i];
     }
     return labels;
 }

@@ -44,7 +44,7 @@ openvdb_spheretree::QueryScene sceneOf(
 std::vector<SceneFrame> framesOf(
     const ActionCall& call, Session& session, const SceneBodies& bodies);
 
-/// @return what bodies are called: by their names, and by their ages where two have the same.
+/// @return what bodies are called: as of distinctNames(), or else by their ages.
 std::vector<std::string> labelsOf(const Session& session, const SceneBodies& bodies);
 
 } // namespace command

@@ -83,7 +83,6 @@ ExportSettings settingsOf(const ActionCall& call)
     settings.up = upOf(call);
     settings.density = call.real("density");
     settings.framesPerSecond = call.real("fps");
-    settings.link = call.text("link");
     if (call.given("name")) settings.name = call.text("name");
     return settings;
 }
@@ -118,7 +117,7 @@ std::vector<StackItem*> treesOf(
     if (trees.empty()) {
         throwInput(path + " holds spheres of a tree, and there is none: put -spheretree before");
     }
-    if (trees.size() > 1 && !format.samples) {
+    if (trees.size() > 1 && !format.samples && !format.links) {
         throwInput(path + " holds one sphere-tree, and there are " + std::to_string(trees.size())
             + ": choose with vdb=");
     }
@@ -131,6 +130,32 @@ bool areFramesRising(const std::vector<StackItem*>& trees)
         return !before->frame || !item->frame || *item->frame <= *before->frame;
     };
     return std::adjacent_find(trees.begin(), trees.end(), isNotLater) == trees.end();
+}
+
+/// @return the link of each tree: as it is typed, or of several trees what they are called.
+std::vector<std::string> linksOf(
+    const ActionCall& call, const std::string& path, const std::vector<StackItem*>& trees)
+{
+    std::vector<std::string> links = call.list("link");
+    if (call.given("link") && links.size() != trees.size()) {
+        throwInput(path + ": link= names " + std::to_string(links.size())
+            + (links.size() == 1 ? " link" : " links") + " for " + std::to_string(trees.size())
+            + (trees.size() == 1 ? " sphere-tree" : " sphere-trees")
+            + ": give one for each, with commas between");
+    }
+    if (call.given("link") || trees.size() == 1) return links;
+    links = distinctNames({trees.begin(), trees.end()});
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        const std::string file = trees[i]->fileStem();
+        const bool hasOwn = links[i] != spheretree::SphereTreeSettings().name;
+        const bool isFree = std::count(links.begin(), links.end(), file) == 0;
+        if (!hasOwn && !file.empty() && isFree) links[i] = file;
+        if (!links[i].empty()) continue;
+        throwInput(path + ": several sphere-trees are called '" + oneLine(trees[i]->name(), 60)
+            + "', and each is a link of its own: name the links with link=A,B, or the trees with "
+              "-spheretree name=");
+    }
+    return links;
 }
 
 /// Trees of several names are samples of one thing only if each is of a later frame, or if the line says so.
@@ -235,7 +260,9 @@ std::vector<OptionSpec> exportOptions()
         choice("frame", {"world", "centroid", "principal"},
             "files of other tools: where their origin is: that of the tree, the center of mass of "
             "the spheres, or that with the principal axes for axes"),
-        text("link", "object", "files of robots: the link that the spheres belong to"),
+        list("link", "object",
+            "files of robots: the link that the spheres belong to; of several trees that of each "
+            "(by default what they are called)"),
         text("name", "",
             "files of other tools: the name of the robot, model or prim (by default "
             "that of the tree; where it has none of its own, a robot has that of the file)"),
@@ -307,18 +334,19 @@ void writeExport(const ActionCall& call, const std::string& path,
     }
     const auto chosen = treesOf(items, format, path);
     noteIdleOptions(call, path, format, session);
-    requireOneThing(call, path, chosen);
+    if (format.samples) requireOneThing(call, path, chosen);
     ExportSettings settings = settingsOf(call);
+    if (format.link) settings.links = linksOf(call, path, chosen);
     if (format.mass && call.text("mass") == "object") {
         settings.mass = massOfObject(*chosen.front(), path, session);
     }
     std::vector<const spheretree::SphereTree*> trees;
     for (const StackItem* item : chosen) trees.push_back(item->anyTree());
     if (settings.name.empty() && !isStdout(path)) {
-        settings.name = spheretree::exportNameFor(*trees.front(), format, path);
+        settings.name = spheretree::exportNameFor(trees, format, path);
     }
-    settings.sampleTimes = sampleTimesOf(call, chosen);
-    if (trees.size() > 1) {
+    if (format.samples) settings.sampleTimes = sampleTimesOf(call, chosen);
+    if (format.samples && trees.size() > 1) {
         using spheretree::detail::shortNumber;
         session.note(path + ": " + std::to_string(trees.size())
             + " sphere-trees are samples over time, from "

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace command {
 
@@ -52,7 +53,11 @@ std::string StackItem::name() const
     return grid ? grid->getName() : mesh->name;
 }
 
-std::string StackItem::fileStem() const { return std::filesystem::path(source).stem().string(); }
+std::string StackItem::fileStem() const
+{
+    const bool isAction = !source.empty() && source.front() == '-';
+    return isAction ? "" : std::filesystem::path(source).stem().string();
+}
 
 std::string StackItem::description() const
 {
@@ -72,6 +77,23 @@ std::string StackItem::description() const
     }
     return kind + " '" + oneLine(name(), 60) + "' (" + details + "from " + oneLine(source, 120)
         + ")";
+}
+
+std::vector<std::string> distinctNames(const std::vector<const StackItem*>& items)
+{
+    std::map<std::string, int> names, files;
+    for (const StackItem* item : items) {
+        ++names[item->name()];
+        ++files[item->fileStem()];
+    }
+    std::vector<std::string> result;
+    for (const StackItem* item : items) {
+        const std::string name = item->name(), file = item->fileStem();
+        const bool isOfName = !name.empty() && names[name] == 1;
+        const bool isOfFile = !file.empty() && files[file] == 1 && names.count(file) == 0;
+        result.push_back(isOfName ? name : isOfFile ? file : "");
+    }
+    return result;
 }
 
 void Stack::beginBatch(const std::string& source)

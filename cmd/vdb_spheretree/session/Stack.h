@@ -51,11 +51,15 @@ struct StackItem {
         return tree ? tree.get() : emptyTree.get();
     }
     std::string name() const;
-    /// @return the name of the file that it comes from, without folder and extension.
+    /// @return the name of the file that it comes from, without folder and extension; empty if it was made by an action.
     std::string fileStem() const;
     /// @return for instance `grid 'density' (float, fog volume, from smoke.vdb)`.
     std::string description() const;
 };
+
+/// @return what the items are called among each other: each by its name, or by its file where others have that name, too;
+///         empty where neither is its own.
+std::vector<std::string> distinctNames(const std::vector<const StackItem*>& items);
 
 class Stack {
 public:

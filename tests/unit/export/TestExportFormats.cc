@@ -125,7 +125,7 @@ TEST(ExportFormats, NamesCannotBreakOutOfTheirPlace)
     const std::string evil = "a\"'<&>\n]}) # b";
     ExportSettings settings;
     settings.name = evil;
-    settings.link = evil;
+    settings.links = {evil};
     const SphereTree tree = someTree(3);
     for (const ExportFormat& format : formats()) {
         const std::string text = written(tree, format, settings);
@@ -138,9 +138,9 @@ TEST(ExportFormats, NamesInYamlHoldWhatYamlMayHold)
 {
     const SphereTree tree = someTree(3);
     ExportSettings settings;
-    settings.link = "a\x7f\xc2\x85\xe2\x80\xa8z\xc3\xa9";
+    settings.links = {"a\x7f\xc2\x85\xe2\x80\xa8z\xc3\xa9"};
     ExportSettings tooLong;
-    tooLong.link = std::string(2000, 'x');
+    tooLong.links = {std::string(2000, 'x')};
     for (const ExportFormat& format : exportFormats()) {
         if (std::set<std::string>{"curobo", "xrdf", "lula"}.count(format.name) == 0) continue;
         EXPECT_TRUE(
@@ -166,7 +166,7 @@ TEST(ExportFormats, SettingsOutOfRangeAreRefused)
     settings.density = -1;
     EXPECT_TRUE(mentions(why(settings), "density=-1"));
     settings = {};
-    settings.link = "";
+    settings.links = {""};
     EXPECT_TRUE(mentions(why(settings), "link="));
     settings = {};
     settings.level = 0;

@@ -33,7 +33,7 @@ Written written(const ExportFormat& format, const std::string& name, const std::
 {
     ExportSettings settings;
     settings.name = name;
-    settings.link = link;
+    settings.links = {link};
     SphereTree tree = randomTree(3, 11);
     tree.transform = openvdb::math::Transform::createLinearTransform(0.25);
     std::ostringstream out;
@@ -107,13 +107,13 @@ TEST(ExportNames, ARobotIsNamedAfterItsFileWhereTheTreeHasNoNameOfItsOwn)
     const ExportFormat &urdf = *findExportFormat(".urdf"), &usd = *findExportFormat(".usda");
     SphereTree tree = randomTree(3, 11);
     tree.settings.name = SphereTreeSettings().name;
-    EXPECT_EQ(exportNameFor(tree, urdf, "a/b.c/" + kGrip + ".urdf"), kGrip);
-    EXPECT_EQ(exportNameFor(tree, urdf, kLatin1 + ".urdf"), tree.settings.name);
-    EXPECT_EQ(exportNameFor(tree, urdf, "a\x01.urdf"), tree.settings.name);
-    EXPECT_EQ(exportNameFor(tree, *findExportFormat(".yml"), "upper arm.yml"), "upper arm");
-    EXPECT_EQ(exportNameFor(tree, usd, "a.usda"), tree.settings.name);
+    EXPECT_EQ(exportNameFor({&tree}, urdf, "a/b.c/" + kGrip + ".urdf"), kGrip);
+    EXPECT_EQ(exportNameFor({&tree}, urdf, kLatin1 + ".urdf"), tree.settings.name);
+    EXPECT_EQ(exportNameFor({&tree}, urdf, "a\x01.urdf"), tree.settings.name);
+    EXPECT_EQ(exportNameFor({&tree}, *findExportFormat(".yml"), "upper arm.yml"), "upper arm");
+    EXPECT_EQ(exportNameFor({&tree}, usd, "a.usda"), tree.settings.name);
     tree.settings.name = "arm";
-    EXPECT_EQ(exportNameFor(tree, urdf, "a.urdf"), "arm");
+    EXPECT_EQ(exportNameFor({&tree}, urdf, "a.urdf"), "arm");
 }
 
 TEST(ExportNames, NamesInGlbAreUtf8)

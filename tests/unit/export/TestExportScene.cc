@@ -40,7 +40,7 @@ Exported sceneOf(
     const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings = {})
 {
     Exported result;
-    result.scene = detail::makeScene(tree, format, settings, result.notes, nullptr);
+    result.scene = detail::makeScene(tree, format, settings, 0, result.notes, nullptr);
     return result;
 }
 
