@@ -77,7 +77,7 @@ ExportSettings settingsOf(const py::dict& words, std::size_t trees)
     settings.scale = words["scale"].cast<double>() / *metres;
     settings.density = words["density"].cast<double>();
     settings.framesPerSecond = words["fps"].cast<double>();
-    settings.links = words["link"].cast<std::vector<std::string>>();
+    settings.links = words["links"].cast<std::vector<std::string>>();
     settings.name = words["name"].cast<std::string>();
     const auto start = words["start"].cast<double>();
     for (std::size_t i = 0; i < trees; ++i) settings.sampleTimes.push_back(start + double(i));
@@ -121,7 +121,7 @@ void bindTreeExport(py::module_& module)
             const py::object& progress) {
             const ExportFormat& format = formatOf(path, formatName);
             ExportSettings settings = settingsOf(words, trees.size());
-            return resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
+            const auto said = resultOfCall(CallSettings{progress}, [&](Interrupter* interrupter) {
                 std::vector<const spheretree::SphereTree*> all;
                 for (const TreePtr& tree : trees) all.push_back(&tree->get());
                 if (settings.name.empty() && !all.empty()) {
@@ -141,6 +141,9 @@ void bindTreeExport(py::module_& module)
                 if (!interrupter->wasInterrupted()) file.commit();
                 return notes;
             });
+            py::list notes;
+            for (const std::string& note : said) notes.append(textOf(note)); // a name may be cut
+            return notes;
         });
     module.def("export_formats", [] {
         py::list rows;

@@ -48,8 +48,11 @@ std::optional<SphereTree> chosenPart(const SphereTree& tree, const ExportFormat&
     if (settings.spheres) return keepSpheres(tree, *settings.spheres);
     if (format.allLevels || tree.levels.size() == 1) return std::nullopt;
     const SphereTreeLevel& finest = tree.levels.front();
-    notes.push_back(format.name + " holds one level, and gets the finest: level "
-        + std::to_string(finest.level) + " of " + spheresOf(finest)
+    const bool areLinks = format.links && settings.links.size() > 1;
+    notes.push_back(format.name
+        + (areLinks ? " holds one level of each link, and gets the finest"
+                    : " holds one level, and gets the finest: level " + std::to_string(finest.level)
+                    + " of " + spheresOf(finest))
         + "; level= or spheres= chooses another");
     return keepLevel(tree, finest.level);
 }
@@ -155,6 +158,15 @@ void noteUnits(
         + ": if the tree is in millimetres, read what it is made of with units=mm, or write it "
           "with "
           "scale=0.001");
+}
+
+/// Planners take spheres in the frame of their link.
+void noteFrame(
+    const ExportSettings& settings, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    if (!format.links || settings.frame == ExportFrame::World) return;
+    notes.push_back("readers of " + format.name
+        + " take its spheres in the frame of the link, and frame= puts them into another");
 }
 
 /// Of the finest level.
@@ -327,6 +339,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     }
     noteGrowth(worst, format, notes);
     noteUnits(scene, format, notes);
+    noteFrame(settings, format, notes);
     if (!tree.track.empty() && !format.ordersIds) {
         for (ExportLevel& level : scene.levels) {
             showTracks(tree, level);

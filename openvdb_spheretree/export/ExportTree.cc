@@ -41,23 +41,26 @@ void requireLinks(const ExportFormat& format, const ExportSettings& settings, st
 {
     if (!format.link) return;
     if (settings.links.size() != trees) {
+        const std::size_t names = settings.links.size();
         OPENVDB_THROW(openvdb::ValueError,
-            "there are " << settings.links.size() << " names of links for " << trees
-                         << (trees == 1 ? " sphere-tree" : " sphere-trees"));
+            "link= has " << names << (names == 1 ? " name for " : " names for ") << trees
+                         << (trees == 1 ? " sphere-tree" : " sphere-trees")
+                         << ": give one for each");
     }
     std::set<std::string> names;
     for (const std::string& link : settings.links) {
         if (link.empty()) OPENVDB_THROW(openvdb::ValueError, "link= names no link");
         if (names.insert(link).second) continue;
         OPENVDB_THROW(openvdb::ValueError,
-            "two sphere-trees are of the link " << detail::inQuotes(link) << ": give each its own");
+            "two sphere-trees are of the link " << detail::inQuotes(link)
+                                                << ": give each its own by link=, or its own name");
     }
 }
 
-void requireTimes(const ExportSettings& settings, std::size_t trees)
+void requireTimes(const ExportFormat& format, const ExportSettings& settings, std::size_t trees)
 {
     const auto& times = settings.sampleTimes;
-    if (times.empty()) return;
+    if (!format.samples || times.empty()) return;
     if (times.size() != trees) {
         OPENVDB_THROW(openvdb::ValueError,
             "there are " << times.size() << " times for " << trees << " sphere-trees");
@@ -67,6 +70,34 @@ void requireTimes(const ExportSettings& settings, std::size_t trees)
         OPENVDB_THROW(openvdb::ValueError,
             "time " << times[i] << " of sphere-tree " << i << " is not after the one before");
     }
+}
+
+std::vector<std::string> eachOnce(const std::vector<std::vector<std::string>>& notes)
+{
+    std::vector<std::string> all;
+    for (const auto& some : notes) {
+        for (const std::string& note : some) {
+            if (!std::count(all.begin(), all.end(), note)) all.push_back(note);
+        }
+    }
+    return all;
+}
+
+std::string ofLink(const std::string& link) { return "link " + detail::inQuotes(link) + ": "; }
+
+/// @return what holds of all links once, the rest with the link that it is of.
+std::vector<std::string> notesOfLinks(
+    std::vector<std::vector<std::string>> notes, const std::vector<std::string>& links)
+{
+    const std::vector<std::vector<std::string>> own = notes;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        for (std::string& note : notes[i]) {
+            const bool isOfAll = std::all_of(own.begin(), own.end(),
+                [&](const auto& some) { return std::count(some.begin(), some.end(), note) > 0; });
+            if (!isOfAll) note.insert(0, ofLink(links[i]));
+        }
+    }
+    return eachOnce(notes);
 }
 
 } // namespace
@@ -80,6 +111,16 @@ std::string exportNameFor(const std::vector<const SphereTree*>& trees, const Exp
     return format.link && !hasOwn && detail::holdsName(format, stem) ? stem : name;
 }
 
+std::vector<std::string> linksOf(
+    const std::vector<const SphereTree*>& trees, const ExportFormat& format)
+{
+    const bool hasOwn = trees.front()->settings.name != SphereTreeSettings().name;
+    if (trees.size() == 1 && !(format.links && hasOwn)) return {"object"};
+    std::vector<std::string> links;
+    for (const SphereTree* tree : trees) links.push_back(tree->settings.name);
+    return links;
+}
+
 std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& format,
     const ExportSettings& settings, std::ostream& out, openvdb::util::NullInterrupter* interrupter)
 {
@@ -87,28 +128,29 @@ std::vector<std::string> exportTree(const SphereTree& tree, const ExportFormat& 
 }
 
 std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees,
-    const ExportFormat& format, const ExportSettings& settings, std::ostream& out,
+    const ExportFormat& format, const ExportSettings& wanted, std::ostream& out,
     openvdb::util::NullInterrupter* interrupter)
 {
-    requireSettings(format, settings, trees.size());
+    requireSettings(format, wanted, trees.size());
+    ExportSettings settings = wanted;
+    if (settings.links.empty()) settings.links = linksOf(trees, format);
     requireLinks(format, settings, trees.size());
-    requireTimes(settings, trees.size());
-    std::vector<std::string> notes;
+    requireTimes(format, settings, trees.size());
+    const bool areLinks = trees.size() > 1 && format.links;
+    std::vector<std::vector<std::string>> notes(trees.size());
     std::vector<detail::ExportScene> scenes;
     for (std::size_t i = 0; i < trees.size(); ++i) {
-        std::vector<std::string> more;
-        scenes.push_back(detail::makeScene(*trees[i], format, settings, i, more, interrupter));
-        for (const std::string& note : more) {
-            const bool isOfALink = trees.size() > 1 && format.links;
-            const std::string whose =
-                isOfALink ? "link " + detail::inQuotes(settings.links[i]) + ": " : "";
-            if (!std::count(notes.begin(), notes.end(), whose + note)) {
-                notes.push_back(whose + note);
-            }
+        try {
+            scenes.push_back(
+                detail::makeScene(*trees[i], format, settings, i, notes[i], interrupter));
+        } catch (const openvdb::ValueError& error) {
+            if (!areLinks) throw;
+            OPENVDB_THROW(
+                openvdb::ValueError, ofLink(settings.links[i]) << detail::messageOf(error));
         }
     }
     format.write(scenes, {out, interrupter});
-    return notes;
+    return areLinks ? notesOfLinks(notes, settings.links) : eachOnce(notes);
 }
 
 } // namespace openvdb_spheretree

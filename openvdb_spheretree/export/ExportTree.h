@@ -49,8 +49,8 @@ struct ExportSettings {
     /// Of the body whose mass, center and inertia such formats get, in world space; by default the union of the
     /// spheres of the finest level in the file.
     std::optional<MassProperties> mass;
-    /// The link of a robot that the spheres belong to; of several trees, that of each.
-    std::vector<std::string> links = {"object"};
+    /// The link of a robot that each tree's spheres belong to; empty: what linksOf() gives.
+    std::vector<std::string> links;
     std::string name; ///< of the robot, model or prim; by default that of the tree
     /// How many units of sample times a second has, for formats with samples.
     double framesPerSecond = 24;
@@ -62,6 +62,11 @@ struct ExportSettings {
 /// extension, where the tree is called as all are by default, or where there are several.
 std::string exportNameFor(const std::vector<const SphereTree*>& trees, const ExportFormat& format,
     const std::string& path);
+
+/// @return the links of trees for which none are given: their names. A tree alone is "object" where it is called as all are
+/// by default, and in formats of one link.
+std::vector<std::string> linksOf(
+    const std::vector<const SphereTree*>& trees, const ExportFormat& format);
 
 /// @brief Write one tree. One without levels, that of no object, is a file without spheres where the format has room
 /// for none.

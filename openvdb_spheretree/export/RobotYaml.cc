@@ -30,6 +30,13 @@ std::string listOf(const std::vector<ExportScene>& links, const char* after = ""
     return list;
 }
 
+/// @return what people must know of the lines that follow: the order of trees says nothing of joints.
+std::string guessOf(const std::vector<ExportScene>& links, const std::string& indent)
+{
+    if (links.size() == 1) return "";
+    return indent + "# The first and the last of the links, to be put right by the robot's own:\n";
+}
+
 /// The map of links that cuRobo and XRDF have.
 void writeMap(ExportText& text, const std::vector<ExportScene>& links)
 {
@@ -47,10 +54,11 @@ void writeCurobo(const std::vector<ExportScene>& links, const ExportSink& out)
 {
     const std::string first = yamlKey(links.front().link);
     ExportText text(out, links.front().decimals);
-    text << "robot_cfg:\n  kinematics:\n    format_version: 2.0\n    urdf_path: "
-         << yamlString(links.front().name + ".urdf") << "\n    base_link: " << first
-         << "\n    tool_frames: [" << yamlKey(links.back().link) << "]\n    collision_link_names: ["
-         << listOf(links) << "]\n    collision_sphere_buffer: 0.0\n    self_collision_buffer: {"
+    text << "robot_cfg:\n  kinematics:\n    format_version: 2.0\n"
+         << guessOf(links, "    ") << "    urdf_path: " << yamlString(links.front().name + ".urdf")
+         << "\n    base_link: " << first << "\n    tool_frames: [" << yamlKey(links.back().link)
+         << "]\n    collision_link_names: [" << listOf(links)
+         << "]\n    collision_sphere_buffer: 0.0\n    self_collision_buffer: {"
          << listOf(links, ": 0.0") << "}\n    self_collision_ignore: {}\n    collision_spheres:\n";
     writeMap(text, links);
     text.finish();
@@ -65,8 +73,8 @@ void writeXrdf(const std::vector<ExportScene>& links, const ExportSink& out)
     text << "format: xrdf\nformat_version: 1.0\ngeometry:\n  " << geometry << ":\n    spheres:\n";
     writeMap(text, links);
     text << "collision: {geometry: " << geometry << ", buffer_distance: {" << listOf(links, ": 0.0")
-         << "}}\nself_collision: {geometry: " << geometry
-         << ", ignore: {}, buffer_distance: {}}\ntool_frames: [" << yamlKey(links.back().link)
+         << "}}\nself_collision: {geometry: " << geometry << ", ignore: {}, buffer_distance: {}}\n"
+         << guessOf(links, "") << "tool_frames: [" << yamlKey(links.back().link)
          << "]\ncspace: {joint_names: [], acceleration_limits: [], jerk_limits: []}\n"
             "default_joint_positions: {}\n";
     text.finish();
@@ -75,7 +83,8 @@ void writeXrdf(const std::vector<ExportScene>& links, const ExportSink& out)
 void writeLula(const std::vector<ExportScene>& links, const ExportSink& out)
 {
     ExportText text(out, links.front().decimals);
-    text << "api_version: 1.0\ncspace: []\nroot_link: " << yamlKey(links.front().link)
+    text << "api_version: 1.0\ncspace: []\n"
+         << guessOf(links, "") << "root_link: " << yamlKey(links.front().link)
          << "\ndefault_q: []\ncspace_to_urdf_rules: []\ncollision_spheres:\n";
     for (const ExportScene& scene : links) {
         text << "  - " << yamlKey(scene.link) << ":\n";

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 from . import _spheretree
@@ -41,7 +41,7 @@ def export_formats() -> list[ExportFormat]:
 
 
 def export(
-    trees: Tree | Sequence[Tree],
+    trees: Tree | Iterable[Tree],
     path: str | os.PathLike[str],
     *,
     format: str = "",
@@ -87,8 +87,8 @@ def export(
     up
         "y" (the default) or "z": which axis of the tree is up, for USD and glTF.
     link
-        The link of a robot that the spheres belong to, by default "object"; of several trees that of each, by default
-        their names.
+        The link of a robot that the spheres belong to; of several trees that of each. By default the name of the tree, in
+        formats that hold several links, or "object".
     name
         The name of the robot, model or prim, by default that of the tree, or of a robot that of the file where the tree
         has none of its own.
@@ -118,17 +118,16 @@ def export(
         raise _spheretree.InputError(f'mass="{mass}" is none of "spheres", "object"')
     if (mass == "object") != (volume is not None):
         raise _spheretree.InputError('mass="object" is the mass of volume=, and each needs the other')
-    several = list(trees) if isinstance(trees, (list, tuple)) else [trees]
-    links = _links(link, several)
-    defaults = {"up": "y", "link": links, "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
-    wanted: dict[str, Any] = {"up": up, "link": None if link is None else links, "mass": mass, "density": density,
-                              "start": start, "fps": fps}
+    several = _several(trees)
+    defaults = {"up": "y", "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
+    wanted: dict[str, Any] = {"up": up, "link": link, "mass": mass, "density": density, "start": start,
+                              "fps": fps}
     given = {key: float(value) if key in ("density", "start", "fps") else value
              for key, value in wanted.items() if value is not None}
     words: dict[str, Any] = {
         "level": None if level is None else whole_number("level", level, 32),
         "spheres": None if spheres is None else whole_number("spheres", spheres, 64),
-        "units": units, "scale": float(scale), "frame": frame, "name": name, **defaults, **given,
+        "units": units, "scale": float(scale), "frame": frame, "name": name, **defaults, **given, "links": _links(link),
     }
     for key in ("units", "frame", "name", "up"):
         text(key, words[key])
@@ -138,8 +137,21 @@ def export(
         warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
 
 
-def _links(link: Union[str, Sequence[str], None], trees: Sequence[Tree]) -> list[str]:
-    """The link of each tree."""
+def _several(trees: Tree | Iterable[Tree]) -> list[Tree]:
+    from ._tree import Tree  # which knows this module
+
+    several = [trees] if isinstance(trees, Tree) else list(trees)
+    for tree in several:
+        if not isinstance(tree, Tree):
+            raise TypeError(f"trees must be a spheretree.Tree, or several, not {type(tree).__name__}")
+    return several
+
+
+def _links(link: Union[str, Sequence[str], None]) -> list[str]:
+    """Those that are given; none: the trees' names are taken."""
     if link is None:
-        return ["object"] if len(trees) == 1 else [tree.name for tree in trees]
-    return [text("link", word) for word in ([link] if isinstance(link, str) else link)]
+        return []
+    links = [text("link", word) for word in ([link] if isinstance(link, str) else link)]
+    if not links:
+        raise _spheretree.InputError("link names no link")
+    return links

@@ -8,6 +8,9 @@
 #include <openvdb_spheretree/export/NanoVdbWriter.h>
 
 #include <cstdio>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -179,6 +182,40 @@ TEST_F(CommandExport, SeveralTreesAreLinksOfOneRobot)
         run("-read tree.vdb tree.vdb -write robot.xrdf robot.srdf link=left,right").exitCode, 0);
     EXPECT_TRUE(mentions(readText(path("robot.srdf")), "<robot name=\"robot\">"));
     EXPECT_TRUE(mentions(readText(path("robot.srdf")), "approximation link=\"right\">"));
+    EXPECT_EQ(linksOf("-read palm.vdb"), "\"palm\"");
+    EXPECT_TRUE(mentions(
+        run("-read arm.vdb palm.vdb -write stdout.srdf level=0").out, "<robot name=\"robot\">"));
+}
+
+TEST_F(CommandExport, LinksAreInTheOrderOfTheList)
+{
+    ASSERT_EQ(run("-read a.vol -spheretree spheres=3 name=palm -write palm.vdb").exitCode, 0);
+    ASSERT_EQ(run("-read a.vol -spheretree spheres=6 name=arm -write arm.vdb").exitCode, 0);
+    const auto spheresOf = [&](const std::string& options) {
+        const Result result = run("-read palm.vdb arm.vdb -write stdout.srdf " + options);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        std::vector<std::string> links;
+        std::istringstream lines(result.out);
+        for (std::string line; std::getline(lines, line);) {
+            const std::size_t name = line.find(" link=\"");
+            if (name != line.npos) links.push_back(line.substr(name + 7, 1) + " ");
+            else if (mentions(line, "<sphere ")) links.back() += '*';
+        }
+        return links;
+    };
+    using Links = std::vector<std::string>;
+    EXPECT_EQ(spheresOf(""), (Links{"p ***", "a ******"}));
+    EXPECT_EQ(spheresOf("vdb=arm,palm"), (Links{"a ******", "p ***"}));
+    EXPECT_EQ(spheresOf("vdb=palm,arm link=x,y"), (Links{"x ***", "y ******"}));
+    EXPECT_EQ(spheresOf("vdb=0,1 link=x,y"), (Links{"x ******", "y ***"}));
+    const Result result =
+        start({"-read", "palm.vdb", "arm.vdb", "-write", "robot.yml", "link=x, arm"}).wait();
+    EXPECT_TRUE(mentions(result.err, "robot.yml: its links are 'x' (sphere-tree 'palm'), 'arm'\n"))
+        << result.err;
+    EXPECT_TRUE(mentions(readText(path("robot.yml")), "[\"x\", \"arm\"]"));
+    run("-read palm.vdb arm.vdb -write both.vdb vdb=arm,palm");
+    const std::string listed = run("-read both.vdb -print").out;
+    EXPECT_LT(listed.find("'palm'"), listed.find("'arm'")) << "the newest, age 0, is shown first";
 }
 
 TEST_F(CommandExport, LinksWithoutANameOfTheirOwnAreRefused)
@@ -190,8 +227,9 @@ TEST_F(CommandExport, LinksWithoutANameOfTheirOwnAreRefused)
         {"-read tree.vdb tree.vdb -write robot.yml",
             "robot.yml: several sphere-trees are called 'spheretree'"},
         {"-read a.vol -spheretree -read a.vol -spheretree -write robot.yml", "link=A,B"},
-        {"-read tree.vdb tree.vdb -write robot.yml link=arm", "names 1 link for 2 sphere-trees"},
-        {"-read tree.vdb -write robot.yml link=arm,hand", "names 2 links for 1 sphere-tree:"},
+        {"-read tree.vdb tree.vdb -write robot.yml link=arm",
+            "link= has 1 name for 2 sphere-trees"},
+        {"-read tree.vdb -write robot.yml link=arm,hand", "link= has 2 names for 1 sphere-tree:"},
         {"-read tree.vdb tree.vdb -write robot.yml link=arm,arm", "are of the link 'arm'"},
         {"-read tree.vdb tree.vdb -write robot.urdf link=arm,hand", "holds one sphere-tree"},
     };

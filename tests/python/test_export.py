@@ -102,14 +102,23 @@ def test_several_trees_are_links_of_one_robot(tree, tmp_path):
     assert '"robot.urdf"' in path.read_text()
     spheretree.export([palm, palm], path, link=["left", "right"])
     assert 'collision_link_names: ["left", "right"]' in path.read_text()
-    for link, why in (("left", "1 names of links for 2"), (["left"], "1 names of links"), (None, "the link 'palm'"),
-                      (["left", "left"], "the link 'left'")):
+    long = ["é" * 30 + "x", "a" + "é" * 30]  # messages have the start of them
+    with pytest.warns(UserWarning, match="link 'éé"):
+        spheretree.export([tree, palm], path, level=0, link=long, scale=1e-6)
+    assert all(name in path.read_text() for name in long)
+    spheretree.export((each for each in (palm,)), path)
+    assert 'collision_link_names: ["palm"]' in path.read_text()
+    for link, why in (("left", "link= has 1 name for 2 sphere-trees"), (["left"], "has 1 name"), (None, "the link 'palm'"),
+                      (["left", "left"], "the link 'left'"), ([], "link names no link")):
         with pytest.raises(spheretree.InputError, match=why):
             spheretree.export([palm, palm], path, link=link)
     for link in 5, [5], ["left", None]:
         with pytest.raises(TypeError):
             spheretree.export([palm, palm], path, link=link)
-    assert 'collision_link_names: ["left", "right"]' in path.read_text()
+    for trees in [palm, None], {"palm": palm}, 5:
+        with pytest.raises(TypeError, match="trees must be" if trees != 5 else ""):
+            spheretree.export(trees, path)
+    assert 'collision_link_names: ["palm"]' in path.read_text()
 
 
 def test_a_level_as_numbers(tree, tmp_path):

@@ -119,7 +119,8 @@ std::vector<StackItem*> treesOf(
     }
     if (trees.size() > 1 && !format.samples && !format.links) {
         throwInput(path + " holds one sphere-tree, and there are " + std::to_string(trees.size())
-            + ": choose with vdb=");
+            + ": choose with vdb="
+            + (format.link ? "; .yml, .xrdf and .srdf hold several links" : ""));
     }
     return trees;
 }
@@ -132,19 +133,25 @@ bool areFramesRising(const std::vector<StackItem*>& trees)
     return std::adjacent_find(trees.begin(), trees.end(), isNotLater) == trees.end();
 }
 
-/// @return the link of each tree: as it is typed, or of several trees what they are called.
+/// @return what is typed, without blanks around.
+std::vector<std::string> typedLinks(const ActionCall& call)
+{
+    constexpr char kBlanks[] = " \t\r\n";
+    std::vector<std::string> links = call.list("link");
+    for (std::string& link : links) {
+        link.erase(0, link.find_first_not_of(kBlanks));
+        link.erase(link.find_last_not_of(kBlanks) + 1);
+    }
+    return links;
+}
+
+/// @return the link of each tree: as it is typed, or of several what they are called; empty: what the library calls it.
 std::vector<std::string> linksOf(
     const ActionCall& call, const std::string& path, const std::vector<StackItem*>& trees)
 {
-    std::vector<std::string> links = call.list("link");
-    if (call.given("link") && links.size() != trees.size()) {
-        throwInput(path + ": link= names " + std::to_string(links.size())
-            + (links.size() == 1 ? " link" : " links") + " for " + std::to_string(trees.size())
-            + (trees.size() == 1 ? " sphere-tree" : " sphere-trees")
-            + ": give one for each, with commas between");
-    }
-    if (call.given("link") || trees.size() == 1) return links;
-    links = distinctNames({trees.begin(), trees.end()});
+    if (call.given("link")) return typedLinks(call);
+    if (trees.size() == 1) return {};
+    std::vector<std::string> links = distinctNames({trees.begin(), trees.end()});
     for (std::size_t i = 0; i < links.size(); ++i) {
         const std::string file = trees[i]->fileStem();
         const bool hasOwn = links[i] != spheretree::SphereTreeSettings().name;
@@ -156,6 +163,20 @@ std::vector<std::string> linksOf(
               "-spheretree name=");
     }
     return links;
+}
+
+/// Shows where the order of trees is another than was meant.
+void noteLinks(const std::vector<std::string>& links, const std::string& path,
+    const std::vector<StackItem*>& trees, Session& session)
+{
+    constexpr std::size_t kNamed = 20;
+    std::string all;
+    for (std::size_t i = 0; i < std::min(kNamed, links.size()); ++i) {
+        const std::string tree = trees[i]->name();
+        all += (all.empty() ? "'" : ", '") + oneLine(links[i], 60) + "'"
+            + (tree == links[i] ? "" : " (sphere-tree '" + oneLine(tree, 60) + "')");
+    }
+    session.note(path + ": its links are " + all + (links.size() > kNamed ? ", ..." : ""));
 }
 
 /// Trees of several names are samples of one thing only if each is of a later frame, or if the line says so.
@@ -344,6 +365,8 @@ void writeExport(const ActionCall& call, const std::string& path,
     for (const StackItem* item : chosen) trees.push_back(item->anyTree());
     if (settings.name.empty() && !isStdout(path)) {
         settings.name = spheretree::exportNameFor(trees, format, path);
+    } else if (settings.name.empty() && format.links && trees.size() > 1) {
+        settings.name = "robot";
     }
     if (format.samples) settings.sampleTimes = sampleTimesOf(call, chosen);
     if (format.samples && trees.size() > 1) {
@@ -356,6 +379,9 @@ void writeExport(const ActionCall& call, const std::string& path,
     try {
         const auto notes = exportTrees(trees, format, settings, out, &session.progress);
         for (const std::string& note : notes) session.note(path + ": " + note);
+        if (format.links && trees.size() > 1) {
+            noteLinks(settings.links, path, chosen, session);
+        }
     } catch (const openvdb::ValueError&) { // of what the format cannot hold
         rethrowNamed(path, kInput);
     }

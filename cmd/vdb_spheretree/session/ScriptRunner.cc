@@ -131,10 +131,13 @@ struct ScriptRunner::Turns {
                 + " frames failed, " + doneText() + ": " + someOf(failures, kNamed));
     }
 
+    /// What -each and -files name are things of their own, of whatever voxels.
+    bool isOverTime() const { return loop.isSequence || loop.call.spec().name == "for"; }
+
     void warnOfVoxel(const StackItem* item, Session& session)
     {
         constexpr double kSame = 1e-5;
-        if (!item) return;
+        if (!item || !isOverTime()) return;
         const double size = item->tree->voxelSize();
         if (voxel == 0) voxel = size;
         if (std::abs(size - voxel) <= kSame * voxel) return;

@@ -175,6 +175,7 @@ std::vector<StackItem*> Stack::ofAllTurns(StackItem* item, const std::string& ag
     all.erase(std::remove_if(all.begin(), all.end(),
                   [&](const StackItem* other) { return !isOfEndedLoop(other); }),
         all.end());
+    std::reverse(all.begin(), all.end());
     return all;
 }
 
@@ -246,6 +247,7 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
         if (!std::all_of(chosen.begin(), chosen.end(), isWritten)) {
             chosen.erase(std::remove_if(chosen.begin(), chosen.end(), isWritten), chosen.end());
         }
+        std::reverse(chosen.begin(), chosen.end());
     } else {
         for (const std::string& ageOrName : agesOrNames) {
             StackItem* const item = find(ageOrName, false);
@@ -256,7 +258,6 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
         }
     }
     if (chosen.empty()) throwInput("there is no grid or sphere-tree to work on; " + listing());
-    std::reverse(chosen.begin(), chosen.end());
     return chosen;
 }
 

@@ -82,9 +82,9 @@ public:
     /// Makes the stack what it was when it was copied.
     void restore(const std::vector<StackItem>& copies);
 
-    /// @return the items of a list of ages and names, oldest first. If the list is empty or `*`, they
-    ///         are all grids and trees that are not written yet; or all, if all are written. Behind a loop, a
-    ///         name stands for the items of all its turns that have it. None is there twice.
+    /// @return the items of a list of ages and names, in its order. If the list is empty or `*`, they
+    ///         are all grids and trees that are not written yet, oldest first; or all, if all are written. Behind a
+    ///         loop, a name stands for the items of all its turns that have it. None is there twice.
     /// @throw CommandError (input) if there is none
     std::vector<StackItem*> several(const std::vector<std::string>& agesOrNames);
 
@@ -107,7 +107,7 @@ public:
 private:
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
-    /// @return the item; and if it is of a loop that has ended, those of its turns that have the name, newest first.
+    /// @return the item; and if it is of a loop that has ended, those of its turns that have the name, oldest first.
     std::vector<StackItem*> ofAllTurns(StackItem* item, const std::string& ageOrName);
     /// @throw CommandError (input) if the same action has made another item of that name
     void requireOneOfName(const StackItem& chosen);

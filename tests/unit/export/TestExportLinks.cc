@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -102,12 +103,53 @@ TEST_F(ExportLinks, ANoteSaysOfWhichLink)
         return std::any_of(mNotes.begin(), mNotes.end(),
             [&](const std::string& note) { return mentions(note, part); });
     };
-    EXPECT_TRUE(noted("link 'hand': srdf holds one level, and gets the finest"));
-    EXPECT_TRUE(noted("link 'arm': srdf holds one level, and gets the finest"));
+    EXPECT_TRUE(noted("srdf holds one level of each link, and gets the finest"));
+    EXPECT_FALSE(noted("': srdf holds one level")) << "what holds of all is said once";
+    EXPECT_EQ(mNotes.size(), 2u);
     EXPECT_FALSE(noted("link 'hand': srdf is in metres"));
     EXPECT_TRUE(noted("link 'arm': srdf is in metres")) << "it spans 20 m and more";
     write(*findExportFormat(".srdf"), {&mHand}, {"hand"});
     EXPECT_FALSE(noted("link 'hand'"));
+}
+
+TEST_F(ExportLinks, AnErrorSaysOfWhichLink)
+{
+    SphereTree flat = linkTree(1, 0.2); // of one level
+    ExportSettings settings;
+    settings.links = {"hand", "flat"};
+    settings.level = 1;
+    std::ostringstream out;
+    EXPECT_TRUE(mentions(messageOf<openvdb::ValueError>([&] {
+        exportTrees({&mHand, &flat}, *findExportFormat(".yml"), settings, out);
+    }),
+        "link 'flat': the tree has no level 1"));
+    EXPECT_TRUE(out.str().empty());
+}
+
+TEST_F(ExportLinks, OutOfTheirFramesAreTold)
+{
+    ExportSettings settings;
+    settings.links = {"hand", "arm"};
+    settings.frame = ExportFrame::Centroid;
+    std::ostringstream out;
+    const auto notes = exportTrees({&mHand, &mArm}, *findExportFormat(".yml"), settings, out);
+    EXPECT_EQ(std::count(notes.begin(), notes.end(),
+                  "readers of curobo take its spheres in the frame of the link, and frame= puts "
+                  "them into another"),
+        1);
+}
+
+TEST_F(ExportLinks, AreCalledAsTheirTreesWhereNothingElseIsSaid)
+{
+    const ExportFormat &srdf = *findExportFormat(".srdf"), &urdf = *findExportFormat(".urdf");
+    using Links = std::vector<std::string>;
+    mHand.settings.name = "hand";
+    mArm.settings.name = SphereTreeSettings().name;
+    EXPECT_EQ(linksOf({&mHand, &mArm}, srdf), (Links{"hand", "spheretree"}));
+    EXPECT_EQ(linksOf({&mHand}, srdf), Links{"hand"});
+    EXPECT_EQ(linksOf({&mHand}, urdf), Links{"object"});
+    EXPECT_EQ(linksOf({&mArm}, srdf), Links{"object"});
+    EXPECT_TRUE(mentions(write(srdf, {&mHand}, {}), "link=\"hand\""));
 }
 
 TEST_F(ExportLinks, OfOneNameOrWithoutAreRefused)
@@ -115,9 +157,9 @@ TEST_F(ExportLinks, OfOneNameOrWithoutAreRefused)
     EXPECT_TRUE(mentions(
         whyNot(".yml", {&mHand, &mArm}, {"arm", "arm"}), "two sphere-trees are of the link 'arm'"));
     EXPECT_TRUE(
-        mentions(whyNot(".yml", {&mHand, &mArm}, {"arm"}), "1 names of links for 2 sphere-trees"));
-    EXPECT_TRUE(
-        mentions(whyNot(".yml", {&mHand}, {"arm", "hand"}), "2 names of links for 1 sphere-tree"));
+        mentions(whyNot(".yml", {&mHand, &mArm}, {"arm"}), "link= has 1 name for 2 sphere-trees"));
+    EXPECT_TRUE(mentions(
+        whyNot(".yml", {&mHand}, {"arm", "hand"}), "link= has 2 names for 1 sphere-tree:"));
     EXPECT_TRUE(mentions(whyNot(".srdf", {&mHand, &mArm}, {"arm", ""}), "names no link"));
     EXPECT_TRUE(mentions(whyNot(".xrdf", {&mHand, &mArm}, {"arm", "\x80"}), "not in UTF-8"));
     EXPECT_TRUE(mentions(whyNot(".urdf", {&mHand, &mArm}, {"arm", "hand"}),

@@ -40,7 +40,9 @@ Exported sceneOf(
     const SphereTree& tree, const ExportFormat& format, const ExportSettings& settings = {})
 {
     Exported result;
-    result.scene = detail::makeScene(tree, format, settings, 0, result.notes, nullptr);
+    ExportSettings all = settings;
+    all.links = {"object"};
+    result.scene = detail::makeScene(tree, format, all, 0, result.notes, nullptr);
     return result;
 }
 
