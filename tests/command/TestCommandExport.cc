@@ -213,6 +213,8 @@ TEST_F(CommandExport, LinksAreInTheOrderOfTheList)
     EXPECT_TRUE(mentions(result.err, "robot.yml: its links are 'x' (sphere-tree 'palm'), 'arm'\n"))
         << result.err;
     EXPECT_TRUE(mentions(readText(path("robot.yml")), "[\"x\", \"arm\"]"));
+    EXPECT_TRUE(mentions(run("-read palm.vdb arm.vdb -write robot.yml frame=centroid").err,
+        "robot.yml: readers of curobo take its spheres in the frame of the link"));
     run("-read palm.vdb arm.vdb -write both.vdb vdb=arm,palm");
     const std::string listed = run("-read both.vdb -print").out;
     EXPECT_LT(listed.find("'palm'"), listed.find("'arm'")) << "the newest, age 0, is shown first";

@@ -126,19 +126,6 @@ TEST_F(ExportLinks, AnErrorSaysOfWhichLink)
     EXPECT_TRUE(out.str().empty());
 }
 
-TEST_F(ExportLinks, OutOfTheirFramesAreTold)
-{
-    ExportSettings settings;
-    settings.links = {"hand", "arm"};
-    settings.frame = ExportFrame::Centroid;
-    std::ostringstream out;
-    const auto notes = exportTrees({&mHand, &mArm}, *findExportFormat(".yml"), settings, out);
-    EXPECT_EQ(std::count(notes.begin(), notes.end(),
-                  "readers of curobo take its spheres in the frame of the link, and frame= puts "
-                  "them into another"),
-        1);
-}
-
 TEST_F(ExportLinks, AreCalledAsTheirTreesWhereNothingElseIsSaid)
 {
     const ExportFormat &srdf = *findExportFormat(".srdf"), &urdf = *findExportFormat(".urdf");
