@@ -183,6 +183,9 @@ TEST_F(CommandExport, SeveralTreesAreLinksOfOneRobot)
     EXPECT_TRUE(mentions(readText(path("robot.srdf")), "<robot name=\"robot\">"));
     EXPECT_TRUE(mentions(readText(path("robot.srdf")), "approximation link=\"right\">"));
     EXPECT_EQ(linksOf("-read palm.vdb"), "\"palm\"");
+    ASSERT_EQ(run("-read palm.vdb -write other.vdb").exitCode, 0);
+    EXPECT_EQ(linksOf("-read other.vdb tree.vdb"), "\"palm\", \"tree\"")
+        << "names come before files";
     EXPECT_TRUE(mentions(
         run("-read arm.vdb palm.vdb -write stdout.srdf level=0").out, "<robot name=\"robot\">"));
 }
