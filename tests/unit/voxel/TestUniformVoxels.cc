@@ -107,8 +107,9 @@ TEST(UniformVoxels, ARhombusOfEqualSidesIsNoCube)
 {
     openvdb::Mat4d matrix = openvdb::Mat4d::identity();
     matrix.setRow(1, {0.6, 0.8, 0, 0}); // the y axis: as long as x, but leaning
-    EXPECT_TRUE(mentions(
-        whyNot(*dotWith(openvdb::math::Transform::createLinearTransform(matrix))), "sheared"));
+    const auto rhombus = openvdb::math::Transform::createLinearTransform(matrix);
+    EXPECT_TRUE(mentions(whyNot(*dotWith(rhombus)), "sheared"));
+    EXPECT_FALSE(hasCubicVoxels(*rhombus));
 }
 
 TEST(UniformVoxels, AFrustumIsAnErrorThatSaysSo)
