@@ -102,20 +102,24 @@ std::vector<std::string> notesOfLinks(
 
 } // namespace
 
+bool hasOwnName(const SphereTree& tree) { return tree.settings.name != SphereTreeSettings().name; }
+
 std::string exportNameFor(const std::vector<const SphereTree*>& trees, const ExportFormat& format,
     const std::string& path)
 {
-    const std::string stem = std::filesystem::path(path).stem().string();
+    const bool areSeveral = trees.size() > 1;
     const std::string& name = trees.front()->settings.name;
-    const bool hasOwn = trees.size() == 1 && name != SphereTreeSettings().name;
+    if (path.empty()) return format.links && areSeveral ? "robot" : name;
+    const std::string stem = std::filesystem::path(path).stem().string();
+    const bool hasOwn = !areSeveral && hasOwnName(*trees.front());
     return format.link && !hasOwn && detail::holdsName(format, stem) ? stem : name;
 }
 
 std::vector<std::string> linksOf(
     const std::vector<const SphereTree*>& trees, const ExportFormat& format)
 {
-    const bool hasOwn = trees.front()->settings.name != SphereTreeSettings().name;
-    if (trees.size() == 1 && !(format.links && hasOwn)) return {"object"};
+    const bool isCalledAfterTree = format.links && hasOwnName(*trees.front());
+    if (trees.size() == 1 && !isCalledAfterTree) return {"object"};
     std::vector<std::string> links;
     for (const SphereTree* tree : trees) links.push_back(tree->settings.name);
     return links;

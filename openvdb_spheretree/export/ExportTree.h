@@ -58,13 +58,18 @@ struct ExportSettings {
     std::vector<double> sampleTimes;
 };
 
+/// @return whether it is not called as all trees are by default.
+bool hasOwnName(const SphereTree& tree);
+
 /// @return the name for a file that is given none: that of the tree; and of a robot's file its own, without folder and
-/// extension, where the tree is called as all are by default, or where there are several.
+/// extension, where the tree has no name of its own, or where there are several.
+/// @param trees  at least one
+/// @param path   empty: a stream without a name
 std::string exportNameFor(const std::vector<const SphereTree*>& trees, const ExportFormat& format,
     const std::string& path);
 
-/// @return the links of trees for which none are given: their names. A tree alone is "object" where it is called as all are
-/// by default, and in formats of one link.
+/// @return the links of trees for which none are given: their names. A tree alone is "object" where it has no name of its
+/// own, and in formats of one link.
 std::vector<std::string> linksOf(
     const std::vector<const SphereTree*>& trees, const ExportFormat& format);
 

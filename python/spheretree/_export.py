@@ -91,7 +91,7 @@ def export(
         formats that hold several links, or "object".
     name
         The name of the robot, model or prim, by default that of the tree, or of a robot that of the file where the tree
-        has none of its own.
+        has none of its own or there are several.
     mass, volume
         For formats with a mass. "spheres" (the default): mass, center of mass and inertia are those of the union of
         the spheres; "object": those of the voxels of `volume`, which the tree was built over.

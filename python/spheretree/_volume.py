@@ -427,9 +427,10 @@ def is_mesh_file(volume: object) -> bool:
 
 def unit_of_length(units: object) -> str:
     """The name of a unit; which there are the command knows."""
-    if text("units", units) == "":
+    unit = text("units", units)
+    if not unit:
         raise InputError("units='' names no unit")
-    return str(units)
+    return unit
 
 
 def _of_file(

@@ -68,8 +68,8 @@ def read_links(trees):
 
     def require(links, names=("turned", "palm")):
         assert list(links) == list(names), list(links)
-        for name, spheres in zip(names, links.values()):
-            require_covered(spheres, trees.finest(dict(zip(names, ("turned.vdb", "palm.vdb")))[name]))
+        for spheres, tree in zip(links.values(), ("turned.vdb", "palm.vdb")):
+            require_covered(spheres, trees.finest(tree))
 
     def spheres_of(links):
         return {name: yaml_spheres(entries) for name, entries in links.items()}

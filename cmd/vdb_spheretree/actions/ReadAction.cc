@@ -297,7 +297,7 @@ void readContent(const std::string& path, Reading& reading, Session& session)
 
 void readFile(const std::string& path, Reading& reading, Session& session)
 {
-    session.stack.setSource(path);
+    session.stack.setFile(path);
     std::vector<InputStamp> stamps;
     if (openvdb_spheretree::isStackName(path)) {
         for (const std::string& slice : openvdb_spheretree::stackFiles(path)) {

@@ -9,6 +9,7 @@
 
 #include <openvdb/Exceptions.h>
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/base/Trimmed.h>
 #include <openvdb_spheretree/export/ExportTree.h>
 #include <openvdb_spheretree/export/NanoVdbWriter.h>
 #include <openvdb_spheretree/tree/SphereBudget.h>
@@ -136,12 +137,8 @@ bool areFramesRising(const std::vector<StackItem*>& trees)
 /// @return what is typed, without blanks around.
 std::vector<std::string> typedLinks(const ActionCall& call)
 {
-    constexpr char kBlanks[] = " \t\r\n";
     std::vector<std::string> links = call.list("link");
-    for (std::string& link : links) {
-        link.erase(0, link.find_first_not_of(kBlanks));
-        link.erase(link.find_last_not_of(kBlanks) + 1);
-    }
+    for (std::string& link : links) link = spheretree::detail::trimmed(link, " \t\r\n");
     return links;
 }
 
@@ -154,13 +151,14 @@ std::vector<std::string> linksOf(
     std::vector<std::string> links = distinctNames({trees.begin(), trees.end()});
     for (std::size_t i = 0; i < links.size(); ++i) {
         const std::string file = trees[i]->fileStem();
-        const bool hasOwn = links[i] != spheretree::SphereTreeSettings().name;
+        const bool hasOwn = spheretree::hasOwnName(*trees[i]->anyTree());
         const bool isFree = std::count(links.begin(), links.end(), file) == 0;
         if (!hasOwn && !file.empty() && isFree) links[i] = file;
-        if (!links[i].empty()) continue;
-        throwInput(path + ": several sphere-trees are called '" + oneLine(trees[i]->name(), 60)
-            + "', and each is a link of its own: name the links with link=A,B, or the trees with "
-              "-spheretree name=");
+        if (links[i].empty()) {
+            throwInput(path + ": several sphere-trees are called '" + oneLine(trees[i]->name(), 60)
+                + "', and each is a link of its own: name the links with link=A,B, or the trees "
+                  "with -spheretree name=");
+        }
     }
     return links;
 }
@@ -363,10 +361,8 @@ void writeExport(const ActionCall& call, const std::string& path,
     }
     std::vector<const spheretree::SphereTree*> trees;
     for (const StackItem* item : chosen) trees.push_back(item->anyTree());
-    if (settings.name.empty() && !isStdout(path)) {
-        settings.name = spheretree::exportNameFor(trees, format, path);
-    } else if (settings.name.empty() && format.links && trees.size() > 1) {
-        settings.name = "robot";
+    if (settings.name.empty()) {
+        settings.name = spheretree::exportNameFor(trees, format, isStdout(path) ? "" : path);
     }
     if (format.samples) settings.sampleTimes = sampleTimesOf(call, chosen);
     if (format.samples && trees.size() > 1) {

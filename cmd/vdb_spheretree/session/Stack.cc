@@ -55,8 +55,7 @@ std::string StackItem::name() const
 
 std::string StackItem::fileStem() const
 {
-    const bool isAction = !source.empty() && source.front() == '-';
-    return isAction ? "" : std::filesystem::path(source).stem().string();
+    return isOfFile ? std::filesystem::path(source).stem().string() : "";
 }
 
 std::string StackItem::description() const
@@ -99,7 +98,14 @@ std::vector<std::string> distinctNames(const std::vector<const StackItem*>& item
 void Stack::beginBatch(const std::string& source)
 {
     mSource = source;
+    mIsFile = false;
     ++mBatch;
+}
+
+void Stack::setFile(const std::string& path)
+{
+    mSource = path;
+    mIsFile = true;
 }
 
 void Stack::push(StackItem item)
@@ -107,6 +113,7 @@ void Stack::push(StackItem item)
     const auto isWritten = [](const auto& old) { return old->written; };
     mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isWritten), mItems.end());
     item.source = mSource;
+    item.isOfFile = mIsFile;
     item.batch = mBatch;
     item.frame = mFrame;
     item.serial = mPushed++;
@@ -140,12 +147,19 @@ bool Stack::holdsMesh() const
     return std::any_of(mItems.begin(), mItems.end(), [](const auto& i) { return bool(i->mesh); });
 }
 
-std::vector<StackItem*> Stack::newestFirst(bool meshes)
+std::vector<StackItem*> Stack::oldestFirst(bool meshes)
 {
     std::vector<StackItem*> items;
-    for (auto item = mItems.rbegin(); item != mItems.rend(); ++item) {
-        if (bool((*item)->mesh) == meshes) items.push_back(item->get());
+    for (const auto& item : mItems) {
+        if (bool(item->mesh) == meshes) items.push_back(item.get());
     }
+    return items;
+}
+
+std::vector<StackItem*> Stack::newestFirst(bool meshes)
+{
+    std::vector<StackItem*> items = oldestFirst(meshes);
+    std::reverse(items.begin(), items.end());
     return items;
 }
 
@@ -171,11 +185,10 @@ std::vector<StackItem*> Stack::ofAllTurns(StackItem* item, const std::string& ag
         return other->depth > mTurns.size() && other->serial >= first && other->name() == ageOrName;
     };
     if (!isOfEndedLoop(item)) return {item};
-    std::vector<StackItem*> all = newestFirst(false);
+    std::vector<StackItem*> all = oldestFirst(false);
     all.erase(std::remove_if(all.begin(), all.end(),
                   [&](const StackItem* other) { return !isOfEndedLoop(other); }),
         all.end());
-    std::reverse(all.begin(), all.end());
     return all;
 }
 
@@ -242,12 +255,11 @@ std::vector<StackItem*> Stack::several(const std::vector<std::string>& agesOrNam
 {
     std::vector<StackItem*> chosen;
     if (agesOrNames.empty() || agesOrNames == std::vector<std::string>{"*"}) {
-        chosen = newestFirst(false);
+        chosen = oldestFirst(false);
         const auto isWritten = [](const StackItem* item) { return item->written; };
         if (!std::all_of(chosen.begin(), chosen.end(), isWritten)) {
             chosen.erase(std::remove_if(chosen.begin(), chosen.end(), isWritten), chosen.end());
         }
-        std::reverse(chosen.begin(), chosen.end());
     } else {
         for (const std::string& ageOrName : agesOrNames) {
             StackItem* const item = find(ageOrName, false);

@@ -36,6 +36,7 @@ struct StackItem {
     /// That a tree was built from; null if not known.
     openvdb::SharedPtr<const openvdb::BoolGrid> object = {};
     std::string source = {}; ///< the file or action that it comes from
+    bool isOfFile = false;   ///< whether that is a file
     /// The tree of no object: without levels, and `grid` is its points, of which there are none.
     std::shared_ptr<openvdb_spheretree::SphereTree> emptyTree = {};
     std::optional<int64_t> frame = {}; ///< that it was made in; nothing outside of loops
@@ -67,7 +68,8 @@ public:
 
     /// From now on, items that are pushed belong to one action, and come from @a source.
     void beginBatch(const std::string& source);
-    void setSource(const std::string& source) { mSource = source; }
+    /// From now on, those of this action come from a file.
+    void setFile(const std::string& path);
     /// From now on, items that are pushed belong to this frame.
     void setFrame(std::optional<int64_t> frame) { mFrame = frame; }
     std::optional<int64_t> frame() const { return mFrame; }
@@ -105,6 +107,7 @@ public:
     bool holdsMesh() const;
 
 private:
+    std::vector<StackItem*> oldestFirst(bool meshes);
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
     /// @return the item; and if it is of a loop that has ended, those of its turns that have the name, oldest first.
@@ -115,6 +118,7 @@ private:
 
     std::vector<std::unique_ptr<StackItem>> mItems;
     std::string mSource;
+    bool mIsFile = false;
     std::optional<int64_t> mFrame;
     int64_t mPushed = 0;
     std::vector<int64_t> mTurns; ///< the first serial of each turn that goes on

@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
+#include <openvdb_spheretree/base/Trimmed.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -21,13 +22,6 @@ constexpr std::size_t kMaxHeaderBytes = 1 << 16;
 constexpr std::uint64_t kMaxSide = 1 << 20;      // so X*Y*Z values of eight bytes stay below 2^64
 constexpr std::uint64_t kMaxDeflateRatio = 1032; // 258 bytes in two bits, as zlib documents it
 constexpr std::uint64_t kDeflateSlack = 64; // bytes of the stream, for rounding and block headers
-
-std::string trimmed(const std::string& text)
-{
-    const auto begin = text.find_first_not_of(" \t");
-    if (begin == std::string::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
 
 using HeaderFields = std::map<std::string, std::string>;
 

@@ -12,6 +12,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
+#include <openvdb_spheretree/base/Trimmed.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -26,13 +27,6 @@ using openvdb::IoError;
 using openvdb::Vec3d;
 
 using Fields = std::map<std::string, std::string>;
-
-std::string trimmed(const std::string& text)
-{
-    const auto begin = text.find_first_not_of(" \t");
-    if (begin == std::string::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
 
 [[noreturn]] void failOf(const std::string& field, const std::string& value)
 {
