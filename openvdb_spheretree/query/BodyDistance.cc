@@ -54,7 +54,8 @@ DistanceResult distance(const QueryTree& a, const RigidTransform& poseA, const Q
     nearest = bodies.leaves(request.warmStart);
     if (nearest.gap < limits.below) count = 1;
     SearchEnd end;
-    end.lowerBound = bodies.frame.rootGap() - bodies.frame.rounding;
+    // Leaves may reach beyond the spheres above them.
+    end.lowerBound = std::min(bodies.frame.rootGap() - bodies.frame.rounding, nearest.gap);
     const bool isEnough = count > 0 && nearest.gap <= limits.stopBelow;
     if (!isEnough) end = findNearest(bodies.frame, limits, &nearest, count);
     const double least = request.enableSignedDistance ? -INFINITY : 0.0;

@@ -37,7 +37,8 @@ struct DistanceRequest {
     double stopBelow = -std::numeric_limits<double>::infinity();
     /// No more blocks than this are tested; the bounds are then wider. -1: any number.
     int64_t maxBlocks = -1;
-    /// The nearest pair a moment ago: halves the time, or better.
+    /// The nearest pair a moment ago: halves the time, or better. Of trees that do not hold their leaves it may be one beside the
+    /// objects, nearer than any that is found without.
     NodePair warmStart;
 };
 

@@ -76,6 +76,7 @@ CollisionResult anyContact(BodyPair& bodies, const CollisionRequest& request)
         end = findOverlap(bodies.frame, limits, request.enableDistanceLowerBound);
     }
     result.blocks = end.blocks;
+    result.isDecided = end.isDecided;
     if (end.pair.a >= 0) setTouching(result, bodies, end.pair, request.enableContact);
     else if (end.isDecided)
         setApart(result, bodies, request.enableDistanceLowerBound ? end.lowerBound : 0);
@@ -143,6 +144,7 @@ CollisionResult deepestContacts(
     NearestPairs pairs;
     const SearchEnd end = findNearestOf(bodies, limits, pairs);
     result.blocks = end.blocks;
+    result.isDecided = end.isDecided;
     contacts.reserve(std::size_t(pairs.count));
     for (const LeafPair& pair : pairs) contacts.push_back(bodies.contact(pair));
     if (pairs.count > 0) setTouching(result, bodies, *pairs.begin(), request.enableContact);

@@ -49,7 +49,8 @@ struct CollisionRequest {
     /// No more blocks than this are tested, then the verdict is Undecided. -1: any number. Each search of more than 64
     /// contacts, and that for the lower bound of several, has this many.
     int64_t maxBlocks = -1;
-    /// The pair that touched a moment ago, looked at first. It takes no part where several contacts are asked for.
+    /// The pair that touched a moment ago, looked at first. It takes no part where several contacts are asked for. Of trees that do
+    /// not hold their leaves it may touch beside the objects, where a search without it finds them apart: both are true.
     NodePair warmStart;
 };
 
@@ -65,6 +66,8 @@ struct CollisionResult {
     /// Of bodies that are apart: the distance of the objects, or of the leaf spheres, is no less, each where `verdict` is
     /// about them. Not asked for it is what is known anyway: 0, or the margin.
     double distanceLowerBound = 0;
+    /// False: maxBlocks came to an end. Nothing is known, or of several contacts there may be deeper ones.
+    bool isDecided = true;
     int64_t blocks = 0; ///< tested; the same on every machine
 
     bool isCollision() const { return verdict == Verdict::Touching; }

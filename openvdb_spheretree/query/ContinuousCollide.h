@@ -29,7 +29,7 @@
 namespace openvdb_spheretree {
 
 struct ContinuousCollisionRequest {
-    /// World units, above 0. 0: a ten-thousandth of the smaller body's radius.
+    /// World units, above 0; 10^-12 of the smaller body's radius are the least. 0: a ten-thousandth of that radius.
     double tolerance = 0;
     /// The motion is looked at from time 0 to this: above 0, 1 at most.
     double endTime = 1;

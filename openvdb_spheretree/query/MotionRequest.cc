@@ -5,6 +5,8 @@
 
 #include <openvdb/Exceptions.h>
 
+#include <algorithm>
+
 namespace openvdb_spheretree::detail {
 
 MotionLimits motionLimits(const ContinuousCollisionRequest& request, double radius)
@@ -16,7 +18,9 @@ MotionLimits motionLimits(const ContinuousCollisionRequest& request, double radi
                                               << ": it must be above 0, and 1 at most");
     }
     MotionLimits limits;
-    limits.tolerance = request.tolerance > 0 ? request.tolerance : 1e-4 * radius;
+    // Two spheres that stay as near as doubles can tell would take steps without end.
+    const double least = 1e-12 * radius;
+    limits.tolerance = request.tolerance > 0 ? std::max(request.tolerance, least) : 1e-4 * radius;
     limits.end = request.endTime;
     limits.maxBlocks = blocksOrAny(request.maxBlocks);
     return limits;

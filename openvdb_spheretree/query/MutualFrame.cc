@@ -52,7 +52,7 @@ void MutualFrame::enterFloats()
     const Screw<double> ofAInB = moved(toB, ofA), ofBInB = moved(toB, ofB);
     inA = {rounded(ofA), rounded(ofB), rounded(drift)};
     inB = {rounded(ofBInB), rounded(ofAInB), rounded(-toB.rotate(drift))};
-    // As of a MotionFrame, of both turns: some 50 roundings of the way that each makes, 30 of them of a velocity over its step;
+    // As of a MotionFrame, of both turns: some 80 roundings of the way that each makes, 30 of these of a velocity over its step;
     // and those of the distance.
     double ways = drift.length();
     for (const Screw<double>* screw : {&ofA, &ofB}) {

@@ -188,6 +188,7 @@ private:
         uint32_t hits = Collect(opened);
         uint32_t leaves = opened.otherChild >= 0 ? hits & LeafLanes(*opened.block) : 0;
         hits ^= leaves;
+        Push(pair, opened, hits); // below those of leaves, or these would pile up
         // A leaf that meets a node: its block comes next, without the way over the stack.
         for (; leaves; leaves &= leaves - 1) {
             const int lane = FirstLane(leaves);
@@ -195,7 +196,6 @@ private:
             ++mEnd.blocks;
             Push(opened.below(pair, lane), next, Collect(next));
         }
-        Push(pair, opened, hits);
     }
 
     HWY_INLINE void Push(const Pair& pair, const Opened& opened, uint32_t lanes)
@@ -272,7 +272,8 @@ private:
     SearchEnd mEnd;
     int mCount = 0, mFound = 0;
     NodePair mPairs[kMostFound];
-    Pair mStack[kMostPairs];
+    /// Leaves of one block wait with up to eight nodes each, and are gone before the next block has any.
+    Pair mStack[kMostPairs + kBlockWidth * kBlockWidth];
 };
 
 /// The pairs with the smallest gaps: branch and bound, depth first, the nearest first.

@@ -19,6 +19,8 @@ uint32_t SpheresWithin(const BallAround& around, const float* spheres, std::size
 {
     const D d;
     const V infinity = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
+    // A square of a distance in floats is off by five parts in 2^24, that of a reach by three.
+    const V more = hn::Set(d, 1 + 0x1p-20f);
     uint32_t within = 0;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const std::size_t left = count - i;
@@ -30,7 +32,7 @@ uint32_t SpheresWithin(const BallAround& around, const float* spheres, std::size
         const V dx = hn::Sub(x, hn::Set(d, around.x)), dy = hn::Sub(y, hn::Set(d, around.y)),
                 dz = hn::Sub(z, hn::Set(d, around.z));
         const V distSq = sumOfProducts(dx, dx, dy, dy, dz, dz);
-        const V reach = hn::Add(r, hn::Set(d, around.reach));
+        const V reach = hn::Mul(hn::Add(r, hn::Set(d, around.reach)), more);
         const auto isFar = hn::Gt(distSq, hn::Mul(reach, reach));
         const auto isOff = hn::And(hn::Lt(r, zero), hn::Gt(r, hn::Neg(infinity)));
         // Comparisons with NaN are false, so what is NaN or infinite counts as within.

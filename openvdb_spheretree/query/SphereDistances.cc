@@ -38,8 +38,8 @@ FloatSphere sphereAt(const float* spheres, std::size_t i)
 
 Vec3d centerOf(const FloatSphere& s) { return Vec3d(s.x, s.y, s.z); }
 
-/// The root's sphere as far as the activation distance around it. Larger by more than the rounding
-/// of a center, of differences and squares in floats: 8 parts in 2^24 of each.
+/// The root's sphere as far as the activation distance around it. Larger by more than what its center and this sum are
+/// rounded by: 8 parts in 2^24 of each.
 detail::BallAround aroundTree(const detail::QueryData& tree, double activation)
 {
     const Vec3d center = tree.world(tree.spheres.root);

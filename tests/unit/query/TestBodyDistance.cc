@@ -39,6 +39,32 @@ std::string refusal(const DistanceRequest& request)
     return messageOf<openvdb::ValueError>([&] { distance(tree, {}, tree, {}, request); });
 }
 
+TEST(BodyDistance, LeavesThatReachBeyondTheTopAreNoNearerThanTheBound)
+{
+    Random random(77);
+    int met = 0;
+    for (const QuerySample& sample : querySamples()) {
+        const QueryTree tree = makeQueryTree(sample, Exactness::Object);
+        const QueryTree leaves = makeQueryTree(sample, Exactness::LeafUnion);
+        if (tree.holdsLeaves()) continue;
+        for (int i = 0; i < 300; ++i) {
+            // The spheres around both are just apart.
+            const RigidTransform turn = randomRotation(random);
+            const Vec3d away = 2.0001 * tree.radius() * randomDirection(random);
+            const auto pose =
+                RigidTransform::fromTranslation(tree.center() - turn.rotate(tree.center()) + away)
+                * turn;
+            const DistanceResult nearest = distance(leaves, {}, leaves, pose);
+            DistanceRequest request;
+            request.warmStart = nearest.contact->nodes;
+            const DistanceResult result = distance(tree, {}, tree, pose, request);
+            ASSERT_LE(result.lowerBound, result.distance) << sample.name;
+            met += nearest.distance <= 0;
+        }
+    }
+    EXPECT_GT(met, 0);
+}
+
 } // namespace
 
 TEST(BodyDistance, IsThatOfTheNearestPairOfLeaves)

@@ -493,13 +493,26 @@ TEST(Collide, EveryVectorTargetGivesTheSameAnswersToTheLastBit)
 
 TEST(Collide, ABudgetOfBlocksDecidesOrSaysThatItDoesNot)
 {
-    int undecided = 0;
+    int undecided = 0, unfinished = 0;
     forEachPosePair(Exactness::LeafUnion, 3000, [&](const PosePair& pair) {
         const CollisionResult whole = pair.collide();
+        ASSERT_TRUE(whole.isDecided);
         CollisionRequest request;
         request.maxBlocks = 2;
         const CollisionResult result = pair.collide(request);
         ASSERT_LE(result.blocks, 2);
+        ASSERT_EQ(result.isDecided, result.verdict != Verdict::Undecided);
+        request.maxContacts = 3;
+        std::vector<Contact> few, deepest;
+        const CollisionResult several = pair.collide(request, &few);
+        request.maxBlocks = -1;
+        ASSERT_TRUE(pair.collide(request, &deepest).isDecided);
+        if (several.isDecided) {
+            ASSERT_EQ(few.size(), deepest.size());
+            for (std::size_t i = 0; i < few.size(); ++i)
+                ASSERT_EQ(few[i].distance, deepest[i].distance);
+        }
+        unfinished += !several.isDecided && !few.empty();
         if (result.verdict == Verdict::Undecided) {
             ++undecided;
         } else {
@@ -507,6 +520,7 @@ TEST(Collide, ABudgetOfBlocksDecidesOrSaysThatItDoesNot)
         }
     });
     EXPECT_GT(undecided, 100);
+    EXPECT_GT(unfinished, 0);
 }
 
 TEST(Collide, AWarmStartIsLookedAtFirst)

@@ -430,6 +430,20 @@ TEST(ContinuousCollide, ABallMeetsABallWhenItShould)
     EXPECT_NEAR(quick.timeOfContact, 0.25, 1e-5);
 }
 
+TEST(ContinuousCollide, BodiesThatStayNearerThanDoublesTellAreInContact)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    const double r = dot.leafRadius(0);
+    ContinuousCollisionRequest request;
+    request.tolerance = 1e-300;
+    for (const double apart : {1e-13, 1e-10}) {
+        // One goes around the other.
+        const auto from = RigidTransform::fromTranslation(Vec3d((2 + apart) * r, 0, 0));
+        const auto around = RigidMotion::screw(from, dot.center(), Vec3d(0, 0, 1), 6, 0);
+        EXPECT_EQ(continuousCollide(dot, {}, dot, around, request).isCollide, apart < 1e-12);
+    }
+}
+
 TEST(ContinuousCollide, ABodyThatStandsStillIsAskedOnce)
 {
     const QueryTree tree = makeQueryTree(querySamples()[0].tree);

@@ -97,6 +97,39 @@ TEST(SphereDistances, AreThoseOfBruteForce)
     EXPECT_GT(active, 500);
 }
 
+TEST(SphereDistances, SpheresMuchLargerThanTheTreeAreNotLeftOut)
+{
+    Random random(44);
+    int touch = 0, apart = 0;
+    for (const QuerySample& sample : querySamples()) {
+        const QueryTree tree = makeQueryTree(sample.tree, Exactness::LeafUnion);
+        const auto balls = leafBalls(sample.tree);
+        for (const double times : {3.0, 30.0, 300.0, 3000.0}) {
+            for (int i = 0; i < 100; ++i) {
+                // Tangent to the tree, but for the rounding of its center.
+                const double radius = times * tree.radius();
+                const Vec3d along = randomDirection(random);
+                const double way = -distanceToBalls(tree.center() + 1e3 * radius * along, balls);
+                const Vec3d center = tree.center() + (1e3 * radius + way + radius) * along;
+                const std::vector<float> sphere = {
+                    float(center[0]), float(center[1]), float(center[2]), float(radius)};
+                const double gap = distanceToBalls(centerOf(sphere, 0), balls) - sphere[3];
+                Results found(1);
+                sphereDistances(tree, sphere.data(), 1, 0, found.arrays());
+                uint8_t touches = 7;
+                spheresTouch(tree, sphere.data(), 1, 1, &touches);
+                if (gap < 0) {
+                    ASSERT_EQ(touches, 1) << sample.name << " " << times << " " << gap;
+                    ASSERT_GE(found.leaf[0], 0) << sample.name << " " << times << " " << gap;
+                }
+                (gap < 0 ? touch : apart)++;
+            }
+        }
+    }
+    EXPECT_GT(touch, 500);
+    EXPECT_GT(apart, 500);
+}
+
 TEST(SphereDistances, AConfigurationTouchesIfASphereDoes)
 {
     Random random(42);
