@@ -16,7 +16,8 @@ inline void forbidNew(const pybind11::object& type)
     reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = [](PyTypeObject* made, PyObject*,
                                                               PyObject*) -> PyObject* {
         PyErr_Format(PyExc_TypeError,
-            "%s is a handle: spheretree.volume(), build(), load() and Tree.query() make objects",
+            "%s is a handle: spheretree.volume(), build(), load(), Tree.query() and Scene() make "
+            "objects",
             made->tp_name);
         return nullptr;
     };

@@ -25,4 +25,5 @@ PYBIND11_MODULE(_spheretree, module)
     binding::bindTransforms(module);
     binding::bindPoints(module);
     binding::bindQuery(module);
+    binding::bindScene(module);
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Query.cc
-/// @brief Questions to a tree, in batches: arrays in, arrays out. Shapes and types are made sure of by _query.py.
+/// @brief Questions to a tree, in batches: arrays in, arrays out.
+
+#include "Query.h"
 
 #include "Call.h"
 #include "Errors.h"
 #include "ForbidNew.h"
-#include "Tree.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Text.h>
@@ -44,110 +45,83 @@ using spheretree::RigidMotion;
 using spheretree::RigidTransform;
 using spheretree::Verdict;
 
-namespace {
-
-using Doubles = py::array_t<double, py::array::c_style>;
-using Floats = py::array_t<float, py::array::c_style>;
-using Ids = py::array_t<int32_t>;
-
-/// A tree made ready, and its digital balls where they are the object.
-class Query {
-public:
-    Query(const TreePtr& tree, const spheretree::QueryTreeSettings& settings)
-        : mTree(spheretree::makeQueryTree(tree->get(), settings))
-    {
-        try {
-            mLeaves.emplace(tree->get(), settings);
-        } catch (const openvdb::ValueError& error) {
-            mWhyNoLeaves = spheretree::detail::messageOf(error);
-        }
-    }
-
-    const QueryTree& tree() const { return mTree; }
-    /// @throw InputError where the object is not known
-    const spheretree::DigitalLeaves& leaves() const
-    {
-        if (!mLeaves) throw InputError("this tree cannot say what its object is: " + mWhyNoLeaves);
-        return *mLeaves;
-    }
-
-private:
-    QueryTree mTree;
-    std::optional<spheretree::DigitalLeaves> mLeaves;
-    std::string mWhyNoLeaves;
-};
-
-using QueryPtr = std::shared_ptr<Query>;
-
-std::size_t rowCount(const py::array& array) { return std::size_t(array.shape(0)); }
-
-template <typename T>
-py::array_t<T> rows(std::size_t count, int columns)
+Query::Query(const TreePtr& tree, const spheretree::QueryTreeSettings& settings)
+    : mTree(spheretree::makeQueryTree(tree->get(), settings))
 {
-    return py::array_t<T>({py::ssize_t(count), py::ssize_t(columns)});
+    try {
+        mLeaves.emplace(tree->get(), settings);
+    } catch (const openvdb::ValueError& error) {
+        mWhyNoLeaves = spheretree::detail::messageOf(error);
+    }
 }
 
-Vec3d vecAt(const double* numbers) { return Vec3d(numbers[0], numbers[1], numbers[2]); }
-
-template <typename T>
-void setRow(T* to, const Vec3d& vec)
+const spheretree::DigitalLeaves& Query::leaves() const
 {
-    for (int axis = 0; axis < 3; ++axis) to[axis] = T(vec[axis]);
+    if (!mLeaves) throw InputError("this tree cannot say what its object is: " + mWhyNoLeaves);
+    return *mLeaves;
 }
 
-/// Rows of 16 numbers.
-std::vector<RigidTransform> posesOf(const Doubles& matrices)
+RigidTransform PoseRows::at(std::size_t row) const
+{
+    std::array<double, 16> matrix;
+    std::copy_n(matrices.data() + 16 * row, 16, matrix.begin());
+    try {
+        return RigidTransform::fromMatrix(matrix);
+    } catch (const openvdb::ValueError& error) {
+        const std::string number = size() > 1 ? " " + std::to_string(row) : "";
+        throw InputError(name + number + ": " + spheretree::detail::messageOf(error));
+    }
+}
+
+std::vector<RigidTransform> posesOf(const PoseRows& rows)
 {
     std::vector<RigidTransform> poses;
-    const double* from = matrices.data();
-    for (std::size_t i = 0; i < rowCount(matrices); ++i, from += 16) {
-        std::array<double, 16> matrix;
-        std::copy(from, from + 16, matrix.begin());
-        poses.push_back(RigidTransform::fromMatrix(matrix));
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i) poses.push_back(rows.at(i));
     return poses;
 }
 
-/// -1 is apart, 1 touching, 0 undecided.
+std::vector<RigidMotion> motionsOf(const PoseRows& starts, const PoseRows& ends)
+{
+    std::vector<RigidMotion> motions;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        motions.push_back(RigidMotion::screw(starts.at(i), ends.at(i)));
+    }
+    return motions;
+}
+
 int8_t numberOf(Verdict verdict)
 {
     if (verdict == Verdict::Undecided) return 0;
     return verdict == Verdict::Touching ? 1 : -1;
 }
 
-/// Where two spheres meet, a question a row: numbers are NaN and ids -1 where none do.
-class ContactRows {
-public:
-    explicit ContactRows(std::size_t count)
-        : distances(py::ssize_t(count)), points(rows<double>(count, 3)),
-          normals(rows<double>(count, 3)), ids(rows<int32_t>(count, 2)),
-          mDistance(distances.mutable_data()), mPoint(points.mutable_data()),
-          mNormal(normals.mutable_data()), mId(ids.mutable_data())
-    {}
+ContactRows::ContactRows(std::size_t count)
+    : distances(py::ssize_t(count)), points(rows<double>(count, 3)),
+      normals(rows<double>(count, 3)), ids(rows<int32_t>(count, 2)),
+      mDistance(distances.mutable_data()), mPoint(points.mutable_data()),
+      mNormal(normals.mutable_data()), mId(ids.mutable_data())
+{}
 
-    /// Without the GIL; rows may be set at the same time.
-    void set(std::size_t i, const std::optional<spheretree::Contact>& contact) const
-    {
-        const Vec3d none(std::numeric_limits<double>::quiet_NaN());
-        mDistance[i] = contact ? contact->distance : none[0];
-        setRow(mPoint + 3 * i, contact ? contact->point() : none);
-        setRow(mNormal + 3 * i, contact ? contact->normal : none);
-        mId[2 * i] = contact ? contact->nodes.a : -1;
-        mId[2 * i + 1] = contact ? contact->nodes.b : -1;
-    }
+void ContactRows::set(std::size_t i, const std::optional<spheretree::Contact>& contact) const
+{
+    const Vec3d none(std::numeric_limits<double>::quiet_NaN());
+    mDistance[i] = contact ? contact->distance : none[0];
+    setRow(mPoint + 3 * i, contact ? contact->point() : none);
+    setRow(mNormal + 3 * i, contact ? contact->normal : none);
+    mId[2 * i] = contact ? contact->nodes.a : -1;
+    mId[2 * i + 1] = contact ? contact->nodes.b : -1;
+}
 
-    py::array_t<double> distances, points, normals;
-    Ids ids;
+namespace {
 
-private:
-    double *mDistance, *mPoint, *mNormal;
-    int32_t* mId;
-};
+using Floats = py::array_t<float, py::array::c_style>;
+
+Vec3d vecAt(const double* numbers) { return Vec3d(numbers[0], numbers[1], numbers[2]); }
 
 py::tuple collide(const Query& a, const Query& b, const Doubles& matrices, double margin,
     bool objects, const CallSettings& call)
 {
-    const auto poses = posesOf(matrices);
+    const auto poses = posesOf({"pose", matrices});
     spheretree::CollisionRequest request;
     request.securityMargin = margin;
     request.enableContact = true;
@@ -167,22 +141,42 @@ py::tuple collide(const Query& a, const Query& b, const Doubles& matrices, doubl
         spheres, certain, contacts.distances, contacts.points, contacts.normals, contacts.ids);
 }
 
-/// The screws from pose to pose, a row each.
-std::vector<RigidMotion> motionsOf(const Doubles& starts, const Doubles& ends)
+/// @return up to @a maxContacts of each pose, the deepest first, and which pose each is of.
+py::tuple contacts(const Query& a, const Query& b, const Doubles& matrices, int maxContacts,
+    double margin, const CallSettings& call)
 {
-    const auto from = posesOf(starts), to = posesOf(ends);
-    std::vector<RigidMotion> motions;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        motions.push_back(RigidMotion::screw(from[i], to[i]));
+    const auto poses = posesOf({"pose", matrices});
+    spheretree::CollisionRequest request;
+    request.securityMargin = margin;
+    request.maxContacts =
+        std::max(maxContacts, 2); // a list of one would hold any pair, not the deepest
+    std::vector<std::vector<spheretree::Contact>> found(poses.size());
+    runCall(call, [&](Interrupter* interrupter) {
+        spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
+            spheretree::collide(a.tree(), {}, b.tree(), poses[i], request, &found[i]);
+            found[i].resize(std::min(found[i].size(), std::size_t(maxContacts)));
+        });
+    });
+    std::size_t count = 0;
+    for (const auto& ofPose : found) count += ofPose.size();
+    py::array_t<int64_t> numbers{py::ssize_t(count)};
+    const ContactRows answers(count);
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        for (const spheretree::Contact& contact : found[i]) {
+            numbers.mutable_data()[row] = int64_t(i);
+            answers.set(row++, contact);
+        }
     }
-    return motions;
+    return py::make_tuple(numbers, answers.distances, answers.points, answers.normals, answers.ids);
 }
 
 /// @param ways  poses where a starts and ends, and b: as many of each
 py::tuple continuousCollide(const Query& a, const Query& b, const std::array<Doubles, 4>& ways,
     double tolerance, const CallSettings& call)
 {
-    const auto motionsA = motionsOf(ways[0], ways[1]), motionsB = motionsOf(ways[2], ways[3]);
+    const auto motionsA = motionsOf({"own_start", ways[0]}, {"own_end", ways[1]}),
+               motionsB = motionsOf({"start", ways[2]}, {"end", ways[3]});
     spheretree::ContinuousCollisionRequest request;
     request.tolerance = tolerance;
     py::array_t<double> times(py::ssize_t(motionsA.size()));
@@ -204,7 +198,7 @@ py::tuple continuousCollide(const Query& a, const Query& b, const std::array<Dou
 py::tuple distance(const Query& a, const Query& b, const Doubles& matrices, bool isSigned,
     double upTo, const CallSettings& call)
 {
-    const auto poses = posesOf(matrices);
+    const auto poses = posesOf({"pose", matrices});
     spheretree::DistanceRequest request;
     request.enableSignedDistance = isSigned;
     request.upperBound = upTo;
@@ -349,6 +343,11 @@ void bindQuery(py::module_& module)
             [](const Query& a, const Query& b, const Doubles& poses, double margin, bool objects,
                 const py::object& progress, int threads) {
                 return collide(a, b, poses, margin, objects, CallSettings{progress, threads});
+            })
+        .def("contacts",
+            [](const Query& a, const Query& b, const Doubles& poses, int maxContacts, double margin,
+                const py::object& progress, int threads) {
+                return contacts(a, b, poses, maxContacts, margin, CallSettings{progress, threads});
             })
         .def("continuous_collide",
             [](const Query& a, const Query& b, const Doubles& startA, const Doubles& endA,

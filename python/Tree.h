@@ -37,5 +37,6 @@ void bindBuild(pybind11::module_& module);
 void bindTransforms(pybind11::module_& module);
 void bindPoints(pybind11::module_& module);
 void bindQuery(pybind11::module_& module);
+void bindScene(pybind11::module_& module);
 
 } // namespace binding

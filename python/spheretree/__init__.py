@@ -18,7 +18,8 @@ exceptions: `InputError`, which is a ValueError, for arguments; OSError for file
 
 from ._build import build
 from ._export import ExportFormat, export, export_formats
-from ._query import Collisions, Distances, FirstContacts, Hits, Nearest, Query
+from ._query import Collisions, Contacts, Distances, FirstContacts, Hits, Nearest, Query, Verdict
+from ._scene import MeetingPairs, Scene, TouchingPairs
 from ._spheretree import InputError
 from ._spheretree import version as __version__
 from ._transforms import distance_transform, medial_axis, pyramid
@@ -26,9 +27,13 @@ from ._tree import Fault, Level, Tree, check, check_mesh, load, read_points
 from ._volume import Volume, volume
 
 __all__ = [
-    "Collisions", "Distances", "ExportFormat", "Fault", "FirstContacts", "Hits", "InputError", "Level", "Nearest",
-    "Query", "Tree", "Volume", "build", "check", "check_mesh", "distance_transform", "export", "export_formats",
-    "load", "medial_axis", "pyramid", "read_points", "volume", "__version__",
+    "Collisions", "Contacts", "Distances", "ExportFormat", "Fault", "FirstContacts", "Hits", "InputError", "Level",
+    "MeetingPairs", "Nearest", "Query", "Scene", "TouchingPairs", "Tree", "Verdict", "Volume", "build", "check",
+    "check_mesh", "distance_transform", "export", "export_formats", "load", "medial_axis", "pyramid", "read_points", "volume",
+    "__version__",
 ]
-for _type in (Collisions, Distances, ExportFormat, Fault, FirstContacts, Hits, Level, Nearest, Query, Tree, Volume):
+for _type in (
+    Collisions, Contacts, Distances, ExportFormat, Fault, FirstContacts, Hits, Level, MeetingPairs, Nearest, Query, Scene,
+    TouchingPairs, Tree, Verdict, Volume,
+):
     _type.__module__ = __name__

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,16 +16,22 @@ from ._volume import Progress, real_array, thread_count, whole_number
 if TYPE_CHECKING:
     from ._tree import Tree
 
-APART, UNDECIDED, TOUCHING = -1, 0, 1
+
+class Verdict(IntEnum):
+    """What `Collisions` say of two trees, as numbers."""
+
+    APART = -1
+    UNDECIDED = 0
+    TOUCHING = 1
 
 
 class Collisions(NamedTuple):
     """Whether two trees touch, for each pose. Where they do not, numbers are NaN and ids -1."""
 
     spheres: npt.NDArray[np.int8]
-    """1 where leaf spheres touch, -1 where they are apart, 0 where that is not decided."""
+    """`Verdict.TOUCHING` (1) where leaf spheres touch, `APART` (-1) where they do not. Ask `touching` for truth."""
     objects: npt.NDArray[np.int8]
-    """The same of the voxels themselves: 0 where spheres cannot know."""
+    """The same of the voxels themselves: `UNDECIDED` (0) where spheres cannot know, or were not asked to search on."""
     distance: npt.NDArray[np.float64]
     """Of the two spheres that were found: negative is how deep they meet."""
     points: npt.NDArray[np.float64]
@@ -33,6 +40,27 @@ class Collisions(NamedTuple):
     """From the first tree's sphere to the second's, of length 1: shape (..., 3)."""
     ids: npt.NDArray[np.int32]
     """Of both spheres in their trees: shape (..., 2)."""
+
+    @property
+    def touching(self) -> npt.NDArray[np.bool_]:
+        """Whether leaf spheres touch. Where not, the voxels do not either."""
+        touching: npt.NDArray[np.bool_] = self.spheres == Verdict.TOUCHING
+        return touching
+
+
+class Contacts(NamedTuple):
+    """Pairs of spheres of two trees that touch: a row each, by poses, and of a pose the deepest first."""
+
+    pose: npt.NDArray[np.int64]
+    """Of which pose it is: its index, counted as numpy flattens them. Shape (n,)."""
+    distance: npt.NDArray[np.float64]
+    """Of the two spheres: negative is how deep they meet."""
+    points: npt.NDArray[np.float64]
+    """The middle between them: shape (n, 3)."""
+    normals: npt.NDArray[np.float64]
+    """From the first tree's sphere to the second's, of length 1: shape (n, 3)."""
+    ids: npt.NDArray[np.int32]
+    """Of both spheres in their trees: shape (n, 2)."""
 
 
 class FirstContacts(NamedTuple):
@@ -87,13 +115,33 @@ class Hits(NamedTuple):
     """Of the spheres in the tree, or -1."""
 
 
-def _rows(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: Any = np.float64) -> tuple[Any, Any]:
+def rows_of(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: Any = np.float64) -> tuple[Any, Any]:
     """The values as rows that C++ takes, and the shape in front of the columns."""
     array = np.ascontiguousarray(real_array(name, values), dtype=dtype)
     if array.shape[array.ndim - len(columns):] != columns or array.ndim < len(columns):
         wanted = ", ".join(["...", *map(str, columns)])
         raise InputError(f"{name} has shape {array.shape}: it takes ({wanted})")
     return array.reshape(-1, int(np.prod(columns))), array.shape[: array.ndim - len(columns)]
+
+
+MOST_CONTACTS = 1_000_000  # as of the command
+
+
+def contact_count(contacts: int) -> int:
+    if not 1 <= whole_number("max_contacts", contacts, 64) <= MOST_CONTACTS:
+        raise InputError(f"max_contacts={contacts} is out of range: it takes 1 to {MOST_CONTACTS}")
+    return int(contacts)
+
+
+def broadcast_rows(given: dict[str, tuple[Any, tuple[int, ...]]], each: int = 1) -> dict[str, Any]:
+    """Rows of 16 numbers, `each` for every place of the shape in front of them, with all shapes broadcast to one."""
+    try:
+        shape = np.broadcast_shapes(*(front for _, front in given.values()))
+    except ValueError:
+        told = ", ".join(f"{name} {front}" for name, (_, front) in given.items())
+        raise InputError(f"shapes in front of the poses cannot be broadcast: {told}") from None
+    return {name: np.ascontiguousarray(np.broadcast_to(rows.reshape(*front, each, 16), (*shape, each, 16))).reshape(-1, 16)
+            for name, (rows, front) in given.items()}
 
 
 def _shaped(shape: tuple[int, ...], arrays: tuple[Any, ...]) -> list[Any]:
@@ -125,7 +173,7 @@ class Query:
 
     def _pair(self, other: Query, pose: npt.ArrayLike | None) -> tuple[Any, Any]:
         _require_query(other)
-        return _rows("pose", np.eye(4) if pose is None else pose, (4, 4))
+        return rows_of("pose", np.eye(4) if pose is None else pose, (4, 4))
 
     def collide(
         self, other: Query, pose: npt.ArrayLike | None = None, *, margin: float = 0, objects: bool = False,
@@ -159,6 +207,36 @@ class Query:
         poses, shape = self._pair(other, pose)
         answers = self._handle.collide(other._handle, poses, margin, objects, progress, thread_count(threads))
         return Collisions(*_shaped(shape, answers))
+
+    def contacts(
+        self, other: Query, pose: npt.ArrayLike | None = None, *, max_contacts: int = 10, margin: float = 0,
+        progress: Progress = None, threads: int | None = None,
+    ) -> Contacts:
+        """The deepest pairs of spheres of two trees that touch.
+
+        Spheres that reach beyond those above them, where no object is, are found by `query(exact=True)` alone.
+
+        Parameters
+        ----------
+        other, pose, margin, progress, threads
+            As for `collide()`.
+        max_contacts
+            So many of a pose, at most.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = spheretree.build(numpy.ones((8, 8, 8), dtype=bool), quality="fast").query(exact=True)
+        >>> poses = numpy.tile(numpy.eye(4), (3, 1, 1))
+        >>> poses[:, 0, 3] = [2, 20, 4]
+        >>> found = cube.contacts(cube, poses, max_contacts=2)
+        >>> found.pose, bool(found.distance[0] <= found.distance[1] < 0)
+        (array([0, 0, 2, 2]), True)
+        """
+        poses, _ = self._pair(other, pose)
+        answers = self._handle.contacts(
+            other._handle, poses, contact_count(max_contacts), margin, progress, thread_count(threads))
+        return Contacts(*answers)
 
     def continuous_collide(
         self, other: Query, start: npt.ArrayLike, end: npt.ArrayLike, *, own_start: npt.ArrayLike | None = None,
@@ -195,14 +273,9 @@ class Query:
         own_start = np.eye(4) if own_start is None else own_start
         own_end = own_start if own_end is None else own_end
         ways = {"own_start": own_start, "own_end": own_end, "start": start, "end": end}
-        given = {name: _rows(name, poses, (4, 4)) for name, poses in ways.items()}
-        try:
-            shape = np.broadcast_shapes(*(front for _, front in given.values()))
-        except ValueError:
-            told = ", ".join(f"{name} {front}" for name, (_, front) in given.items())
-            raise InputError(f"shapes in front of the poses cannot be broadcast: {told}")
-        rows = {name: np.ascontiguousarray(np.broadcast_to(values.reshape(*front, 16), (*shape, 16))).reshape(-1, 16)
-                for name, (values, front) in given.items()}
+        given = {name: rows_of(name, poses, (4, 4)) for name, poses in ways.items()}
+        rows = broadcast_rows(given)
+        shape = np.broadcast_shapes(*(front for _, front in given.values()))
         answers = self._handle.continuous_collide(
             other._handle, rows["own_start"], rows["own_end"], rows["start"], rows["end"], tolerance, progress,
             thread_count(threads))
@@ -256,7 +329,7 @@ class Query:
         >>> cube.contains([[0, 0, 0], [7.4, 7.4, 7.4], [7.6, 0, 0]])
         array([ True,  True, False])
         """
-        places, shape = _rows("points", points, (3,))
+        places, shape = rows_of("points", points, (3,))
         inside: npt.NDArray[np.bool_] = self._handle.contains(places, progress, thread_count(threads))
         return inside.reshape(shape)
 
@@ -267,7 +340,7 @@ class Query:
 
         What is farther than `cutoff` is not looked for, which takes a part of the time.
         """
-        places, shape = _rows("points", points, (3,))
+        places, shape = rows_of("points", points, (3,))
         return Nearest(*_shaped(shape, self._handle.nearest(places, cutoff, progress, thread_count(threads))))
 
     def intersect(
@@ -334,7 +407,7 @@ class Query:
         >>> near.distance.shape, near.distance[0] < 5
         ((5, 2), array([ True, False]))
         """
-        balls, shape = _rows("spheres", spheres, (4,), np.float32)
+        balls, shape = rows_of("spheres", spheres, (4,), np.float32)
         answers = self._handle.sphere_distances(balls, activation, progress, thread_count(threads))
         return Nearest(*_shaped(shape, answers))
 

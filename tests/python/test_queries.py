@@ -120,7 +120,8 @@ def test_collisions_are_those_of_all_pairs(tree):
         found = query.collide(query, moved, margin=margin)
         assert np.array_equal(found.spheres, np.where(least < margin, 1, -1))
     found = query.collide(query, moved, objects=True)
-    touching = found.spheres == 1
+    touching = found.touching
+    assert np.array_equal(touching, found.spheres == spheretree.Verdict.TOUCHING)
     assert touching.any() and not touching.all()
     assert (found.objects[~touching] == -1).all() and (found.objects[touching] >= 0).all()
     assert np.isnan(found.distance[~touching]).all() and (found.distance[touching] <= 1e-4).all()

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Query.h
+/// @brief Trees made ready for questions, and what answers in arrays share. Shapes and types are made sure of by _query.py
+/// and _scene.py.
+
+#pragma once
+
+#include "Tree.h"
+
+#include <openvdb_spheretree/query/Collide.h>
+#include <openvdb_spheretree/query/Contact.h>
+#include <openvdb_spheretree/query/DigitalLeaves.h>
+#include <openvdb_spheretree/query/QueryTree.h>
+#include <openvdb_spheretree/query/RigidMotion.h>
+#include <openvdb_spheretree/query/RigidTransform.h>
+
+#include <pybind11/numpy.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace binding {
+
+using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
+using Ids = pybind11::array_t<int32_t>;
+
+/// A tree made ready, and its digital balls where they are the object.
+class Query {
+public:
+    Query(const TreePtr& tree, const openvdb_spheretree::QueryTreeSettings& settings);
+
+    const openvdb_spheretree::QueryTree& tree() const { return mTree; }
+    /// @throw InputError where the object is not known
+    const openvdb_spheretree::DigitalLeaves& leaves() const;
+
+private:
+    openvdb_spheretree::QueryTree mTree;
+    std::optional<openvdb_spheretree::DigitalLeaves> mLeaves;
+    std::string mWhyNoLeaves;
+};
+
+using QueryPtr = std::shared_ptr<Query>;
+
+inline std::size_t rowCount(const pybind11::array& array) { return std::size_t(array.shape(0)); }
+
+template <typename T>
+pybind11::array_t<T> rows(std::size_t count, int columns)
+{
+    return pybind11::array_t<T>({pybind11::ssize_t(count), pybind11::ssize_t(columns)});
+}
+
+template <typename T>
+void setRow(T* to, const openvdb::Vec3d& vec)
+{
+    for (int axis = 0; axis < 3; ++axis) to[axis] = T(vec[axis]);
+}
+
+/// Poses as Python has them: matrices of 16 numbers, a row each.
+struct [[gnu::visibility("hidden")]] PoseRows
+{                     // as all of pybind11 is
+    const char* name; ///< of the argument, for messages
+    const Doubles& matrices;
+
+    std::size_t size() const { return rowCount(matrices); }
+    /// @throw InputError naming argument and row if it is no pose
+    openvdb_spheretree::RigidTransform at(std::size_t row) const;
+};
+
+std::vector<openvdb_spheretree::RigidTransform> posesOf(const PoseRows& rows);
+
+/// @return the screws from pose to pose, a row each.
+std::vector<openvdb_spheretree::RigidMotion> motionsOf(
+    const PoseRows& starts, const PoseRows& ends);
+
+/// @return -1 for apart, 1 for touching, 0 for undecided.
+int8_t numberOf(openvdb_spheretree::Verdict verdict);
+
+/// Where two spheres meet, a question a row: numbers are NaN and ids -1 where none do.
+class [[gnu::visibility("hidden")]] ContactRows
+{ // as all of pybind11 is
+public:
+    explicit ContactRows(std::size_t count);
+
+    /// Without the GIL; rows may be set at the same time.
+    void set(std::size_t i, const std::optional<openvdb_spheretree::Contact>& contact) const;
+
+    pybind11::array_t<double> distances, points, normals;
+    Ids ids;
+
+private:
+    double *mDistance, *mPoint, *mNormal;
+    int32_t* mId;
+};
+
+} // namespace binding

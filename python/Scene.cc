@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Scene.cc
+/// @brief Many bodies, and which of them touch. Shapes and types are made sure of by _scene.py.
+
+#include "Query.h"
+
+#include "Call.h"
+#include "ForbidNew.h"
+
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/query/ContinuousCollide.h>
+#include <openvdb_spheretree/query/QueryScene.h>
+
+#include <pybind11/numpy.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace binding {
+
+namespace spheretree = openvdb_spheretree;
+using spheretree::QueryScene;
+
+namespace {
+
+using ScenePtr = std::shared_ptr<QueryScene>;
+
+/// What is known of two bodies at the same time, a pair a row.
+struct PairRows {
+    explicit PairRows(std::size_t count)
+        : frames(py::ssize_t(count)), bodies(rows<int32_t>(count, 2)), contacts(count),
+          mFrame(frames.mutable_data()), mBody(bodies.mutable_data())
+    {}
+
+    void add(std::size_t frame, int a, int b, const std::optional<spheretree::Contact>& contact)
+    {
+        mFrame[mRow] = int64_t(frame);
+        mBody[2 * mRow] = a;
+        mBody[2 * mRow + 1] = b;
+        contacts.set(mRow++, contact);
+    }
+
+    py::array_t<int64_t> frames;
+    Ids bodies;
+    ContactRows contacts;
+
+private:
+    int64_t* mFrame;
+    int32_t* mBody;
+    std::size_t mRow = 0;
+};
+
+py::array poseOf(const QueryScene& scene, int body)
+{
+    const spheretree::RigidTransform& pose = scene.pose(body);
+    auto matrix = rows<double>(4, 4);
+    double* const to = matrix.mutable_data();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            to[4 * row + column] = pose.rotation()(row, column);
+        to[4 * row + 3] = pose.translation()[row];
+        to[12 + row] = 0;
+    }
+    to[15] = 1;
+    return matrix;
+}
+
+/// Poses of all bodies of a scene, frame by frame. Those of bodies that were removed may be anything.
+class FramePoses {
+public:
+    FramePoses(const QueryScene& scene, const PoseRows& rows) : mScene(scene), mRows(rows)
+    {
+        if (scene.size() > 0) mFrames = rows.size() / std::size_t(scene.size());
+    }
+
+    std::size_t frames() const { return mFrames; }
+    spheretree::RigidTransform at(std::size_t frame, int body) const
+    {
+        if (!mScene.has(body)) return {};
+        return mRows.at(frame * std::size_t(mScene.size()) + std::size_t(body));
+    }
+
+private:
+    const QueryScene& mScene;
+    const PoseRows& mRows;
+    std::size_t mFrames = 0;
+};
+
+/// @return the scene as it is in each frame; without poses, as it is.
+std::vector<QueryScene> scenesOf(const QueryScene& scene, const std::optional<Doubles>& matrices)
+{
+    if (!matrices) return {scene};
+    const PoseRows poseRows{"poses", *matrices};
+    const FramePoses poses(scene, poseRows);
+    std::vector<QueryScene> scenes(poses.frames(), scene);
+    for (std::size_t frame = 0; frame < scenes.size(); ++frame) {
+        for (int body = 0; body < scene.size(); ++body) {
+            if (scene.has(body)) scenes[frame].setPose(body, poses.at(frame, body));
+        }
+    }
+    return scenes;
+}
+
+/// @return the deepest ones, or the one that was found.
+std::vector<spheretree::Contact> contactsOf(const spheretree::ScenePair& pair, bool areSeveral)
+{
+    if (areSeveral) return pair.contacts;
+    return {*pair.result.contact};
+}
+
+/// @param poses        of all bodies, frame by frame; without, the scene as it is
+/// @param maxContacts  0: any one of each pair
+py::tuple touchingPairs(const QueryScene& scene, const std::optional<Doubles>& poses, double margin,
+    bool objects, int maxContacts, const CallSettings& call)
+{
+    const std::vector<QueryScene> scenes = scenesOf(scene, poses);
+    spheretree::CollisionRequest request;
+    request.securityMargin = margin;
+    request.decideObjects = objects;
+    request.enableContact = true;
+    if (maxContacts > 0)
+        request.maxContacts = std::max(maxContacts, 2); // a list of one has any pair
+    std::vector<std::vector<spheretree::ScenePair>> found(scenes.size());
+    runCall(call, [&](Interrupter* interrupter) {
+        spheretree::detail::parallelFor(scenes.size(), interrupter, [&](std::size_t frame) {
+            found[frame] = scenes[frame].touchingPairs(request, interrupter);
+            for (spheretree::ScenePair& pair : found[frame]) {
+                const auto most = std::size_t(std::max(maxContacts, 0));
+                pair.contacts.resize(std::min(pair.contacts.size(), most));
+            }
+        });
+    });
+    std::size_t count = 0;
+    for (const auto& pairs : found) {
+        for (const auto& pair : pairs) count += maxContacts > 0 ? pair.contacts.size() : 1;
+    }
+    PairRows answers(count);
+    py::array_t<int8_t> certain{py::ssize_t(count)};
+    int8_t* object = certain.mutable_data();
+    for (std::size_t frame = 0; frame < found.size(); ++frame) {
+        for (const spheretree::ScenePair& pair : found[frame]) {
+            for (const spheretree::Contact& contact : contactsOf(pair, maxContacts > 0)) {
+                answers.add(frame, pair.a, pair.b, contact);
+                *object++ = numberOf(pair.result.objects);
+            }
+        }
+    }
+    const ContactRows& contacts = answers.contacts;
+    return py::make_tuple(answers.frames, answers.bodies, certain, contacts.distances,
+        contacts.points, contacts.normals, contacts.ids);
+}
+
+/// @return the ways of all bodies in each frame.
+std::vector<std::vector<spheretree::RigidMotion>> motionsOf(
+    const QueryScene& scene, const PoseRows& startRows, const PoseRows& endRows)
+{
+    const FramePoses starts(scene, startRows), ends(scene, endRows);
+    std::vector<std::vector<spheretree::RigidMotion>> motions(ends.frames());
+    for (std::size_t frame = 0; frame < motions.size(); ++frame) {
+        for (int body = 0; body < scene.size(); ++body) {
+            motions[frame].push_back(
+                spheretree::RigidMotion::screw(starts.at(frame, body), ends.at(frame, body)));
+        }
+    }
+    return motions;
+}
+
+/// @param starts,ends  poses of all bodies, frame by frame
+py::tuple firstContacts(const QueryScene& scene, const Doubles& starts, const Doubles& ends,
+    double tolerance, const CallSettings& call)
+{
+    const auto motions = motionsOf(scene, {"start", starts}, {"end", ends});
+    const QueryScene copy = scene; // another thread may change the one that is asked
+    spheretree::ContinuousCollisionRequest request;
+    request.tolerance = tolerance;
+    std::vector<std::vector<spheretree::MovingPair>> found(motions.size());
+    runCall(call, [&](Interrupter* interrupter) {
+        spheretree::detail::parallelFor(motions.size(), interrupter, [&](std::size_t frame) {
+            found[frame] = copy.firstContacts(motions[frame], request, interrupter);
+        });
+    });
+    std::size_t count = 0;
+    for (const auto& pairs : found) count += pairs.size();
+    PairRows answers(count);
+    py::array_t<double> times{py::ssize_t(count)};
+    double* time = times.mutable_data();
+    for (std::size_t frame = 0; frame < found.size(); ++frame) {
+        for (const spheretree::MovingPair& pair : found[frame]) {
+            answers.add(frame, pair.a, pair.b, pair.result.contact);
+            *time++ = pair.result.timeOfContact;
+        }
+    }
+    const ContactRows& contacts = answers.contacts;
+    return py::make_tuple(answers.frames, answers.bodies, times, contacts.distances,
+        contacts.points, contacts.normals, contacts.ids);
+}
+
+} // namespace
+
+void bindScene(py::module_& module)
+{
+    py::class_<QueryScene, ScenePtr> scene(module, "Scene");
+    forbidNew(scene);
+    module.def("make_scene", [] { return std::make_shared<QueryScene>(); });
+    scene.def_property_readonly("size", &QueryScene::size)
+        .def("has", &QueryScene::has)
+        .def("add",
+            [](QueryScene& s, const Query& body, const Doubles& pose) {
+                return s.add(body.tree(), PoseRows{"pose", pose}.at(0));
+            })
+        .def("remove", &QueryScene::remove)
+        .def("pose", poseOf)
+        .def("set_pose",
+            [](QueryScene& s, int body, const Doubles& pose) {
+                s.setPose(body, PoseRows{"pose", pose}.at(0));
+            })
+        .def("ignore", &QueryScene::ignore)
+        .def("is_ignored", &QueryScene::isIgnored)
+        .def("touching_pairs",
+            [](const QueryScene& s, const py::object& poses, double margin, bool objects,
+                int maxContacts, const py::object& progress, int threads) {
+                std::optional<Doubles> given;
+                if (!poses.is_none()) given = poses.cast<Doubles>();
+                return touchingPairs(
+                    s, given, margin, objects, maxContacts, CallSettings{progress, threads});
+            })
+        .def("first_contacts",
+            [](const QueryScene& s, const Doubles& starts, const Doubles& ends, double tolerance,
+                const py::object& progress, int threads) {
+                return firstContacts(s, starts, ends, tolerance, CallSettings{progress, threads});
+            });
+}
+
+} // namespace binding
