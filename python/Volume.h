@@ -48,9 +48,11 @@ struct FileRequest {
 };
 
 /// @brief The object of a grid: cubic voxels are made where there are others, then the request is met.
+/// @param notNumbers  as of objectOf()
 /// @throw InputError for a setting that says nothing about such a grid; what the library throws
 openvdb::BoolGrid::Ptr objectOfGrid(const openvdb::GridBase::ConstPtr& grid,
-    const ObjectRequest& request, openvdb::util::NullInterrupter* interrupter);
+    const ObjectRequest& request, openvdb::util::NullInterrupter* interrupter,
+    int64_t* notNumbers = nullptr);
 
 /// @param units  that the file is in: its points become metres; empty: they stay as they are
 /// @throw what readMeshFile() throws; InputError for a unit that is none

@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "Volume.h"
 
+#include "base/NotNumbers.h"
 #include "files/ScaleMesh.h"
 #include "files/VdbStream.h"
 #include "line/Length.h"
@@ -172,11 +173,11 @@ Volume volumeOfMesh(const std::string& path, const FileRequest& file, const Obje
 } // namespace
 
 openvdb::BoolGrid::Ptr objectOfGrid(const GridBase::ConstPtr& grid, const ObjectRequest& request,
-    openvdb::util::NullInterrupter* interrupter)
+    openvdb::util::NullInterrupter* interrupter, int64_t* notNumbers)
 {
     requireRelevant(request, *grid);
-    auto object =
-        spheretree::objectOf(*withCubes(grid, request, interrupter), request.settings, interrupter);
+    auto object = spheretree::objectOf(
+        *withCubes(grid, request, interrupter), request.settings, interrupter, notNumbers);
     if (request.largest) object = spheretree::largestPart(*object, interrupter);
     if (request.fill) object = spheretree::filledCavities(*object, interrupter);
     return object;
@@ -196,8 +197,12 @@ Volume volumeOfFile(const std::string& path, const FileRequest& file, const Obje
     const command::FileKind kind = command::fileKind(path);
     Volume volume;
     if (kind == command::FileKind::Vdb) {
-        volume.object =
-            objectOfGrid(chosenGrid(command::readVdb(path), path, file.grid), request, interrupter);
+        int64_t notNumbers = 0;
+        volume.object = objectOfGrid(
+            chosenGrid(command::readVdb(path), path, file.grid), request, interrupter, &notNumbers);
+        if (notNumbers) {
+            volume.warnings.push_back(path + ": " + command::notNumbersText(notNumbers));
+        }
     } else if (kind == command::FileKind::Vol) {
         volume.object =
             objectOfGrid(spheretree::readVolFile(path, interrupter), request, interrupter);

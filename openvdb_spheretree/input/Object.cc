@@ -26,6 +26,7 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -79,14 +80,22 @@ struct Labels {
     }
 };
 
+template <typename ValueT>
+bool isNotANumber(ValueT value)
+{
+    return value != value;
+}
+
 /// Every value counts, active or not.
 template <typename Inside>
 struct ValueCriterion {
     Inside inside;
+    std::atomic<int64_t>* notNumbers = nullptr; ///< counted there, unless it is null
 
     template <typename ValueT>
     bool tile(ValueT value, bool) const
     {
+        if (notNumbers && isNotANumber(value)) ++*notNumbers;
         return inside.contains(value);
     }
     template <typename LeafT>
@@ -100,6 +109,10 @@ struct ValueCriterion {
             }
             bits.getWord<uint64_t>(w) = word;
         }
+        if (!notNumbers) return;
+        int count = 0;
+        for (Index n = 0; n < LeafT::SIZE; ++n) count += isNotANumber(values[n]);
+        if (count) *notNumbers += count;
     }
 };
 
@@ -330,8 +343,8 @@ Wanted wantedOf(const openvdb::GridBase& grid, const ObjectSettings& settings)
 
 /// The voxels whose center is in the solid.
 template <typename GridT>
-MaskTree::Ptr centersIn(
-    const GridT& grid, const Wanted& wanted, openvdb::util::NullInterrupter* interrupter)
+MaskTree::Ptr centersIn(const GridT& grid, const Wanted& wanted, std::atomic<int64_t>& notNumbers,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const auto masked = [&](const auto& inside) {
         if (grid.getGridClass() != openvdb::GRID_LEVEL_SET && inside.contains(grid.background())) {
@@ -340,8 +353,8 @@ MaskTree::Ptr centersIn(
             throwUnbounded(grid, background.str(), wanted.text,
                 wanted.below ? "choose values without it" : "choose a threshold above it");
         }
-        return decide(
-            grid.tree(), ValueCriterion<std::decay_t<decltype(inside)>>{inside}, interrupter);
+        using Inside = std::decay_t<decltype(inside)>;
+        return decide(grid.tree(), ValueCriterion<Inside>{inside, &notNumbers}, interrupter);
     };
     if (!wanted.labels.empty()) return masked(Labels{wanted.labels});
     if (wanted.above && wanted.below) return masked(Range{*wanted.above, *wanted.below});
@@ -370,9 +383,9 @@ MaskTree::Ptr cubesMeeting(
 
 template <typename GridT>
 MaskTree::Ptr valueMask(const GridT& grid, const Wanted& wanted, Coverage coverage,
-    openvdb::util::NullInterrupter* interrupter)
+    std::atomic<int64_t>& notNumbers, openvdb::util::NullInterrupter* interrupter)
 {
-    const MaskTree::Ptr mask = centersIn(grid, wanted, interrupter);
+    const MaskTree::Ptr mask = centersIn(grid, wanted, notNumbers, interrupter);
     if (coverage == Coverage::Centers) return mask;
     requireRoomAround(grid, *mask);
     if (coverage == Coverage::Cubes && wanted.above && wanted.below) {
@@ -397,6 +410,7 @@ struct MaskOfGrid {
     MaskTree::Ptr mask;
     std::string criterion;
     bool isInterpolated = false; ///< between centers
+    std::atomic<int64_t> notNumbers = 0;
 
     template <typename GridT>
     void operator()(const GridT& grid)
@@ -407,7 +421,7 @@ struct MaskOfGrid {
         }
         const bool isWhole = settings.coverage == Coverage::Whole;
         criterion = (isWhole ? "no voxel whose whole cube is " : "no value ") + wanted.text;
-        mask = valueMask(grid, wanted, settings.coverage, interrupter);
+        mask = valueMask(grid, wanted, settings.coverage, notNumbers, interrupter);
         isInterpolated = wanted.labels.empty();
     }
     void operator()(const openvdb::MaskGrid& grid)
@@ -455,7 +469,7 @@ bool isObjectGrid(const openvdb::GridBase& grid)
 }
 
 openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSettings& settings,
-    openvdb::util::NullInterrupter* interrupter)
+    openvdb::util::NullInterrupter* interrupter, int64_t* notNumbers)
 {
     if (!isObjectGrid(grid)) {
         OPENVDB_THROW(openvdb::TypeError,
@@ -465,12 +479,16 @@ openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSetti
     }
     requireUniformVoxels(grid);
 
-    MaskOfGrid op{settings, interrupter, {}, {}, {}};
+    MaskOfGrid op{settings, interrupter, {}, {}, {}, {}};
     grid.apply<ObjectGridTypes>(op);
+    if (notNumbers) *notNumbers = op.notNumbers;
     openvdb::tools::pruneInactive(*op.mask);
     if (op.mask->empty()) {
-        OPENVDB_THROW(
-            EmptyObject, detail::describe(grid) << " holds no object: it has " << op.criterion);
+        const std::string nan = op.notNumbers > 0
+            ? ", and of its values " + std::to_string(op.notNumbers) + " are no numbers (NaN)"
+            : "";
+        OPENVDB_THROW(EmptyObject,
+            detail::describe(grid) << " holds no object: it has " << op.criterion << nan);
     }
 
     openvdb::BoolGrid::Ptr object =

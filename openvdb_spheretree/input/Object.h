@@ -47,6 +47,7 @@ struct ObjectSettings {
 /// (1024 where cubes are looked at), and stay in the file: a grid of more values than memory becomes a
 /// mask all the same.
 /// Comparisons are exact, those of interpolated values too.
+/// @param notNumbers  may be null; receives how many of the grid's values are NaN, a tile being one of them
 /// @throw openvdb::TypeError if the grid is of a kind that bounds no object (vector, string grids)
 /// @throw openvdb::ValueError (EmptyObject) if the object is empty
 /// @throw openvdb::ValueError if it is unbounded, or voxels are not uniform, or
@@ -54,7 +55,7 @@ struct ObjectSettings {
 /// @throw openvdb::IoError, openvdb::RuntimeError if values are left in a file that is damaged or
 ///        has changed
 openvdb::BoolGrid::Ptr objectOf(const openvdb::GridBase& grid, const ObjectSettings& settings = {},
-    openvdb::util::NullInterrupter* interrupter = nullptr);
+    openvdb::util::NullInterrupter* interrupter = nullptr, int64_t* notNumbers = nullptr);
 
 /// Text metadata of objects of interpolated values and of meshes: `centers`, `cubes` or `whole`. objectOf()
 /// and meshToObject() set it, and it goes on from object to object.

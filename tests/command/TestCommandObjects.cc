@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/voxel/MakeGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace {
@@ -75,6 +76,31 @@ TEST_F(CommandObjects, MoreVoxelsMeetASolidThanLieInIt)
     bits->setName("bits");
     writeGrids("bits.vdb", {bits});
     expectError(3, "-read bits.vdb -mask cover=1 -write t.vdb", "'bits' is none");
+}
+
+TEST_F(CommandObjects, ValuesThatAreNoNumbersAreTold)
+{
+    const auto fog = openvdb::FloatGrid::create();
+    fog->setName("density");
+    fog->fill(openvdb::CoordBBox(Coord(0), Coord(9)), 1.0f);
+    writeGrids("whole.vdb", {fog});
+    for (int i = 0; i < 3; ++i) fog->tree().setValue(Coord(i + 2, 4, 4), std::nanf(""));
+    writeGrids("holes.vdb", {fog});
+    const std::string told = "3 values are no numbers (NaN), and count as outside";
+    for (const std::string action : {"-mask", "-mask cover=1", "-spheretree quality=fast"}) {
+        const Result result = run("-read holes.vdb " + action + " -write t.vdb");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        const std::size_t at = result.err.find(told);
+        ASSERT_NE(at, std::string::npos) << action << "\n" << result.err;
+        EXPECT_NE(result.err.find("density"), std::string::npos) << result.err;
+        EXPECT_EQ(result.err.find(told, at + 1), std::string::npos) << "twice: " << result.err;
+        const Result whole = run("-read whole.vdb " + action + " -write t.vdb");
+        EXPECT_EQ(whole.err.find("NaN"), std::string::npos) << whole.err;
+    }
+    const Result checked = run("-read holes.vdb -spheretree quality=fast -check -write t.vdb");
+    EXPECT_EQ(checked.exitCode, 0) << checked.err;
+    ASSERT_NE(checked.err.find(told), std::string::npos) << checked.err;
+    EXPECT_EQ(checked.err.find(told), checked.err.rfind(told)) << checked.err;
 }
 
 TEST_F(CommandObjects, RangesAndLabelsChooseValues)

@@ -311,6 +311,19 @@ def test_files_that_are_not_there_or_damaged_are_os_errors(tmp_path):
         spheretree.volume(tmp_path / "text.txt")
 
 
+def test_values_of_files_that_are_no_numbers_are_told(tmp_path):
+    vdb = pytest.importorskip("pyopenvdb")
+    grid = vdb.FloatGrid()
+    grid.copyFromArray(np.ones((9, 9, 9), dtype=np.float32))
+    voxels = grid.getAccessor()
+    for z in (3, 4):
+        voxels.setValueOn((4, 4, z), np.nan)
+    path = tmp_path / "holes.vdb"
+    vdb.write(str(path), grids=[grid])
+    with pytest.warns(UserWarning, match="holes.vdb: 2 values are no numbers"):
+        assert spheretree.volume(path).voxels == 9**3 - 2
+
+
 def test_a_grid_of_pyopenvdb_is_taken(bone, tmp_path):
     vdb = pytest.importorskip("pyopenvdb")
     grid = vdb.BoolGrid()

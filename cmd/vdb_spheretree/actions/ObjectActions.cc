@@ -2,6 +2,7 @@
 /// @file ObjectActions.cc
 /// @brief -mesh2ls and -mask: from geometry and grids to the object that a tree is built over.
 
+#include "base/NotNumbers.h"
 #include "base/Terminal.h"
 #include "line/Actions.h"
 #include "ObjectChoice.h"
@@ -252,11 +253,14 @@ StackItem* onlyObjectGrid(Session& session)
     return found;
 }
 
-openvdb::BoolGrid::Ptr objectOf(
-    const StackItem& item, const spheretree::ObjectSettings& settings, Session& session)
+namespace {
+
+/// @param notNumbers  receives how many values are NaN
+openvdb::BoolGrid::Ptr objectCounting(int64_t& notNumbers, const StackItem& item,
+    const spheretree::ObjectSettings& settings, Session& session)
 {
     try {
-        return spheretree::objectOf(*item.grid, settings, &session.progress);
+        return spheretree::objectOf(*item.grid, settings, &session.progress, &notNumbers);
     } catch (const openvdb::ValueError&) { // these name the grid
         rethrowNamed("", kInput);
     } catch (const openvdb::TypeError&) {
@@ -264,6 +268,17 @@ openvdb::BoolGrid::Ptr objectOf(
     } catch (...) {
         rethrowNamed(item.description(), kInput);
     }
+}
+
+} // namespace
+
+openvdb::BoolGrid::Ptr objectOf(
+    const StackItem& item, const spheretree::ObjectSettings& settings, Session& session)
+{
+    int64_t notNumbers = 0;
+    auto object = objectCounting(notNumbers, item, settings, session);
+    if (notNumbers) session.warn(item.description() + ": " + notNumbersText(notNumbers));
+    return object;
 }
 
 openvdb::BoolGrid::ConstPtr knownObject(const StackItem& item, Session& session)
@@ -281,7 +296,8 @@ openvdb::BoolGrid::Ptr objectOfTree(
         spheretree::ObjectSettings settings;
         settings.coverage = coverage;
         try {
-            const auto object = objectOf(item, settings, session);
+            int64_t notNumbers = 0; // it was said when the tree was built
+            const auto object = objectCounting(notNumbers, item, settings, session);
             if (spheretree::isObjectOf(*object, tree)) return object;
             if (spheretree::coverageOf(*object) != coverage) return nullptr; // the same for each
         } catch (const CommandError&) { // no voxel is of that kind

@@ -70,7 +70,40 @@ TEST(Thresholds, NanIsOutsideAndInfinityIsNot)
     grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
     grid->tree().setValueOn(Coord(1, 0, 0), std::numeric_limits<float>::infinity());
     grid->tree().setValueOn(Coord(2, 0, 0), -std::numeric_limits<float>::infinity());
-    EXPECT_EQ(voxelsOf(*objectOf(*grid)), (std::set<Coord>{{1, 0, 0}}));
+    int64_t notNumbers = -1;
+    EXPECT_EQ(voxelsOf(*objectOf(*grid, {}, nullptr, &notNumbers)), (std::set<Coord>{{1, 0, 0}}));
+    EXPECT_EQ(notNumbers, 1);
+}
+
+TEST(Thresholds, ValuesThatAreNoNumbersAreCountedOnce)
+{
+    const double nan = std::nan("");
+    const auto grid = named<openvdb::DoubleGrid>("fog", 0.0);
+    grid->fill(openvdb::CoordBBox(Coord(0), Coord(15)), 1.0);
+    grid->tree().setValueOff(Coord(3, 4, 5), nan); // inactive, and counts
+    for (int i = 0; i < 8; ++i) grid->tree().setValueOn(Coord(i, 9, 2), nan);
+    grid->tree().addTile(1, Coord(4096, 0, 0), nan, true);  // of 8^3 voxels
+    grid->tree().addTile(2, Coord(8192, 0, 0), nan, false); // of 128^3
+    ObjectSettings range;
+    range.above = ValueBound(0.5);
+    range.below = ValueBound(2.0);
+    for (const Coverage coverage : {Coverage::Centers, Coverage::Cubes, Coverage::Whole}) {
+        for (ObjectSettings settings : {threshold(0), range}) {
+            settings.coverage = coverage;
+            int64_t notNumbers = -1;
+            objectOf(*grid, settings, nullptr, &notNumbers);
+            EXPECT_EQ(notNumbers, 11);
+        }
+    }
+}
+
+TEST(Thresholds, AnObjectOfNothingButNanIsNone)
+{
+    const auto grid = named<FloatGrid>("fog", 0.0f);
+    grid->tree().setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::quiet_NaN());
+    grid->tree().setValueOn(Coord(1, 0, 0), std::numeric_limits<float>::quiet_NaN());
+    EXPECT_TRUE(mentions(whyNot(*grid), "2 are no numbers (NaN)")) << whyNot(*grid);
+    EXPECT_FALSE(mentions(whyNot(*named<FloatGrid>("air", 0.0f)), "NaN"));
 }
 
 TEST(Thresholds, DoublesKeepTheirPrecision)
