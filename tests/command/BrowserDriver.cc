@@ -78,14 +78,17 @@ BrowserDriver::BrowserDriver(const std::filesystem::path& page, const DrivenBrow
                 .value("sessionId", "");
     }
     for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable"}) call(domain);
-    if (!options.colorScheme.empty()) {
-        call("Emulation.setEmulatedMedia",
-            {{"features", {{{"name", "prefers-color-scheme"}, {"value", options.colorScheme}}}}});
-    }
+    if (!options.colorScheme.empty()) setColorScheme(options.colorScheme);
     call("Page.navigate", {{"url", "file://" + page.string() + "#" + options.hash}});
     while (!mIsLoaded && !mHasFailed) takeEvent(nextMessage());
     // Its first frame may be drawn later.
     value("new Promise((done) => setTimeout(done, 300))");
+}
+
+void BrowserDriver::setColorScheme(const std::string& scheme)
+{
+    call("Emulation.setEmulatedMedia",
+        {{"features", {{{"name", "prefers-color-scheme"}, {"value", scheme}}}}});
 }
 
 BrowserDriver::~BrowserDriver()

@@ -45,6 +45,9 @@ public:
     /// @return the value of an expression of JavaScript in the page; of a promise what it promises.
     nlohmann::json value(const std::string& expression);
 
+    /// From now on the system prefers "light" or "dark".
+    void setColorScheme(const std::string& scheme);
+
     /// @name The mouse, at pixels from the window's left and top
     /// @{
     void moveTo(double x, double y);

@@ -303,4 +303,36 @@ TEST_F(CommandViewerDriven, TheBackgroundIsThatOfTheSystem)
     EXPECT_LT(ofPanel.at("dark"), 120);
 }
 
+TEST_F(CommandViewerDriven, TheSystemIsFollowedUntilSomebodyChooses)
+{
+    const auto isDark = [](BrowserDriver& browser) {
+        browser.value("new Promise((done) => setTimeout(done, 500))"); // until it is drawn anew
+        const int light = browser.screenshot("followed").at(0.005, 0.5)[0];
+        const bool isPressed =
+            browser.value("document.getElementById('theme').ariaPressed") == "true";
+        EXPECT_EQ(light < 70, isPressed);
+        return isPressed;
+    };
+    {
+        BrowserDriver browser(path("p.html"), {{}, "light", ""});
+        EXPECT_FALSE(isDark(browser));
+        browser.setColorScheme("dark");
+        EXPECT_TRUE(isDark(browser));
+        browser.setColorScheme("light");
+        EXPECT_FALSE(isDark(browser));
+        const Box button = boxOf(browser, "#theme");
+        browser.click(button.x(0.5), button.y(0.5));
+        EXPECT_TRUE(isDark(browser));
+        browser.setColorScheme("dark");
+        browser.setColorScheme("light");
+        EXPECT_TRUE(isDark(browser)) << "it was chosen";
+        EXPECT_EQ(browser.console(), "");
+    }
+    BrowserDriver typed(path("p.html"), {{}, "light", "theme=dark"});
+    typed.setColorScheme("dark");
+    typed.setColorScheme("light");
+    EXPECT_TRUE(isDark(typed)) << "the address says so";
+    EXPECT_EQ(typed.console(), "");
+}
+
 } // namespace

@@ -66,8 +66,9 @@ class Controls {
             clip({ flip: event.target.checked }),
         );
         byId('theme').addEventListener('click', () =>
-            viewer.show({ theme: viewer.state.theme === 'dark' ? 'light' : 'dark' }),
+            viewer.show({ theme: viewer.state.isDark ? 'light' : 'dark' }),
         );
+        systemIsDark.addEventListener('change', () => viewer.show({}));
     }
 
     #listenToView() {
@@ -159,8 +160,7 @@ class Controls {
         this.#updateLegend();
         byId('find-id').max = viewer.choosable.size - 1;
         if (state.selected >= 0) byId('find-id').value = state.selected;
-        const isDark = state.theme === 'dark';
-        byId('theme').setAttribute('aria-pressed', isDark);
+        byId('theme').setAttribute('aria-pressed', state.isDark);
     }
 
     #updateClip() {

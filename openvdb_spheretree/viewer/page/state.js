@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is shown, and how; the address of the page may say it: tree.html#level=2&color=radius
 
+const systemIsDark = matchMedia('(prefers-color-scheme: dark)');
+
 class State {
     constructor(tree) {
         this.level = tree.levels[0].level;
@@ -14,7 +16,11 @@ class State {
         this.clip = { axis: '', at: 0.5, flip: false };
         this.drawBy = null; // 'triangles' or 'tiles'; else by the machine
         this.view = null; // yaw and pitch in degrees, and size
-        this.theme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+        this.theme = null; // 'light' or 'dark'; else the system's
+    }
+
+    get isDark() {
+        return this.theme ? this.theme === 'dark' : systemIsDark.matches;
     }
 
     /** Takes what a text such as `level=2&clip=x,0.4` says; what it cannot mean is left out. */

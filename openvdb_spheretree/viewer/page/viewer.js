@@ -136,7 +136,7 @@ class Viewer {
             this.renderer.setColors(this.colors);
             this.colored = color;
         }
-        document.documentElement.dataset.theme = state.theme;
+        document.documentElement.dataset.theme = state.isDark ? 'dark' : 'light';
         this.table.mark(this.shown.level);
         this.chart.mark(this.shown.level, this.shown.ids.length);
         showSelection(byId('selection'), tree, this.shown, state.selected, (id) => this.select(id));
