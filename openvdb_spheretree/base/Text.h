@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstdio>
@@ -29,11 +28,24 @@ inline std::string lowerExtension(const std::string& path)
     return lowerCase(std::filesystem::path(path).extension().string());
 }
 
+/// @return the start of a text, of @a longest bytes at most. No letter of UTF-8 is cut.
+inline std::string_view startOf(std::string_view text, std::size_t longest)
+{
+    if (text.size() <= longest) return text;
+    constexpr std::size_t kLongestLetter = 4;
+    const auto isWithinLetter = [&](std::size_t at) {
+        return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80;
+    };
+    std::size_t end = longest;
+    while (end > 0 && longest - end < kLongestLetter && isWithinLetter(end)) --end;
+    return text.substr(0, isWithinLetter(end) ? longest : end);
+}
+
 /// @return the text on one line, its control characters replaced; where it is longer than @a
 /// longest, its start and "...".
 inline std::string onOneLine(std::string_view text, std::size_t longest)
 {
-    std::string line(text.substr(0, longest));
+    std::string line(startOf(text, longest));
     for (char& c : line) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte == '\n' || byte == '\t') c = ' ';
@@ -63,7 +75,7 @@ inline std::string messageOf(const std::exception& error)
 {
     constexpr std::size_t kLongest = 400;
     const std::string_view message = withoutType(error.what());
-    return std::string(message.substr(0, std::min(message.find('\n'), kLongest)));
+    return std::string(startOf(message.substr(0, message.find('\n')), kLongest));
 }
 
 /// @return a number for messages, with four digits that count.

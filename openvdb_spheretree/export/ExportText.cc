@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExportText.h"
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/Utf8.h>
 #include <openvdb_spheretree/store/JsonWriter.h>
 
@@ -192,8 +193,8 @@ std::string yamlKey(const std::string& text)
     std::string key = yamlString(text);
     if (key.size() > kLongestYamlKey) {
         OPENVDB_THROW(openvdb::ValueError,
-            "the name that begins with '" << oneWord(text.substr(0, 20)) << "' has " << text.size()
-                                          << " bytes, and a key in YAML has at most "
+            "the name that begins with '" << oneWord(std::string(startOf(text, 20))) << "' has "
+                                          << text.size() << " bytes, and a key in YAML has at most "
                                           << kLongestYamlKey << " letters: give a shorter one");
     }
     return key;

@@ -4,6 +4,8 @@
 #include "ExportText.h"
 #include "ExportWriters.h"
 
+#include <openvdb_spheretree/base/Text.h>
+
 namespace openvdb_spheretree::detail {
 
 void writeVtk(const std::vector<ExportScene>& samples, const ExportSink& out)
@@ -17,9 +19,8 @@ void writeVtk(const std::vector<ExportScene>& samples, const ExportSink& out)
         }
     };
     constexpr std::size_t kLongestTitle = 200; // 256 letters with the end of the line
-    text << "# vtk DataFile Version 3.0\nspheres of "
-         << oneWord(scene.name).substr(0, kLongestTitle) << "\nASCII\nDATASET POLYDATA\nPOINTS "
-         << count << " double\n";
+    text << "# vtk DataFile Version 3.0\nspheres of " << startOf(oneWord(scene.name), kLongestTitle)
+         << "\nASCII\nDATASET POLYDATA\nPOINTS " << count << " double\n";
     forEach([&](const ExportLevel& level, std::size_t i) {
         text.lengths(level.centers[i], " ") << '\n';
     });

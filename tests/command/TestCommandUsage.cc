@@ -369,7 +369,25 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     command_test::writeText(path("self.txt"), "config self.txt\n");
     const Result self = run("-config self.txt");
     EXPECT_EQ(self.exitCode, 2);
-    EXPECT_NE(self.err.find("more than 8 deep"), std::string::npos) << self.err;
+    EXPECT_NE(self.err.find("-config self.txt, line 1: -config self.txt: this file comes to name "
+                            "itself, without end"),
+        std::string::npos)
+        << self.err;
+    command_test::writeText(path("other.txt"), "config twice.txt\n");
+    command_test::writeText(path("twice.txt"), "quiet\nconfig other.txt\n");
+    const Result each = run("-config twice.txt");
+    EXPECT_EQ(each.exitCode, 2);
+    EXPECT_NE(each.err.find("twice.txt, line 2: -config other.txt, line 1: -config twice.txt: this"),
+        std::string::npos)
+        << each.err;
+    for (int i = 0; i < 9; ++i) {
+        command_test::writeText(path("deep" + std::to_string(i) + ".txt"),
+            i == 0 ? "generate ball voxels=2000\n" : "config deep" + std::to_string(i - 1) + ".txt\n");
+    }
+    EXPECT_EQ(run("-config deep7.txt deep7.txt").exitCode, 0) << "twice, one after the other";
+    const Result deep = run("-config deep8.txt");
+    EXPECT_EQ(deep.exitCode, 2);
+    EXPECT_NE(deep.err.find("more than 8 deep"), std::string::npos) << deep.err;
     command_test::writeText(path("bad.txt"), "read 'a b.vol\n");
     const Result bad = run("-config bad.txt");
     EXPECT_EQ(bad.exitCode, 2);

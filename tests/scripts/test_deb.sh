@@ -5,6 +5,7 @@
 set -euo pipefail
 build="$(realpath "$1")"
 folder="$2"
+examples="$(realpath "$(dirname "$0")/../../examples")"
 python="${3:-}"
 if ! command -v dpkg >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
     echo "no dpkg-dev here (Debian: apt-get install dpkg-dev)"
@@ -27,6 +28,9 @@ for file in bin/vdb_spheretree share/man/man1/vdb_spheretree.1 \
     include/openvdb_spheretree/openvdb_spheretree.h; do
     [ -s "root/usr/$file" ] || fail "the package lacks /usr/$file"
 done
+cmake -S "$examples/consume" -B consume "-DCMAKE_PREFIX_PATH=$PWD/root/usr" >consume.txt 2>&1 ||
+    { cat consume.txt >&2; fail "a project of somebody else's does not find the installed library"; }
+grep -q "openvdb_spheretree_DIR:PATH=$PWD/root" consume/CMakeCache.txt || fail "it finds another library"
 root/usr/bin/vdb_spheretree -quiet -generate ball voxels=2000 -spheretree spheres=8 -write tree.vdb tree.urdf
 modules=root/usr/lib/python3/dist-packages
 if [ -n "$python" ]; then

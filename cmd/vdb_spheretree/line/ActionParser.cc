@@ -193,32 +193,49 @@ std::vector<ActionCall> callsOf(const std::vector<std::string>& tokens)
     return calls;
 }
 
-std::vector<ActionCall> withConfigFiles(
-    const std::vector<ActionCall>& calls, int depth, size_t& bytesInAll);
+/// Files of -config that are being read, each named by the one before.
+struct ConfigFiles {
+    std::vector<std::string> open = {};
+    size_t bytesInAll = 0; ///< of these, and of those before
+};
+
+std::vector<ActionCall> withConfigFiles(const std::vector<ActionCall>& calls, ConfigFiles& files);
+
+/// @throw CommandError (usage) if the file may not be read within those that are open
+void requireEnd(const ConfigFiles& files, const std::string& path)
+{
+    constexpr size_t kDeepest = 8;
+    const auto& open = files.open;
+    if (std::find(open.begin(), open.end(), path) != open.end()) {
+        throwUsage("-config " + path + ": this file comes to name itself, without end");
+    }
+    if (open.size() == kDeepest) throwUsage("-config: files name each other more than 8 deep");
+}
 
 /// @return the actions of a file of -config, each with the line that it stands in.
-std::vector<ActionCall> callsOfFile(const std::string& path, int depth, size_t& bytesInAll)
+std::vector<ActionCall> callsOfFile(const std::string& path, ConfigFiles& files)
 {
+    requireEnd(files, path);
+    files.open.push_back(path);
     std::vector<ActionCall> calls;
-    for (const ConfigLine& line : readConfigFile(path, bytesInAll)) {
+    for (const ConfigLine& line : readConfigFile(path, files.bytesInAll)) {
         const std::string where = "-config " + path + ", line " + std::to_string(line.number);
         try {
             std::vector<ActionCall> own = callsOf(line.words);
             for (ActionCall& call : own) call.addOrigin(where + ": ");
-            const auto inner = withConfigFiles(own, depth + 1, bytesInAll);
+            const auto inner = withConfigFiles(own, files);
             calls.insert(calls.end(), inner.begin(), inner.end());
         } catch (...) {
             rethrowNamed(where, kInput);
         }
     }
+    files.open.pop_back();
     return calls;
 }
 
-/// Puts the actions of its files in the place of each -config. @a depth: a file may name itself.
-std::vector<ActionCall> withConfigFiles(
-    const std::vector<ActionCall>& calls, int depth, size_t& bytesInAll)
+/// Puts the actions of its files in the place of each -config.
+std::vector<ActionCall> withConfigFiles(const std::vector<ActionCall>& calls, ConfigFiles& files)
 {
-    constexpr int kDeepest = 8;
     std::vector<ActionCall> expanded;
     for (const ActionCall& call : calls) {
         if (call.spec().name != "config") {
@@ -226,9 +243,8 @@ std::vector<ActionCall> withConfigFiles(
             continue;
         }
         if (!call.given("files")) throwUsage("-config: names no file");
-        if (depth == kDeepest) throwUsage("-config: files name each other more than 8 deep");
         for (const std::string& path : call.list("files")) {
-            const auto inner = callsOfFile(path, depth, bytesInAll);
+            const auto inner = callsOfFile(path, files);
             expanded.insert(expanded.end(), inner.begin(), inner.end());
         }
     }
@@ -239,8 +255,8 @@ std::vector<ActionCall> withConfigFiles(
 
 std::vector<ActionCall> parseLine(const std::vector<std::string>& tokens)
 {
-    size_t bytesInConfigFiles = 0;
-    const auto calls = withDefaults(withConfigFiles(callsOf(tokens), 0, bytesInConfigFiles));
+    ConfigFiles files;
+    const auto calls = withDefaults(withConfigFiles(callsOf(tokens), files));
     checkOrder(calls);
     return calls;
 }
