@@ -161,6 +161,7 @@ void run(int count, char** arguments)
         : name == "best"                   ? Quality::Best
                                            : Quality::Normal;
     const QueryBody a = queryBody(arguments[1], quality), b = queryBody(arguments[2], quality);
+    std::printf("== %s against %s\n", a.name.c_str(), b.name.c_str());
     for (const QueryBody* body : {&a, &b}) {
         std::printf("%s: %d leaves, %.1f bytes each (plain %.1f); %zu triangles\n",
             body->name.c_str(), body->query.leafCount(),

@@ -14,6 +14,7 @@
 #include "DenseField.h"
 #include "EmbreeScenes.h"
 #include "Questions.h"
+#include "RayPackets.h"
 
 #include <openvdb_spheretree/query/DigitalLeaves.h>
 #include <openvdb_spheretree/query/PointQuery.h>
@@ -89,6 +90,8 @@ public:
         comparePoints("in the box", questions.pointsInBox());
         comparePoints("near the surface", questions.pointsNearSurface(mMesh, mVoxel));
         timeRobots(questions.robots(mVoxel));
+        compareMany("incoherent", questions.raysFromAround());
+        compareMany("camera, in tiles of 4 x 4", questions.raysOfCameraInTiles());
     }
 
 private:
@@ -125,7 +128,7 @@ private:
             };
         };
         printTimes("nearest hit, " + kind,
-            {contender("rays", queries, nearestOf(mTree)), streamOf(queries),
+            {contender("rays", queries, nearestOf(mTree)),
                 contender("rays, plain hierarchy over the leaves", queries, nearestOf(mPlain)),
                 contender("Embree spheres", rays, nearestIn(mSphereScene)),
                 contender("Embree mesh", rays, nearestIn(mMeshScene))},
@@ -147,15 +150,38 @@ private:
         std::printf("    blocks a ray: %.3f, plain %.3f\n", blocksOf(mTree), blocksOf(mPlain));
     }
 
-    Contender streamOf(const std::vector<QueryRay>& rays) const
+    /// Embree is told that the rays are coherent, and that they are not: the better of both is its time.
+    void compareMany(const std::string& kind, const std::vector<FloatRay>& rays) const
     {
-        return {"rays, as a stream", [this, &rays] {
-                    std::vector<RayHit> hits(rays.size());
-                    intersect(mTree, rays.data(), rays.size(), hits.data());
-                    double sum = 0;
-                    for (const RayHit& hit : hits) sum += orZero(hit.t);
-                    return sum;
-                }};
+        std::vector<QueryRay> queries;
+        for (const FloatRay& ray : rays) queries.push_back(ray.query());
+        std::vector<RayHit> hits(rays.size());
+        std::vector<Contender> contenders{
+            {"many rays", [&] {
+                 intersect(mTree, queries.data(), queries.size(), hits.data());
+                 double sum = 0;
+                 for (const RayHit& hit : hits) sum += orZero(hit.t);
+                 return sum;
+             }}};
+        const RayPackets<RTCRayHit8> eights(rays);
+        const RayPackets<RTCRayHit16> sixteens(rays);
+        const RayStream stream(rays);
+        const auto add = [&](const std::string& how, const auto& many) {
+            for (const auto* scene : {&mSphereScene, &mMeshScene}) {
+                for (const auto flags :
+                    {RTC_INTERSECT_CONTEXT_FLAG_COHERENT, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT}) {
+                    const bool isCoherent = flags == RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+                    contenders.push_back(
+                        {std::string("Embree ") + (scene == &mSphereScene ? "spheres, " : "mesh, ")
+                                + how + (isCoherent ? ", coherent" : ""),
+                            [&many, scene, flags] { return many.sumOfHits(*scene, flags); }});
+                }
+            }
+        };
+        add("packets of 8", eights);
+        add("packets of 16", sixteens);
+        add("a stream", stream);
+        printTimes("many rays, nearest hit, " + kind, contenders, rays.size(), mRounds);
     }
 
     void comparePoints(const std::string& kind, const std::vector<Vec3s>& points) const

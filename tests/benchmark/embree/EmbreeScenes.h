@@ -47,6 +47,9 @@ public:
     /// @return the distance to the nearest ball, up to @a cutoff; of a scene made forPoints().
     float distance(const float* point, float cutoff) const;
 
+    /// For questions of many at once; it lives as long as the scene.
+    RTCScene handle() const { return mScene.get(); }
+
 private:
     explicit EmbreeScene(RTCGeometry geometry);
 

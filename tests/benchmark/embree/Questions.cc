@@ -10,6 +10,8 @@ using openvdb::Vec3s;
 
 namespace {
 
+constexpr int kSide = 141; // rays of a camera in a row: nearly kQuestions in all
+
 FloatRay aimed(const Vec3d& from, const Vec3d& at)
 {
     return {Vec3s(from), Vec3s((at - from).unit())};
@@ -57,16 +59,30 @@ std::vector<FloatRay> Questions::raysFromAround()
 
 std::vector<FloatRay> Questions::raysOfCamera() const
 {
-    const int side = int(std::sqrt(double(kQuestions)));
     const Vec3d eye = mBox.getCenter() + mRadius * Vec3d(1.2, 0.6, 2),
                 size = mBox.max() - mBox.min();
     std::vector<FloatRay> rays;
-    for (int i = 0; i < side * side; ++i) {
-        const double u = (i % side + 0.5) / side, v = (i / side + 0.5) / side;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double u = (i % kSide + 0.5) / kSide, v = (i / kSide + 0.5) / kSide;
         const Vec3d corner(mBox.min()[0], mBox.min()[1], mBox.getCenter()[2]);
         rays.push_back(aimed(eye, corner + Vec3d(u * size[0], v * size[1], 0)));
     }
     return rays;
+}
+
+std::vector<FloatRay> Questions::raysOfCameraInTiles() const
+{
+    constexpr int kTile = 4, kTiles = kSide / kTile;
+    const std::vector<FloatRay> rows = raysOfCamera();
+    std::vector<FloatRay> tiles;
+    for (int tile = 0; tile < kTiles * kTiles; ++tile) {
+        for (int i = 0; i < kTile * kTile; ++i) {
+            const int x = kTile * (tile % kTiles) + i % kTile,
+                      y = kTile * (tile / kTiles) + i / kTile;
+            tiles.push_back(rows[std::size_t(y * kSide + x)]);
+        }
+    }
+    return tiles;
 }
 
 std::vector<Vec3s> Questions::pointsInBox()

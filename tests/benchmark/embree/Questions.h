@@ -36,6 +36,8 @@ public:
     std::vector<FloatRay> raysFromAround();
     /// From one place through a grid.
     std::vector<FloatRay> raysOfCamera() const;
+    /// The same by squares of 4 x 4, as packets want them; what is left over at two sides is left out.
+    std::vector<FloatRay> raysOfCameraInTiles() const;
     /// In the box made 1.3 times as large.
     std::vector<openvdb::Vec3s> pointsInBox();
     /// @param mesh   of the surface
