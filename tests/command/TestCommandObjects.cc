@@ -101,6 +101,10 @@ TEST_F(CommandObjects, ValuesThatAreNoNumbersAreTold)
     EXPECT_EQ(checked.exitCode, 0) << checked.err;
     ASSERT_NE(checked.err.find(told), std::string::npos) << checked.err;
     EXPECT_EQ(checked.err.find(told), checked.err.rfind(told)) << checked.err;
+    const Result later = run("-read holes.vdb t.vdb -check");
+    EXPECT_EQ(later.exitCode, 0) << later.err;
+    ASSERT_NE(later.err.find(told), std::string::npos) << later.err;
+    EXPECT_EQ(later.err.find(told), later.err.rfind(told)) << later.err;
 }
 
 TEST_F(CommandObjects, RangesAndLabelsChooseValues)

@@ -270,6 +270,11 @@ openvdb::BoolGrid::Ptr objectCounting(int64_t& notNumbers, const StackItem& item
     }
 }
 
+void warnOfNotNumbers(int64_t notNumbers, const StackItem& item, Session& session)
+{
+    if (notNumbers) session.warn(item.description() + ": " + notNumbersText(notNumbers));
+}
+
 } // namespace
 
 openvdb::BoolGrid::Ptr objectOf(
@@ -277,7 +282,7 @@ openvdb::BoolGrid::Ptr objectOf(
 {
     int64_t notNumbers = 0;
     auto object = objectCounting(notNumbers, item, settings, session);
-    if (notNumbers) session.warn(item.description() + ": " + notNumbersText(notNumbers));
+    warnOfNotNumbers(notNumbers, item, session);
     return object;
 }
 
@@ -296,9 +301,12 @@ openvdb::BoolGrid::Ptr objectOfTree(
         spheretree::ObjectSettings settings;
         settings.coverage = coverage;
         try {
-            int64_t notNumbers = 0; // it was said when the tree was built
+            int64_t notNumbers = 0;
             const auto object = objectCounting(notNumbers, item, settings, session);
-            if (spheretree::isObjectOf(*object, tree)) return object;
+            if (spheretree::isObjectOf(*object, tree)) {
+                warnOfNotNumbers(notNumbers, item, session);
+                return object;
+            }
             if (spheretree::coverageOf(*object) != coverage) return nullptr; // the same for each
         } catch (const CommandError&) { // no voxel is of that kind
         }
