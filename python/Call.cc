@@ -142,14 +142,31 @@ std::exception_ptr attend(CallInterrupter& call, Teller& teller)
     return objection;
 }
 
-} // namespace
-
-void runCall(const CallSettings& settings, const std::function<void(Interrupter*)>& work)
+void requireSense(const CallSettings& settings)
 {
     if (settings.threads < 0) {
         throw InputError("threads=" + std::to_string(settings.threads)
             + " is out of range: it takes 1 or more, or None for all cores");
     }
+    if (!settings.progress.is_none() && !PyCallable_Check(settings.progress.ptr())) {
+        throw py::type_error(std::string("progress must be a function or None, not ")
+            + Py_TYPE(settings.progress.ptr())->tp_name);
+    }
+}
+
+} // namespace
+
+void runBriefly(const CallSettings& settings, const std::function<void(Interrupter*)>& work)
+{
+    if (!settings.progress.is_none()) return runCall(settings, work);
+    requireSense(settings);
+    const py::gil_scoped_release others;
+    runInArena(settings.threads, [&] { work(nullptr); });
+}
+
+void runCall(const CallSettings& settings, const std::function<void(Interrupter*)>& work)
+{
+    requireSense(settings);
     command::setStopQuestion(isCurrentStopped);
     CallInterrupter call(settings.work);
     Teller teller(settings.progress);

@@ -35,6 +35,10 @@ using Interrupter = openvdb::util::NullInterrupter;
 ///        InputError for a number of threads that is none
 void runCall(const CallSettings& settings, const std::function<void(Interrupter*)>& work);
 
+/// @brief The same of work that is over in a moment, on the calling thread: to start one takes longer than most questions to a
+/// tree. Ctrl-C waits. With a function for `progress` it is runCall().
+void runBriefly(const CallSettings& settings, const std::function<void(Interrupter*)>& work);
+
 /// @return what @a work returns.
 template <typename Work>
 auto resultOfCall(const CallSettings& settings, const Work& work)

@@ -61,6 +61,16 @@ const spheretree::DigitalLeaves& Query::leaves() const
     return *mLeaves;
 }
 
+std::string PoseRows::numberOf(std::size_t row) const
+{
+    if (bodies > 0 && size() > bodies) {
+        return " of frame " + std::to_string(row / bodies) + ", body "
+            + std::to_string(row % bodies);
+    }
+    if (bodies > 0) return " of body " + std::to_string(row);
+    return size() > 1 ? " " + std::to_string(row) : "";
+}
+
 RigidTransform PoseRows::at(std::size_t row) const
 {
     std::array<double, 16> matrix;
@@ -68,8 +78,7 @@ RigidTransform PoseRows::at(std::size_t row) const
     try {
         return RigidTransform::fromMatrix(matrix);
     } catch (const openvdb::ValueError& error) {
-        const std::string number = size() > 1 ? " " + std::to_string(row) : "";
-        throw InputError(name + number + ": " + spheretree::detail::messageOf(error));
+        throw InputError(name + numberOf(row) + ": " + spheretree::detail::messageOf(error));
     }
 }
 
@@ -84,7 +93,8 @@ std::vector<RigidMotion> motionsOf(const PoseRows& starts, const PoseRows& ends)
 {
     std::vector<RigidMotion> motions;
     for (std::size_t i = 0; i < starts.size(); ++i) {
-        motions.push_back(RigidMotion::screw(starts.at(i), ends.at(i)));
+        const RigidTransform start = starts.at(i); // whose error comes first
+        motions.push_back(RigidMotion::screw(start, ends.at(i)));
     }
     return motions;
 }
@@ -93,6 +103,14 @@ int8_t numberOf(Verdict verdict)
 {
     if (verdict == Verdict::Undecided) return 0;
     return verdict == Verdict::Touching ? 1 : -1;
+}
+
+void runQuestions(
+    const CallSettings& call, std::size_t count, const std::function<void(Interrupter*)>& work)
+{
+    constexpr std::size_t kFew = 16;
+    if (count <= kFew) runBriefly(call, work);
+    else runCall(call, work);
 }
 
 ContactRows::ContactRows(std::size_t count)
@@ -129,7 +147,7 @@ py::tuple collide(const Query& a, const Query& b, const Doubles& matrices, doubl
     py::array_t<int8_t> spheres(py::ssize_t(poses.size())), certain(py::ssize_t(poses.size()));
     const ContactRows contacts(poses.size());
     int8_t *const sphere = spheres.mutable_data(), *const object = certain.mutable_data();
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, poses.size(), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             const auto result = spheretree::collide(a.tree(), {}, b.tree(), poses[i], request);
             sphere[i] = numberOf(result.verdict);
@@ -151,7 +169,7 @@ py::tuple contacts(const Query& a, const Query& b, const Doubles& matrices, int 
     request.maxContacts =
         std::max(maxContacts, 2); // a list of one would hold any pair, not the deepest
     std::vector<std::vector<spheretree::Contact>> found(poses.size());
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, poses.size(), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             spheretree::collide(a.tree(), {}, b.tree(), poses[i], request, &found[i]);
             found[i].resize(std::min(found[i].size(), std::size_t(maxContacts)));
@@ -173,16 +191,17 @@ py::tuple contacts(const Query& a, const Query& b, const Doubles& matrices, int 
 
 /// @param ways  poses where a starts and ends, and b: as many of each
 py::tuple continuousCollide(const Query& a, const Query& b, const std::array<Doubles, 4>& ways,
-    double tolerance, const CallSettings& call)
+    double margin, double tolerance, const CallSettings& call)
 {
     const auto motionsA = motionsOf({"own_start", ways[0]}, {"own_end", ways[1]}),
                motionsB = motionsOf({"start", ways[2]}, {"end", ways[3]});
     spheretree::ContinuousCollisionRequest request;
+    request.securityMargin = margin;
     request.tolerance = tolerance;
     py::array_t<double> times(py::ssize_t(motionsA.size()));
     const ContactRows contacts(motionsA.size());
     double* const time = times.mutable_data();
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, motionsA.size(), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(motionsA.size(), interrupter, [&](std::size_t i) {
             const auto result = spheretree::continuousCollide(
                 a.tree(), motionsA[i], b.tree(), motionsB[i], request);
@@ -210,7 +229,7 @@ py::tuple distance(const Query& a, const Query& b, const Doubles& matrices, bool
                   *const upper = uppers.mutable_data(), *const pointA = pointsA.mutable_data(),
                   *const pointB = pointsB.mutable_data();
     int32_t* const id = ids.mutable_data();
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, poses.size(), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             const auto result = spheretree::distance(a.tree(), {}, b.tree(), poses[i], request);
             const bool isThere = result.contact.has_value();
@@ -233,7 +252,7 @@ py::array contains(const Query& query, const Doubles& points, const CallSettings
     py::array_t<bool> inside(py::ssize_t(rowCount(points)));
     bool* const isInside = inside.mutable_data();
     const double* const point = points.data();
-    runCall(call, [&, count = rowCount(points)](Interrupter* interrupter) {
+    runQuestions(call, rowCount(points), [&, count = rowCount(points)](Interrupter* interrupter) {
         spheretree::detail::parallelFor(count, interrupter, [&](std::size_t i) {
             isInside[i] = spheretree::contains(query.tree(), leaves, vecAt(point + 3 * i));
         });
@@ -251,7 +270,7 @@ py::tuple nearest(
     double *const distance = distances.mutable_data(), *const gradient = gradients.mutable_data();
     int32_t* const id = ids.mutable_data();
     const double* const point = points.data();
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, count, [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(count, interrupter, [&](std::size_t i) {
             const auto found = spheretree::nearest(query.tree(), vecAt(point + 3 * i), cutoff);
             distance[i] = found.distance;
@@ -281,7 +300,7 @@ py::tuple intersect(const Query& query, const Doubles& origins, const Doubles& d
 {
     const auto rays = raysOf(origins, directions, tFar, leavesStart);
     std::vector<spheretree::RayHit> hits(rays.size());
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, rays.size(), [&](Interrupter* interrupter) {
         spheretree::intersect(query.tree(), rays.data(), rays.size(), hits.data(), interrupter);
     });
     py::array_t<double> times{py::ssize_t(rays.size())};
@@ -300,7 +319,7 @@ py::array occluded(const Query& query, const Doubles& origins, const Doubles& di
     py::array_t<bool> blocked{py::ssize_t(rays.size())};
     static_assert(sizeof(bool) == 1, "a bool of numpy is a byte");
     auto* const isBlocked = reinterpret_cast<uint8_t*>(blocked.mutable_data());
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, rays.size(), [&](Interrupter* interrupter) {
         spheretree::occluded(query.tree(), rays.data(), rays.size(), isBlocked, interrupter);
     });
     return blocked;
@@ -316,7 +335,7 @@ py::tuple sphereDistances(
     const spheretree::SphereDistanceArrays results{
         distances.mutable_data(), gradients.mutable_data(), ids.mutable_data()};
     const float* const from = spheres.data();
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, count, [&](Interrupter* interrupter) {
         spheretree::sphereDistances(query.tree(), from, count, activation, results, interrupter);
         for (std::size_t i = 0; i < count; ++i) {
             if (results.leaf[i] >= 0) results.leaf[i] = query.tree().nodeId(results.leaf[i]);
@@ -351,10 +370,10 @@ void bindQuery(py::module_& module)
             })
         .def("continuous_collide",
             [](const Query& a, const Query& b, const Doubles& startA, const Doubles& endA,
-                const Doubles& startB, const Doubles& endB, double tolerance,
+                const Doubles& startB, const Doubles& endB, double margin, double tolerance,
                 const py::object& progress, int threads) {
-                return continuousCollide(
-                    a, b, {startA, endA, startB, endB}, tolerance, CallSettings{progress, threads});
+                return continuousCollide(a, b, {startA, endA, startB, endB}, margin, tolerance,
+                    CallSettings{progress, threads});
             })
         .def("distance",
             [](const Query& a, const Query& b, const Doubles& poses, bool isSigned, double upTo,

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "Call.h"
 #include "Tree.h"
 
 #include <openvdb_spheretree/query/Collide.h>
@@ -18,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,8 +66,11 @@ struct [[gnu::visibility("hidden")]] PoseRows
 {                     // as all of pybind11 is
     const char* name; ///< of the argument, for messages
     const Doubles& matrices;
+    std::size_t bodies = 0; ///< of a scene: rows are of so many, frame by frame
 
     std::size_t size() const { return rowCount(matrices); }
+    /// @return as messages have it: " 3", or " of frame 2, body 1".
+    std::string numberOf(std::size_t row) const;
     /// @throw InputError naming argument and row if it is no pose
     openvdb_spheretree::RigidTransform at(std::size_t row) const;
 };
@@ -95,5 +100,9 @@ private:
     double *mDistance, *mPoint, *mNormal;
     int32_t* mId;
 };
+
+/// @brief Runs @a work that answers @a count questions: a few of them on the calling thread.
+void runQuestions(
+    const CallSettings& call, std::size_t count, const std::function<void(Interrupter*)>& work);
 
 } // namespace binding

@@ -74,37 +74,38 @@ py::array poseOf(const QueryScene& scene, int body)
 /// Poses of all bodies of a scene, frame by frame. Those of bodies that were removed may be anything.
 class FramePoses {
 public:
-    FramePoses(const QueryScene& scene, const PoseRows& rows) : mScene(scene), mRows(rows)
+    FramePoses(const QueryScene& scene, const PoseRows& rows) : mBodies(std::size_t(scene.size()))
     {
-        if (scene.size() > 0) mFrames = rows.size() / std::size_t(scene.size());
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            const bool isThere = scene.has(int(row % mBodies));
+            mPoses.push_back(isThere ? rows.at(row) : spheretree::RigidTransform());
+        }
     }
 
-    std::size_t frames() const { return mFrames; }
-    spheretree::RigidTransform at(std::size_t frame, int body) const
+    std::size_t frames() const { return mBodies == 0 ? 0 : mPoses.size() / mBodies; }
+    const spheretree::RigidTransform& at(std::size_t frame, int body) const
     {
-        if (!mScene.has(body)) return {};
-        return mRows.at(frame * std::size_t(mScene.size()) + std::size_t(body));
+        return mPoses[frame * mBodies + std::size_t(body)];
     }
 
 private:
-    const QueryScene& mScene;
-    const PoseRows& mRows;
-    std::size_t mFrames = 0;
+    std::size_t mBodies;
+    std::vector<spheretree::RigidTransform> mPoses;
 };
 
-/// @return the scene as it is in each frame; without poses, as it is.
-std::vector<QueryScene> scenesOf(const QueryScene& scene, const std::optional<Doubles>& matrices)
+/// @return the scene with all bodies where they are in a frame.
+QueryScene placed(QueryScene scene, const FramePoses& poses, std::size_t frame)
 {
-    if (!matrices) return {scene};
-    const PoseRows poseRows{"poses", *matrices};
-    const FramePoses poses(scene, poseRows);
-    std::vector<QueryScene> scenes(poses.frames(), scene);
-    for (std::size_t frame = 0; frame < scenes.size(); ++frame) {
-        for (int body = 0; body < scene.size(); ++body) {
-            if (scene.has(body)) scenes[frame].setPose(body, poses.at(frame, body));
-        }
+    for (int body = 0; body < scene.size(); ++body) {
+        if (scene.has(body)) scene.setPose(body, poses.at(frame, body));
     }
-    return scenes;
+    return scene;
+}
+
+/// @return how many questions to two bodies there may be, at least.
+std::size_t questionCount(const QueryScene& scene, std::size_t frames)
+{
+    return frames * std::size_t(scene.size());
 }
 
 /// @return the deepest ones, or the one that was found.
@@ -114,22 +115,25 @@ std::vector<spheretree::Contact> contactsOf(const spheretree::ScenePair& pair, b
     return {*pair.result.contact};
 }
 
-/// @param poses        of all bodies, frame by frame; without, the scene as it is
+/// @param scene        a copy: another thread may change the one that is asked
+/// @param matrices     poses of all bodies, frame by frame; without, they are where they are
 /// @param maxContacts  0: any one of each pair
-py::tuple touchingPairs(const QueryScene& scene, const std::optional<Doubles>& poses, double margin,
-    bool objects, int maxContacts, const CallSettings& call)
+py::tuple touchingPairs(const QueryScene scene, const std::optional<Doubles>& matrices,
+    double margin, bool objects, int maxContacts, const CallSettings& call)
 {
-    const std::vector<QueryScene> scenes = scenesOf(scene, poses);
+    std::optional<FramePoses> poses;
+    if (matrices) poses.emplace(scene, PoseRows{"poses", *matrices, std::size_t(scene.size())});
     spheretree::CollisionRequest request;
     request.securityMargin = margin;
     request.decideObjects = objects;
     request.enableContact = true;
     if (maxContacts > 0)
         request.maxContacts = std::max(maxContacts, 2); // a list of one has any pair
-    std::vector<std::vector<spheretree::ScenePair>> found(scenes.size());
-    runCall(call, [&](Interrupter* interrupter) {
-        spheretree::detail::parallelFor(scenes.size(), interrupter, [&](std::size_t frame) {
-            found[frame] = scenes[frame].touchingPairs(request, interrupter);
+    std::vector<std::vector<spheretree::ScenePair>> found(poses ? poses->frames() : 1);
+    runQuestions(call, questionCount(scene, found.size()), [&](Interrupter* interrupter) {
+        spheretree::detail::parallelFor(found.size(), interrupter, [&](std::size_t frame) {
+            const QueryScene there = poses ? placed(scene, *poses, frame) : scene;
+            found[frame] = there.touchingPairs(request, interrupter);
             for (spheretree::ScenePair& pair : found[frame]) {
                 const auto most = std::size_t(std::max(maxContacts, 0));
                 pair.contacts.resize(std::min(pair.contacts.size(), most));
@@ -171,18 +175,20 @@ std::vector<std::vector<spheretree::RigidMotion>> motionsOf(
     return motions;
 }
 
+/// @param scene        a copy, as above
 /// @param starts,ends  poses of all bodies, frame by frame
-py::tuple firstContacts(const QueryScene& scene, const Doubles& starts, const Doubles& ends,
-    double tolerance, const CallSettings& call)
+py::tuple firstContacts(const QueryScene scene, const Doubles& starts, const Doubles& ends,
+    double margin, double tolerance, const CallSettings& call)
 {
-    const auto motions = motionsOf(scene, {"start", starts}, {"end", ends});
-    const QueryScene copy = scene; // another thread may change the one that is asked
+    const auto bodies = std::size_t(scene.size());
+    const auto motions = motionsOf(scene, {"start", starts, bodies}, {"end", ends, bodies});
     spheretree::ContinuousCollisionRequest request;
+    request.securityMargin = margin;
     request.tolerance = tolerance;
     std::vector<std::vector<spheretree::MovingPair>> found(motions.size());
-    runCall(call, [&](Interrupter* interrupter) {
+    runQuestions(call, questionCount(scene, found.size()), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(motions.size(), interrupter, [&](std::size_t frame) {
-            found[frame] = copy.firstContacts(motions[frame], request, interrupter);
+            found[frame] = scene.firstContacts(motions[frame], request, interrupter);
         });
     });
     std::size_t count = 0;
@@ -231,9 +237,10 @@ void bindScene(py::module_& module)
                     s, given, margin, objects, maxContacts, CallSettings{progress, threads});
             })
         .def("first_contacts",
-            [](const QueryScene& s, const Doubles& starts, const Doubles& ends, double tolerance,
-                const py::object& progress, int threads) {
-                return firstContacts(s, starts, ends, tolerance, CallSettings{progress, threads});
+            [](const QueryScene& s, const Doubles& starts, const Doubles& ends, double margin,
+                double tolerance, const py::object& progress, int threads) {
+                return firstContacts(
+                    s, starts, ends, margin, tolerance, CallSettings{progress, threads});
             });
 }
 

@@ -25,7 +25,8 @@ ContinuousCollisionResult firstContact(Frame& frame, const QueryTree& a, const P
     ContinuousCollisionResult result;
     result.timeOfContact = result.freeUntil = limits.end;
     // Bodies that are farther apart than anything goes.
-    if (frame.pair.rootGap() > frame.longestWay() + frame.pair.rounding) return result;
+    if (frame.pair.rootGap() > frame.longestWay() + limits.margin + frame.pair.rounding)
+        return result;
     frame.enterFloats();
     const detail::MotionEnd end = findFirstContact(frame, limits);
     result.blocks = end.blocks;

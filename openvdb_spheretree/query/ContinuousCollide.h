@@ -29,6 +29,8 @@
 namespace openvdb_spheretree {
 
 struct ContinuousCollisionRequest {
+    /// Bodies nearer than this are in contact: world units, 0 or more.
+    double securityMargin = 0;
     /// World units, above 0; 10^-12 of the smaller body's radius are the least. 0: a ten-thousandth of that radius.
     double tolerance = 0;
     /// The motion is looked at from time 0 to this: above 0, 1 at most.

@@ -24,7 +24,9 @@ constexpr int kSteps = 2, kLeafSteps = 6;
 template <class Frame>
 class FirstContact {
 public:
-    FirstContact(const Frame& frame, const MotionLimits& limits) : mFrame(frame), mLimits(limits)
+    FirstContact(const Frame& frame, const MotionLimits& limits)
+        : mFrame(frame), mLimits(limits),
+          mPad(toFloatUp(frame.pad + (1 + 1e-6) * limits.margin)) // a sum in floats has it, too
     {
         SetBest(limits.end);
     }
@@ -71,7 +73,7 @@ private:
         HWY_ALIGN float times[kBlockWidth];
         uint32_t soon = 0;
         for (int lane = 0; lane < kBlockWidth; lane += kWidth) {
-            auto approach = ApproachOf(*opened.block, lane, coming, next.time, mFrame.pad);
+            auto approach = ApproachOf(*opened.block, lane, coming, next.time, mPad);
             uint32_t live = 1;
             for (int step = 1; step <= most && live; ++step) {
                 approach.Step(mBest);
@@ -110,8 +112,7 @@ private:
         const FloatSphere& ofA = opened.isOfA ? here : opened.own;
         const FloatSphere& ofB = opened.isOfA ? opened.own : here;
         double gap = 0;
-        const double time =
-            timeOfContact(mFrame, ofA, ofB, from, mEnd.time, mLimits.tolerance, gap);
+        const double time = timeOfContact(mFrame, ofA, ofB, from, mEnd.time, mLimits, gap);
         const bool isFirst = mEnd.pair.a < 0 && time <= mEnd.time;
         if (time >= mEnd.time && !isFirst) return;
         mEnd.pair = {opened.leafA(lane), opened.leafB(lane), gap};
@@ -120,6 +121,7 @@ private:
 
     const Frame& mFrame;
     const MotionLimits& mLimits;
+    float mPad; ///< what radii grow by
     MotionEnd mEnd;
     float mBest = 0;
     int mCount = 0;

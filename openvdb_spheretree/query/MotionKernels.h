@@ -22,7 +22,8 @@
 namespace openvdb_spheretree::detail {
 
 struct MotionLimits {
-    double tolerance = 0; ///< a gap of this or less is contact
+    double margin = 0;    ///< what gaps are less by
+    double tolerance = 0; ///< such a gap of this or less is contact
     double end = 1;       ///< times go from 0 to this
     int64_t maxBlocks = std::numeric_limits<int64_t>::max();
 };
@@ -39,11 +40,11 @@ struct MotionEnd {
 MotionEnd findFirstContact(const MotionFrame& frame, const MotionLimits& limits);
 MotionEnd findFirstContact(const MutualFrame& frame, const MotionLimits& limits);
 
-/// @return where a gap first is `tolerance` or less, from @a from on, and that gap in @a gap; more than
-///         @a end if it never is.
+/// @return where two spheres first are in contact, from @a from on, and their gap then in @a gap; more than @a end if they
+///         never are.
 double timeOfContact(const MotionFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
-    double from, double end, double tolerance, double& gap);
+    double from, double end, const MotionLimits& limits, double& gap);
 double timeOfContact(const MutualFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
-    double from, double end, double tolerance, double& gap);
+    double from, double end, const MotionLimits& limits, double& gap);
 
 } // namespace openvdb_spheretree::detail

@@ -169,7 +169,8 @@ std::vector<MovingPair> QueryScene::firstContacts(const std::vector<RigidMotion>
         if (has(i))
             spheres.push_back(sphereAround(i, tree(i), motions[std::size_t(i)], limits.end));
     }
-    const Pairs near = withoutIgnored(detail::sweepPairs(std::move(spheres), limits.tolerance));
+    const Pairs near =
+        withoutIgnored(detail::sweepPairs(std::move(spheres), limits.margin + limits.tolerance));
     std::vector<MovingPair> pairs(near.size());
     detail::parallelFor(near.size(), interrupter, [&](std::size_t i) {
         const auto [a, b] = near[i];

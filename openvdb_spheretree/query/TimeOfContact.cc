@@ -37,16 +37,18 @@ struct Helix {
 /// @param at  of a time: the vector between both centers, and its velocity
 template <typename At>
 double firstWithin(const At& at, double radii, double acceleration, double from, double end,
-    double tolerance, double& gap)
+    const MotionLimits& limits, double& gap)
 {
+    const double within = radii + limits.margin;
     for (double time = from; time <= end;) {
         Vec3d away, velocity;
         at(time, away, velocity);
         gap = away.length() - radii;
-        if (gap <= tolerance) return time;
-        const double calm = acceleration > 0 ? std::sqrt(gap / acceleration) : INFINITY;
+        const double left = away.length() - within;
+        if (left <= limits.tolerance) return time;
+        const double calm = acceleration > 0 ? std::sqrt(left / acceleration) : INFINITY;
         const double span = std::min(calm, std::max(end - time, 1e-12));
-        const double reach = radii + 0.5 * acceleration * span * span;
+        const double reach = within + 0.5 * acceleration * span * span;
         const double towards = away.dot(velocity), speedSq = velocity.lengthSqr();
         const double outside = away.lengthSqr() - reach * reach;
         double step = span;
@@ -67,7 +69,7 @@ Vec3d centerOf(const FloatSphere& sphere) { return {sphere.x, sphere.y, sphere.z
 } // namespace
 
 double timeOfContact(const MotionFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
-    double from, double end, double tolerance, double& gap)
+    double from, double end, const MotionLimits& limits, double& gap)
 {
     const Vec3d start = frame.pair.pose * centerOf(ofB), between = start - centerOf(ofA);
     const Helix helix(frame.ofB, start);
@@ -76,11 +78,12 @@ double timeOfContact(const MotionFrame& frame, const FloatSphere& ofA, const Flo
         helix.at(time, way, velocity);
         away = between + way;
     };
-    return firstWithin(at, double(ofA.r) + ofB.r, helix.acceleration(), from, end, tolerance, gap);
+    const double radii = double(ofA.r) + ofB.r;
+    return firstWithin(at, radii, helix.acceleration(), from, end, limits, gap);
 }
 
 double timeOfContact(const MutualFrame& frame, const FloatSphere& ofA, const FloatSphere& ofB,
-    double from, double end, double tolerance, double& gap)
+    double from, double end, const MotionLimits& limits, double& gap)
 {
     const Vec3d startA = centerOf(ofA), startB = frame.pair.pose * centerOf(ofB);
     const Vec3d between = startB - startA;
@@ -92,8 +95,9 @@ double timeOfContact(const MutualFrame& frame, const FloatSphere& ofA, const Flo
         away = between + (wayB - wayA) + time * frame.drift;
         velocity = velocityB - velocityA + frame.drift;
     };
-    return firstWithin(at, double(ofA.r) + ofB.r, helixA.acceleration() + helixB.acceleration(),
-        from, end, tolerance, gap);
+    const double radii = double(ofA.r) + ofB.r;
+    return firstWithin(
+        at, radii, helixA.acceleration() + helixB.acceleration(), from, end, limits, gap);
 }
 
 } // namespace openvdb_spheretree::detail

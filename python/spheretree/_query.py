@@ -26,20 +26,30 @@ class Verdict(IntEnum):
 
 
 class Collisions(NamedTuple):
-    """Whether two trees touch, for each pose. Where they do not, numbers are NaN and ids -1."""
+    """Whether two trees touch, for each pose. Where they do not, numbers are NaN and ids -1.
+
+    Attributes
+    ----------
+    spheres
+        `Verdict.TOUCHING` (1) where leaf spheres touch, `APART` (-1) where they do not. Ask `touching` for truth.
+    objects
+        The same of the voxels themselves: `UNDECIDED` (0) where spheres cannot know, or were not asked to search on.
+    distance
+        Of the two spheres that were found: negative is how deep they meet.
+    points
+        The middle between them: shape (..., 3).
+    normals
+        From the first tree's sphere to the second's, of length 1: shape (..., 3).
+    ids
+        Of both spheres in their trees: shape (..., 2).
+    """
 
     spheres: npt.NDArray[np.int8]
-    """`Verdict.TOUCHING` (1) where leaf spheres touch, `APART` (-1) where they do not. Ask `touching` for truth."""
     objects: npt.NDArray[np.int8]
-    """The same of the voxels themselves: `UNDECIDED` (0) where spheres cannot know, or were not asked to search on."""
     distance: npt.NDArray[np.float64]
-    """Of the two spheres that were found: negative is how deep they meet."""
     points: npt.NDArray[np.float64]
-    """The middle between them: shape (..., 3)."""
     normals: npt.NDArray[np.float64]
-    """From the first tree's sphere to the second's, of length 1: shape (..., 3)."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (..., 2)."""
 
     @property
     def touching(self) -> npt.NDArray[np.bool_]:
@@ -47,72 +57,132 @@ class Collisions(NamedTuple):
         touching: npt.NDArray[np.bool_] = self.spheres == Verdict.TOUCHING
         return touching
 
+    def __repr__(self) -> str:
+        return f"<spheretree.Collisions of shape {self.spheres.shape}: {np.count_nonzero(self.touching)} touching>"
+
 
 class Contacts(NamedTuple):
-    """Pairs of spheres of two trees that touch: a row each, by poses, and of a pose the deepest first."""
+    """Pairs of spheres of two trees that touch: a row each, by poses, and of a pose the deepest first.
+
+    Attributes
+    ----------
+    pose
+        Of which pose it is: its index, counted as numpy flattens them. Shape (n,).
+    distance
+        Of the two spheres: negative is how deep they meet.
+    points
+        The middle between them: shape (n, 3).
+    normals
+        From the first tree's sphere to the second's, of length 1: shape (n, 3).
+    ids
+        Of both spheres in their trees: shape (n, 2).
+    """
 
     pose: npt.NDArray[np.int64]
-    """Of which pose it is: its index, counted as numpy flattens them. Shape (n,)."""
     distance: npt.NDArray[np.float64]
-    """Of the two spheres: negative is how deep they meet."""
     points: npt.NDArray[np.float64]
-    """The middle between them: shape (n, 3)."""
     normals: npt.NDArray[np.float64]
-    """From the first tree's sphere to the second's, of length 1: shape (n, 3)."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (n, 2)."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.Contacts: {len(self.pose)} of {len(np.unique(self.pose))} poses>"
 
 
 class FirstContacts(NamedTuple):
-    """When two trees first touch, for each motion. Where they do not, numbers are NaN and ids -1."""
+    """When two trees first touch, for each motion. Where they do not, numbers are NaN and ids -1.
+
+    Attributes
+    ----------
+    time
+        From 0 to 1 along the way. No voxels of the two meet before.
+    distance
+        Of the two spheres that meet, at that time.
+    points
+        The middle between them: shape (..., 3).
+    normals
+        From the first tree's sphere to the second's, of length 1: shape (..., 3).
+    ids
+        Of both spheres in their trees: shape (..., 2).
+    """
 
     time: npt.NDArray[np.float64]
-    """From 0 to 1 along the way. No voxels of the two meet before."""
     distance: npt.NDArray[np.float64]
-    """Of the two spheres that meet, at that time."""
     points: npt.NDArray[np.float64]
-    """The middle between them: shape (..., 3)."""
     normals: npt.NDArray[np.float64]
-    """From the first tree's sphere to the second's, of length 1: shape (..., 3)."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (..., 2)."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.FirstContacts of shape {self.time.shape}: {np.isfinite(self.time).sum()} meet>"
 
 
 class Distances(NamedTuple):
-    """How far two trees are apart, for each pose. Where nothing is near enough, points are NaN and ids -1."""
+    """How far two trees are apart, for each pose. Where nothing is near enough, points are NaN and ids -1.
+
+    Attributes
+    ----------
+    distance
+        Of the nearest leaf spheres; infinite where nothing is within `upto`.
+    lower
+        The voxels themselves are no nearer.
+    upper
+        The voxels themselves are no farther.
+    points_a
+        Where the first tree's sphere is nearest to the second's: shape (..., 3).
+    points_b
+        And the other way round.
+    ids
+        Of both spheres in their trees: shape (..., 2).
+    """
 
     distance: npt.NDArray[np.float64]
-    """Of the nearest leaf spheres; infinite where nothing is within `upto`."""
     lower: npt.NDArray[np.float64]
-    """The voxels themselves are no nearer."""
     upper: npt.NDArray[np.float64]
-    """The voxels themselves are no farther."""
     points_a: npt.NDArray[np.float64]
-    """Where the first tree's sphere is nearest to the second's: shape (..., 3)."""
     points_b: npt.NDArray[np.float64]
-    """And the other way round."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (..., 2)."""
+
+    def __repr__(self) -> str:
+        least = f": {self.distance.min():.6g} at least" if self.distance.size else ""
+        return f"<spheretree.Distances of shape {self.distance.shape}{least}>"
 
 
 class Nearest(NamedTuple):
-    """The leaf sphere nearest to each point, or to each sphere."""
+    """The leaf sphere nearest to each point, or to each sphere.
+
+    Attributes
+    ----------
+    distance
+        Negative inside; the cut-off where nothing is nearer.
+    gradients
+        In which direction the distance grows fastest, of length 1: shape (..., 3); 0 where nothing is nearer.
+    ids
+        Of the spheres in the tree, or -1.
+    """
 
     distance: npt.NDArray[Any]
-    """Negative inside; the cut-off where nothing is nearer."""
     gradients: npt.NDArray[Any]
-    """In which direction the distance grows fastest, of length 1: shape (..., 3); 0 where nothing is nearer."""
     ids: npt.NDArray[np.int32]
-    """Of the spheres in the tree, or -1."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.Nearest of shape {self.ids.shape}: {np.count_nonzero(self.ids >= 0)} found>"
 
 
 class Hits(NamedTuple):
-    """Where rays enter the leaf spheres."""
+    """Where rays enter the leaf spheres.
+
+    Attributes
+    ----------
+    t
+        Counted by the length of the direction; infinite without a hit.
+    ids
+        Of the spheres in the tree, or -1.
+    """
 
     t: npt.NDArray[np.float64]
-    """Counted by the length of the direction; infinite without a hit."""
     ids: npt.NDArray[np.int32]
-    """Of the spheres in the tree, or -1."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.Hits of shape {self.ids.shape}: {np.count_nonzero(self.ids >= 0)} hit>"
 
 
 def rows_of(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: Any = np.float64) -> tuple[Any, Any]:
@@ -122,6 +192,24 @@ def rows_of(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: A
         wanted = ", ".join(["...", *map(str, columns)])
         raise InputError(f"{name} has shape {array.shape}: it takes ({wanted})")
     return array.reshape(-1, int(np.prod(columns))), array.shape[: array.ndim - len(columns)]
+
+
+def real_number(name: str, value: object) -> float:
+    """A number, infinite ones too; what it may be the library says."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{name} is beyond what a double holds") from None
+
+
+def _bound(name: str, value: object) -> float:
+    """A number from 0 on, infinity too."""
+    number = real_number(name, value)
+    if not number >= 0:
+        raise InputError(f"{name}={value} is out of range: it takes numbers from 0 on")
+    return number
 
 
 MOST_CONTACTS = 1_000_000  # as of the command
@@ -205,7 +293,8 @@ class Query:
         array([ 1,  1, -1], dtype=int8)
         """
         poses, shape = self._pair(other, pose)
-        answers = self._handle.collide(other._handle, poses, margin, objects, progress, thread_count(threads))
+        answers = self._handle.collide(
+            other._handle, poses, real_number("margin", margin), bool(objects), progress, thread_count(threads))
         return Collisions(*_shaped(shape, answers))
 
     def contacts(
@@ -235,15 +324,17 @@ class Query:
         """
         poses, _ = self._pair(other, pose)
         answers = self._handle.contacts(
-            other._handle, poses, contact_count(max_contacts), margin, progress, thread_count(threads))
+            other._handle, poses, contact_count(max_contacts), real_number("margin", margin), progress, thread_count(threads))
         return Contacts(*answers)
 
     def continuous_collide(
         self, other: Query, start: npt.ArrayLike, end: npt.ArrayLike, *, own_start: npt.ArrayLike | None = None,
-        own_end: npt.ArrayLike | None = None, tolerance: float = 0, progress: Progress = None,
-        threads: int | None = None,
+        own_end: npt.ArrayLike | None = None, margin: float = 0, tolerance: float = 0,
+        progress: Progress = None, threads: int | None = None,
     ) -> FirstContacts:
         """When two trees first touch, as one or both move. Nothing is sampled.
+
+        Links of an arm whose joints turn do not move so: see `Scene.first_contacts()`.
 
         Parameters
         ----------
@@ -255,6 +346,8 @@ class Query:
         own_start, own_end
             The same of this tree, at the same time. By default it stands still where it was stored, or at `own_start`.
             Shapes in front of all these poses are broadcast, as numpy does it.
+        margin
+            Spheres nearer than this touch.
         tolerance
             How far apart the spheres may be at the time that is found. 0: a ten-thousandth of the smaller tree's radius.
         progress, threads
@@ -277,8 +370,8 @@ class Query:
         rows = broadcast_rows(given)
         shape = np.broadcast_shapes(*(front for _, front in given.values()))
         answers = self._handle.continuous_collide(
-            other._handle, rows["own_start"], rows["own_end"], rows["start"], rows["end"], tolerance, progress,
-            thread_count(threads))
+            other._handle, rows["own_start"], rows["own_end"], rows["start"], rows["end"],
+            real_number("margin", margin), real_number("tolerance", tolerance), progress, thread_count(threads))
         return FirstContacts(*_shaped(shape, answers))
 
     def distance(
@@ -307,9 +400,8 @@ class Query:
         True
         """
         poses, shape = self._pair(other, pose)
-        if not upto >= 0:
-            raise InputError(f"upto={upto} is out of range: it takes numbers from 0 on")
-        answers = self._handle.distance(other._handle, poses, signed, upto, progress, thread_count(threads))
+        answers = self._handle.distance(
+            other._handle, poses, bool(signed), _bound("upto", upto), progress, thread_count(threads))
         return Distances(*_shaped(shape, answers))
 
     def contains(
@@ -341,7 +433,8 @@ class Query:
         What is farther than `cutoff` is not looked for, which takes a part of the time.
         """
         places, shape = rows_of("points", points, (3,))
-        return Nearest(*_shaped(shape, self._handle.nearest(places, cutoff, progress, thread_count(threads))))
+        return Nearest(*_shaped(shape, self._handle.nearest(
+            places, real_number("cutoff", cutoff), progress, thread_count(threads))))
 
     def intersect(
         self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tfar: float = np.inf, leaves_start: bool = False,
@@ -369,7 +462,8 @@ class Query:
         (array([ True, False]), True)
         """
         rays, shape = self._rays(origins, directions)
-        answers = self._handle.intersect(*rays, tfar, leaves_start, progress, thread_count(threads))
+        answers = self._handle.intersect(
+            *rays, _bound("tfar", tfar), bool(leaves_start), progress, thread_count(threads))
         return Hits(*_shaped(shape, answers))
 
     def occluded(
@@ -379,7 +473,7 @@ class Query:
         """Whether rays hit anything: as `intersect()`, in less time."""
         rays, shape = self._rays(origins, directions)
         blocked: npt.NDArray[np.bool_] = self._handle.occluded(
-            *rays, tfar, leaves_start, progress, thread_count(threads))
+            *rays, _bound("tfar", tfar), bool(leaves_start), progress, thread_count(threads))
         return blocked.reshape(shape)
 
     def sphere_distances(
@@ -408,7 +502,8 @@ class Query:
         ((5, 2), array([ True, False]))
         """
         balls, shape = rows_of("spheres", spheres, (4,), np.float32)
-        answers = self._handle.sphere_distances(balls, activation, progress, thread_count(threads))
+        answers = self._handle.sphere_distances(
+            balls, real_number("activation", activation), progress, thread_count(threads))
         return Nearest(*_shaped(shape, answers))
 
     @staticmethod

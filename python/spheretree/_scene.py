@@ -9,47 +9,75 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _spheretree
-from ._query import Query, broadcast_rows, contact_count, rows_of
+from ._query import Query, broadcast_rows, contact_count, real_number, rows_of
 from ._spheretree import InputError
 from ._volume import Progress, thread_count, whole_number
 
 
 class TouchingPairs(NamedTuple):
-    """Bodies of a scene that touch: a row for each pair, or for each contact of a pair, sorted by frames and bodies."""
+    """Bodies of a scene that touch: a row for each pair, or for each contact of a pair, sorted by frames and bodies.
+
+    Attributes
+    ----------
+    frame
+        In which of many poses of the scene: its index, counted as numpy flattens what is in front. Shape (n,).
+    bodies
+        Their numbers, the smaller one first: shape (n, 2).
+    objects
+        1 where the voxels themselves touch for certain; 0 where spheres cannot know, or were not asked to search on.
+    distance
+        Of the two spheres that were found: negative is how deep they meet.
+    points
+        The middle between them, in the world: shape (n, 3).
+    normals
+        From the first body's sphere to the second's, of length 1: shape (n, 3).
+    ids
+        Of both spheres in their trees: shape (n, 2).
+    """
 
     frame: npt.NDArray[np.int64]
-    """In which of many poses of the scene: its index, counted as numpy flattens what is in front. Shape (n,)."""
     bodies: npt.NDArray[np.int32]
-    """Their numbers, the smaller one first: shape (n, 2)."""
     objects: npt.NDArray[np.int8]
-    """1 where the voxels themselves touch for certain; 0 where spheres cannot know, or were not asked to search on."""
     distance: npt.NDArray[np.float64]
-    """Of the two spheres that were found: negative is how deep they meet."""
     points: npt.NDArray[np.float64]
-    """The middle between them, in the world: shape (n, 3)."""
     normals: npt.NDArray[np.float64]
-    """From the first body's sphere to the second's, of length 1: shape (n, 3)."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (n, 2)."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.TouchingPairs: {len(self.bodies)} in {len(np.unique(self.frame))} frames>"
 
 
 class MeetingPairs(NamedTuple):
-    """Bodies of a scene that meet on their ways: a row for each pair, sorted by frames and bodies."""
+    """Bodies of a scene that meet on their ways: a row for each pair, sorted by frames and bodies.
+
+    Attributes
+    ----------
+    frame
+        On which of many ways of the scene: its index, counted as numpy flattens what is in front. Shape (n,).
+    bodies
+        Their numbers, the smaller one first: shape (n, 2).
+    time
+        When they first touch, from 0 to 1 along their ways. No voxels of the two meet before.
+    distance
+        Of the two spheres that meet, at that time.
+    points
+        The middle between them, in the world: shape (n, 3).
+    normals
+        From the first body's sphere to the second's, of length 1: shape (n, 3).
+    ids
+        Of both spheres in their trees: shape (n, 2).
+    """
 
     frame: npt.NDArray[np.int64]
-    """On which of many ways of the scene: its index, counted as numpy flattens what is in front. Shape (n,)."""
     bodies: npt.NDArray[np.int32]
-    """Their numbers, the smaller one first: shape (n, 2)."""
     time: npt.NDArray[np.float64]
-    """When they first touch, from 0 to 1 along their ways. No voxels of the two meet before."""
     distance: npt.NDArray[np.float64]
-    """Of the two spheres that meet, at that time."""
     points: npt.NDArray[np.float64]
-    """The middle between them, in the world: shape (n, 3)."""
     normals: npt.NDArray[np.float64]
-    """From the first body's sphere to the second's, of length 1: shape (n, 3)."""
     ids: npt.NDArray[np.int32]
-    """Of both spheres in their trees: shape (n, 2)."""
+
+    def __repr__(self) -> str:
+        return f"<spheretree.MeetingPairs: {len(self.bodies)} in {len(np.unique(self.frame))} frames>"
 
 
 class Scene:
@@ -154,20 +182,25 @@ class Scene:
         places = None if poses is None else self._poses("poses", poses)[0]
         most = 0 if max_contacts is None else contact_count(max_contacts)
         return TouchingPairs(*self._handle.touching_pairs(
-            places, margin, objects, most, progress, thread_count(threads)))
+            places, real_number("margin", margin), bool(objects), most, progress, thread_count(threads)))
 
     def first_contacts(
-        self, *, end: npt.ArrayLike, start: npt.ArrayLike | None = None, tolerance: float = 0,
+        self, *, end: npt.ArrayLike, start: npt.ArrayLike | None = None, margin: float = 0, tolerance: float = 0,
         progress: Progress = None, threads: int | None = None,
     ) -> MeetingPairs:
         """All pairs of bodies that meet as all of them move at the same time. Nothing is sampled.
+
+        Each body goes its own way. Links of an arm whose joints turn evenly do not move so: those beyond the first would
+        leave their joints. Give such a way in steps, shape (steps, n, 4, 4) of `start` and `end`. A link is then off by less
+        than a third of S**2 * R, where S is what all joints together turn in a step, in radians, and R is how far the arm
+        reaches: take that for `margin`, and twice that where two links may meet.
 
         Parameters
         ----------
         end, start
             Poses as of `touching_pairs()`: each body goes from the one to the other along a line, or where it turns along a
             screw, by half a turn at most. By default bodies start where they are. Shapes in front are broadcast.
-        tolerance
+        margin, tolerance
             As of `Query.continuous_collide()`.
         progress, threads
             As for `build()`.
@@ -177,7 +210,7 @@ class Scene:
             start = np.array(own).reshape(-1, 4, 4)
         rows = broadcast_rows({"start": self._poses("start", start), "end": self._poses("end", end)}, len(self))
         answers = self._handle.first_contacts(
-            rows["start"], rows["end"], tolerance, progress, thread_count(threads))
+            rows["start"], rows["end"], real_number("margin", margin), real_number("tolerance", tolerance), progress, thread_count(threads))
         return MeetingPairs(*answers)
 
     def _poses(self, name: str, poses: npt.ArrayLike) -> tuple[Any, tuple[int, ...]]:

@@ -70,7 +70,7 @@ class Query:
     ) -> tuple[npt.NDArray[np.int64], _Doubles, _Doubles, _Doubles, _Ids]: ...
     def continuous_collide(
         self, other: Query, own_starts: _Doubles, own_ends: _Doubles, starts: _Doubles, ends: _Doubles,
-        tolerance: float, progress: _Progress, threads: int,
+        margin: float, tolerance: float, progress: _Progress, threads: int,
     ) -> tuple[_Doubles, _Doubles, _Doubles, _Doubles, _Ids]: ...
     def distance(
         self, other: Query, poses: _Doubles, signed: bool, upto: float, progress: _Progress, threads: int
@@ -106,7 +106,7 @@ class Scene:
         threads: int,
     ) -> tuple[npt.NDArray[np.int64], _Ids, npt.NDArray[np.int8], _Doubles, _Doubles, _Doubles, _Ids]: ...
     def first_contacts(
-        self, starts: _Doubles, ends: _Doubles, tolerance: float, progress: _Progress, threads: int
+        self, starts: _Doubles, ends: _Doubles, margin: float, tolerance: float, progress: _Progress, threads: int
     ) -> tuple[npt.NDArray[np.int64], _Ids, _Doubles, _Doubles, _Doubles, _Doubles, _Ids]: ...
 
 def volume_of_array(

@@ -172,6 +172,8 @@ def real_array(name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
     array = np.asarray(values)
     if array.dtype.kind == "c":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}: .real are those of a complex array")
+    if array.dtype.kind in "SUVMm":
+        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
     return array
 
 

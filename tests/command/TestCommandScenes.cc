@@ -320,7 +320,7 @@ TEST_F(CommandScenes, WaysNeedFrames)
     expectRefusal("motion=1", 2, "motion=1 of a scene needs poses=");
     writeText(path("one.csv"), "body,x,y,z\nring,90,0,0\n");
     expectRefusal("motion=1 poses=one.csv", 3, "goes from frame to frame, and the file holds one");
-    for (const char* other : {"margin=1", "contacts=2", "objects=1"}) {
+    for (const char* other : {"contacts=2", "objects=1"}) {
         expectRefusal(std::string("motion=1 poses=one.csv ") + other, 2, "motion and ");
     }
     expectRefusal("poses=one.csv tolerance=1", 2, "add motion=1");

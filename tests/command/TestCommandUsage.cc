@@ -65,7 +65,7 @@ const BadLine kBadLines[] = {
         "lev.txt: -stats writes .json or .csv"},
     {"StatsNamedFalsely", "-read a.vol -spheretree -stats json=lev.csv -write t.vdb",
         "json=lev.csv: files of this name are something else"},
-    {"CollideOfOtherFiles", "-read a.vol -spheretree -collide poses=p.txt -write t.vdb",
+    {"CollideOfOtherFiles", "-read a.vol -spheretree -collide poses=p.yml -write t.vdb",
         "poses are read from a .csv"},
     {"CollideWrittenAsText", "-read a.vol -spheretree -collide out.txt -write t.vdb",
         "out.txt: -collide writes .json or .csv"},
@@ -377,12 +377,14 @@ TEST_F(CommandUsage, AConfigFileIsALineOfItsOwn)
     command_test::writeText(path("twice.txt"), "quiet\nconfig other.txt\n");
     const Result each = run("-config twice.txt");
     EXPECT_EQ(each.exitCode, 2);
-    EXPECT_NE(each.err.find("twice.txt, line 2: -config other.txt, line 1: -config twice.txt: this"),
+    EXPECT_NE(
+        each.err.find("twice.txt, line 2: -config other.txt, line 1: -config twice.txt: this"),
         std::string::npos)
         << each.err;
     for (int i = 0; i < 9; ++i) {
         command_test::writeText(path("deep" + std::to_string(i) + ".txt"),
-            i == 0 ? "generate ball voxels=2000\n" : "config deep" + std::to_string(i - 1) + ".txt\n");
+            i == 0 ? "generate ball voxels=2000\n"
+                   : "config deep" + std::to_string(i - 1) + ".txt\n");
     }
     EXPECT_EQ(run("-config deep7.txt deep7.txt").exitCode, 0) << "twice, one after the other";
     const Result deep = run("-config deep8.txt");

@@ -110,6 +110,25 @@ def test_bodies_meet_as_two_of_them_do(body):
     assert all(np.allclose(x, y) for x, y in zip(found, other))  # poses were rounded on their way
 
 
+def test_a_margin_is_kept_on_the_way(body):
+    start, end = poses(9, seed=3, size=60), poses(9, seed=4, size=40)
+    scene = scene_of(body, start)
+    near, wide = scene.first_contacts(end=end), scene.first_contacts(end=end, margin=5)
+    assert {tuple(pair) for pair in near.bodies} < {tuple(pair) for pair in wide.bodies}
+    a, b = wide.bodies.T
+    alone = body.continuous_collide(body, start[b], end[b], own_start=start[a], own_end=end[a], margin=5)
+    assert np.allclose(wide.time, alone.time) and (wide.distance < 5.01).all()
+
+
+def test_answers_are_told_in_a_line(body):
+    scene = scene_of(body, poses(14))
+    for answer in (scene.touching_pairs(), scene.first_contacts(end=poses(14, seed=2)), body.collide(body, poses(900)),
+                   body.distance(body, poses(3)), body.contacts(body), body.nearest(np.zeros((0, 3))),
+                   body.intersect([0, 0, 0], [1, 0, 0]), body.continuous_collide(body, poses(3), poses(3, seed=2))):
+        assert repr(answer).startswith("<spheretree.") and len(repr(answer)) < 80, repr(answer)
+    assert "900" in repr(body.collide(body, poses(900)))
+
+
 def test_poses_may_be_given_with_the_question(body):
     places, frames = poses(10), poses(60, seed=7, size=15).reshape(2, 3, 10, 4, 4)
     scene = scene_of(body, places)
@@ -208,12 +227,20 @@ def test_what_is_wrong_is_named(body):
         scene.add(body, np.diag([2, 2, 2, 1]))
     bad = poses(6).reshape(2, 3, 4, 4)
     bad[1, 1, :3, :3] *= 2
-    with pytest.raises(spheretree.InputError, match="poses 4: .*not rigid"):
+    with pytest.raises(spheretree.InputError, match="poses of frame 1, body 1: .*not rigid"):
         scene.touching_pairs(bad)
-    with pytest.raises(spheretree.InputError, match="end 4: .*not rigid"):
+    with pytest.raises(spheretree.InputError, match="end of frame 1, body 1: .*not rigid"):
         scene.first_contacts(end=bad)
+    with pytest.raises(spheretree.InputError, match="poses of body 2: .*not rigid"):
+        scene.touching_pairs(bad[1][[0, 2, 1]])
     with pytest.raises(spheretree.InputError, match="margin"):
         scene.touching_pairs(margin=-1)
+    with pytest.raises(TypeError, match="margin must be a number, not str"):
+        scene.touching_pairs(margin="2mm")
+    with pytest.raises(TypeError, match="progress must be a function or None, not int"):
+        scene.touching_pairs(progress=5)
+    with pytest.raises(TypeError, match="pose must hold real numbers, not <U4"):
+        scene.set_pose(0, "pose")
     for wrong in (0, -3, 10**7):
         for ask in (scene.touching_pairs, lambda **given: body.contacts(body, **given)):
             with pytest.raises(spheretree.InputError, match=f"max_contacts={wrong} is out of range"):

@@ -59,7 +59,7 @@ void checkMotion(const ActionCall& call)
         if (call.given("tolerance")) throwUsage("tolerance is of a time of contact: add motion=1");
         return;
     }
-    for (const char* other : {"margin", "objects", "contacts"}) {
+    for (const char* other : {"objects", "contacts"}) {
         if (call.given(other)) {
             throwUsage(std::string("motion and ") + other + " exclude each other");
         }
@@ -86,6 +86,7 @@ Cells motionCells(const ContinuousCollisionResult& result, double unit)
 spheretree::ContinuousCollisionRequest motionRequest(const ActionCall& call)
 {
     spheretree::ContinuousCollisionRequest request;
+    request.securityMargin = lengthOf(call, "margin");
     request.tolerance = lengthOf(call, "tolerance");
     request.maxBlocks = blocksOf(call);
     return request;

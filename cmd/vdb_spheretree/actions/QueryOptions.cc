@@ -81,7 +81,7 @@ std::vector<const StackItem*> itemsOf(const ActionCall& call, Session& session, 
     }
     if (items.size() != 2) {
         throwInput("asks two sphere-trees, and there are " + std::to_string(items.size())
-            + (items.empty() ? ""
+            + (items.empty() ? ": make them with -spheretree"
                              : ": choose with vdb=, the one that stays first, such as vdb=1,0"
                         + std::string(
                             call.spec().option("scene") ? ", or ask all with scene=1" : ""))
@@ -234,7 +234,8 @@ double lengthOf(const ActionCall& call, const std::string& option)
 
 OptionSpec tableOption(const std::string& name, const std::string& doc)
 {
-    return text(name, "", doc + " of a .csv, one a line, or of stdin.csv; columns are below");
+    return text(
+        name, "", doc + " of a .csv or .txt, one a line, or of stdin.csv; columns are below");
 }
 
 void checkTable(const ActionCall& call, Plan& plan, const std::string& name,
@@ -242,8 +243,10 @@ void checkTable(const ActionCall& call, Plan& plan, const std::string& name,
 {
     if (!call.given(name)) return;
     const std::string path = call.text(name);
-    if (fileKind(path) != FileKind::Csv) {
-        throwUsage(name + "=" + path + ": " + name + " are read from a .csv");
+    const bool isTable = fileKind(path) == FileKind::Csv
+        || openvdb_spheretree::detail::lowerExtension(path) == ".txt"; // as TUM and KITTI have it
+    if (!isTable) {
+        throwUsage(name + "=" + path + ": " + name + " are read from a .csv or .txt");
     }
     for (const std::string& other : others) {
         if (call.given(other)) throwUsage(name + " and " + other + " exclude each other");

@@ -156,21 +156,22 @@ TEST_P(MotionsOf, NothingMeetsBeforeTheTimeAndBodiesAreWithinTheToleranceThen)
         const RigidMotion motion = motionOf(pair, i++, random);
         ContinuousCollisionRequest request;
         request.tolerance = kTolerance;
+        const double margin = request.securityMargin = i % 3 * 0.7;
         const ContinuousCollisionResult result = ask(pair, motion, request);
         ASSERT_TRUE(result.isDecided);
         ASSERT_EQ(result.freeUntil, result.timeOfContact);
         (result.isCollide ? met : free) += 1;
         for (int k = 0; k < 300 && result.timeOfContact > 0; ++k) {
             const double time = result.timeOfContact * k / 300;
-            ASSERT_GT(gapAt(pair, motion, time), -kRounding)
+            ASSERT_GT(gapAt(pair, motion, time), margin - kRounding)
                 << pair.name() << i << " at " << time << " of " << result.timeOfContact;
         }
         if (!result.isCollide) return;
         const double gap = gapAt(pair, motion, result.timeOfContact);
-        ASSERT_LE(gap, kTolerance + kRounding) << pair.name() << i;
-        ASSERT_LE(result.contact->distance, kTolerance + kRounding);
+        ASSERT_LE(gap, margin + kTolerance + kRounding) << pair.name() << i;
+        ASSERT_LE(result.contact->distance, margin + kTolerance + kRounding);
         if (result.timeOfContact == 0) return; // met from the start: any pair that does
-        ASSERT_GE(gap, -kRounding) << pair.name() << i;
+        ASSERT_GE(gap, margin - kRounding) << pair.name() << i;
         PosePair then = pair;
         then.poseB = motion.at(result.timeOfContact);
         ASSERT_NEAR(then.gapOf(result.contact->nodes), result.contact->distance, kRounding);
@@ -188,21 +189,22 @@ TEST_P(MotionsOf, NothingMeetsBeforeTheTimeWhereBothMove)
         const Motions motions = motionsOf(pair, i++, random);
         ContinuousCollisionRequest request;
         request.tolerance = kTolerance;
+        const double margin = request.securityMargin = i % 3 * 0.7;
         const ContinuousCollisionResult result = ask(pair, motions, request);
         ASSERT_TRUE(result.isDecided);
         ASSERT_EQ(result.freeUntil, result.timeOfContact);
         (result.isCollide ? met : free) += 1;
         for (int k = 0; k < 300 && result.timeOfContact > 0; ++k) {
             const double time = result.timeOfContact * k / 300;
-            ASSERT_GT(motions.gap(pair, time), -kRounding)
+            ASSERT_GT(motions.gap(pair, time), margin - kRounding)
                 << pair.name() << i << " at " << time << " of " << result.timeOfContact;
         }
         if (!result.isCollide) return;
         const double gap = motions.gap(pair, result.timeOfContact);
-        ASSERT_LE(gap, kTolerance + kRounding) << pair.name() << i;
-        ASSERT_LE(result.contact->distance, kTolerance + kRounding);
+        ASSERT_LE(gap, margin + kTolerance + kRounding) << pair.name() << i;
+        ASSERT_LE(result.contact->distance, margin + kTolerance + kRounding);
         if (result.timeOfContact == 0) return;
-        ASSERT_GE(gap, -kRounding) << pair.name() << i;
+        ASSERT_GE(gap, margin - kRounding) << pair.name() << i;
         const PosePair then = {
             pair.a, pair.b, motions.a.at(result.timeOfContact), motions.b.at(result.timeOfContact)};
         ASSERT_NEAR(then.gapOf(result.contact->nodes), result.contact->distance, kRounding);
@@ -430,6 +432,26 @@ TEST(ContinuousCollide, ABallMeetsABallWhenItShould)
     EXPECT_NEAR(quick.timeOfContact, 0.25, 1e-5);
 }
 
+TEST(ContinuousCollide, AMarginOfAnySizeIsKept)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    const double r = dot.leafRadius(0);
+    for (const double margin : {1e-6, 1.0, 100.0, 1e4, 1e7, 1e10}) {
+        const double start = 3 * margin + 10 * r, end = 0.5 * margin;
+        const auto from = RigidTransform::fromTranslation(Vec3d(start, 0, 0));
+        const auto way = RigidMotion::line(from, Vec3d(end - start, 0, 0));
+        ContinuousCollisionRequest request;
+        request.securityMargin = margin;
+        const auto result = continuousCollide(dot, {}, dot, way, request);
+        ASSERT_TRUE(result.isCollide) << margin;
+        const double truth = (start - 2 * r - margin) / (start - end);
+        EXPECT_NEAR(result.timeOfContact, truth, 1e-4) << margin;
+        EXPECT_LE(result.timeOfContact, truth + 1e-12) << margin;
+        request.endTime = 0.9 * truth;
+        EXPECT_FALSE(continuousCollide(dot, {}, dot, way, request).isCollide) << margin;
+    }
+}
+
 TEST(ContinuousCollide, BodiesThatStayNearerThanDoublesTellAreInContact)
 {
     const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
@@ -504,6 +526,11 @@ TEST(ContinuousCollide, RefusesRequestsThatMeanNothing)
         ContinuousCollisionRequest request;
         request.tolerance = wrong;
         EXPECT_TRUE(mentions(refusal(request), "the tolerance"));
+    }
+    for (const double wrong : {-1.0, std::nan(""), 1e13}) {
+        ContinuousCollisionRequest request;
+        request.securityMargin = wrong;
+        EXPECT_TRUE(mentions(refusal(request), "the security margin"));
     }
     for (const double wrong : {-1.0, 0.0, 1.01, std::nan("")}) {
         ContinuousCollisionRequest request;

@@ -101,9 +101,11 @@ TEST(SceneMotions, PairsAreThoseThatTouchWhereEveryTwoAreAsked)
     for (const Vec3d box : {Vec3d(30, 2, 2), Vec3d(4, 4, 40), Vec3d(12, 12, 12)}) {
         const MovingScene moving(random, 24, box);
         touching += expectAllPairs(moving, {});
-        ContinuousCollisionRequest early, bounded;
+        ContinuousCollisionRequest early, bounded, wide;
         early.endTime = 0.3;
         bounded.maxBlocks = 40;
+        wide.securityMargin = 1;
+        EXPECT_GT(expectAllPairs(moving, wide), expectAllPairs(moving, {}));
         const int before = expectAllPairs(moving, early);
         EXPECT_GT(before, 0);
         EXPECT_LT(before, expectAllPairs(moving, bounded));
