@@ -7,7 +7,8 @@
 ///     const auto both = continuousCollide(arm, motionOfArm, robot, motionOfRobot);
 ///
 /// Nothing is sampled. Before the time that is found no voxel cubes of the two meet, where both trees hold their objects
-/// (QueryTree::holdsObject()); and no leaf spheres, where both hold their leaves (holdsLeaves()). At that time the bodies are `tolerance` apart at most. That a motion is free is as
+/// (QueryTree::holdsObject()); and no leaf spheres, where both hold their leaves (holdsLeaves()). (With a `securityMargin` none are nearer than that.)
+/// At that time the bodies are `tolerance` apart at most, beyond the margin. That a motion is free is as
 /// certain. (A pair that passes within the tolerance without meeting may count as contact.)
 ///
 /// Of two bodies that move at the same time each goes along its own line or screw. As one sees the other that is no screw, so
@@ -29,14 +30,14 @@
 namespace openvdb_spheretree {
 
 struct ContinuousCollisionRequest {
-    /// Bodies nearer than this are in contact: world units, 0 or more.
-    double securityMargin = 0;
     /// World units, above 0; 10^-12 of the smaller body's radius are the least. 0: a ten-thousandth of that radius.
     double tolerance = 0;
     /// The motion is looked at from time 0 to this: above 0, 1 at most.
     double endTime = 1;
     /// No more blocks than this are tested. -1: any number.
     int64_t maxBlocks = -1;
+    /// Bodies nearer than this are in contact: world units, 0 or more.
+    double securityMargin = 0;
 };
 
 struct ContinuousCollisionResult {
