@@ -113,6 +113,25 @@ TEST(SceneMotions, PairsAreThoseThatTouchWhereEveryTwoAreAsked)
     EXPECT_GT(touching, 25);
 }
 
+TEST(SceneMotions, BodiesWithinTheMarginAreAskedAboutThatAreFarOtherwise)
+{
+    const QueryTree dot = makeQueryTree(querySample("one voxel").tree);
+    QueryScene scene;
+    Motions motions;
+    for (const double y : {0.0, 20.0, 60.0}) {
+        scene.add(dot);
+        motions.push_back(
+            RigidMotion::line(RigidTransform::fromTranslation(Vec3d(0, y, 0)), Vec3d(1, 0, 0)));
+    }
+    EXPECT_TRUE(scene.firstContacts(motions).empty());
+    ContinuousCollisionRequest request;
+    request.securityMargin = 30;
+    const auto found = scene.firstContacts(motions, request);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(std::pair(found[0].a, found[0].b), std::pair(0, 1));
+    EXPECT_EQ(found[0].result.timeOfContact, 0);
+}
+
 TEST(SceneMotions, PosesTakeNoPartNorDoBodiesThatAreRemovedOrPairsThatAreIgnored)
 {
     Random random(31);
