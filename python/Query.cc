@@ -169,7 +169,7 @@ py::tuple contacts(const Query& a, const Query& b, const Doubles& matrices, int 
     request.maxContacts =
         std::max(maxContacts, 2); // a list of one would hold any pair, not the deepest
     std::vector<std::vector<spheretree::Contact>> found(poses.size());
-    runQuestions(call, poses.size(), [&](Interrupter* interrupter) {
+    runQuestions(call, poses.size() * std::size_t(maxContacts), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             spheretree::collide(a.tree(), {}, b.tree(), poses[i], request, &found[i]);
             found[i].resize(std::min(found[i].size(), std::size_t(maxContacts)));

@@ -102,10 +102,11 @@ QueryScene placed(QueryScene scene, const FramePoses& poses, std::size_t frame)
     return scene;
 }
 
-/// @return how many questions to two bodies there may be, at least.
-std::size_t questionCount(const QueryScene& scene, std::size_t frames)
+/// @param each  what is asked for of two bodies
+/// @return how much there is to do, by the number of bodies.
+std::size_t questionCount(const QueryScene& scene, std::size_t frames, int each = 1)
 {
-    return frames * std::size_t(scene.size());
+    return frames * std::size_t(scene.size()) * std::size_t(std::max(each, 1));
 }
 
 /// @return the deepest ones, or the one that was found.
@@ -130,16 +131,17 @@ py::tuple touchingPairs(const QueryScene scene, const std::optional<Doubles>& ma
     if (maxContacts > 0)
         request.maxContacts = std::max(maxContacts, 2); // a list of one has any pair
     std::vector<std::vector<spheretree::ScenePair>> found(poses ? poses->frames() : 1);
-    runQuestions(call, questionCount(scene, found.size()), [&](Interrupter* interrupter) {
-        spheretree::detail::parallelFor(found.size(), interrupter, [&](std::size_t frame) {
-            const QueryScene there = poses ? placed(scene, *poses, frame) : scene;
-            found[frame] = there.touchingPairs(request, interrupter);
-            for (spheretree::ScenePair& pair : found[frame]) {
-                const auto most = std::size_t(std::max(maxContacts, 0));
-                pair.contacts.resize(std::min(pair.contacts.size(), most));
-            }
+    runQuestions(
+        call, questionCount(scene, found.size(), maxContacts), [&](Interrupter* interrupter) {
+            spheretree::detail::parallelFor(found.size(), interrupter, [&](std::size_t frame) {
+                const QueryScene there = poses ? placed(scene, *poses, frame) : scene;
+                found[frame] = there.touchingPairs(request, interrupter);
+                for (spheretree::ScenePair& pair : found[frame]) {
+                    const auto most = std::size_t(std::max(maxContacts, 0));
+                    pair.contacts.resize(std::min(pair.contacts.size(), most));
+                }
+            });
         });
-    });
     std::size_t count = 0;
     for (const auto& pairs : found) {
         for (const auto& pair : pairs) count += maxContacts > 0 ? pair.contacts.size() : 1;
