@@ -50,7 +50,8 @@ void sphereDistances(const QueryTree& tree, const float* spheres, std::size_t co
     float activation, const SphereDistanceArrays& results,
     openvdb::util::NullInterrupter* interrupter = nullptr);
 
-/// @brief Whether any sphere of a configuration meets a leaf sphere; ends at the first that does.
+/// @brief Whether any sphere of a configuration meets a leaf sphere; ends at the first that does. One within rounding of contact
+/// (2^-18 of the tree's size) may have a distance of 0 or less above, and touch nothing here, or the other way round.
 /// @param spheres   4 configurations * perConfiguration floats
 /// @param touching  receives 1 or 0 for each configuration
 /// @throw openvdb::ValueError for numbers that are not finite, naming the sphere, of all that are
