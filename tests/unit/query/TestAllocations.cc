@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace {
@@ -86,7 +85,7 @@ TEST(Allocations, OfBodiesThatMoveAreNone)
         const RigidMotion line = RigidMotion::line(from, -1.5 * away),
                           screw = RigidMotion::screw(from, pair.poseB),
                           other = RigidMotion::screw(pair.poseA, from);
-        const auto& [a, b] = std::tie(pair.a.query, pair.b.query);
+        const QueryTree &a = pair.a.query, &b = pair.b.query;
         ASSERT_EQ(0, allocationsOf([&] {
             met += continuousCollide(a, pair.poseA, b, line).isCollide;
             met += continuousCollide(a, pair.poseA, b, screw).isCollide;
