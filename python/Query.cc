@@ -61,7 +61,7 @@ const spheretree::DigitalLeaves& Query::leaves() const
     return *mLeaves;
 }
 
-std::string PoseRows::numberOf(std::size_t row) const
+std::string PoseRows::rowName(std::size_t row) const
 {
     if (bodies > 0 && size() > bodies) {
         return " of frame " + std::to_string(row / bodies) + ", body "
@@ -78,7 +78,7 @@ RigidTransform PoseRows::at(std::size_t row) const
     try {
         return RigidTransform::fromMatrix(matrix);
     } catch (const openvdb::ValueError& error) {
-        throw InputError(name + numberOf(row) + ": " + spheretree::detail::messageOf(error));
+        throw InputError(name + rowName(row) + ": " + spheretree::detail::messageOf(error));
     }
 }
 
@@ -166,13 +166,12 @@ py::tuple contacts(const Query& a, const Query& b, const Doubles& matrices, int 
     const auto poses = posesOf({"pose", matrices});
     spheretree::CollisionRequest request;
     request.securityMargin = margin;
-    request.maxContacts =
-        std::max(maxContacts, 2); // a list of one would hold any pair, not the deepest
+    request.maxContacts = contactsToAsk(maxContacts);
     std::vector<std::vector<spheretree::Contact>> found(poses.size());
     runQuestions(call, poses.size() * std::size_t(maxContacts), [&](Interrupter* interrupter) {
         spheretree::detail::parallelFor(poses.size(), interrupter, [&](std::size_t i) {
             spheretree::collide(a.tree(), {}, b.tree(), poses[i], request, &found[i]);
-            found[i].resize(std::min(found[i].size(), std::size_t(maxContacts)));
+            keepDeepest(found[i], maxContacts);
         });
     });
     std::size_t count = 0;

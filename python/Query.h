@@ -17,6 +17,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -70,7 +71,7 @@ struct [[gnu::visibility("hidden")]] PoseRows
 
     std::size_t size() const { return rowCount(matrices); }
     /// @return as messages have it: " 3", or " of frame 2, body 1".
-    std::string numberOf(std::size_t row) const;
+    std::string rowName(std::size_t row) const;
     /// @throw InputError naming argument and row if it is no pose
     openvdb_spheretree::RigidTransform at(std::size_t row) const;
 };
@@ -100,6 +101,16 @@ private:
     double *mDistance, *mPoint, *mNormal;
     int32_t* mId;
 };
+
+/// @name The deepest contacts of two bodies: so many are asked for, and so many of these kept
+/// A list of one would hold any pair.
+/// @{
+inline int contactsToAsk(int maxContacts) { return std::max(maxContacts, 2); }
+inline void keepDeepest(std::vector<openvdb_spheretree::Contact>& contacts, int maxContacts)
+{
+    contacts.resize(std::min(contacts.size(), std::size_t(maxContacts)));
+}
+/// @}
 
 /// @brief Runs @a work that answers @a count questions: a few of them on the calling thread.
 void runQuestions(

@@ -71,11 +71,22 @@ py::array poseOf(const QueryScene& scene, int body)
     return matrix;
 }
 
-/// Poses of all bodies of a scene, frame by frame. Those of bodies that were removed may be anything.
+/// Where all bodies of a scene are, frame by frame.
 class FramePoses {
 public:
-    FramePoses(const QueryScene& scene, const PoseRows& rows) : mBodies(std::size_t(scene.size()))
+    /// @param name      of the argument
+    /// @param matrices  None: one frame, as the scene is; else poses, of which those of bodies that were removed may be
+    ///                  anything
+    FramePoses(const QueryScene& scene, const char* name, const py::object& matrices)
+        : mBodies(std::size_t(scene.size()))
     {
+        if (matrices.is_none()) {
+            for (int body = 0; body < scene.size(); ++body)
+                mPoses.push_back(scene.has(body) ? scene.pose(body) : spheretree::RigidTransform());
+            return;
+        }
+        const auto numbers = matrices.cast<Doubles>();
+        const PoseRows rows{name, numbers, mBodies};
         for (std::size_t row = 0; row < rows.size(); ++row) {
             const bool isThere = scene.has(int(row % mBodies));
             mPoses.push_back(isThere ? rows.at(row) : spheretree::RigidTransform());
@@ -83,9 +94,10 @@ public:
     }
 
     std::size_t frames() const { return mBodies == 0 ? 0 : mPoses.size() / mBodies; }
+    /// Where there is one frame, it is that of all.
     const spheretree::RigidTransform& at(std::size_t frame, int body) const
     {
-        return mPoses[frame * mBodies + std::size_t(body)];
+        return mPoses[(frames() == 1 ? 0 : frame) * mBodies + std::size_t(body)];
     }
 
 private:
@@ -117,29 +129,21 @@ std::vector<spheretree::Contact> contactsOf(const spheretree::ScenePair& pair, b
 }
 
 /// @param scene        a copy: another thread may change the one that is asked
-/// @param matrices     poses of all bodies, frame by frame; without, they are where they are
 /// @param maxContacts  0: any one of each pair
-py::tuple touchingPairs(const QueryScene scene, const std::optional<Doubles>& matrices,
-    double margin, bool objects, int maxContacts, const CallSettings& call)
+py::tuple touchingPairs(const QueryScene scene, const FramePoses& poses, double margin,
+    bool objects, int maxContacts, const CallSettings& call)
 {
-    std::optional<FramePoses> poses;
-    if (matrices) poses.emplace(scene, PoseRows{"poses", *matrices, std::size_t(scene.size())});
     spheretree::CollisionRequest request;
     request.securityMargin = margin;
     request.decideObjects = objects;
     request.enableContact = true;
-    if (maxContacts > 0)
-        request.maxContacts = std::max(maxContacts, 2); // a list of one has any pair
-    std::vector<std::vector<spheretree::ScenePair>> found(poses ? poses->frames() : 1);
+    if (maxContacts > 0) request.maxContacts = contactsToAsk(maxContacts);
+    std::vector<std::vector<spheretree::ScenePair>> found(poses.frames());
     runQuestions(
         call, questionCount(scene, found.size(), maxContacts), [&](Interrupter* interrupter) {
             spheretree::detail::parallelFor(found.size(), interrupter, [&](std::size_t frame) {
-                const QueryScene there = poses ? placed(scene, *poses, frame) : scene;
-                found[frame] = there.touchingPairs(request, interrupter);
-                for (spheretree::ScenePair& pair : found[frame]) {
-                    const auto most = std::size_t(std::max(maxContacts, 0));
-                    pair.contacts.resize(std::min(pair.contacts.size(), most));
-                }
+                found[frame] = placed(scene, poses, frame).touchingPairs(request, interrupter);
+                for (auto& pair : found[frame]) keepDeepest(pair.contacts, maxContacts);
             });
         });
     std::size_t count = 0;
@@ -162,35 +166,30 @@ py::tuple touchingPairs(const QueryScene scene, const std::optional<Doubles>& ma
         contacts.points, contacts.normals, contacts.ids);
 }
 
-/// @return the ways of all bodies in each frame.
-std::vector<std::vector<spheretree::RigidMotion>> motionsOf(
-    const QueryScene& scene, const PoseRows& startRows, const PoseRows& endRows)
+/// @return the ways of all bodies in a frame.
+std::vector<spheretree::RigidMotion> waysOf(
+    const QueryScene& scene, const FramePoses& starts, const FramePoses& ends, std::size_t frame)
 {
-    const FramePoses starts(scene, startRows), ends(scene, endRows);
-    std::vector<std::vector<spheretree::RigidMotion>> motions(ends.frames());
-    for (std::size_t frame = 0; frame < motions.size(); ++frame) {
-        for (int body = 0; body < scene.size(); ++body) {
-            motions[frame].push_back(
-                spheretree::RigidMotion::screw(starts.at(frame, body), ends.at(frame, body)));
-        }
+    std::vector<spheretree::RigidMotion> ways;
+    for (int body = 0; body < scene.size(); ++body) {
+        ways.push_back(
+            spheretree::RigidMotion::screw(starts.at(frame, body), ends.at(frame, body)));
     }
-    return motions;
+    return ways;
 }
 
-/// @param scene        a copy, as above
-/// @param starts,ends  poses of all bodies, frame by frame
-py::tuple firstContacts(const QueryScene scene, const Doubles& starts, const Doubles& ends,
+/// @param scene  a copy, as above
+py::tuple firstContacts(const QueryScene scene, const FramePoses& starts, const FramePoses& ends,
     double margin, double tolerance, const CallSettings& call)
 {
-    const auto bodies = std::size_t(scene.size());
-    const auto motions = motionsOf(scene, {"start", starts, bodies}, {"end", ends, bodies});
     spheretree::ContinuousCollisionRequest request;
     request.securityMargin = margin;
     request.tolerance = tolerance;
-    std::vector<std::vector<spheretree::MovingPair>> found(motions.size());
+    std::vector<std::vector<spheretree::MovingPair>> found(ends.frames());
     runQuestions(call, questionCount(scene, found.size()), [&](Interrupter* interrupter) {
-        spheretree::detail::parallelFor(motions.size(), interrupter, [&](std::size_t frame) {
-            found[frame] = scene.firstContacts(motions[frame], request, interrupter);
+        spheretree::detail::parallelFor(found.size(), interrupter, [&](std::size_t frame) {
+            const auto ways = waysOf(scene, starts, ends, frame);
+            found[frame] = scene.firstContacts(ways, request, interrupter);
         });
     });
     std::size_t count = 0;
@@ -217,7 +216,6 @@ void bindScene(py::module_& module)
     forbidNew(scene);
     module.def("make_scene", [] { return std::make_shared<QueryScene>(); });
     scene.def_property_readonly("size", &QueryScene::size)
-        .def("has", &QueryScene::has)
         .def("add",
             [](QueryScene& s, const Query& body, const Doubles& pose) {
                 return s.add(body.tree(), PoseRows{"pose", pose}.at(0));
@@ -233,16 +231,14 @@ void bindScene(py::module_& module)
         .def("touching_pairs",
             [](const QueryScene& s, const py::object& poses, double margin, bool objects,
                 int maxContacts, const py::object& progress, int threads) {
-                std::optional<Doubles> given;
-                if (!poses.is_none()) given = poses.cast<Doubles>();
-                return touchingPairs(
-                    s, given, margin, objects, maxContacts, CallSettings{progress, threads});
+                return touchingPairs(s, FramePoses(s, "poses", poses), margin, objects, maxContacts,
+                    CallSettings{progress, threads});
             })
         .def("first_contacts",
-            [](const QueryScene& s, const Doubles& starts, const Doubles& ends, double margin,
+            [](const QueryScene& s, const py::object& starts, const py::object& ends, double margin,
                 double tolerance, const py::object& progress, int threads) {
-                return firstContacts(
-                    s, starts, ends, margin, tolerance, CallSettings{progress, threads});
+                return firstContacts(s, FramePoses(s, "start", starts), FramePoses(s, "end", ends),
+                    margin, tolerance, CallSettings{progress, threads});
             });
 }
 

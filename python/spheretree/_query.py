@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._spheretree import InputError
-from ._volume import Progress, real_array, thread_count, whole_number
+from ._volume import Progress, real_array, real_number, thread_count, whole_number
 
 if TYPE_CHECKING:
     from ._tree import Tree
@@ -192,16 +192,6 @@ def rows_of(name: str, values: npt.ArrayLike, columns: tuple[int, ...], dtype: A
         wanted = ", ".join(["...", *map(str, columns)])
         raise InputError(f"{name} has shape {array.shape}: it takes ({wanted})")
     return array.reshape(-1, int(np.prod(columns))), array.shape[: array.ndim - len(columns)]
-
-
-def real_number(name: str, value: object) -> float:
-    """A number, infinite ones too; what it may be the library says."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    try:
-        return float(value)
-    except OverflowError:
-        raise InputError(f"{name} is beyond what a double holds") from None
 
 
 def _bound(name: str, value: object) -> float:

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _spheretree
-from ._query import Query, broadcast_rows, contact_count, real_number, rows_of
+from ._query import Query, broadcast_rows, contact_count, rows_of
 from ._spheretree import InputError
-from ._volume import Progress, thread_count, whole_number
+from ._volume import Progress, real_number, thread_count, whole_number
 
 
 class TouchingPairs(NamedTuple):
@@ -44,7 +44,7 @@ class TouchingPairs(NamedTuple):
     ids: npt.NDArray[np.int32]
 
     def __repr__(self) -> str:
-        return f"<spheretree.TouchingPairs: {len(self.bodies)} in {len(np.unique(self.frame))} frames>"
+        return _summary(self)
 
 
 class MeetingPairs(NamedTuple):
@@ -77,7 +77,7 @@ class MeetingPairs(NamedTuple):
     ids: npt.NDArray[np.int32]
 
     def __repr__(self) -> str:
-        return f"<spheretree.MeetingPairs: {len(self.bodies)} in {len(np.unique(self.frame))} frames>"
+        return _summary(self)
 
 
 class Scene:
@@ -205,12 +205,11 @@ class Scene:
         progress, threads
             As for `build()`.
         """
-        if start is None:
-            own = [self.pose(body) if body in self else np.eye(4) for body in range(len(self))]
-            start = np.array(own).reshape(-1, 4, 4)
-        rows = broadcast_rows({"start": self._poses("start", start), "end": self._poses("end", end)}, len(self))
+        starts = {} if start is None else {"start": self._poses("start", start)}
+        rows = broadcast_rows({**starts, "end": self._poses("end", end)}, len(self))
         answers = self._handle.first_contacts(
-            rows["start"], rows["end"], real_number("margin", margin), real_number("tolerance", tolerance), progress, thread_count(threads))
+            rows.get("start"), rows["end"], real_number("margin", margin), real_number("tolerance", tolerance), progress,
+            thread_count(threads))
         return MeetingPairs(*answers)
 
     def _poses(self, name: str, poses: npt.ArrayLike) -> tuple[Any, tuple[int, ...]]:
@@ -220,6 +219,11 @@ class Scene:
             raise InputError(f"{name} has shape {(*shape, 4, 4)}: it takes one pose for each of {len(self)} bodies, "
                              f"(..., {len(self)}, 4, 4)")
         return places, shape[:-1]
+
+
+def _summary(pairs: TouchingPairs | MeetingPairs) -> str:
+    """What is printed of them."""
+    return f"<spheretree.{type(pairs).__name__}: {len(pairs.bodies)} in {len(np.unique(pairs.frame))} frames>"
 
 
 def _number(name: str, body: int) -> int:

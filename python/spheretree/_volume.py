@@ -144,15 +144,23 @@ def whole_number(name: str, value: object, bits: int) -> int:
     return int(value)
 
 
+def real_number(name: str, value: object) -> float:
+    """A number, infinite ones too; what it may be the library says."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{name} is beyond what a double holds") from None
+
+
 def _number(name: str, value: object) -> int | float:
     """A finite number as Python has it: integers stay whole."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
-    if isinstance(value, (int, np.integer)):
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
         return whole_number(name, value, 64)
-    number = float(value)
+    number = real_number(name, value)
     if not np.isfinite(number):
         raise InputError(f"{name}={value} is not a finite number")
     return number

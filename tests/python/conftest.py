@@ -16,6 +16,16 @@ def ball(radius, scale=(1, 1, 1)):
     return sum((axis * s) ** 2 for axis, s in zip(grid, scale)) < radius**2
 
 
+def random_poses(count, seed=1, size=12):
+    """Rigid matrices, turned at random, that move by up to `size` along each axis: shape (count, 4, 4)."""
+    random = np.random.default_rng(seed)
+    made = np.tile(np.eye(4), (count, 1, 1))
+    made[:, :3, :3] = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(count)]
+    made[:, :3, 0] *= np.linalg.det(made[:, :3, :3])[:, None]
+    made[:, :3, 3] = random.uniform(-size, size, (count, 3))
+    return made
+
+
 @pytest.fixture
 def bone():
     """An object without any symmetry, of a shape that has three different sides."""

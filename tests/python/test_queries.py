@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import spheretree
+from conftest import random_poses
 
 
 @pytest.fixture
@@ -22,17 +23,8 @@ def gaps(tree, pose):
     return np.linalg.norm(a[:, None] - b, axis=-1) - ra[:, None] - rb
 
 
-def poses(count, seed=1):
-    random = np.random.default_rng(seed)
-    made = np.tile(np.eye(4), (count, 1, 1))
-    made[:, :3, :3] = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(count)]
-    made[:, :3, 0] *= np.linalg.det(made[:, :3, :3])[:, None]
-    made[:, :3, 3] = random.uniform(-12, 12, (count, 3))
-    return made
-
-
 def test_distances_are_those_of_all_pairs(tree):
-    query, moved = tree.query(), poses(40)
+    query, moved = tree.query(), random_poses(40)
     found = query.distance(query, moved, signed=True)
     for i, pose in enumerate(moved):
         all_gaps = gaps(tree, pose)
@@ -78,7 +70,7 @@ def test_nothing_meets_before_the_first_contact(tree):
     aside[:3, 3] = [100, 2, 3]
     there = query.continuous_collide(query, aside @ start, aside @ end, own_start=aside, tolerance=1e-3)
     assert np.allclose(there.time, found.time, atol=1e-4, equal_nan=True)
-    turned = poses(1, seed=4)[0]
+    turned = random_poses(1, seed=4)[0]
     assert query.continuous_collide(query, turned, turned).time.shape == ()
     assert query.continuous_collide(query, start.reshape(5, 8, 4, 4), turned).points.shape == (5, 8, 3)
 
@@ -114,7 +106,7 @@ def test_motions_that_mean_nothing(tree):
 
 
 def test_collisions_are_those_of_all_pairs(tree):
-    query, moved = tree.query(), poses(60, seed=2)
+    query, moved = tree.query(), random_poses(60, seed=2)
     least = np.array([gaps(tree, pose).min() for pose in moved])
     for margin in (0, 2):
         found = query.collide(query, moved, margin=margin)
@@ -175,7 +167,7 @@ def test_answers_have_the_shape_of_the_question(tree):
     query = tree.query()
     one = query.distance(query)
     assert one.distance.shape == () and one.points_a.shape == (3,) and one.ids.shape == (2,)
-    many = query.collide(query, poses(6).reshape(2, 3, 4, 4))
+    many = query.collide(query, random_poses(6).reshape(2, 3, 4, 4))
     assert many.spheres.shape == (2, 3) and many.points.shape == (2, 3, 3)
     assert query.contains(np.zeros((4, 0, 3))).shape == (4, 0)
     assert query.nearest([0, 0, 0]).distance.shape == ()
@@ -184,7 +176,7 @@ def test_answers_have_the_shape_of_the_question(tree):
 
 
 def test_answers_are_the_same_for_any_number_of_threads(tree):
-    query, moved = tree.query(), poses(200)
+    query, moved = tree.query(), random_poses(200)
     for one, two in zip(query.distance(query, moved, threads=1), query.distance(query, moved, threads=2)):
         assert one.tobytes() == two.tobytes()
 
@@ -192,7 +184,7 @@ def test_answers_are_the_same_for_any_number_of_threads(tree):
 def test_the_usual_trees_answer_and_are_never_too_far(bone):
     tree = spheretree.build(bone, quality="fast")
     query, exact = tree.query(), tree.query(exact=True)
-    moved = poses(50)
+    moved = random_poses(50)
     moved[:, :3, 3] *= 2
     near, least = query.distance(query, moved).distance, exact.distance(exact, moved).distance
     assert (near >= least - 1e-4).all() and (near - least).max() < 1.5

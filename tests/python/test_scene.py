@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 import spheretree
+from conftest import random_poses
 
 
 @pytest.fixture
@@ -14,12 +15,7 @@ def body(bone):
 
 
 def poses(count, seed=1, size=30):
-    random = np.random.default_rng(seed)
-    made = np.tile(np.eye(4), (count, 1, 1))
-    made[:, :3, :3] = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(count)]
-    made[:, :3, 0] *= np.linalg.det(made[:, :3, :3])[:, None]
-    made[:, :3, 3] = random.uniform(-size, size, (count, 3))
-    return made
+    return random_poses(count, seed, size)
 
 
 def scene_of(body, places):

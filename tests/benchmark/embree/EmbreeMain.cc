@@ -64,6 +64,13 @@ double meanBlocks(const std::vector<Question>& questions, const Blocks& blocks)
 /// Where a hit is, and 0 of a miss, so that means can be compared.
 double orZero(double t) { return std::isfinite(t) ? t : 0; }
 
+std::vector<QueryRay> queriesOf(const std::vector<FloatRay>& rays)
+{
+    std::vector<QueryRay> queries;
+    for (const FloatRay& ray : rays) queries.push_back(ray.query());
+    return queries;
+}
+
 /// A tree and its contenders.
 class Contest {
 public:
@@ -117,8 +124,7 @@ private:
 
     void compareRays(const std::string& kind, const std::vector<FloatRay>& rays) const
     {
-        std::vector<QueryRay> queries;
-        for (const FloatRay& ray : rays) queries.push_back(ray.query());
+        const std::vector<QueryRay> queries = queriesOf(rays);
         const auto nearestOf = [](const QueryTree& tree) {
             return [&tree](const QueryRay& ray) { return orZero(intersect(tree, ray).t); };
         };
@@ -153,8 +159,7 @@ private:
     /// Embree is told that the rays are coherent, and that they are not: the better of both is its time.
     void compareMany(const std::string& kind, const std::vector<FloatRay>& rays) const
     {
-        std::vector<QueryRay> queries;
-        for (const FloatRay& ray : rays) queries.push_back(ray.query());
+        const std::vector<QueryRay> queries = queriesOf(rays);
         std::vector<RayHit> hits(rays.size());
         std::vector<Contender> contenders{
             {"many rays", [&] {

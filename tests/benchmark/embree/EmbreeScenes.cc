@@ -65,6 +65,8 @@ bool lookAtBall(RTCPointQueryFunctionArguments* arguments)
     return true;
 }
 
+} // namespace
+
 RTCRay rayOf(const float* o, const float* d)
 {
     RTCRay ray = {};
@@ -74,8 +76,6 @@ RTCRay rayOf(const float* o, const float* d)
     ray.mask = ~0u;
     return ray;
 }
-
-} // namespace
 
 TriangleList meshOfObject(const SphereTree& tree)
 {

@@ -32,6 +32,9 @@ TriangleList meshOfObject(const openvdb_spheretree::SphereTree& tree);
 
 std::vector<SceneBall> leafBalls(const openvdb_spheretree::QueryTree& tree);
 
+/// From an origin along a direction, without end.
+RTCRay rayOf(const float* origin, const float* direction);
+
 /// An Embree scene of one geometry, committed at the highest build quality.
 class EmbreeScene {
 public:

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RayPackets.h"
 
-#include <limits>
-
 namespace spheretree_benchmark {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 RTCIntersectContext contextOf(RTCIntersectContextFlags flags)
 {
@@ -36,14 +32,15 @@ RayPackets<Packet>::RayPackets(const std::vector<FloatRay>& rays)
         auto& [valid, packet] = mPackets[i / kLanes];
         const std::size_t lane = i % kLanes;
         valid[lane] = -1;
-        packet.ray.org_x[lane] = rays[i].origin[0];
-        packet.ray.org_y[lane] = rays[i].origin[1];
-        packet.ray.org_z[lane] = rays[i].origin[2];
-        packet.ray.dir_x[lane] = rays[i].direction[0];
-        packet.ray.dir_y[lane] = rays[i].direction[1];
-        packet.ray.dir_z[lane] = rays[i].direction[2];
-        packet.ray.tfar[lane] = kInfinity;
-        packet.ray.mask[lane] = ~0u;
+        const RTCRay ray = rayOf(rays[i].origin.asPointer(), rays[i].direction.asPointer());
+        packet.ray.org_x[lane] = ray.org_x;
+        packet.ray.org_y[lane] = ray.org_y;
+        packet.ray.org_z[lane] = ray.org_z;
+        packet.ray.dir_x[lane] = ray.dir_x;
+        packet.ray.dir_y[lane] = ray.dir_y;
+        packet.ray.dir_z[lane] = ray.dir_z;
+        packet.ray.tfar[lane] = ray.tfar;
+        packet.ray.mask[lane] = ray.mask;
         packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
 }
@@ -71,11 +68,7 @@ RayStream::RayStream(const std::vector<FloatRay>& rays)
 {
     for (const FloatRay& ray : rays) {
         RTCRayHit hit = {};
-        hit.ray.org_x = ray.origin[0], hit.ray.org_y = ray.origin[1], hit.ray.org_z = ray.origin[2];
-        hit.ray.dir_x = ray.direction[0], hit.ray.dir_y = ray.direction[1];
-        hit.ray.dir_z = ray.direction[2];
-        hit.ray.tfar = kInfinity;
-        hit.ray.mask = ~0u;
+        hit.ray = rayOf(ray.origin.asPointer(), ray.direction.asPointer());
         hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         mRays.push_back(hit);
     }
