@@ -16,10 +16,10 @@ namespace openvdb_spheretree::detail {
 
 struct QueryData {
     SphereBlocks spheres;
-    openvdb::Vec3d origin;    ///< of the blocks' coordinates, in the world
-    int32_t firstLeafId = 0;  ///< node id of leaf 0; those of others follow
-    uint64_t identity = 0;    ///< of the leaves: LeafIdentity.h
-    bool holdsObject = false; ///< the chains of QueryTree.h
+    openvdb::Vec3d origin{0, 0, 0}; ///< of the blocks' coordinates, in the world
+    int32_t firstLeafId = 0;        ///< node id of leaf 0; those of others follow
+    uint64_t identity = 0;          ///< of the leaves: LeafIdentity.h
+    bool holdsObject = false;       ///< the chains of QueryTree.h
     bool holdsLeaves = false;
     double leafReach = std::numeric_limits<double>::infinity(); ///< world units
     double leafInset = std::numeric_limits<double>::infinity(); ///< world units

@@ -22,7 +22,7 @@
 namespace openvdb_spheretree::detail {
 
 struct ForestNode {
-    openvdb::Vec3d center;
+    openvdb::Vec3d center{0, 0, 0};
     double radius = 0;
     int32_t leaf = -1;             ///< number of the leaf; -1 of an inner node
     std::vector<int32_t> children; ///< places in the forest; empty of a leaf

@@ -45,7 +45,6 @@ public:
     {
         mForest.roots = std::move(roots);
         QueryData data;
-        data.origin = openvdb::Vec3d(0.0);
         data.spheres = blocksOf(mForest, mLeaves);
         return data;
     }
