@@ -26,6 +26,13 @@ protected:
         }
     }
 
+    void writeLargerVoxels(const std::string& name) const
+    {
+        auto grid = sphereGrid("density", 10);
+        grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+        writeGrids(name, {grid});
+    }
+
     static std::string nameOf(const std::string& name, int frame, const std::string& extension)
     {
         const std::string digits = std::to_string(frame);

@@ -317,16 +317,48 @@ TEST_F(CommandFrames, AnEmptyObjectWithoutALoopMayBeSkipped)
     EXPECT_FALSE(exists("tree.vdb"));
 }
 
-TEST_F(CommandFrames, OtherVoxelsAreWarnedOf)
+TEST_F(CommandFrames, AFrameOfOtherVoxelsFailsBeforeItsTreeIsMade)
+{
+    writeFrames({8, 9, 11});
+    writeLargerVoxels("smoke_0010.vdb");
+    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(holds(result.err,
+        "frame=10: -spheretree: the voxels of this frame are of 0.25, "
+        "and those of the frames before of 0.5"))
+        << result.err;
+    EXPECT_TRUE(holds(result.err, "1 of 4 frames failed, 3 are done")) << result.err;
+    EXPECT_TRUE(existAll("tree", {8, 9, 11}, "vdb"));
+    EXPECT_FALSE(exists("tree_0010.vdb"));
+}
+
+TEST_F(CommandFrames, OtherVoxelsAreTakenOrMadeTheSame)
 {
     writeFrames({8, 9});
-    auto grid = sphereGrid("density", 10);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
-    writeGrids("smoke_0010.vdb", {grid});
-    const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
+    writeLargerVoxels("smoke_0010.vdb");
+    for (const char* line :
+        {"-spheretree spheres=1 samevoxels=0", "-resample voxel=1 -spheretree spheres=1",
+            "-spheretree spheres=1 keep=1 samevoxels=0 name=a -resample voxel=2 -spheretree",
+            "-each v=1,2 -resample voxel={$v} keep=1 -spheretree spheres=1 name={$v} -end"}) {
+        const Result result =
+            run("-read smoke_####.vdb " + std::string(line) + " -write tree_####.vdb");
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+    }
+    const Result twoSizes =
+        run("-each d=smoke,smoke -read {$d}_####.vdb frames=8,9 -spheretree spheres=1 name=a "
+            "keep=1 -resample voxel=2 -spheretree spheres=1 name=b -clear -end");
+    EXPECT_EQ(twoSizes.exitCode, 0) << twoSizes.err;
+}
+
+TEST_F(CommandFrames, OtherVoxelsInALoopOfNumbersAreWarnedOf)
+{
+    writeFrames({8, 9});
+    writeLargerVoxels("smoke_0010.vdb");
+    const Result result =
+        run("-for i=8,11 -read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb -end");
     EXPECT_EQ(result.exitCode, 0);
-    EXPECT_TRUE(holds(result.err, "warning: frame=10 (3 of 3): voxels are of 0.25")) << result.err;
-    EXPECT_FALSE(holds(result.err, "frame=9 (2 of 3): voxels")) << result.err;
+    EXPECT_TRUE(holds(result.err, "warning: i=10 (3 of 3): voxels are of 0.25")) << result.err;
+    EXPECT_FALSE(holds(result.err, "i=9 (2 of 3): voxels")) << result.err;
 }
 
 TEST_F(CommandFrames, QuietSaysNothingOfFrames)

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -98,6 +99,20 @@ TEST_F(CommandVolumes, AVolTakesASpacingToo)
     writeBlock("a.vol");
     EXPECT_EQ(statsOf("-read a.vol spacing=0.25")["object"]["voxel_size"], 0.25);
     expectError("-read a.vol spacing=1e-5 -print", 3, "a.vol: voxels of 1e-05 x 1e-05 x 1e-05 are");
+}
+
+TEST_F(CommandVolumes, NumbersThatAreNoneAreTold)
+{
+    std::string bytes;
+    for (const float number : {1.0f, std::nanf(""), 2.0f, std::nanf("")})
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+    command_test::writeText(path("holes.raw"), bytes);
+    const Result result = run("-read holes.raw shape=4,1,1 type=float32 -mask -write m.vdb");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const std::string told =
+        "warning: holes.raw: 2 values are no numbers (NaN), and count as background";
+    EXPECT_NE(result.err.find(told), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("NaN"), result.err.rfind("NaN")) << "once: " << result.err;
 }
 
 TEST_F(CommandVolumes, ComeFromAPipe)

@@ -3,6 +3,7 @@
 /// @brief -read: files to the stack. The point grids of a sphere-tree become that tree again, and spheres
 /// of other tools a tree of one level.
 
+#include "base/NotNumbers.h"
 #include "files/ScaleMesh.h"
 #include "files/SpooledInput.h"
 #include "files/VdbStream.h"
@@ -13,6 +14,7 @@
 
 #include <openvdb_spheretree/input/Resample.h>
 #include <openvdb_spheretree/input/array/ArrayFile.h>
+#include <openvdb_spheretree/input/array/ArrayGrid.h>
 #include <openvdb_spheretree/input/spheres/SphereFile.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
 #include <openvdb_spheretree/input/volume/VolumeFile.h>
@@ -271,6 +273,13 @@ GridBase::Ptr readVolume(
     return grid;
 }
 
+void warnOfNotNumbers(const std::string& path, const GridBase& grid, Session& session)
+{
+    const auto count =
+        grid.getMetadata<openvdb::Int64Metadata>(openvdb_spheretree::detail::kNotNumbersMeta);
+    if (count) session.warn(path + ": " + notNumbersText(count->value(), "background"));
+}
+
 void readContent(const std::string& path, Reading& reading, Session& session)
 {
     const FileKind kind = fileKind(path);
@@ -290,6 +299,7 @@ void readContent(const std::string& path, Reading& reading, Session& session)
     } else {
         item.grid = readVolume(file, path, reading, session);
         if (!reading.filter.accepts(item.grid->getName())) return;
+        warnOfNotNumbers(path, *item.grid, session);
     }
     scaleItem(item, reading.scale);
     session.stack.push(item);

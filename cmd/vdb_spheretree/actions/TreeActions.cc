@@ -178,6 +178,7 @@ void runSpheretree(const ActionCall& call, Session& session)
         objectSettings.coverage = spheretree::Coverage::Whole;
     }
     const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
+    if (call.flag("samevoxels")) session.requireVoxelsOfSequence(object->voxelSize()[0]);
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
     result.object = object;

@@ -86,6 +86,10 @@ std::vector<OptionSpec> spheretreeOptions()
                 "where there is no voxel to make a tree of: an error; or what follows is not done; "
                 "or it "
                 "writes files without spheres"));
+            options.push_back(flag("samevoxels", true,
+                "of a sequence of files: a frame whose voxels are larger or smaller than those of "
+                "the frames "
+                "before is an error"));
             options.push_back(text("like", "",
                 "a tree of the frame before, where spheres start and whose tracks (numbers) they "
                 "keep: "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file NotNumbers.h
-/// @brief The words for values of a grid that are NaN.
+/// @brief The words for values of a grid, or numbers of a file, that are NaN.
 
 #pragma once
 
@@ -11,12 +11,13 @@
 
 namespace command {
 
-inline std::string notNumbersText(int64_t count)
+/// @param as  what they count as
+inline std::string notNumbersText(int64_t count, const std::string& as = "outside")
 {
     return withCommas(count)
         + (count == 1 ? " value is no number (NaN), and counts"
                       : " values are no numbers (NaN), and count")
-        + " as outside";
+        + " as " + as;
 }
 
 } // namespace command

@@ -9,7 +9,6 @@
 #include <openvdb_spheretree/base/Text.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace command {
 
@@ -131,16 +130,14 @@ struct ScriptRunner::Turns {
                 + " frames failed, " + doneText() + ": " + someOf(failures, kNamed));
     }
 
-    /// What -each and -files name are things of their own, of whatever voxels.
-    bool isOverTime() const { return loop.isSequence || loop.call.spec().name == "for"; }
-
+    /// Numbers may be those of frames. What -each and -files name are things of their own, of whatever voxels, and
+    /// trees of a sequence are held to those of its first frame.
     void warnOfVoxel(const StackItem* item, Session& session)
     {
-        constexpr double kSame = 1e-5;
-        if (!item || !isOverTime()) return;
+        if (!item || loop.isSequence || loop.call.spec().name != "for") return;
         const double size = item->tree->voxelSize();
         if (voxel == 0) voxel = size;
-        if (std::abs(size - voxel) <= kSame * voxel) return;
+        if (Session::areSameVoxels(size, voxel)) return;
         using openvdb_spheretree::detail::shortNumber;
         session.warn("voxels are of " + shortNumber(size) + ", and in the frames before of "
             + shortNumber(voxel) + ": -resample voxel= makes them the same");
@@ -227,6 +224,7 @@ void ScriptRunner::runAction(const Step& step)
         mSession.plan.requireInputs();
     }
     mSession.stack.setFrame(step.number);
+    mSession.setPlace(step.place);
     mSession.runOne(call);
 }
 
@@ -242,6 +240,7 @@ void ScriptRunner::runLoop(const Step& loop, bool isEnd)
     replay(loop.stored);
     if (!loop.note.empty()) mSession.note(loop.note);
     Turns turns{loop};
+    const Session::InLoop inLoop(mSession, loop.isSequence);
     const std::vector<StackItem> before =
         loop.isSequence ? mSession.stack.copies() : std::vector<StackItem>();
     for (const Frame& frame : loop.frames) {

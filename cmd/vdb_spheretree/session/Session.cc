@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Session.h"
 
+#include "base/Errors.h"
 #include "base/LastWords.h"
 #include "base/Terminal.h"
 #include "ScriptRunner.h"
+
+#include <openvdb_spheretree/base/Text.h>
 
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -33,6 +37,29 @@ Session::InFrame::~InFrame()
 {
     mSession.plan.setFrame(mName);
     mSession.mFrame = mLabel;
+}
+
+Session::InLoop::InLoop(Session& session, bool isSequence)
+    : mSession(session), mOuter(std::exchange(session.mVoxels, isSequence ? &mVoxels : nullptr))
+{}
+
+Session::InLoop::~InLoop() { mSession.mVoxels = mOuter; }
+
+void Session::requireVoxelsOfSequence(double size)
+{
+    if (!mVoxels) return;
+    const double first = mVoxels->emplace(mPlace, size).first->second;
+    if (areSameVoxels(size, first)) return;
+    using openvdb_spheretree::detail::shortNumber;
+    throwInput("the voxels of this frame are of " + shortNumber(size)
+        + ", and those of the frames before of " + shortNumber(first) + ": -resample voxel="
+        + shortNumber(first) + " makes them the same, and samevoxels=0 takes them as they are");
+}
+
+bool Session::areSameVoxels(double size, double other)
+{
+    constexpr double kSame = 1e-5;
+    return std::abs(size - other) <= kSame * other;
 }
 
 void Session::runOne(const ActionCall& call)

@@ -45,6 +45,8 @@ struct Session {
     ///         stack after it.
     bool isLastAction() const { return mIsLast; }
     void setIsLast(bool isLast) { mIsLast = isLast; }
+    /// @param place  of the running action on the line
+    void setPlace(size_t place) { mPlace = place; }
 
     /// While a frame runs: actions are shown with its name, and times count from its begin.
     class InFrame {
@@ -60,6 +62,27 @@ struct Session {
         Session& mSession;
         std::string mName, mLabel; ///< those of before
     };
+
+    /// While a loop runs. If it is one over the files of a sequence, the trees of its frames are of one voxel size;
+    /// in loops of other things, those within its frames too, they may be of any.
+    class InLoop {
+    public:
+        InLoop(Session& session, bool isSequence);
+        ~InLoop();
+        InLoop(const InLoop&) = delete;
+        InLoop& operator=(const InLoop&) = delete;
+
+    private:
+        Session& mSession;
+        std::map<size_t, double> mVoxels;
+        std::map<size_t, double>* const mOuter;
+    };
+
+    /// @brief To be called before a tree is made.
+    /// @param size  of its voxels
+    /// @throw CommandError (input) if the action has made trees of other voxels in the frames before
+    void requireVoxelsOfSequence(double size);
+    static bool areSameVoxels(double size, double other);
 
     /// Has parallel work take so many threads at most, until the program ends.
     void limitThreads(size_t count);
@@ -114,6 +137,9 @@ private:
 
     bool mReaderIsGone = false, mIsLast = false, mToldInterrupted = false;
     std::string mFrame; ///< empty outside of loops
+    size_t mPlace = 0;  ///< of the running action
+    /// Of the first frame's trees, by the place of the action; null outside of sequences.
+    std::map<size_t, double>* mVoxels = nullptr;
 };
 
 } // namespace command

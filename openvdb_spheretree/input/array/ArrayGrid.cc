@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -75,6 +77,9 @@ public:
         }
     }
 
+    /// @return how many numbers so far were NaN.
+    int64_t notNumbers() const { return mNotNumbers; }
+
 private:
     struct Built {
         Coord origin;
@@ -122,7 +127,8 @@ private:
                 const uint64_t place = (slow * mMiddle + at[1] + middle) * mFast + at[0];
                 const uint8_t* in = slab + place * bytes;
                 if (mZerosAreEmpty && !anyBit(in, count[0] * bytes)) continue;
-                mDecode(in, count[0], row.data());
+                const std::size_t nans = mDecode(in, count[0], row.data());
+                if (nans > 0) mNotNumbers += int64_t(nans);
                 for (uint64_t fast = 0; fast < count[0]; ++fast) {
                     if (row[fast] == mBackground) continue;
                     if (!values.any) values.of.fill(mBackground);
@@ -148,6 +154,7 @@ private:
     const Value mBackground;
     const bool mTiles, mZerosAreEmpty;
     const uint64_t mFast, mMiddle;
+    mutable std::atomic<int64_t> mNotNumbers{0};
 };
 
 template <typename Value>
@@ -194,6 +201,8 @@ GridBase::Ptr readGrid(ByteSource& source, const ArrayLayout& layout,
         slab.swap(next);
     }
     source.finish();
+    if (leaves.notNumbers() > 0)
+        grid->insertMeta(kNotNumbersMeta, openvdb::Int64Metadata(leaves.notNumbers()));
     return grid;
 }
 

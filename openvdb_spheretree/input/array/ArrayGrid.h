@@ -17,6 +17,8 @@
 
 namespace openvdb_spheretree::detail {
 
+constexpr const char* kNotNumbersMeta = "nan_values";
+
 struct ArrayGridSettings {
     /// The value of voxels that are inactive, and of all beyond the array.
     double background = 0;
@@ -26,7 +28,7 @@ struct ArrayGridSettings {
 
 /// @return a BoolGrid of bools, an Int32Grid of integers up to int32, an Int64Grid of larger ones, a
 ///         FloatGrid, or a DoubleGrid of float64. Number (0, 0, 0) is at that voxel. Voxels that have
-///         the background, or a NaN, are inactive.
+///         the background, or a NaN, are inactive; where there are any NaN, metadata `nan_values` says how many.
 /// @throw openvdb::IoError without the name of a file: what @a source throws, or if the background is
 ///        no value of the grid
 /// @throw Interrupted; std::bad_alloc

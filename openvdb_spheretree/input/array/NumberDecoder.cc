@@ -48,19 +48,26 @@ Value valueOf(Number number)
 }
 
 template <typename Stored, typename Value, bool Swapped>
-void decode(const uint8_t* in, std::size_t count, Value* out, const NumberDecoder<Value>& decoder)
+std::size_t decode(
+    const uint8_t* in, std::size_t count, Value* out, const NumberDecoder<Value>& decoder)
 {
+    std::size_t notNumbers = 0;
+    const auto orBackground = [&](double number) {
+        if (!std::isnan(number)) return Value(number);
+        ++notNumbers;
+        return decoder.background;
+    };
     for (std::size_t i = 0; i < count; ++i, in += sizeof(Stored)) {
         const auto number = numberOf(load<Stored, Swapped>(in));
         if constexpr (std::is_same_v<Value, float>) {
-            const double scaled = decoder.slope * double(number) + decoder.intercept;
-            out[i] = std::isnan(scaled) ? decoder.background : float(scaled);
+            out[i] = orBackground(decoder.slope * double(number) + decoder.intercept);
         } else if constexpr (std::is_same_v<Value, double>) {
-            out[i] = std::isnan(double(number)) ? decoder.background : double(number);
+            out[i] = orBackground(double(number));
         } else {
             out[i] = valueOf<Value>(number);
         }
     }
+    return notNumbers;
 }
 
 template <typename Stored, typename Value>

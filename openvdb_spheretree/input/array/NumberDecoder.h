@@ -20,16 +20,17 @@ public:
     NumberDecoder(const ArrayLayout& layout, Value background);
 
     /// @param in  bytes of @a count numbers that are neighbours in the file
-    void operator()(const uint8_t* in, std::size_t count, Value* out) const
+    /// @return how many of them are NaN
+    std::size_t operator()(const uint8_t* in, std::size_t count, Value* out) const
     {
-        mDecode(in, count, out, *this);
+        return mDecode(in, count, out, *this);
     }
 
     double slope, intercept;
     Value background;
 
 private:
-    void (*mDecode)(const uint8_t*, std::size_t, Value*, const NumberDecoder&);
+    std::size_t (*mDecode)(const uint8_t*, std::size_t, Value*, const NumberDecoder&);
 };
 
 } // namespace openvdb_spheretree::detail

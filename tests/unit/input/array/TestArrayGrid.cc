@@ -113,6 +113,27 @@ TEST(ArrayGrid, NotANumberIsBackground)
     EXPECT_EQ(grid->activeVoxelCount(), 3u);
 }
 
+TEST(ArrayGrid, NotNumbersAreCounted)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto counted = [](const GridBase::Ptr& grid) -> int64_t {
+        const auto count = grid->getMetadata<openvdb::Int64Metadata>("nan_values");
+        return count ? count->value() : 0;
+    };
+    std::vector<double> numbers(20 * 20 * 20, 1);
+    for (const std::size_t i : {0, 17, 450, 7999}) numbers[i] = nan;
+    const ArrayLayout layout = layoutOf({20, 20, 20}, NumberType::Float64);
+    EXPECT_EQ(counted(gridOfBytes(bytesOfNumbers(numbers), layout)), 4);
+    const std::vector<float> floats(numbers.begin(), numbers.end());
+    EXPECT_EQ(
+        counted(gridOfBytes(bytesOfNumbers(floats), layoutOf({20, 20, 20}, NumberType::Float32))),
+        4);
+    std::fill(numbers.begin(), numbers.end(), nan);
+    EXPECT_EQ(counted(gridOfBytes(bytesOfNumbers(numbers), layout)), 8000) << "and nothing else";
+    EXPECT_EQ(
+        counted(gridOfBytes(std::string(8, '\0'), layoutOf({1, 1, 1}, NumberType::Float64))), 0);
+}
+
 TEST(ArrayGrid, ScaledNumbersAreFloats)
 {
     ArrayLayout layout = layoutOf({3, 1, 1}, NumberType::UInt8);
