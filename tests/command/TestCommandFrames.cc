@@ -330,6 +330,9 @@ TEST_F(CommandFrames, AFrameOfOtherVoxelsFailsBeforeItsTreeIsMade)
     EXPECT_TRUE(holds(result.err, "1 of 4 frames failed, 3 are done")) << result.err;
     EXPECT_TRUE(existAll("tree", {8, 9, 11}, "vdb"));
     EXPECT_FALSE(exists("tree_0010.vdb"));
+    const Result within = run(
+        "-read smoke_####.vdb -each k=1,2 -eval {$k} -end -spheretree spheres=1 -write t_####.vdb");
+    EXPECT_EQ(within.exitCode, 3) << "a loop within the frames has ended before: " << within.err;
 }
 
 TEST_F(CommandFrames, OtherVoxelsAreTakenOrMadeTheSame)
