@@ -6,6 +6,7 @@
 #include "support/CheckedTrees.h"
 #include "support/Messages.h"
 #include "support/TightObjects.h"
+#include "support/VectorTarget.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
@@ -119,6 +120,27 @@ TEST(TightInvariance, AreTheSameForAnyNumberOfThreads)
             }
         }
     }
+}
+
+/// A product and a sum are rounded one by one on all of them, also where the processor could do both at once.
+TEST(TightInvariance, AreTheSameOnEveryVectorTarget)
+{
+    std::vector<SphereTree> first;
+    for (const int64_t target : allTargets()) {
+        forceTarget(target);
+        SCOPED_TRACE(targetName(target));
+        std::size_t turn = 0;
+        for (const ChosenObject& object : chosenObjects()) {
+            for (const Quality quality : {Quality::Fast, Quality::Normal}) {
+                SphereTreeSettings settings = tightSettings(quality);
+                settings.budgeted().budget.spheres = {100, 32, 8};
+                const SphereTree tree = buildSphereTree(*gridOf(object.voxels), settings);
+                if (first.size() == turn) first.push_back(tree);
+                EXPECT_TRUE(sameNodes(tree, first[turn++])) << object.name << describeTight(settings);
+            }
+        }
+    }
+    forceTarget(0);
 }
 
 /// Larger balls see samples that lie elsewhere: their trees may differ, but not these.
