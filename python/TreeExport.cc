@@ -104,7 +104,7 @@ std::vector<std::string> idleOptions(
     for (const spheretree::ExportOption& option : spheretree::exportOptionsOfSome()) {
         const bool isGiven = std::count(given.begin(), given.end(), option.name) > 0;
         if (isGiven && !(format.*option.takes)) {
-            notes.push_back(spheretree::idleOptionNote(option, path));
+            notes.push_back(spheretree::idleOptionNote(option, format, path));
         }
     }
     return notes;

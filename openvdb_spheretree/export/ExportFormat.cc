@@ -29,10 +29,15 @@ enum Trait : unsigned {
     kXml = 2048,
     kWord = 4096,
     kIdentifier = 8192,
-    kEmpty = 16384,    ///< ExportFormat::empty
-    kUp = 32768,       ///< ExportFormat::up
-    kFloatIds = 65536, ///< ExportFormat::floatIds
-    kLinks = 131072    ///< ExportFormat::links
+    kEmpty = 16384,         ///< ExportFormat::empty
+    kUp = 32768,            ///< ExportFormat::up
+    kFloatIds = 65536,      ///< ExportFormat::floatIds
+    kLinks = 131072,        ///< ExportFormat::links
+    kIds = 262144,          ///< ExportFormat::ids
+    kNameless = 524288,     ///< not ExportFormat::named
+    kErrors = 1048576,      ///< ExportFormat::errors
+    kPrincipal = 2097152,   ///< ExportFormat::principal
+    kAlwaysMetres = 4194304 ///< ExportFormat::alwaysMetres
 };
 
 struct Row {
@@ -57,35 +62,35 @@ constexpr Row kRows[] = {
     {"srdf", ".srdf", "MoveIt", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kXml, detail::writeSrdf},
     {"curobo", ".yml .yaml", "cuRobo", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kUtf8, detail::writeCurobo},
     {"xrdf", ".xrdf", "cuMotion, Isaac Sim, cuRobo", kLinkSpheres, kMetres | kPositiveRadii | kLink | kLinks | kUtf8, detail::writeXrdf},
-    {"lula", ".yml .yaml", "Isaac Sim's Lula", kLinkSpheres, kMetres | kPositiveRadii | kByName | kLink | kLinks | kUtf8, detail::writeLula},
-    {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName, detail::writeFoam},
-    {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName, detail::writeMorphIt},
+    {"lula", ".yml .yaml", "Isaac Sim's Lula", kLinkSpheres, kMetres | kPositiveRadii | kByName | kNameless | kLink | kLinks | kUtf8, detail::writeLula},
+    {"foam", ".json", "foam", "all levels: centers, radii", kAllLevels | kByName | kNameless | kErrors, detail::writeFoam},
+    {"morphit", ".json", "MorphIt, ballpark", kSpheres, kByName | kNameless, detail::writeMorphIt},
 
     {"usd", ".usda", "Houdini, Blender, Maya, Omniverse", "all levels: centers, radii, ids, parents; samples over time",
-        kFloats | kAllLevels | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
-    {"ply", ".ply", "Open3D, meshio", kTree, kFloats | kAllLevels | kWord | kEmpty, detail::writePly},
-    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kByName | kWord | kEmpty, detail::writePlyAscii},
-    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kUtf8 | kUp | kFloatIds, detail::writeGlb},
+        kFloats | kAllLevels | kIds | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
+    {"ply", ".ply", "Open3D, meshio", kTree, kFloats | kAllLevels | kIds | kWord | kEmpty, detail::writePly},
+    {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kIds | kByName | kWord | kEmpty, detail::writePlyAscii},
+    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kIds | kAlwaysMetres | kUtf8 | kUp | kFloatIds, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
-        kFloats | kAllLevels, detail::writeNanoVdbPoints},
+        kFloats | kAllLevels | kIds, detail::writeNanoVdbPoints},
 
     {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord | kEmpty, detail::writeMeshObj},
     {"mesh", ".stl", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshStl},
-    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8 | kUp, detail::writeMeshGlb},
+    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kAlwaysMetres | kByName | kUtf8 | kUp, detail::writeMeshGlb},
     {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName | kWord,
         detail::writeUnrealObj},
 
-    {"vtp", ".vtp", "ParaView, VTK", kTree, kDoubles | kAllLevels, detail::writeVtp},
-    {"vtk", ".vtk", "ParaView, VTK, multisphere, GEMSS", kTree, kAllLevels | kWord, detail::writeVtk},
+    {"vtp", ".vtp", "ParaView, VTK", kTree, kDoubles | kAllLevels | kIds | kNameless, detail::writeVtp},
+    {"vtk", ".vtk", "ParaView, VTK, multisphere, GEMSS", kTree, kAllLevels | kIds | kWord, detail::writeVtk},
     {"liggghts", ".txt .multisphere", "LIGGGHTS", kSpheres, kPositiveRadii | kByName | kWord, detail::writeLiggghts},
     {"yade", ".txt", "YADE", kSpheres, kPositiveRadii | kByName | kWord, detail::writeYade},
     {"lammps", ".mol .txt", "LAMMPS", kBody, kMass | kPositiveRadii | kByName | kWord, detail::writeLammps},
-    {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName | kEmpty, detail::writeMultisphere},
-    {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName | kEmpty, detail::writeDeme},
-    {"xyz", ".xyz", "ASE", kTree, kAllLevels | kEmpty, detail::writeXyz},
+    {"multisphere", ".csv", "multisphere, GEMSS", kSpheres, kByName | kNameless | kEmpty, detail::writeMultisphere},
+    {"deme", ".csv", "DEM-Engine, Chrono", kSpheres, kByName | kNameless | kPrincipal | kEmpty, detail::writeDeme},
+    {"xyz", ".xyz", "ASE", kTree, kAllLevels | kIds | kNameless | kEmpty, detail::writeXyz},
     {"swc", ".swc", "neuron tools", kTree, kAllLevels | kOrdersIds | kWord, detail::writeSwc},
     {"sph", ".sph", "Bradshaw's sphere-tree toolkit", "all levels as a complete tree: centers, radii",
-        kAllLevels | kOrdersIds, detail::writeSph},
+        kAllLevels | kNameless | kOrdersIds, detail::writeSph},
 };
 // clang-format on
 
@@ -116,6 +121,11 @@ ExportFormat makeFormat(const Row& row)
     format.positiveRadii = has(kPositiveRadii);
     format.floatIds = has(kFloatIds);
     format.ordersIds = has(kOrdersIds);
+    format.ids = has(kIds);
+    format.named = !has(kNameless);
+    format.errors = has(kErrors);
+    format.principal = has(kPrincipal);
+    format.alwaysMetres = has(kAlwaysMetres);
     if (format.name == "nanovdb" && !writesNanoVdb()) {
         format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";
     }
@@ -142,6 +152,7 @@ const std::vector<ExportOption>& exportOptionsOfSome()
 {
     static const std::vector<ExportOption> options = {
         {"link", &ExportFormat::link, "hold no links"},
+        {"name", &ExportFormat::named, "hold no name"},
         {"mass", &ExportFormat::mass, "hold no mass"},
         {"density", &ExportFormat::mass, "hold no mass"},
         {"start", &ExportFormat::samples, "hold no samples over time"},
@@ -150,10 +161,11 @@ const std::vector<ExportOption>& exportOptionsOfSome()
     return options;
 }
 
-std::string idleOptionNote(const ExportOption& option, const std::string& path)
+std::string idleOptionNote(
+    const ExportOption& option, const ExportFormat& format, const std::string& path)
 {
     return std::string(option.name) + "= changes nothing, as " + detail::lowerExtension(path)
-        + " files " + option.lacks;
+        + (format.byExtension ? "" : " format=" + format.name) + " files " + option.lacks;
 }
 
 const ExportFormat* findExportFormat(const std::string& extension, const std::string& name)

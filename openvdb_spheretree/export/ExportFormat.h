@@ -51,6 +51,12 @@ struct ExportFormat {
     bool floatIds = false;  ///< its ids are floats, which are whole up to 2^24: beyond, it has none
     bool ordersIds = false; ///< its ids count from the top level on: tracks have no place
     bool positiveRadii = false; ///< its readers refuse a radius of 0
+    bool ids = false;           ///< holds which sphere is which, and whose child
+    bool named = true;          ///< holds the name of what is in it
+    bool errors = false; ///< has errors, of another kind than those of trees, and gets 0 for them
+    bool principal =
+        false; ///< its readers want spheres in the frame of the body, and its mass by hand
+    bool alwaysMetres = false; ///< is in metres by its standard, however large what it holds is
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;
     void (*write)(
@@ -68,7 +74,8 @@ struct ExportOption {
 const std::vector<ExportOption>& exportOptionsOfSome();
 
 /// @return a sentence: that an option which was given changes nothing in a file, as its format lacks what it is about.
-std::string idleOptionNote(const ExportOption& option, const std::string& path);
+std::string idleOptionNote(
+    const ExportOption& option, const ExportFormat& format, const std::string& path);
 
 /// @return all of them, in the order in which they are listed.
 const std::vector<ExportFormat>& exportFormats();

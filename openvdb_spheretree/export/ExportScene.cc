@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExportScene.h"
 
-#include "ExportFrame.h"
 #include "ExportNames.h"
 #include "ExportRounding.h"
 #include <openvdb_spheretree/base/Parallel.h>
@@ -64,6 +63,16 @@ void noteWhatIsLost(
         notes.push_back(format.name + " has no room for the edges of the Sphere-DAG");
     if (!tree.cuts.empty())
         notes.push_back(format.name + " has no room for the cuts: spheres= writes one of them");
+    if (format.allLevels && !format.ids && !format.ordersIds && tree.levels.size() > 1)
+        notes.push_back(
+            format.name + " has the spheres of each level, but not which is whose child");
+    if (!tree.track.empty() && (!format.ids || format.ordersIds)) {
+        notes.push_back(
+            format.name + " has no room for the ids that spheres keep from frame to frame");
+    }
+    if (format.errors)
+        notes.push_back(
+            format.name + " has errors of another kind than those of trees: they are 0");
 }
 
 /// @return the spheres of a level in the file's frame, not yet rounded.
@@ -146,18 +155,44 @@ void noteUnits(
     const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
 {
     constexpr double kSmallest = 0.002, kLargest = 20; // metres
-    if (!format.metres) return;
+    if (!format.metres && !format.alwaysMetres) return;
     if (scene.metersPerUnit != 1) {
         notes.push_back("readers of " + format.name
             + " take its numbers for metres, and units= makes them others");
         return;
     }
+    if (format.alwaysMetres) return;
     const double span = ExportScene::boxOf(scene.finest()).extents().length();
     if (span > kSmallest && span < kLargest) return;
     notes.push_back(format.name + " is in metres, and these spheres span " + shortNumber(span)
         + ": if the tree is in millimetres, read what it is made of with units=mm, or write it "
           "with "
           "scale=0.001");
+}
+
+/// Planners and physics ask all spheres of a link against all of others, many times a second.
+void noteMany(const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
+{
+    constexpr std::size_t kMany = 1000;
+    if (!format.link || scene.sphereCount() <= kMany) return;
+    notes.push_back(std::to_string(scene.sphereCount()) + " spheres are many for readers of "
+        + format.name + ": spheres= writes fewer");
+}
+
+/// Programs of discrete elements are told by hand what a clump weighs.
+/// @param body  in the frame and the units of the file, of a density of 1
+void noteBody(const MassProperties& body, const ExportSettings& settings,
+    const ExportFormat& format, std::vector<std::string>& notes)
+{
+    std::string moments;
+    for (int axis = 0; axis < 3; ++axis) {
+        moments += (axis > 0 ? ", " : "") + shortNumber(body.principalMoments[axis]);
+    }
+    const bool isPrincipal = settings.frame == ExportFrame::Principal;
+    notes.push_back("with a density of 1 this body has the mass " + shortNumber(body.volume)
+        + " and the principal moments of inertia " + moments + ", which readers of " + format.name
+        + " want to be told"
+        + (isPrincipal ? "" : "; they take spheres around the center of mass: frame=principal"));
 }
 
 /// Planners take spheres in the frame of their link.
@@ -307,8 +342,8 @@ openvdb::BBoxd ExportScene::boxOf(const ExportLevel& level)
 }
 
 ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
-    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes,
-    openvdb::util::NullInterrupter* interrupter)
+    const ExportSettings& settings, std::size_t place, std::optional<FileFrame>& frameOfSamples,
+    std::vector<std::string>& notes, openvdb::util::NullInterrupter* interrupter)
 {
     if (whole.levels.empty()) return emptyScene(whole, format, settings, place, notes);
     requireSpheres(whole);
@@ -317,10 +352,17 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     noteWhatIsLost(tree, format, notes);
 
     const bool needsUnion = format.mass && !settings.mass;
+    const bool needsFrame = settings.frame != ExportFrame::World && !frameOfSamples;
     MassProperties ofUnion;
-    if (needsUnion || settings.frame != ExportFrame::World) ofUnion = massOf(tree, interrupter);
-    const FileFrame frame(settings, ofUnion);
+    if (needsUnion || needsFrame) ofUnion = massOf(tree, interrupter);
+    const FileFrame frame = frameOfSamples.value_or(FileFrame(settings, ofUnion));
+    if (format.samples) frameOfSamples = frame;
     if (needsUnion) noteMass(tree.levels.front(), notes);
+    if (format.principal) {
+        const auto body = needsFrame ? std::optional(ofUnion)
+                                     : massProperties(tree, tree.levels.front(), interrupter);
+        if (body) noteBody(frame.toFile(*body, 1), settings, format, notes);
+    }
 
     ExportScene scene = sceneFor(tree, format, settings, place, notes);
     if (format.mass) {
@@ -340,6 +382,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     noteGrowth(worst, format, notes);
     noteUnits(scene, format, notes);
     noteFrame(settings, format, notes);
+    noteMany(scene, format, notes);
     if (!tree.track.empty() && !format.ordersIds) {
         for (ExportLevel& level : scene.levels) {
             showTracks(tree, level);

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "ExportFrame.h"
 #include "ExportTree.h"
 #include <openvdb_spheretree/measure/MassProperties.h>
 
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,10 +54,12 @@ struct ExportScene {
 /// @param tree   without levels it is that of no object, and the scene has one level without spheres,
 ///               or none in a format with samples
 /// @param place  of the tree among those of the file
+/// @param frame  of a file of samples: that of the first of them, which is made with it, and serves all. If each had
+///               its own, what moves would stand still.
 /// @param notes  receives what of the tree is not in the scene
 /// @throw openvdb::ValueError if the format cannot hold it
 ExportScene makeScene(const SphereTree& tree, const ExportFormat& format,
-    const ExportSettings& settings, std::size_t place, std::vector<std::string>& notes,
-    openvdb::util::NullInterrupter* interrupter);
+    const ExportSettings& settings, std::size_t place, std::optional<FileFrame>& frame,
+    std::vector<std::string>& notes, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::detail

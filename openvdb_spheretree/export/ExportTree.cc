@@ -143,10 +143,11 @@ std::vector<std::string> exportTrees(const std::vector<const SphereTree*>& trees
     const bool areLinks = trees.size() > 1 && format.links;
     std::vector<std::vector<std::string>> notes(trees.size());
     std::vector<detail::ExportScene> scenes;
+    std::optional<detail::FileFrame> frameOfSamples;
     for (std::size_t i = 0; i < trees.size(); ++i) {
         try {
-            scenes.push_back(
-                detail::makeScene(*trees[i], format, settings, i, notes[i], interrupter));
+            scenes.push_back(detail::makeScene(
+                *trees[i], format, settings, i, frameOfSamples, notes[i], interrupter));
         } catch (const openvdb::ValueError& error) {
             if (!areLinks) throw;
             OPENVDB_THROW(

@@ -26,7 +26,8 @@
 namespace openvdb_spheretree {
 
 /// Where the origin of a file is, and along what its axes are. The two others are those of the body that the
-/// finest level in the file is: the union of its spheres, with the same density everywhere.
+/// finest level in the file is: the union of its spheres, with the same density everywhere. Samples over time are all
+/// in the frame of the first.
 enum class ExportFrame {
     World,    ///< as the tree is
     Centroid, ///< the center of mass; axes as in the world

@@ -122,6 +122,8 @@ def export(
     defaults = {"up": "y", "mass": "spheres", "density": 1000.0, "start": 1.0, "fps": 24.0}
     wanted: dict[str, Any] = {"up": up, "link": link, "mass": mass, "density": density, "start": start,
                               "fps": fps}
+    if name:
+        wanted["name"] = name
     given = {key: float(value) if key in ("density", "start", "fps") else value
              for key, value in wanted.items() if value is not None}
     words: dict[str, Any] = {

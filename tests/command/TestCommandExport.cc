@@ -3,6 +3,7 @@
 
 #include "CommandRunner.h"
 
+#include "support/DataFolder.h"
 #include "support/Messages.h"
 
 #include <openvdb_spheretree/export/NanoVdbWriter.h>
@@ -88,6 +89,10 @@ TEST_F(CommandExport, AnOptionThatMeansNothingToAFileIsTold)
         EXPECT_FALSE(mentions(noted(taken), "changes nothing")) << taken;
     }
     EXPECT_TRUE(mentions(noted("a.ply a.vdb up=z"), "a.ply: up= changes nothing"));
+    EXPECT_TRUE(
+        mentions(noted("a.vtp name=b"), "name= changes nothing, as .vtp files hold no name"));
+    EXPECT_TRUE(
+        mentions(noted("a.yml format=lula name=b"), "as .yml format=lula files hold no name"));
 }
 
 TEST_F(CommandExport, ToStdout)
@@ -255,6 +260,11 @@ TEST_F(CommandExport, AnObjectAsVol)
     EXPECT_TRUE(mentions(readText(path("b.vol")), "X: 8\nY: 6\nZ: 5\n"));
     const Result moved = run("-read tree.vdb -spheres2mask level=1 -write d.vol");
     EXPECT_TRUE(mentions(moved.err, "its first voxel is that of index"));
+    for (const char* file : {"volumes/placed.nrrd", "volumes/mirrored.nii"}) {
+        const Result turned = run("-read " + spheretree_test::dataPath(file) + " -write e.vol");
+        EXPECT_TRUE(mentions(turned.err, "in the world at 10,-5,1")) << turned.err;
+        EXPECT_TRUE(mentions(turned.err, "no room for the turn or the mirror")) << turned.err;
+    }
 }
 
 TEST_F(CommandExport, HelpListsAllFormats)

@@ -4,6 +4,7 @@
 import os
 import shutil
 import subprocess
+from itertools import combinations
 from pathlib import Path
 
 from spheres import Sphere, require_covered, require_near
@@ -58,6 +59,41 @@ def read_mujoco(trees):
         for found, (row, column) in zip(numbers[6:], ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
             off = abs(found - 1000 * mass["inertia"][row][column])
             assert off <= 1e-6 * 1000 * max(mass["principal_moments"]), (name, row, column, off)
+    require_principal(program, trees)
+
+
+def require_principal(program, trees):
+    """In the frame of the body the center of mass is the origin, and the axes are those of its moments, the least first."""
+    path = trees.write("turned.vdb", "body.mjcf", "frame=principal", "density=1000")
+    lines = [line.split() for line in output_of(program, path, cwd=trees.folder).splitlines()]
+    mass = mass_of(trees)
+    spread = sum(mass["principal_moments"]) / mass["volume"]
+    _, *numbers = (float(word) for word in next(l for l in lines if l[0] == "mass")[1:])
+    assert all(abs(value) < 1e-9 * spread ** 0.5 for value in numbers[3:6]), numbers
+    for found, expected in zip(numbers[6:9], sorted(mass["principal_moments"])):
+        require_near(found, 1000 * expected, 1e-6, "principal moment of inertia")
+    assert all(abs(value) < 1e-6 * 1000 * max(mass["principal_moments"]) for value in numbers[9:]), numbers
+    found = [Sphere(*map(float, line[1:])) for line in lines if line[0] == "sphere"]
+    require_same_shape(found, trees.finest("turned.vdb"))
+
+
+def volume_of(spheres, corners):
+    """Six times the signed volume of a tetrahedron of centers."""
+    a, *others = (spheres[i] for i in corners)
+    (px, py, pz), (qx, qy, qz), (rx, ry, rz) = ([p[i] - a[i] for i in range(3)] for p in others)
+    return px * (qy * rz - qz * ry) - py * (qx * rz - qz * rx) + pz * (qx * ry - qy * rx)
+
+
+def require_same_shape(found, expected):
+    """Turned and moved, but not mirrored: distances are the same, and what is left stays left."""
+    from math import dist
+
+    assert len(found) == len(expected)
+    for a, b in zip(found, expected):
+        assert abs(dist(a[:3], found[0][:3]) - dist(b[:3], expected[0][:3])) < 1e-5 * b.radius, (a, b)
+    corners = combinations(range(min(12, len(expected))), 4)
+    chosen = max(corners, key=lambda four: abs(volume_of(expected, four)))
+    require_near(volume_of(found, chosen), volume_of(expected, chosen), 1e-4, "signed volume of four centers")
 
 
 def on_a_base(path):
@@ -127,8 +163,12 @@ def read_mesh(trees):
         mass.Update()
         volume = sum(4 / 3 * 3.141592653589793 * s.radius ** 3 for s in spheres)
         assert 0.95 * volume < mass.GetVolume() < volume, (mass.GetVolume(), volume)
-    names = [line.split()[1] for line in open(trees.write("turned.vdb", "u.obj", "format=unreal", "name=arm"))
-             if line.startswith("o ")]
+    unreal = trees.write("turned.vdb", "u.obj", "format=unreal", "name=arm")
+    reader = vtkOBJReader()
+    reader.SetFileName(str(unreal))
+    reader.Update()
+    require_corners_on(spheres, reader.GetOutput(), 320)
+    names = [line.split()[1] for line in open(unreal) if line.startswith("o ")]
     assert names == [f"USP_arm_{i + 1:02}" for i in range(len(spheres))], names
 
 

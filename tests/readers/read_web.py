@@ -2,6 +2,7 @@
 """Readers of the web: tinyusdz, three.js and the validator of glTF, by node."""
 
 import json
+import math
 import os
 import struct
 import subprocess
@@ -83,7 +84,8 @@ def read_gltf(trees):
         all_spheres = trees.spheres("turned.vdb")
         finest = [sphere for sphere in all_spheres if sphere.level == 0]
         if triangles:
-            assert [scene["triangles"] for scene in scenes] == [triangles * len(finest)]
+            (scene,) = scenes
+            require_corners(scene["corners"], finest, triangles)
             continue
         # A scene is a level; the finest is shown.
         assert len(scenes) == 1 + max(sphere.level for sphere in all_spheres) == 3, len(scenes)
@@ -91,10 +93,23 @@ def read_gltf(trees):
             require_level(scene, [sphere for sphere in all_spheres if sphere.level == level])
 
 
+def with_y_up(spheres):
+    """What is up along z in the tree is so along y in glTF."""
+    return [sphere._replace(y=sphere.z, z=-sphere.y) for sphere in spheres]
+
+
+def require_corners(corners, spheres, triangles):
+    """Three corners a triangle, on its sphere."""
+    assert len(corners) == 3 * triangles * len(spheres), len(corners)
+    for i, sphere in enumerate(with_y_up(spheres)):
+        for corner in corners[3 * triangles * i:3 * triangles * (i + 1)]:
+            off = abs(math.dist(corner, sphere[:3]) - sphere.radius)
+            assert off <= 1e-6 * (sphere.radius + max(map(abs, sphere[:3]))), (corner, sphere)
+
+
 def require_level(scene, spheres):
     found = [Sphere(*sphere) for sphere in scene["spheres"]]
-    # What is up along z in the tree is so along y in glTF.
-    turned = [sphere._replace(y=sphere.z, z=-sphere.y) for sphere in spheres]
+    turned = with_y_up(spheres)
     assert len(found) == len(turned)
     for a, b in zip(found, turned):
         assert all(abs(a[i] - b[i]) < 1e-5 for i in range(4)), (a, b)

@@ -256,12 +256,33 @@ private:
         } catch (const openvdb::ValueError&) { // empty, or too large a box
             rethrowNamed(path, kInput);
         }
-        const openvdb::Coord first = object->evalActiveVoxelBoundingBox().min();
-        if (first != openvdb::Coord(0)) {
+        noteLostPlace(path, *object);
+    }
+
+    /// The format has the sides of a voxel, and nothing of where it is.
+    void noteLostPlace(const std::string& path, const openvdb::BoolGrid& object)
+    {
+        const openvdb::math::Transform& place = object.transform();
+        const openvdb::Vec3d origin = place.indexToWorld(openvdb::Vec3d(0));
+        const openvdb::Coord first = object.evalActiveVoxelBoundingBox().min();
+        const openvdb::Vec3d world = place.indexToWorld(first);
+        if (first != openvdb::Coord(0) || origin != openvdb::Vec3d(0)) {
+            using openvdb_spheretree::detail::shortNumber;
             mSession.note(path
                 + " has no room for where the object is: its first voxel is that of index "
                 + std::to_string(first.x()) + "," + std::to_string(first.y()) + ","
-                + std::to_string(first.z()));
+                + std::to_string(first.z()) + ", in the world at " + shortNumber(world.x()) + ","
+                + shortNumber(world.y()) + "," + shortNumber(world.z()));
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            openvdb::Vec3d along(0);
+            along[axis] = 1;
+            const openvdb::Vec3d side = place.indexToWorld(along) - origin;
+            if (side[axis] >= side.length() * (1 - 1e-12)) continue;
+            mSession.note(path
+                + " has no room for the turn or the mirror of the object: its axes are those of "
+                  "voxels");
+            break;
         }
     }
 

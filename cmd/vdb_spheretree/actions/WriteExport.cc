@@ -236,7 +236,7 @@ void noteIdleOptions(
             return other ? other->*option.takes : isTakenByPicture(call, option.name, file);
         });
         if (isTaken) continue;
-        session.note(path + ": " + spheretree::idleOptionNote(option, path));
+        session.note(path + ": " + spheretree::idleOptionNote(option, format, path));
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes that three.js makes of a .glb, the one that is shown first: instances as spheres, or how many triangles.
+// The scenes that three.js makes of a .glb, the one that is shown first: instances as spheres, or the corners of triangles.
 import fs from "node:fs";
 
 globalThis.self = globalThis; // the loader is made for browsers
@@ -10,12 +10,16 @@ const file = fs.readFileSync(process.argv[2]);
 const bytes = file.buffer.slice(file.byteOffset, file.byteOffset + file.byteLength);
 const gltf = await new Promise((resolve, reject) => new GLTFLoader().parse(bytes, "", resolve, reject));
 const numbersOf = (scene) => {
-    const result = { name: scene.name, spheres: [], ids: [], parents: [], triangles: 0 };
+    const result = { name: scene.name, spheres: [], ids: [], parents: [], corners: [] };
     scene.updateMatrixWorld(true);
     scene.traverse((node) => {
         if (!node.isMesh) return;
         if (!node.isInstancedMesh) {
-            result.triangles += node.geometry.index.count / 3;
+            const points = node.geometry.getAttribute("position");
+            for (const corner of node.geometry.index.array) {
+                const point = new Vector3().fromBufferAttribute(points, corner);
+                result.corners.push(point.applyMatrix4(node.matrixWorld).toArray());
+            }
             return;
         }
         const matrix = new Matrix4();

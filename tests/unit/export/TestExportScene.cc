@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a tree goes into a file: levels, frame, units, and what is said of the rest.
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/export/ExportScene.h>
 #include <openvdb_spheretree/measure/MassProperties.h>
 
@@ -42,7 +43,8 @@ Exported sceneOf(
     Exported result;
     ExportSettings all = settings;
     all.links = {"object"};
-    result.scene = detail::makeScene(tree, format, all, 0, result.notes, nullptr);
+    std::optional<detail::FileFrame> frame;
+    result.scene = detail::makeScene(tree, format, all, 0, frame, result.notes, nullptr);
     return result;
 }
 
@@ -156,6 +158,8 @@ TEST(ExportScene, RobotsAreInMetres)
     EXPECT_EQ(notesOf(".urdf", 0.01, 1), "");
     EXPECT_TRUE(mentions(notesOf(".srdf", 0.01, 0.001), "take its numbers for metres"));
     EXPECT_EQ(notesOf(".vtp", 1, 0.001), "");
+    EXPECT_TRUE(mentions(notesOf(".glb", 1, 0.001), "glb take its numbers for metres"));
+    EXPECT_EQ(notesOf(".glb", 1, 1), ""); // scenes are as large as they like
 }
 
 TEST(ExportScene, FramesOfTheBody)
@@ -191,6 +195,100 @@ TEST(ExportScene, FramesOfTheBody)
             EXPECT_NEAR(scene.mass.inertia(axis, (axis + 1) % 3) / moment, 0, 1e-9);
         }
     }
+}
+
+/// A body that moves between two frames moves in their file, whatever its frame.
+TEST(ExportScene, SamplesAreInTheFrameOfTheFirst)
+{
+    const SphereTree first = turnedTree();
+    SphereTree second = turnedTree();
+    second.transform->postTranslate(Vec3d(5, -3, 2));
+    ExportFormat ofSamples = format(true), ofLinks = format(true);
+    ofSamples.samples = true;
+    for (const ExportFrame frame : {ExportFrame::Centroid, ExportFrame::Principal}) {
+        ExportSettings settings;
+        settings.frame = frame;
+        settings.links = {"a", "b"};
+        const auto distances = [&](const ExportFormat& file) {
+            std::optional<detail::FileFrame> common;
+            std::vector<std::string> notes;
+            const auto a = detail::makeScene(first, file, settings, 0, common, notes, nullptr);
+            const auto b = detail::makeScene(second, file, settings, 1, common, notes, nullptr);
+            std::vector<double> all;
+            for (std::size_t i = 0; i < a.finest().size(); ++i) {
+                all.push_back((a.finest().centers[i] - b.finest().centers[i]).length());
+            }
+            return all;
+        };
+        for (const double distance : distances(ofSamples)) {
+            EXPECT_NEAR(distance, Vec3d(5, -3, 2).length(), 1e-9);
+        }
+        for (const double distance : distances(ofLinks)) EXPECT_NEAR(distance, 0, 1e-9);
+    }
+}
+
+std::string notesOf(
+    const SphereTree& tree, const char* extension, const char* name, const ExportSettings& settings)
+{
+    std::string all;
+    for (const std::string& note :
+        sceneOf(tree, *findExportFormat(extension, name), settings).notes) {
+        all += note + "; ";
+    }
+    return all;
+}
+
+TEST(ExportScene, WhatFilesOfOneFormatLackIsSaid)
+{
+    SphereTree tree = turnedTree();
+    const std::string foam = notesOf(tree, ".json", "foam", {});
+    EXPECT_TRUE(mentions(foam, "not which is whose child") && mentions(foam, "they are 0")) << foam;
+    ExportSettings finest;
+    finest.level = 0;
+    EXPECT_FALSE(mentions(notesOf(tree, ".json", "foam", finest), "whose child"));
+    for (const char* whole : {".vtp", ".sph", ".swc"}) {
+        EXPECT_EQ(notesOf(tree, whole, "", {}), "") << whole;
+    }
+    tree.track.resize(std::size_t(tree.size()), 0);
+    tree.nextTrack = 1;
+    for (const char* without : {".swc", ".sph", ".stl"}) {
+        EXPECT_TRUE(mentions(notesOf(tree, without, "", finest), "from frame to frame")) << without;
+    }
+    EXPECT_EQ(notesOf(tree, ".vtp", "", {}), "");
+}
+
+TEST(ExportScene, ThatRobotsOfManySpheresAreSlowIsSaid)
+{
+    ExportSettings settings;
+    settings.level = 0;
+    settings.scale = 0.01;
+    for (const int spheres : {1000, 1001}) {
+        SphereTree tree = randomTree(spheres, 3);
+        tree.transform = turned();
+        const bool isSaid = mentions(notesOf(tree, ".srdf", "", settings), "1001 spheres are many");
+        EXPECT_EQ(isSaid, spheres > 1000);
+        EXPECT_FALSE(mentions(notesOf(tree, ".vtp", "", settings), "are many"));
+    }
+}
+
+/// Its readers are told the mass by hand, so it is said, in the units of the file.
+TEST(ExportScene, WhatAClumpWeighsIsSaidWhereReadersAskForIt)
+{
+    const SphereTree tree = turnedTree();
+    const auto mass = *massProperties(tree, tree.levels.front());
+    ExportSettings settings;
+    settings.level = 0;
+    settings.scale = 2;
+    const std::string volume = "the mass " + detail::shortNumber(8 * mass.volume) + " and";
+    const std::string moment =
+        "inertia " + detail::shortNumber(32 * mass.principalMoments[0]) + ", ";
+    const std::string world = notesOf(tree, ".csv", "deme", settings);
+    EXPECT_TRUE(mentions(world, volume) && mentions(world, moment)) << world;
+    EXPECT_TRUE(mentions(world, "around the center of mass: frame=principal")) << world;
+    settings.frame = ExportFrame::Principal;
+    const std::string principal = notesOf(tree, ".csv", "deme", settings);
+    EXPECT_TRUE(mentions(principal, volume) && mentions(principal, moment)) << principal;
+    EXPECT_FALSE(mentions(principal, "around the center")) << principal;
 }
 
 TEST(ExportScene, FarFromTheOriginFloatsAreSaidToBeCoarse)
