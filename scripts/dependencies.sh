@@ -13,7 +13,7 @@ build_packages=(
 python_packages=(pybind11-dev python3-dev python3-numpy) # the Python module, beside build_packages
 test_packages=(libgtest-dev libbenchmark-dev python3-matplotlib zsh groff-base dpkg-dev
     "${python_packages[@]}" python3-pytest python3-scipy python3-openvdb python3-pip python3-venv mypy)
-# Readers of the files that are written for other tools; a test whose reader is missing is skipped.
+# Readers of the files that are written for other tools; a test whose reader is missing is skipped. Beside these: install_npm.
 reader_packages=(
     python3-yaml python3-meshio python3-open3d python3-vtk9 python3-ase
     libmujoco-dev liburdfdom-tools lammps yade nodejs blender libnanovdb-tools)
@@ -57,6 +57,12 @@ install_packages() {
         </dev/null >&2
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
         install --no-install-recommends "${missing[@]}" </dev/null >&2
+}
+
+# npm, for readers by node, where none came with nodejs. Debian has it in a package of its own; the nodejs of others has it
+# inside and excludes that package. So this comes after nodejs is installed, not with it. Without npm two tests are skipped.
+install_npm() {
+    command -v npm >/dev/null || install_packages npm || say "no npm: readers of .usda and .glb are left out"
 }
 
 # Compilers at once: one a core, but no more than there is memory for (1.5 GiB each: OpenVDB's

@@ -12,6 +12,7 @@ fi
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/dependencies.sh"
 
 install_packages "${build_packages[@]}" "${test_packages[@]}" "${reader_packages[@]}" "${browser_packages[@]}"
+install_npm
 build_preset test
 
 find_data

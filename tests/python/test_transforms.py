@@ -57,6 +57,13 @@ def test_distances_in_voxels_that_are_no_cubes_are_refused(bone):
         spheretree.distance_transform(bone, dim=4)
 
 
+def test_distances_in_voxels_that_were_made_cubes(bone):
+    volume = spheretree.volume(bone, anisotropy=(0.5, 0.5, 1))
+    cubes = volume.to_array()
+    assert volume.voxel_size == 0.5 and cubes.shape[2] > bone.shape[2]
+    assert np.array_equal(spheretree.distance_transform(volume), spheretree.distance_transform(cubes, 0.5))
+
+
 def test_distances_of_a_file_fill_the_box_of_its_object(bone, tmp_path):
     write_vol(tmp_path / "bone.vol", bone)
     volume = spheretree.volume(tmp_path / "bone.vol")

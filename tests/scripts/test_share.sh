@@ -70,6 +70,18 @@ if command -v zsh > /dev/null; then
     expect_in_zsh "-help sph" "spheretree"
 fi
 
+# Which actions take files: these, as both shells know. (A program that lists no options leaves the files alone.)
+takes_files=" read i write o config c stats files each collide distance raycast contains "
+for action in ${actions//-/} i o c; do
+    files=
+    [[ $takes_files != *" $action "* ]] || files=apple.vdb
+    program=true expect "-$action app" "$files"
+    if command -v zsh > /dev/null; then
+        got=$(program=true in_zsh "-$action app")
+        [[ "${files:+FILES}" == "${got// /}" ]] || fail "zsh, after '-$action app': '$got', where bash offers '$files'"
+    fi
+done
+
 page=$("$share/make_man.sh" "$program")
 for action in $actions; do
     grep -q "^\.SS \\\\$action" <<< "$page" || fail "the page lacks $action"

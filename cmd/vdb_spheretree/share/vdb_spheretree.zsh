@@ -30,7 +30,7 @@ case $PREFIX in
         ;;
     esac
     case $action in
-    read | i | write | o | config | c | stats | collide | distance | raycast | contains) _files ;;
+    read | i | write | o | config | c | stats | files | each | collide | distance | raycast | contains) _files ;;
     esac
     ;;
 esac

@@ -7,7 +7,9 @@ process.type = "renderer"; // it is made for browsers alone
 globalThis.window = globalThis;
 globalThis.self = globalThis;
 const folder = createRequire(import.meta.url).resolve("tinyusdz/package.json").replace("package.json", "");
-const { default: init } = await import("tinyusdz/tinyusdz.js");
+// Its package does not say that it is a module; node 18, which Debian has, goes by the name of the file alone.
+fs.copyFileSync(`${folder}tinyusdz.js`, `${folder}tinyusdz.mjs`);
+const { default: init } = await import("tinyusdz/tinyusdz.mjs");
 const module = await init({ wasmBinary: fs.readFileSync(`${folder}tinyusdz.wasm`) });
 const bytes = fs.readFileSync(process.argv[2]);
 const checker = new module.TinyUSDZLoaderNative();
