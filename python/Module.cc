@@ -21,6 +21,7 @@ PYBIND11_MODULE(_spheretree, module)
     binding::bindTree(module);
     binding::bindTreeFiles(module);
     binding::bindTreeExport(module);
+    binding::bindTreePage(module);
     binding::bindBuild(module);
     binding::bindTransforms(module);
     binding::bindPoints(module);

@@ -33,6 +33,7 @@ using TreePtr = std::shared_ptr<Tree>;
 void bindTree(pybind11::module_& module);
 void bindTreeFiles(pybind11::module_& module);
 void bindTreeExport(pybind11::module_& module);
+void bindTreePage(pybind11::module_& module);
 void bindBuild(pybind11::module_& module);
 void bindTransforms(pybind11::module_& module);
 void bindPoints(pybind11::module_& module);

@@ -11,7 +11,6 @@
 #include "line/Length.h"
 
 #include <openvdb_spheretree/base/Text.h>
-#include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/export/ExportTree.h>
 #include <openvdb_spheretree/measure/MassProperties.h>
 
@@ -88,11 +87,7 @@ ExportSettings settingsOf(const py::dict& words, std::size_t trees)
 spheretree::MassProperties massOfObject(const Volume& volume, const spheretree::SphereTree& tree,
     const std::string& path, Interrupter* interrupter)
 {
-    if (!spheretree::isObjectOf(*volume.object, tree)) {
-        throw InputError(path
-            + ": mass=\"object\": the volume has other voxels than those that the tree was built "
-              "of");
-    }
+    requireObjectOf(tree, volume, path + ": mass=\"object\"");
     return spheretree::massProperties(*volume.object, interrupter).value();
 }
 

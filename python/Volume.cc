@@ -7,6 +7,7 @@
 #include "ForbidNew.h"
 
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/input/Resample.h>
 #include <openvdb_spheretree/input/array/ArrayFile.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
@@ -126,20 +127,6 @@ ObjectRequest requestOf(const py::dict& keywords)
     return request;
 }
 
-FileRequest fileRequestOf(const py::dict& keywords)
-{
-    FileRequest file;
-    for (const auto& [key, value] : keywords) {
-        const std::string name = py::str(key);
-        if (name == "grid") file.grid = py::cast<std::string>(value);
-        else if (name == "voxel") file.voxel = py::cast<double>(value);
-        else if (name == "units") file.units = py::cast<std::string>(value);
-        else if (name == "resolution") file.resolution = py::cast<int>(value);
-        else if (name == "gap") file.gap = py::cast<double>(value);
-    }
-    return file;
-}
-
 /// Where the voxels of an array are.
 struct Placement {
     std::array<double, 3> spacing, origin; ///< along x, y, z
@@ -158,16 +145,42 @@ openvdb::math::Transform::Ptr gridTransformOf(const Placement& place)
     return transform;
 }
 
-openvdb::math::Transform::Ptr transformOf(const Placement& place)
+/// @param said  the arguments that say it
+openvdb::math::Transform::Ptr transformOf(const Placement& place, const char* said)
 {
     try {
         auto transform = gridTransformOf(place);
         if (std::isfinite(spheretree::largestStretch(*transform))) return transform;
     } catch (const openvdb::Exception&) { // told below
     }
-    throw InputError(std::string(place.matrix ? "matrix" : "anisotropy and origin")
+    throw InputError(std::string(said)
         + ": OpenVDB has no transform for these voxels: they have no volume, or one below 3e-15, "
           "or are too large, or too far from the origin; choose another unit of length");
+}
+
+/// The sides of a file's voxels. @throw InputError where OpenVDB has no such voxels
+openvdb::Vec3d spacingOf(const py::handle& sides)
+{
+    const Placement place{py::cast<std::array<double, 3>>(sides), {}, {}};
+    transformOf(place, "anisotropy");
+    return openvdb::Vec3d(place.spacing.data());
+}
+
+FileRequest fileRequestOf(const py::dict& keywords)
+{
+    FileRequest file;
+    for (const auto& [key, value] : keywords) {
+        const std::string name = py::str(key);
+        if (name == "grid") file.grid = py::cast<std::string>(value);
+        else if (name == "voxel") file.voxel = py::cast<double>(value);
+        else if (name == "units") file.units = py::cast<std::string>(value);
+        else if (name == "resolution") file.resolution = py::cast<int>(value);
+        else if (name == "gap") file.gap = py::cast<double>(value);
+        else if (name == "zyx") file.array.zyx = py::cast<bool>(value);
+        else if (name == "background") file.array.background = py::cast<double>(value);
+        else if (name == "spacing") file.array.spacing = spacingOf(value);
+    }
+    return file;
 }
 
 // ---- Arrays
@@ -254,7 +267,8 @@ Volume volumeOfArray(const py::array& array, const py::dict& place, const py::di
     if (!place["matrix"].is_none()) {
         placement.matrix = py::cast<std::array<double, 16>>(place["matrix"]);
     }
-    request.transform = transformOf(placement);
+    request.transform =
+        transformOf(placement, placement.matrix ? "matrix" : "anisotropy and origin");
     Volume volume;
     volume.object = resultOfCall(call, [&](Interrupter* in) { return objectOfArray(request, in); });
     volume.reversed = reversed;
@@ -312,6 +326,13 @@ py::array coordinatesOf(const Volume& volume)
 
 } // namespace
 
+void requireObjectOf(
+    const spheretree::SphereTree& tree, const Volume& volume, const std::string& what)
+{
+    if (spheretree::isObjectOf(*volume.object, tree)) return;
+    throw InputError(what + ": the volume has other voxels than those that the tree was built of");
+}
+
 std::vector<py::ssize_t> Volume::shape() const
 {
     const openvdb::Coord sides = box.dim();
@@ -348,6 +369,13 @@ void bindVolume(py::module_& module)
         [](const py::array& array, const py::dict& place, const py::dict& keywords,
             const py::object& progress, int threads) {
             return volumeOfArray(array, place, keywords, {progress, threads});
+        });
+    module.def("kind_of_file", kindOfFile);
+    module.def("is_stack_name", spheretree::isStackName);
+    module.def("value_range_of_file",
+        [](const std::string& path, const py::object& progress, int threads) {
+            return resultOfCall(CallSettings{progress, threads},
+                [&](Interrupter* in) { return valueRangeOfFile(path, in); });
         });
     module.def("volume_of_file",
         [](const std::string& path, const py::dict& file, const py::dict& keywords,

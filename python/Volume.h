@@ -7,7 +7,9 @@
 #include "ArrayVoxels.h"
 
 #include <openvdb_spheretree/input/Object.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
+#include <openvdb_spheretree/tree/SphereTree.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
 #include <openvdb/openvdb.h>
@@ -16,6 +18,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace binding {
@@ -45,6 +48,7 @@ struct FileRequest {
     std::optional<double> voxel; ///< of a mesh: world units
     int resolution = 256;        ///< of a mesh, in place of that: voxels along its longest side
     std::optional<double> gap;   ///< of a mesh: width of holes to close, world units
+    openvdb_spheretree::VolumeSettings array = {}; ///< of an array file or of pictures
 };
 
 /// @brief The object of a grid: cubic voxels are made where there are others, then the request is met.
@@ -58,9 +62,23 @@ openvdb::BoolGrid::Ptr objectOfGrid(const openvdb::GridBase::ConstPtr& grid,
 /// @throw what readMeshFile() throws; InputError for a unit that is none
 openvdb_spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& units);
 
-/// @throw command::CommandError naming the file; InputError for arguments that do not suit it
+/// @return what a path is read as, by its extension: `vdb`, `vol`, `npy`, `array` (of other tools, and pictures),
+///         `mesh`; or nothing.
+std::string kindOfFile(const std::string& path);
+
+/// @return the least and the largest value of an array file that are not 0, or 0 and 0; nothing for bools.
+/// @throw what readVolumeFile() throws; InputError for a .raw
+std::optional<std::pair<double, double>> valueRangeOfFile(
+    const std::string& path, openvdb::util::NullInterrupter* interrupter);
+
+/// @throw command::CommandError or openvdb::IoError naming the file; InputError for arguments that do not suit it
 Volume volumeOfFile(const std::string& path, const FileRequest& file, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter);
+
+/// @param what  the message begins with it
+/// @throw InputError if @a volume is not what the tree was built over, as far as isObjectOf() tells
+void requireObjectOf(
+    const openvdb_spheretree::SphereTree& tree, const Volume& volume, const std::string& what);
 
 /// @return an array of the shape of the volume, all 0.
 pybind11::array zerosFor(const Volume& volume, const char* dtype);

@@ -14,15 +14,18 @@
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/Object.h>
 #include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/input/array/ArrayGrid.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 #include <openvdb_spheretree/input/mesh/MeshLevelSet.h>
 #include <openvdb_spheretree/input/vol/VolFile.h>
+#include <openvdb_spheretree/input/volume/VolumeFile.h>
 #include <openvdb_spheretree/solid/MeshSolid.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 #include <openvdb_spheretree/topology/ObjectParts.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/points/PointDataGrid.h>
+#include <openvdb/tools/Count.h>
 
 #include <algorithm>
 
@@ -170,7 +173,64 @@ Volume volumeOfMesh(const std::string& path, const FileRequest& file, const Obje
     return volume;
 }
 
+/// @throw InputError for a .raw, which says nothing of its numbers
+GridBase::Ptr gridOfArrayFile(const std::string& path, const spheretree::VolumeSettings& settings,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    if (spheretree::volumeExtension(path) == ".raw") {
+        throw InputError(path
+            + ": a .raw does not say what it holds: numpy.memmap(path, dtype, \"r\", "
+              "shape=(z, y, x)), or numpy.fromfile(path, dtype).reshape(z, y, x), is an array of "
+              "it, for axes=\"zyx\"");
+    }
+    return spheretree::readVolumeFile(path, settings, interrupter);
+}
+
+Volume volumeOfArrayFile(const std::string& path, const FileRequest& file,
+    const ObjectRequest& request, openvdb::util::NullInterrupter* interrupter)
+{
+    const GridBase::Ptr grid = gridOfArrayFile(path, file.array, interrupter);
+    Volume volume;
+    try {
+        volume.object = objectOfGrid(grid, request, interrupter);
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    } catch (const openvdb::ValueError& error) {
+        throw InputError(path + ": " + spheretree::detail::messageOf(error));
+    }
+    const auto notNumbers =
+        grid->getMetadata<openvdb::Int64Metadata>(spheretree::detail::kNotNumbersMeta);
+    if (notNumbers) {
+        volume.warnings.push_back(path + ": " + command::notNumbersText(notNumbers->value()));
+    }
+    return volume;
+}
+
 } // namespace
+
+std::string kindOfFile(const std::string& path)
+{
+    if (spheretree::volumeExtension(path) == ".npy") return "npy";
+    if (spheretree::isVolumeFileName(path)) return "array";
+    switch (command::fileKind(path)) {
+    case command::FileKind::Vdb: return "vdb";
+    case command::FileKind::Vol: return "vol";
+    case command::FileKind::Mesh: return "mesh";
+    default: return "";
+    }
+}
+
+std::optional<std::pair<double, double>> valueRangeOfFile(
+    const std::string& path, openvdb::util::NullInterrupter* interrupter)
+{
+    const GridBase::Ptr grid = gridOfArrayFile(path, {}, interrupter);
+    std::optional<std::pair<double, double>> range;
+    grid->apply<openvdb::NumericGridTypes>([&](const auto& numbers) {
+        const auto found = openvdb::tools::minMax(numbers.tree());
+        range.emplace(double(found.min()), double(found.max()));
+    });
+    return range;
+}
 
 openvdb::BoolGrid::Ptr objectOfGrid(const GridBase::ConstPtr& grid, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter, int64_t* notNumbers)
@@ -194,24 +254,28 @@ spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& 
 Volume volumeOfFile(const std::string& path, const FileRequest& file, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const command::FileKind kind = command::fileKind(path);
+    const std::string kind = kindOfFile(path);
     Volume volume;
-    if (kind == command::FileKind::Vdb) {
+    if (kind == "vdb") {
         int64_t notNumbers = 0;
         volume.object = objectOfGrid(
             chosenGrid(command::readVdb(path), path, file.grid), request, interrupter, &notNumbers);
         if (notNumbers) {
             volume.warnings.push_back(path + ": " + command::notNumbersText(notNumbers));
         }
-    } else if (kind == command::FileKind::Vol) {
+    } else if (kind == "vol") {
         volume.object =
             objectOfGrid(spheretree::readVolFile(path, interrupter), request, interrupter);
-    } else if (kind == command::FileKind::Mesh) {
+    } else if (kind == "npy" || kind == "array") {
+        volume = volumeOfArrayFile(path, file, request, interrupter);
+    } else if (kind == "mesh") {
         volume = volumeOfMesh(path, file, request, interrupter);
     } else {
         throw InputError(path
-            + ": volumes are read from .vdb, .vol, .longvol and mesh files (.obj, .ply, .stl, .off "
-              "...); other formats as arrays");
+            + ": volumes are read from .vdb, .vol, .longvol, .npy, .nrrd, .nhdr, .nii, .nii.gz, "
+              "gray "
+              "pictures (.png, .pgm) and mesh files (.obj, .ply, .stl, .off ...); other formats as "
+              "arrays");
     }
     volume.box = volume.object->evalActiveVoxelBoundingBox();
     return volume;

@@ -31,7 +31,7 @@ void requireRoom(const SphereTree& tree)
         "a page holds at most "
             << kMaxViewerSpheres << " spheres, and the tree has " << tree.size()
             << (tree.cuts.empty() ? "" : " and " + std::to_string(tree.cuts.size()) + " in cuts")
-            << ": keep one level of it (-level), or build it with fewer (spheres=)");
+            << ": keep one level of it, or build it with fewer (spheres=)");
 }
 
 /// An array of the page in an element of its own, as base64.

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._spheretree import InputError
-from ._volume import Numbers, Progress, Volume, VolumeLike, _vector, part_of, thread_count
+from ._volume import Numbers, Progress, Volume, VolumeLike, _vector, is_array_file, part_of, thread_count
 from ._volume import volume as as_volume
 
 _READING = 0.2  # the part of the work that reading the volume is said to take
@@ -83,6 +83,8 @@ def distance_transform(
                              "and above 0; spheretree.volume() resamples others")
     if squared and edge != 1:
         raise InputError("squared distances are exact integers, in voxels: leave anisotropy out")
+    if is_array_file(volume):  # whose own edges the volume replaces by these
+        keywords["anisotropy"], edge = anisotropy, 1.0
     own = as_volume(volume, progress=part_of(progress, 0, _READING), threads=threads, **keywords)
     if not black_border and _touches_border(own):
         raise InputError("black_border=False: the object touches the border of the volume, and what is beyond counts as "

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _spheretree
 from ._query import Query
-from ._volume import Progress, VolumeLike, is_mesh_file, readable, text, thread_count, unit_of_length, whole_number, writable
+from ._volume import Progress, VolumeLike, is_mesh_file, readable, system_path, text, thread_count, unit_of_length, whole_number
 from ._volume import volume as as_volume
 
 
@@ -198,7 +198,7 @@ class Tree:
         OSError
             The file cannot be written.
         """
-        _spheretree.save(self._handle, writable(path), progress)
+        _spheretree.save(self._handle, system_path(path), progress)
 
     def export(self, path: str | os.PathLike[str], **options: Any) -> None:
         """`spheretree.export()` of this tree: the files of other tools.
@@ -209,6 +209,42 @@ class Tree:
         from ._export import export  # which knows trees
 
         export(self, path, **options)
+
+    def write_html(
+        self, path: str | os.PathLike[str], volume: VolumeLike | None = None, *, triangles: int = 200000,
+        progress: Progress = None,
+    ) -> None:
+        """Write one page that shows the tree in a browser, and needs nothing else: no network, no library.
+
+        The file is there whole or as it was before, and its bytes are those that the command writes.
+
+        Parameters
+        ----------
+        path
+            `.html` or `.htm`.
+        volume
+            What the tree was built over: its surface is shown, too.
+        triangles
+            The most that the surface has. It is made of blocks of voxels where it would have more; 0: there is none.
+        progress
+            As for `build()`.
+
+        Raises
+        ------
+        InputError
+            The name is not that of a page, the volume is not that of the tree, or there are more spheres than browsers
+            show in good time.
+        OSError
+            The file cannot be written.
+
+        Examples
+        --------
+        >>> import numpy, spheretree
+        >>> cube = numpy.ones((8, 8, 8), dtype=bool)
+        >>> spheretree.build(cube, [8, 1]).write_html("cube.html", cube)
+        """
+        own = None if volume is None else as_volume(volume)._handle
+        _spheretree.write_html(self._handle, system_path(path), own, whole_number("triangles", triangles, 64), progress)
 
     def check(self, volume: VolumeLike, **keywords: Any) -> list[Fault]:
         """`check()` of this tree."""

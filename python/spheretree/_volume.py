@@ -28,7 +28,8 @@ class Volume:
     """An object: a set of voxels, sparse, with its place in the world. `volume()` makes them.
 
     Indices (`start`, `coordinates()`, and what `medial_axis()` returns) are in the order of the axes of the array
-    that the volume was made of; for volumes of files that is x, y, z. World space is always x, y, z.
+    that the volume was made of; for volumes of files that is x, y, z, whatever their `axes`. World space is always
+    x, y, z.
     """
 
     __slots__ = ("_handle", "__weakref__")
@@ -111,12 +112,16 @@ def thread_count(threads: int | None) -> int:
 
 
 def readable(path: str | os.PathLike[str]) -> bytes:
-    """The path as the system has it. Raises what open() raises: FileNotFoundError, PermissionError ..."""
-    with open(path, "rb"):
-        return os.fsencode(path)
+    """The path as the system has it. Raises what open() raises: FileNotFoundError, PermissionError ... The name of a
+    stack of slices is that of no file, and is taken as it is."""
+    name = system_path(path)
+    if not _spheretree.is_stack_name(name):
+        with open(path, "rb"):
+            pass
+    return name
 
 
-def writable(path: str | os.PathLike[str]) -> bytes:
+def system_path(path: str | os.PathLike[str]) -> bytes:
     """The path as the system has it. Raises what open() raises where no file can have this name."""
     name = os.fsencode(path)
     if b"\0" in name:  # the system would take what is before it
@@ -229,15 +234,27 @@ def _is_inside(value: float, wanted: dict[str, Any]) -> bool:
     return (lowest is None or value > lowest) and ("below" not in wanted or value < wanted["below"])
 
 
+def _outside(values: Iterable[float], wanted: dict[str, Any]) -> float | None:
+    """The first of some values that is not inside the object."""
+    return next((float(value) for value in values if not _is_inside(value, wanted) and abs(float(value)) <= 2**53), None)
+
+
 def _background(array: npt.NDArray[Any], wanted: dict[str, Any]) -> float:
     """A value for all that is outside of the array: one that is not inside the object."""
     if array.dtype == np.bool_:
         return 0
-    for value in (0, array.min(), array.max()):
-        if not _is_inside(value, wanted) and abs(float(value)) <= 2**53:
-            return float(value)
-    raise InputError("every value of volume is inside the object, so there is nothing to interpolate to at its border: "
-                     "pad it by numpy.pad()")
+    value = _outside((0, array.min(), array.max()), wanted)
+    if value is None:
+        raise InputError("every value of volume is inside the object, so there is nothing to interpolate to at its border: "
+                         "pad it by numpy.pad()")
+    return value
+
+
+def _edges(anisotropy: Numbers, axes: int) -> list[float]:
+    edges = _vector("anisotropy", anisotropy, axes)
+    if min(edges) <= 0:
+        raise InputError(f"anisotropy={anisotropy} is out of range: it takes numbers above 0")
+    return edges
 
 
 def _require_array(array: object) -> None:
@@ -262,9 +279,7 @@ def _of_array(
     is_reversed = axes in ("zyx", "yx")
     spacing = [1.0] * 3
     if anisotropy is not None:
-        own = _vector("anisotropy", anisotropy, 2 if flat else 3)
-        if min(own) <= 0:
-            raise InputError(f"anisotropy={anisotropy} is out of range: it takes numbers above 0")
+        own = _edges(anisotropy, 2 if flat else 3)
         spacing = own[::-1] if is_reversed else own
         spacing += [min(spacing)] * (3 - len(spacing))
     place = [0.0] * 3
@@ -337,13 +352,16 @@ def volume(
     ----------
     volume
         An array of shape (x, y, z), or (x, y) for a flat object: of bool, integers, float32 or float64, in C or
-        Fortran order or with any strides. It is read where it lies. Or the path of a `.vdb`, `.vol`, `.longvol` or
-        mesh file; or a grid of pyopenvdb, which goes by way of a temporary file.
+        Fortran order or with any strides. It is read where it lies. Or the path of a `.vdb`, `.vol`, `.longvol`,
+        `.npy`, `.nrrd`, `.nhdr`, `.nii`, `.nii.gz` or mesh file; of a gray picture (`.png`, `.pgm`), or of a stack of
+        them, as ``"slice_%04d.png"`` or ``"slice_####.png"``; or a grid of pyopenvdb, which goes by way of a temporary
+        file.
     axes
-        ``"zyx"`` for an array of shape (z, y, x), as stacks of slices are. Of arrays.
+        ``"zyx"`` for an array of shape (z, y, x), as stacks of slices are. Of arrays and `.npy` files.
     anisotropy
         The edges of a voxel in world units, one number or one for each axis *of the array*, in its order. Voxels that
-        are no cubes are resampled to cubes of the shortest edge, which takes memory for a copy of the values. Of arrays.
+        are no cubes are resampled to cubes of the shortest edge, which takes memory for a copy of the values. Of arrays;
+        and of files from `.npy` to pictures, in the order x, y, z and in place of all that the file says of its place.
     origin
         The place of the center of voxel [0, 0, 0] in world space: x, y, z. Of arrays.
     matrix
@@ -385,6 +403,11 @@ def volume(
     OSError
         A file cannot be read, or is damaged.
 
+    Warns
+    -----
+    UserWarning
+        Values of a file are NaN, and count as outside; or a mesh is open, or has thin parts.
+
     Examples
     --------
     >>> import numpy, spheretree
@@ -392,10 +415,14 @@ def volume(
     >>> block[1:4, 1:4, 2:3] = True
     >>> spheretree.volume(block)
     <spheretree.Volume 'volume': 9 voxels in 8 x 8 x 8>
+    >>> numpy.save("block.npy", block)
+    >>> spheretree.volume("block.npy")
+    <spheretree.Volume 'block': 9 voxels in 3 x 3 x 1>
     >>> spheretree.volume(block, anisotropy=0.5, origin=(10, 0, 0)).matrix[0]
     array([ 0.5,  0. ,  0. , 10. ])
     """
-    of_arrays = {"anisotropy": anisotropy, "origin": origin, "matrix": matrix}
+    kind = _kind_of_file(volume)
+    of_arrays = {"anisotropy": None if kind in ARRAY_FILES else anisotropy, "origin": origin, "matrix": matrix}
     of_files = {"grid": grid, "units": units, "voxel": voxel, "resolution": resolution, "gap": gap}
     of_objects = {"threshold": threshold, "above": above, "below": below, "label": label, "iso": iso}
     wanted = _object_keywords(threshold, above, below, label, iso, coverage, largest, fill)
@@ -404,8 +431,8 @@ def volume(
     source: Any = volume
     _refuse({} if is_array else of_arrays, "of arrays: a volume or file has its own")
     _refuse({} if is_file else of_files, "of files")
-    if not is_array and axes != "xyz":
-        raise InputError(f"axes={axes!r} is of arrays")
+    if not (is_array or kind == "npy") and axes != "xyz":
+        raise InputError(f"axes={axes!r} is of arrays and .npy files")
     if name is not None and not is_array:
         raise InputError("name is of arrays: volumes and files have their own")
     if isinstance(volume, Volume):
@@ -414,7 +441,7 @@ def volume(
             raise InputError(f"{next(iter(wanted))} is of arrays and files: this volume is an object already")
         return volume
     if is_file:
-        result = _of_file(source, of_files, wanted, progress, threads)
+        result = _of_file(source, kind, axes, anisotropy, of_files, wanted, progress, threads)
     elif is_array:
         result = _of_array(source, axes, anisotropy, origin, matrix, name, wanted, progress, threads)
     else:
@@ -430,9 +457,22 @@ def _refuse(keywords: dict[str, Any], why: str) -> None:
             raise InputError(f"{name} is {why}")
 
 
+ARRAY_FILES = ("npy", "array")  # kinds of files that hold dense values
+
+
+def _kind_of_file(volume: object) -> str:
+    """What a path is read as, by its extension; empty for files that are not read, and what is no path."""
+    return _spheretree.kind_of_file(os.fsencode(volume)) if isinstance(volume, (str, os.PathLike)) else ""
+
+
+def is_array_file(volume: object) -> bool:
+    """Whether it is a path, and one of an array or of pictures."""
+    return _kind_of_file(volume) in ARRAY_FILES
+
+
 def is_mesh_file(volume: object) -> bool:
     """Whether it is a path, and one of a file that is no volume."""
-    return isinstance(volume, (str, os.PathLike)) and not os.fspath(volume).lower().endswith((".vdb", ".vol", ".longvol"))
+    return isinstance(volume, (str, os.PathLike)) and _kind_of_file(volume) in ("mesh", "")
 
 
 def unit_of_length(units: object) -> str:
@@ -444,15 +484,14 @@ def unit_of_length(units: object) -> str:
 
 
 def _of_file(
-    path: str | os.PathLike[str], of_files: dict[str, Any], wanted: dict[str, Any], progress: Progress,
-    threads: int | None,
+    path: str | os.PathLike[str], kind: str, axes: str, anisotropy: Numbers | None, of_files: dict[str, Any],
+    wanted: dict[str, Any], progress: Progress, threads: int | None,
 ) -> Volume:
     given = {name: value for name, value in of_files.items() if value is not None}
-    is_mesh = is_mesh_file(path)
     for name in ("units", "voxel", "resolution", "gap"):
         if name not in given:
             continue
-        if not is_mesh:
+        if not is_mesh_file(path):
             raise InputError(f"{name} is of meshes, and {os.fspath(path)} is none")
         if name == "units":
             unit_of_length(given[name])
@@ -463,6 +502,27 @@ def _of_file(
         raise InputError("voxel and resolution exclude each other")
     if "grid" in given:
         text("grid", given["grid"])
-        if not os.fspath(path).lower().endswith(".vdb"):
+        if kind != "vdb":
             raise InputError(f"grid is of .vdb files, and {os.fspath(path)} is none")
-    return Volume(_spheretree.volume_of_file(readable(path), given, wanted, progress, thread_count(threads)))
+    if axes not in ("xyz", "zyx"):
+        raise InputError(f"axes={axes!r} is unknown: it takes 'xyz' or 'zyx'")
+    given["zyx"] = axes == "zyx"
+    if anisotropy is not None:
+        given["spacing"] = _edges(anisotropy, 3)
+    known = readable(path)
+    if kind in ARRAY_FILES and _is_inside(0, wanted):  # what is beyond an array is outside, of a file as well
+        given["background"] = _background_of_file(known, wanted, part_of(progress, 0, 0.5), threads)
+        progress = part_of(progress, 0.5, 1)
+    return Volume(_spheretree.volume_of_file(known, given, wanted, progress, thread_count(threads)))
+
+
+def _background_of_file(path: bytes, wanted: dict[str, Any], progress: Progress, threads: int | None) -> float:
+    """A value of the file that is not inside the object, as `_background()` has it of an array."""
+    values = _spheretree.value_range_of_file(path, progress, thread_count(threads))
+    if values is None:
+        return 0
+    value = _outside(values, wanted)
+    if value is None:
+        raise InputError(f"{os.fsdecode(path)}: every value is inside the object, so it has no border: give its array, with "
+                         "one that numpy.pad() adds")
+    return value

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What ctest runs: run.py volume|build|transforms|points|export|queries|scene|calls|doctest|types|wheel, or run.py example PROGRAM.
+"""What ctest runs: run.py volume|array_files|build|transforms|points|export|page|queries|scene|calls|doctest|types|wheel,
+or run.py example PROGRAM.
 
 It works in a folder of its own, and ends with 77 (skipped) where what a test is run by is not installed.
 """
