@@ -135,6 +135,7 @@ TEST(TightInvariance, AreTheSameOnEveryVectorTarget)
         std::size_t turn = 0;
         for (const Voxels& voxels : objects) {
             SphereTreeSettings settings = tightSettings(Quality::Fast);
+            settings.budgeted().budget = SphereBudget();
             settings.budgeted().budget.spheres = {100, 32, 8};
             const SphereTree tree = buildSphereTree(*gridOf(voxels), settings);
             if (first.size() == turn) first.push_back(tree);

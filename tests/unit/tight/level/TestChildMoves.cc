@@ -31,7 +31,7 @@ TEST(ChildMoves, KeepChainsAndPay)
 {
     Random random(1);
     int64_t gained = 0;
-    for (int turn = 0; turn < 4; ++turn) {
+    for (int turn = 0; turn < 8; ++turn) {
         const MergedLeaves merged(shapes::noise(Coord(12, 10, 9), 0.5, random));
         gained += expectMoved(merged, 30, 8);
     }
