@@ -6,11 +6,14 @@
 
 #include "Volume.h"
 
+#include <openvdb_spheretree/voxel/BoxSides.h>
+
 #include <openvdb/tree/LeafManager.h>
 #include <pybind11/numpy.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace binding {
 
@@ -19,8 +22,8 @@ class DensePlace {
 public:
     explicit DensePlace(const Volume& volume) : mMin(volume.box.min())
     {
-        const openvdb::Coord sides = volume.box.dim();
-        const auto length = [&](int axis) { return std::size_t(sides[axis]); };
+        const auto sides = openvdb_spheretree::detail::sidesOf(volume.box);
+        const auto length = [&](int axis) { return std::size_t(sides[std::size_t(axis)]); };
         mStride = volume.reversed ? std::array<std::size_t, 3>{1, length(0), length(0) * length(1)}
                                   : std::array<std::size_t, 3>{length(1) * length(2), length(2), 1};
     }
@@ -28,7 +31,7 @@ public:
     {
         std::size_t place = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            place += std::size_t(ijk[axis] - mMin[axis]) * mStride[std::size_t(axis)];
+            place += std::size_t(int64_t(ijk[axis]) - mMin[axis]) * mStride[std::size_t(axis)];
         }
         return place;
     }

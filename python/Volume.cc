@@ -10,6 +10,7 @@
 #include <openvdb_spheretree/check/TreeCheck.h>
 #include <openvdb_spheretree/input/Resample.h>
 #include <openvdb_spheretree/input/array/ArrayFile.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
 #include <openvdb_spheretree/voxel/UniformVoxels.h>
@@ -335,8 +336,8 @@ void requireObjectOf(
 
 std::vector<py::ssize_t> Volume::shape() const
 {
-    const openvdb::Coord sides = box.dim();
-    std::vector<py::ssize_t> shape = {sides[0], sides[1], sides[2]};
+    const auto sides = spheretree::detail::sidesOf(box);
+    std::vector<py::ssize_t> shape(sides.begin(), sides.end());
     if (flat) shape.pop_back();
     if (reversed) std::reverse(shape.begin(), shape.end());
     return shape;

@@ -2,6 +2,7 @@
 #include "TriangleVoxels.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/math/Transform.h>
@@ -59,10 +60,7 @@ public:
         const Vec3d corner = mBase.asVec3d() - Vec3d(0.5);
         mCorner = {a - corner, b - corner, c - corner};
         mPointError = pointError + 0x1p-50 * (1 + largestCorner());
-        int64_t side = 1;
-        for (int axis = 0; axis < 3; ++axis) {
-            side = std::max(side, int64_t(mBox.max()[axis]) - mBox.min()[axis] + 1);
-        }
+        const int64_t side = detail::longestSideOf(mBox);
         mFunctions.clear();
         for (int log2 = 0; mFunctions.empty() || (int64_t(1) << (log2 - 1)) < side; ++log2) {
             mFunctions.push_back(functionsOf(log2));
@@ -215,7 +213,7 @@ struct Piece {
     Coord node;
 };
 
-bool isLarge(const CoordBBox& box) { return box.dim()[box.maxExtent()] > 2 << kNodeLog2; }
+bool isLarge(const CoordBBox& box) { return detail::longestSideOf(box) > 2 << kNodeLog2; }
 
 std::vector<Piece> piecesOfLarge(const IndexMesh& mesh, openvdb::util::NullInterrupter* interrupter)
 {

@@ -6,6 +6,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/ExactSphere.h>
 #include <openvdb_spheretree/tree/LevelFrame.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <openvdb/Exceptions.h>
 
@@ -82,9 +83,9 @@ FittedSphere smallestSphere(
 
 void requireRoom(const SphereTree& tree)
 {
-    const openvdb::Coord size = tree.object.bbox.extents();
+    const auto size = sidesOf(tree.object.bbox);
     constexpr int64_t kMost = int64_t(1) << 61;
-    const auto far = [&](int axis) { return 2 * kUnits * (int64_t(size[axis]) + 1); };
+    const auto far = [&](int axis) { return 2 * kUnits * (size[std::size_t(axis)] + 1); };
     const int64_t widest =
         *std::max_element(tree.spheres.coverRadiusSq.begin(), tree.spheres.coverRadiusSq.end());
     const bool fits =

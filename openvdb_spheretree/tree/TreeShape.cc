@@ -2,6 +2,8 @@
 #include "TreeShape.h"
 
 #include "GivenTree.h"
+#include <openvdb_spheretree/pyramid/OrPyramid.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <openvdb/math/Transform.h>
 #include <openvdb/Exceptions.h>
@@ -226,6 +228,30 @@ std::vector<Damage> trackDamage(const SphereTree& tree)
     return damage;
 }
 
+std::vector<Damage> boxDamage(const SphereTree& tree)
+{
+    const ObjectInfo& object = tree.object;
+    const openvdb::CoordBBox& box = object.bbox;
+    if (object.voxels == 0 && box == openvdb::CoordBBox()) return {};
+    if (box.empty()) {
+        return {single("the object's box goes from ", box.min(), " to ", box.max(),
+            ": it ends before it begins")};
+    }
+    const int64_t longest = longestSideOf(box);
+    if (longest > kMaxExtent && !tree.settings.isGiven()) {
+        return {single("the object's box goes from ", box.min(), " to ", box.max(), ", over ",
+            longest, " voxels along an axis, and trees are built of 2^28 at most")};
+    }
+    const auto side = sidesOf(box);
+    // As quotients: the box may have 2^96 voxels.
+    const auto divideUp = [](int64_t a, int64_t b) { return a / b + (a % b > 0); };
+    if (divideUp(divideUp(object.voxels, side[0]), side[1]) > side[2]) {
+        return {single("the object's box is of ", side[0], " x ", side[1], " x ", side[2],
+            " voxels, too small for the ", object.voxels, " of the object")};
+    }
+    return {};
+}
+
 std::vector<Damage> figureDamage(const SphereTree& tree)
 {
     std::vector<Damage> damage;
@@ -242,10 +268,7 @@ std::vector<Damage> figureDamage(const SphereTree& tree)
     count(object.voxels, "the voxels of the object");
     count(object.leaves, "the leaf nodes of the object");
     count(object.tiles, "the tiles of the object");
-    if (object.bbox.empty() && object.bbox != openvdb::CoordBBox()) {
-        damage.push_back(single("the object's box goes from ", object.bbox.min(), " to ",
-            object.bbox.max(), ": it ends before it begins"));
-    }
+    for (const Damage& box : boxDamage(tree)) damage.push_back(box);
     for (const SphereTreeLevel& level : tree.levels) {
         count(level.pyramidVoxels, "the voxels of the volume of level ", level.level);
         if (level.error) {

@@ -76,7 +76,11 @@ std::vector<Damage> edgeDamage(const std::vector<DagEdge>& edges, const SphereTr
 /// Each node has a track of its own, below the next one to be given; or none has.
 std::vector<Damage> trackDamage(const SphereTree& tree);
 
-/// Counts and errors beside the nodes are numbers from 0 on, and the box of the object does not end before it begins.
+/// The box of the object does not end before it begins, has room for the object's voxels, and is no wider than what
+/// trees are built of. Around given spheres it may be as wide as coordinates go.
+std::vector<Damage> boxDamage(const SphereTree& tree);
+
+/// Counts and errors beside the nodes are numbers from 0 on, and the object's box is one that can be.
 std::vector<Damage> figureDamage(const SphereTree& tree);
 
 /// @return what is wrong by all rules above, and digital balls without a radius (-1 marks spheres

@@ -2,6 +2,7 @@
 #include "ObjectSurface.h"
 
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <openvdb/Grid.h>
 #include <openvdb/math/Transform.h>
@@ -26,22 +27,39 @@ using Leaf = openvdb::BoolTree::LeafNodeType;
 constexpr int kLeafShift = 3; ///< a leaf node is a block of 8 voxels a side
 constexpr int kMaxShift = 12; ///< blocks have at most 4096
 constexpr float kHalf = 0.5f;
+constexpr int64_t kMostBlocks = int64_t(1) << 30; ///< along an axis
 
 /// @return a multiple of 8 blocks of any size, near the object: blocks are counted from there, since
 ///         the points of a mesh are floats.
 Coord baseOf(const CoordBBox& box) { return box.min() & ~((8 << kMaxShift) - 1); }
 
+/// Blocks from the base: of the widest objects their numbers fit 32 bits from a shift of 2 on.
+Coord blockOf(const Coord& voxel, const Coord& base, int shift)
+{
+    const auto along = [&](int axis) {
+        return int32_t((int64_t(voxel[axis]) - base[axis]) >> shift);
+    };
+    return {along(0), along(1), along(2)};
+}
+
 CoordBBox blocksOf(const CoordBBox& voxels, const Coord& base, int shift)
 {
-    return {
-        (voxels.min() - base) >> std::size_t(shift), (voxels.max() - base) >> std::size_t(shift)};
+    return {blockOf(voxels.min(), base, shift), blockOf(voxels.max(), base, shift)};
+}
+
+/// @return the least shift whose blocks have numbers far from the ends of 32 bits.
+int leastShiftOf(const CoordBBox& box)
+{
+    int shift = 0;
+    while (longestSideOf(box) >> shift > kMostBlocks) ++shift;
+    return shift;
 }
 
 /// Adds the voxels of a leaf node to its blocks.
 void addLeaf(const Leaf& leaf, const Coord& base, int shift, FloatTree& blocks)
 {
     const float voxel = 1.0f / float(1 << 3 * shift);
-    const Coord first = (leaf.origin() - base) >> std::size_t(shift);
+    const Coord first = blockOf(leaf.origin(), base, shift);
     FloatTree::LeafNodeType& target = *blocks.touchLeaf(first);
     for (auto on = leaf.cbeginValueOn(); on; ++on) {
         const Coord local = Leaf::offsetToLocalCoord(on.pos()) >> std::size_t(shift);
@@ -171,7 +189,7 @@ std::optional<ObjectSurface> objectSurface(
     const CoordBBox box = object.evalActiveVoxelBoundingBox();
     const Coord base = baseOf(box);
     // Twice as many as wanted are tried: the guess may be too high.
-    int shift = 0;
+    int shift = leastShiftOf(box);
     const FloatTree::Ptr leaves = blocksOf(object.tree(), base, kLeafShift, interrupter);
     for (double quads = 64.0 * double(openFaces(*leaves)); quads > double(triangles); quads /= 4) {
         ++shift;

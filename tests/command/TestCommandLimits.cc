@@ -14,6 +14,7 @@ namespace {
 
 using command_test::CommandTest;
 using command_test::Result;
+using command_test::writeText;
 
 class CommandLimits : public CommandTest {
 protected:
@@ -62,6 +63,32 @@ TEST_F(CommandLimits, MasksAndPicturesOfThemAreRight)
         const Result picture = run("-read end.vdb -write p.png width=32 height=24");
         EXPECT_EQ(picture.exitCode, 0) << picture.err;
     }
+}
+
+TEST_F(CommandLimits, AnObjectFromTheFirstCoordinateToTheLastIsAsWideAsItIs)
+{
+    auto ends = openvdb::BoolGrid::create();
+    ends->setName("ends");
+    for (const int x : {INT32_MIN, INT32_MAX}) {
+        ends->tree().setValueOn(openvdb::Coord(x, 3, 4), true);
+    }
+    writeGrids("ends.vdb", {ends});
+    const Result printed = run("-read ends.vdb -print");
+    EXPECT_EQ(printed.exitCode, 0) << printed.err;
+    EXPECT_NE(printed.out.find("box 4294967296 x 1 x 1"), std::string::npos) << printed.out;
+    const Result asked = run("-read ends.vdb -eval {0:gridDim}");
+    EXPECT_NE(asked.out.find("[4294967296, 1, 1]"), std::string::npos) << asked.out << asked.err;
+    const std::string wide = "4294967296 voxels wide along x, more than 2^28";
+    for (const std::string tree :
+        {"quality=fast distance=5", "distance=5", "extended center=miniball", "side=inner"}) {
+        expectRefused("-read ends.vdb -spheretree " + tree + " -write t.vdb", wide);
+    }
+    const Result result = run("-read ends.vdb -spheretree quality=fast distance=5");
+    EXPECT_EQ(result.err.find("size of the object"), std::string::npos) << result.err;
+    writeText(path("balls.csv"), "x,y,z,radius\n0,3,4,2\n9,3,4,2\n");
+    const Result given = run("-read ends.vdb balls.csv -stats");
+    EXPECT_EQ(given.exitCode, 0) << given.err;
+    EXPECT_NE(given.out.find("box 4294967296 x 1 x 1"), std::string::npos) << given.out;
 }
 
 TEST_F(CommandLimits, LevelSetsOfTooManyVoxelsAreRefusedWithTheNumber)

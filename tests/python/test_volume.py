@@ -324,6 +324,17 @@ def test_values_of_files_that_are_no_numbers_are_told(tmp_path):
         assert spheretree.volume(path).voxels == 9**3 - 2
 
 
+def test_a_grid_from_the_first_coordinate_to_the_last_is_as_wide_as_it_is(tmp_path):
+    vdb = pytest.importorskip("pyopenvdb")
+    grid = vdb.BoolGrid()
+    for x in (-2**31, 2**31 - 1):
+        grid.getAccessor().setValueOn((x, 0, 0), True)
+    vdb.write(str(tmp_path / "ends.vdb"), grids=[grid])
+    volume = spheretree.volume(tmp_path / "ends.vdb")
+    assert (volume.shape, volume.start) == ((2**32, 1, 1), (-2**31, 0, 0))
+    assert volume.coordinates()[:, 0].tolist() == [-2**31, 2**31 - 1]
+
+
 def test_a_grid_of_pyopenvdb_is_taken(bone, tmp_path):
     vdb = pytest.importorskip("pyopenvdb")
     grid = vdb.BoolGrid()

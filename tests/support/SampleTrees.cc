@@ -77,7 +77,8 @@ void fillDescription(SphereTree& tree)
     tree.object.voxels = int64_t(1) << 40;
     tree.object.leaves = 123;
     tree.object.tiles = 7;
-    tree.object.bbox.reset(openvdb::Coord(-15, 9, -1000), openvdb::Coord(20, 30, 40));
+    tree.object.bbox.reset(
+        openvdb::Coord(-15, 9, -1000), openvdb::Coord(1 << 14, 1 << 14, 1 << 14));
 }
 
 SphereTree sampleTree()

@@ -46,9 +46,7 @@ std::string voxelText(const openvdb::Vec3d& size)
 
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
-    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    auto size = openvdb_spheretree::detail::sidesOf(box);
-    if (grid.empty()) size = {0, 0, 0};
+    const auto size = openvdb_spheretree::detail::sidesOf(grid.evalActiveVoxelBoundingBox());
     out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
         << voxelText(grid.voxelSize()) << ", box " << size[0] << " x " << size[1] << " x "
         << size[2] << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";

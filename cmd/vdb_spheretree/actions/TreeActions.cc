@@ -54,8 +54,7 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
 {
     constexpr int64_t kFewVoxels = 16;
     const openvdb::CoordBBox box = object.evalActiveVoxelBoundingBox();
-    const auto side = spheretree::detail::sidesOf(box);
-    const int64_t longest = *std::max_element(side.begin(), side.end());
+    const int64_t longest = spheretree::detail::longestSideOf(box);
     const std::string name = "the object '" + oneLine(object.getName(), 60) + "' is ";
     if (longest < kFewVoxels) {
         session.warn(name + "only " + std::to_string(longest)
@@ -69,6 +68,13 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
     }
 }
 
+/// @return in voxels.
+double diagonalOf(const openvdb::CoordBBox& box)
+{
+    const auto side = spheretree::detail::sidesOf(box);
+    return openvdb::Vec3d(double(side[0]), double(side[1]), double(side[2])).length();
+}
+
 /// A bound that any sphere around the object is within was seldom meant.
 void warnOfDistance(
     const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
@@ -77,7 +83,7 @@ void warnOfDistance(
     const auto* tight = settings.find<spheretree::TightOptions>();
     if (!tight || !tight->budget.distance) return;
     const double voxel = object.voxelSize()[0];
-    const double size = voxel * object.evalActiveVoxelBoundingBox().extents().asVec3d().length();
+    const double size = voxel * diagonalOf(object.evalActiveVoxelBoundingBox());
     const double bound = tight->budget.distanceWorld(voxel);
     if (bound < size) return;
     session.warn("distance=" + shortNumber(bound)
@@ -270,8 +276,7 @@ std::shared_ptr<const spheretree::TriangleMesh> meshOf(const Session& session)
 void warnOfUnits(const SphereTree& tree, const spheretree::TriangleMesh& mesh, Session& session)
 {
     constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
-    const openvdb::CoordBBox& box = tree.object.bbox;
-    const double object = tree.voxelSize() * box.extents().asVec3d().length();
+    const double object = tree.voxelSize() * diagonalOf(tree.object.bbox);
     const double ratio = spheretree::boxOf(mesh).extents().length() / object;
     if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;
     const bool larger = ratio > 1;

@@ -6,6 +6,7 @@
 
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/tree/DagAdjacency.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 #include <cmath>
@@ -223,7 +224,7 @@ std::string statsTable(const SphereTree& tree, const StatsMass& mass, const Sess
 {
     openvdb_spheretree::detail::TextStream out;
     const auto& object = tree.object;
-    const openvdb::Coord size = object.bbox.dim();
+    const auto size = openvdb_spheretree::detail::sidesOf(object.bbox);
     const bool alone = tree.settings.isGiven() && object.voxels == 0;
     if (alone) out << "no object; voxels of " << tree.voxelSize() << " are of the spheres' box\n";
     else

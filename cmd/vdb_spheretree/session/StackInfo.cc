@@ -12,6 +12,7 @@
 #include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
+#include <array>
 
 namespace command {
 
@@ -29,10 +30,11 @@ std::string shown(const Vec3d& point)
     return out.str();
 }
 
-std::string shown(const openvdb::Coord& size)
+/// As vdb_tool has a Coord.
+std::string shown(const std::array<int64_t, 3>& sides)
 {
     openvdb_spheretree::detail::TextStream out;
-    out << size;
+    out << "[" << sides[0] << ", " << sides[1] << ", " << sides[2] << "]";
     return out.str();
 }
 
@@ -109,7 +111,10 @@ std::string gridFact(const std::string& name, const StackItem& item)
     if (name == "voxelSize") return textOfReal(facts.transform->voxelSize()[0]);
     if (name == "voxelCount") return whole(facts.voxels);
     if (name == "isGridEmpty") return truth(facts.voxels == 0);
-    if (name == "gridDim") return shown(facts.voxels == 0 ? openvdb::Coord(0) : facts.box.dim());
+    if (name == "gridDim") {
+        return shown(openvdb_spheretree::detail::sidesOf(
+            facts.voxels == 0 ? openvdb::CoordBBox() : facts.box));
+    }
     return boxFact(name.substr(4), facts.world());
 }
 

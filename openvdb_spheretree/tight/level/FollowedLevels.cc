@@ -9,10 +9,10 @@
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/tree/StoredRadii.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -36,8 +36,7 @@ void move(std::vector<TightLevel>& levels, const int64_t (&voxels)[3])
 /// @return whether all balls are where @a box is, and not much larger.
 bool areNear(const std::vector<TightLevel>& levels, const openvdb::CoordBBox& box)
 {
-    const openvdb::Coord size = box.dim();
-    const double reach = double(kFine) * std::max({size[0], size[1], size[2]});
+    const double reach = double(kFine) * double(detail::longestSideOf(box));
     const auto isNear = [&](const ExactSphere& ball) {
         constexpr double kLargest = 4;
         if (ball.empty() || ball.radius() > kLargest * reach) return false;
@@ -51,14 +50,6 @@ bool areNear(const std::vector<TightLevel>& levels, const openvdb::CoordBBox& bo
     return std::all_of(levels.begin(), levels.end(), [&](const TightLevel& level) {
         return std::all_of(level.balls.begin(), level.balls.end(), isNear);
     });
-}
-
-/// @return the lengths of the sides. The box may come from a file, so differences may need 33 bits.
-std::array<int64_t, 3> sidesOf(const openvdb::CoordBBox& box)
-{
-    std::array<int64_t, 3> sides{};
-    for (int a = 0; a < 3; ++a) sides[a] = int64_t(box.max()[a]) - box.min()[a];
-    return sides;
 }
 
 bool areOfOneKind(const SphereTree& last, const SphereTree& tree)
@@ -81,7 +72,7 @@ std::vector<TightLevel> movedLevels(const SphereTree& last, const SphereTree& tr
     }
     std::vector<TightLevel> levels = levelsOf(last);
     const openvdb::CoordBBox before = flat.toZ(last.object.bbox), now = flat.toZ(tree.object.bbox);
-    if (sidesOf(before) == sidesOf(now)) {
+    if (detail::sidesOf(before) == detail::sidesOf(now)) {
         int64_t way[3];
         for (int a = 0; a < 3; ++a) way[a] = int64_t(now.min()[a]) - before.min()[a];
         move(levels, way);

@@ -67,6 +67,28 @@ TEST(DamagedPoints, ANewerFormatIsAnErrorThatSaysToUpdate)
     EXPECT_TRUE(mentions(whyDamagedMeta<std::string>("spheretree_format", "1"), "type string"));
 }
 
+TEST(DamagedPoints, ABoxOfTheObjectThatCannotBeIsNamed)
+{
+    const auto whyOfMost = [](const openvdb::Vec3i& most, const SphereTree& tree) {
+        return whyDamagedMeta("spheretree_object_bbox_max", most, tree);
+    };
+    const SphereTree tree = sampleTree(); // of 2^40 voxels, from [-15, 9, -1000] on
+    EXPECT_TRUE(mentions(whyOfMost({1, 8, 1}, tree), "it ends before it begins"));
+    EXPECT_TRUE(mentions(whyOfMost({20, 30, 40}, tree),
+        "is of 36 x 22 x 1041 voxels, too small for the 1099511627776 of the object"));
+    EXPECT_TRUE(mentions(whyOfMost({INT32_MAX, 1 << 14, 1 << 14}, tree),
+        "over 2147483663 voxels along an axis, and trees are built of 2^28 at most"));
+    SphereTree full = tree;
+    full.object.bbox.reset({0, 0, 0}, {1023, 1023, (1 << 20) - 1});
+    EXPECT_EQ(fromPoints(*toPoints(full)).object.voxels, int64_t(1) << 40) << "no voxel is off";
+    full.object.bbox.max().x() = 1022;
+    EXPECT_THROW(toPoints(full), openvdb::ValueError);
+    full.object.bbox.reset({0, 0, 0}, {(1 << 28) - 1, 1 << 14, 1 << 14});
+    EXPECT_NO_THROW(toPoints(full));
+    full.object.bbox = openvdb::CoordBBox();
+    EXPECT_THROW(toPoints(full), openvdb::ValueError) << "an object without a box";
+}
+
 TEST(DamagedPoints, AMissingAttributeIsNamed)
 {
     for (const char* name :

@@ -12,6 +12,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 namespace {
@@ -125,6 +126,18 @@ TEST(GivenTree, AFrameOfItsOwnHasUpTo256VoxelsAlongTheBoxAndNoObject)
     const Coord size = tree.object.bbox.dim();
     EXPECT_NEAR(size[0], 12 * 16, 1);
     EXPECT_NEAR(size[1], 4 * 16, 1);
+}
+
+TEST(GivenTree, AnObjectMayReachFromTheFirstCoordinateToTheLast)
+{
+    const auto object = openvdb::BoolGrid::create();
+    for (const int x : {INT32_MIN, INT32_MAX}) object->tree().setValueOn(Coord(x, 0, 0), true);
+    WorldSpheres spheres;
+    spheres.center = {Vec3d(0, 5, 1)};
+    spheres.radius = {2};
+    const SphereTree tree = givenTree(spheres, *object);
+    EXPECT_EQ(tree.object.bbox.max()[0], INT32_MAX);
+    EXPECT_NO_THROW(tree.validate());
 }
 
 TEST(GivenTree, WhatNoVoxelsAreThereForIsRefusedByItsId)

@@ -8,7 +8,9 @@
 #include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 namespace {
@@ -126,6 +128,23 @@ TEST(ObjectSurface, IsAsFineFarFromTheOrigin)
     EXPECT_EQ(there->originWorld, far.asVec3d());
     EXPECT_LE(farthestFrom(*there, 9), 1.0);
     EXPECT_NEAR(volumeOf(*here), volumeOf(*there), 0.1);
+}
+
+TEST(ObjectSurface, ReachesFromTheFirstCoordinateToTheLast)
+{
+    const auto ends = BoolGrid::create(false);
+    for (const int x : {INT32_MIN, INT32_MAX}) ends->tree().setValueOn(Coord(x, 0, 0), true);
+    const auto surface = objectSurface(*ends, kPlenty);
+    ASSERT_TRUE(surface);
+    double least = 0, most = 0;
+    for (const auto& point : surface->points) {
+        least = std::min(least, double(point[0]));
+        most = std::max(most, double(point[0]));
+        EXPECT_LE(std::abs(point[1]), 2.0 * surface->factor);
+    }
+    const double reach = 0x1p31, block = 2.0 * surface->factor + 1024; // and floats
+    EXPECT_NEAR(least, -reach, block);
+    EXPECT_NEAR(most, reach, block);
 }
 
 TEST(ObjectSurface, IsInWorldUnits)
