@@ -2,15 +2,13 @@
 #include "SpillFile.h"
 
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/UnnamedFile.h>
 
 #include <openvdb/Exceptions.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <system_error>
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -22,22 +20,9 @@ std::string whyNot(int error) { return std::generic_category().message(error); }
 
 } // namespace
 
-SpillFile::SpillFile()
+SpillFile::SpillFile() : mFolder(detail::temporaryFolder()), mFile(detail::openUnnamedFile(mFolder))
 {
-    const char* folder = std::getenv("TMPDIR");
-    mFolder = folder && *folder ? folder : "/tmp";
-#ifdef O_TMPFILE
-    mFile = open(mFolder.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
-    if (mFile >= 0) return;
-#endif
-    // Not every file system has files without a name.
-    std::string name = mFolder + "/spheretree.XXXXXX";
-    mFile = mkostemp(name.data(), O_CLOEXEC);
     if (mFile < 0) fail("cannot be made: " + whyNot(errno));
-    if (unlink(name.c_str()) == 0) return;
-    const int error = errno;
-    close(mFile);
-    fail("cannot be removed: " + whyNot(error));
 }
 
 SpillFile::~SpillFile() { close(mFile); }

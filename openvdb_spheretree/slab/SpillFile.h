@@ -2,8 +2,7 @@
 /// @file SpillFile.h
 /// @brief A temporary file for what does not fit into memory.
 ///
-/// It has no name: it is removed from its folder as soon as it is open, so that nothing is left
-/// behind however the process ends.
+/// It has no name (UnnamedFile.h), so that nothing is left behind however the process ends.
 
 #pragma once
 

@@ -71,9 +71,10 @@ void FaultyCommandTest::SetUp()
     mBefore = files();
 }
 
-Running FaultyCommandTest::startWith(const std::string& arguments, const std::string& faults) const
+Running FaultyCommandTest::startWith(
+    const std::string& arguments, const std::string& faults, const std::string& input) const
 {
-    return start(split(arguments), "/dev/null", [faults] { prepare(faults, ""); });
+    return start(split(arguments), input, [faults] { prepare(faults, ""); });
 }
 
 Result FaultyCommandTest::runWithin(long mebibytes, const std::string& arguments) const

@@ -34,7 +34,8 @@ protected:
     /// Makes `tree.vdb`, a tree with edges, and `a.vol`, the object that it is of.
     void SetUp() override;
 
-    Running startWith(const std::string& arguments, const std::string& faults) const;
+    Running startWith(const std::string& arguments, const std::string& faults,
+        const std::string& input = "/dev/null") const;
     Result runWith(const std::string& arguments, const std::string& faults) const
     {
         return startWith(arguments, faults).wait();

@@ -4,6 +4,8 @@
 
 #include "FaultyCommand.h"
 
+#include "support/TemporaryFolder.h"
+
 #include <cerrno>
 #include <cstring>
 
@@ -134,6 +136,17 @@ TEST_F(CommandRealDisk, ASmallDiskThatRunsFull)
         EXPECT_EQ(std::distance(entry, end), 1);
     }
     EXPECT_EQ(run("-read a.vol -spheretree -write disk/out.vdb").exitCode, 0) << "there is room";
+}
+
+TEST_F(CommandRealDisk, ASmallDiskThatStandardInputIsPutOn)
+{
+    if (!mountDisk("size=64k")) GTEST_SKIP() << "no disk can be mounted here";
+    const spheretree_test::TemporaryDirectory variable(path("disk").string());
+    writeText(path("a.obj"), "v 0 0 0\n" + std::string(1 << 17, '#') + "\n");
+    const Result result = start(split("-read stdin.obj -print"), path("a.obj").string()).wait();
+    EXPECT_EQ(result.exitCode, 4) << result.err;
+    EXPECT_NE(result.err.find("disk: No space left"), std::string::npos) << result.err;
+    EXPECT_TRUE(std::filesystem::is_empty(path("disk")));
 }
 
 TEST_F(CommandRealDisk, ADiskThatIsReadOnly)

@@ -4,11 +4,11 @@
 #include "base/Errors.h"
 #include "FdBuffer.h"
 
+#include <openvdb_spheretree/base/UnnamedFile.h>
+
 #include <cerrno>
-#include <cstdlib>
 #include <vector>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 namespace command {
@@ -21,14 +21,11 @@ void throwEmptyInput(const std::string& name)
 }
 
 SpooledInput::SpooledInput(const std::string& name)
+    : mFolder(openvdb_spheretree::detail::temporaryFolder()),
+      mFd(openvdb_spheretree::detail::openUnnamedFile(mFolder))
 {
-    const char* const folder = std::getenv("TMPDIR");
-    mFolder = folder && *folder ? folder : "/tmp";
-    std::string path = mFolder + "/vdb_spheretree.XXXXXX";
-    mFd = mkostemp(path.data(), O_CLOEXEC);
     if (mFd < 0) throwOutput("no temporary file can be made in " + systemError(mFolder));
     try {
-        if (unlink(path.c_str()) != 0) throwOutput("cannot remove " + systemError(path));
         fillFrom(STDIN_FILENO, name);
     } catch (...) {
         close(mFd);

@@ -9,9 +9,9 @@
 
 namespace command {
 
-/// Copies standard input to its end into a file in `$TMPDIR`, or `/tmp`, that has no name from the
-/// start: whatever ends the program, nothing is left. It takes a buffer of memory, however long the
-/// input is.
+/// Copies standard input to its end into a file in `$TMPDIR`, or `/tmp`, that has no name
+/// (UnnamedFile.h): whatever ends the program, nothing is left. It takes a buffer of memory, however
+/// long the input is.
 class SpooledInput {
 public:
     /// @param name  for messages
@@ -28,8 +28,8 @@ public:
 private:
     void fillFrom(int fd, const std::string& name) const;
 
-    std::string mFolder;
-    int mFd = -1;
+    const std::string mFolder;
+    const int mFd;
 };
 
 /// @throw CommandError (input) for a standard input without a byte

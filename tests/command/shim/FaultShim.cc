@@ -7,7 +7,7 @@
 /// SPHERETREE_FAULTS holds the faults, separated by `;`, each as `CALL:N:EFFECT:NUMBER`:
 ///
 /// - `CALL` is `tmpfile` (open with O_TMPFILE), `write` and `read` (of regular files but the standard
-///   ones), `fsync`, `link`, `rename`, `thread` or `malloc`;
+///   ones), `fsync`, `link`, `unlink`, `rename`, `thread` or `malloc`;
 /// - `N` counts these calls from 1;
 /// - `EFFECT` is `error` (it fails with this errno, and so do all later ones; of a write, half is
 ///   written first), `once` (only this one fails), `signal` (SIGSTOP lets the test act meanwhile), or
@@ -38,9 +38,9 @@ extern "C" void* __libc_malloc(size_t);
 
 namespace {
 
-enum Call { kTmpfile, kWrite, kRead, kFsync, kLink, kRename, kThread, kMalloc, kCalls };
+enum Call { kTmpfile, kWrite, kRead, kFsync, kLink, kUnlink, kRename, kThread, kMalloc, kCalls };
 constexpr const char* kNames[kCalls] = {
-    "tmpfile", "write", "read", "fsync", "link", "rename", "thread", "malloc"};
+    "tmpfile", "write", "read", "fsync", "link", "unlink", "rename", "thread", "malloc"};
 
 enum class Effect { Error, Once, Signal, Hang };
 
@@ -197,6 +197,12 @@ int linkat(int fromFolder, const char* from, int toFolder, const char* to, int f
 {
     static const auto real = next("linkat", &linkat);
     return fails(kLink) ? -1 : real(fromFolder, from, toFolder, to, flags);
+}
+
+int unlink(const char* path)
+{
+    static const auto real = next("unlink", &unlink);
+    return fails(kUnlink) ? -1 : real(path);
 }
 
 int rename(const char* from, const char* to)
