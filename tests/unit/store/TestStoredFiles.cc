@@ -158,7 +158,8 @@ std::vector<std::string> filesOf(const std::string& version)
     std::vector<std::string> names = {"tight", "tight_balls", "inner", "flat", "extended",
         "miniball", "reversible", "flat_reversible", "norm"};
     if (version != "0.1") {
-        names.insert(names.end(), {"best", "bounds", "kept", "fit", "strict", "tracks"});
+        names.insert(
+            names.end(), {"best", "bounds", "kept", "fit", "strict", "tracks", "given", "placed"});
     }
     for (std::string& name : names) name = version + "/" + name;
     return names;
@@ -190,16 +191,47 @@ TEST(StoredObjects, AVolumeHasTheTreesThatWereBuiltOfIt)
     }
 }
 
-TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
+/// The only grid of a file that is no tree.
+openvdb::GridBase::Ptr gridOf(const std::string& name)
 {
     openvdb::initialize();
-    std::istringstream file(spheretree_test::unpackedData("0.1/levelset.vdb"));
+    std::istringstream file(spheretree_test::unpackedData(name + ".vdb"));
     const auto grids = openvdb::io::Stream(file, /*delayLoad=*/false).getGrids();
-    const auto object = objectOf(*grids->at(0));
-    const SphereTreeSettings settings = ReversibleOptions();
-    std::ostringstream csv;
-    writeCsv(buildSphereTree(*object, settings), csv);
-    expectColumns(csv.str(), textOf("0.1/levelset.csv"));
+    EXPECT_EQ(grids->size(), 1u);
+    return grids->at(0);
+}
+
+TEST(StoredObjects, ALevelSetHasTheInsideThatItHad)
+{
+    for (const std::string name : {"0.1/levelset", "0.2/levelset"}) {
+        SCOPED_TRACE(name);
+        const auto object = objectOf(*gridOf(name));
+        const SphereTreeSettings settings = ReversibleOptions();
+        std::ostringstream csv;
+        writeCsv(buildSphereTree(*object, settings), csv);
+        expectColumns(csv.str(), textOf(name + ".csv"));
+    }
+}
+
+TEST(StoredObjects, AMaskHasTheVoxelsThatItHad)
+{
+    const auto grid = gridOf("0.2/mask");
+    EXPECT_EQ(grid->getName(), "mask");
+    const auto stored = objectOf(*grid), object = objectOf(*readVolFile(pathOf("0.2/handle.vol")));
+    EXPECT_EQ(stored->activeVoxelCount(), 60u);
+    EXPECT_TRUE(stored->tree().hasSameTopology(object->tree()));
+    EXPECT_EQ(stored->transform(), object->transform());
+}
+
+TEST(StoredObjects, ATreeOfNothingIsKnownForOne)
+{
+    const auto grid = gridOf("0.2/empty");
+    EXPECT_TRUE(isEmptyTree(*grid));
+    EXPECT_FALSE(isSphereTree(*grid));
+    SphereTree tree;
+    tree.settings.name = "empty";
+    tree.transform = grid->transform().copy();
+    expectSameGrid(emptyTreeToPoints(tree), openvdb::gridPtrCast<PointDataGrid>(grid));
 }
 
 } // namespace
