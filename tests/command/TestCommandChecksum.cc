@@ -10,12 +10,19 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointDataGrid.h>
 
+#include <cstdint>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
 using namespace command_test;
 using openvdb::points::PointDataGrid;
+
+/// Of the digest in the header of a .vdb (docs/formats.md).
+constexpr std::size_t kTagOffset = 21;
 
 class CommandChecksum : public CommandTest {
 protected:
@@ -63,6 +70,53 @@ TEST_F(CommandChecksum, ATreeThatIsNotAsItWasWrittenIsRefusedWithThePart)
     expectRefused("its metadata");
     change("t", [](PointDataGrid& grid) { grid.transform().postTranslate({1, 0, 0}); });
     expectRefused("its transform is not the one it was written with");
+}
+
+TEST_F(CommandChecksum, ABitThatFlippedInTheFileIsNamedByThePartItIsIn)
+{
+    ASSERT_EQ(run("-generate ball voxels=1000 name=blob -read t.vdb -write both.vdb").exitCode, 0);
+    const std::string whole = readText(path("both.vdb"));
+    const std::string int64 = "int64", int32 = "int32";
+    const auto valueOf = [&](const std::string& key, const std::string& type) {
+        return whole.find(key) + key.size() + sizeof(uint32_t) + type.size() + sizeof(uint32_t);
+    };
+    const std::string elsewhere = "its trees are whole by their own checksums";
+    const std::vector<std::pair<std::size_t, std::string>> flips = {
+        {valueOf("spheretree_object_voxels", int64),
+            "point grid 't' is a damaged sphere-tree: by its checksum it is not as it was written: "
+            "its metadata"},
+        {valueOf("spheretree_cuts_nodes", int32),
+            "point grid 't_cuts' is a damaged list of cuts: by its checksum it is not as it was "
+            "written: its metadata"},
+        {kTagOffset, elsewhere}, {kTagOffset - 9, elsewhere}, {whole.rfind("blob"), elsewhere}};
+    for (const auto& [place, part] : flips) {
+        ASSERT_LT(place, whole.size()) << part;
+        std::string flipped = whole;
+        flipped[place] = char(flipped[place] ^ 1);
+        writeText(path("u.vdb"), flipped);
+        for (const char* rest : {"", " delayed=1", " -read a.vol -check", " -write v.vdb"}) {
+            const Result result = run("-read u.vdb" + std::string(rest));
+            EXPECT_EQ(result.exitCode, 3) << place << rest;
+            EXPECT_TRUE(mentions(result.err,
+                "u.vdb: the file is damaged: it is not what vdb_spheretree wrote, by the digest in "
+                "its header: "
+                    + part))
+                << place << rest << '\n'
+                << result.err;
+        }
+    }
+    EXPECT_FALSE(exists("v.vdb"));
+}
+
+TEST_F(CommandChecksum, AFileWithoutATreeIsDamagedWhereverItIs)
+{
+    ASSERT_EQ(run("-read a.vol -mask -write m.vdb").exitCode, 0);
+    std::string bytes = readText(path("m.vdb"));
+    bytes[kTagOffset] = char(bytes[kTagOffset] ^ 1);
+    writeText(path("m.vdb"), bytes);
+    const Result result = run("-read m.vdb -print");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_TRUE(mentions(result.err, "no grid in it has a checksum of its own")) << result.err;
 }
 
 TEST_F(CommandChecksum, ATreeOfALaterFormatIsRefusedWithWhatToDo)

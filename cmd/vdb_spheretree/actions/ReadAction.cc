@@ -4,6 +4,7 @@
 /// of other tools a tree of one level.
 
 #include "base/NotNumbers.h"
+#include "files/Companions.h"
 #include "files/ScaleMesh.h"
 #include "files/SpooledInput.h"
 #include "files/VdbStream.h"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -65,45 +65,6 @@ private:
     bool mAll;
     std::vector<std::string> mNames;
     std::set<std::string> mSeen;
-};
-
-/// The grids that travel with a sphere-tree; null where there is none.
-struct Companions {
-    PointDataGrid::Ptr dag, cuts;
-};
-
-/// Finds the companions of any tree of a file, of which there may be thousands.
-class CompanionIndex {
-public:
-    explicit CompanionIndex(const openvdb::GridPtrVec& grids)
-    {
-        for (const GridBase::Ptr& grid : grids) {
-            if (auto points = openvdb::gridPtrCast<PointDataGrid>(grid)) {
-                mByName[grid->getName()].push_back(points);
-            }
-        }
-    }
-
-    Companions of(const std::string& tree) const
-    {
-        return {first(tree, "_dag", openvdb_spheretree::isDagOf),
-            first(tree, "_cuts", openvdb_spheretree::isCutsOf)};
-    }
-
-private:
-    template <typename Claims>
-    PointDataGrid::Ptr first(
-        const std::string& tree, const char* suffix, const Claims& claims) const
-    {
-        const auto found = mByName.find(tree + suffix);
-        if (found == mByName.end()) return nullptr;
-        for (const PointDataGrid::Ptr& grid : found->second) {
-            if (claims(*grid, tree)) return grid;
-        }
-        return nullptr;
-    }
-
-    std::map<std::string, std::vector<PointDataGrid::Ptr>> mByName;
 };
 
 StackItem treeItem(const PointDataGrid& points, const Companions& companions,

@@ -6,6 +6,7 @@
 #include "FdBuffer.h"
 #include "InputFile.h"
 #include "SpooledInput.h"
+#include "VdbDamage.h"
 #include "VdbTag.h"
 
 #include <openvdb_spheretree/input/DelayedValues.h>
@@ -44,6 +45,14 @@ auto naming(const std::string& path, const Read& read)
     }
 }
 
+/// The digest knows that the file is damaged, and not where.
+[[noreturn]] void throwChanged(const openvdb::GridPtrVec& grids)
+{
+    throwInput(
+        "the file is damaged: it is not what vdb_spheretree wrote, by the digest in its header: "
+        + placeOfDamage(grids) + "; have it written or copied anew");
+}
+
 openvdb::GridPtrVec readWhole(const std::string& path)
 {
     const InputFile file = inputOf(path);
@@ -53,7 +62,7 @@ openvdb::GridPtrVec readWhole(const std::string& path)
     return naming(path, [&] {
         TagReader reader(buffer);
         auto grids = openvdb_spheretree::readVdbGrids(reader);
-        reader.requireUnchanged();
+        if (!reader.isUnchanged()) throwChanged(grids);
         return grids;
     });
 }
@@ -95,7 +104,7 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
         FdBuffer buffer(input.fd());
         TagReader reader(buffer);
         const auto names = openvdb_spheretree::requireSoundVdb(reader);
-        reader.requireUnchanged();
+        const bool isUnchanged = reader.isUnchanged();
         if (!names) return grids;
         openvdb::io::File file(path);
         file.setCopyMaxBytes(0); // a copy of the file would be one more thing that has to fit
@@ -110,6 +119,7 @@ openvdb::GridPtrVec readDelayed(const std::string& path)
                 openvdb_spheretree::requireReadableValues(*grid);
             }
         }
+        if (!isUnchanged) throwChanged(grids);
         return grids;
     });
 }

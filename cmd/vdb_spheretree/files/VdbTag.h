@@ -44,9 +44,9 @@ public:
     /// @param source  at the start of the file; outlives this
     explicit TagReader(std::streambuf& source);
 
-    /// @brief To be called when all grids have been read: look at what is left.
-    /// @throw CommandError (input) if the file was written here, and is not as it was
-    void requireUnchanged();
+    /// @brief To be called once, when all is read that is wanted: look at what is left.
+    /// @return false if the file was written here, and is not as it was
+    bool isUnchanged();
 
 protected:
     int_type underflow() override;
