@@ -73,7 +73,8 @@ TEST(FlippedBits, NothingMayFollowBehindTheLastGrid)
     EXPECT_FALSE(reader.read(bytes + "x", /*delayed=*/true));
 }
 
-/// @return what readVdb() says of each file with a flipped bit in one of its bytes, each once.
+/// @return what readVdb() says of each file with a flipped bit in one of its bytes, each once. Zeros are left out: most of
+///         them are masks of upper nodes.
 std::set<std::string> wordsOnFlips(const std::string& bytes)
 {
     const TemporaryFolder folder;
@@ -81,6 +82,7 @@ std::set<std::string> wordsOnFlips(const std::string& bytes)
     std::mt19937 random(5);
     std::set<std::string> words;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
+        if (bytes[i] == 0) continue;
         std::string flipped = bytes;
         flipped[i] = char(flipped[i] ^ 1 << random() % 8);
         std::ofstream(path, std::ios::binary) << flipped;
