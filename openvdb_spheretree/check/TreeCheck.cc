@@ -149,6 +149,32 @@ void checkRecords(Check& check)
     }
 }
 
+/// The same of errors of stored spheres, which stand beside the others. Files of version 0.1 have none.
+void checkStoredRecords(Check& check)
+{
+    check.kind = FaultKind::Records;
+    const std::vector<SphereTreeLevel>& levels = check.tree.levels;
+    const auto wasTried = [](const SphereTreeLevel& level) {
+        return level.stored || !level.storedUnknown.empty();
+    };
+    const bool anyTried = std::any_of(levels.begin(), levels.end(), wasTried);
+    for (const SphereTreeLevel& level : levels) {
+        const bool isTried = wasTried(level);
+        if (anyTried && level.error && !isTried) {
+            check.fail("level ", level.level,
+                " records no errors of its stored spheres, though other levels do");
+        }
+        if (isTried && !level.error) {
+            check.fail("level ", level.level, " records ", level.stored ? "" : "why it has no ",
+                "errors of its stored spheres, but none without padding");
+        }
+        if (level.stored && !level.storedUnknown.empty()) {
+            check.fail("level ", level.level,
+                " records errors of its stored spheres, and why it has none");
+        }
+    }
+}
+
 /// What is recorded of level 0, whose voxels are the object's, is so.
 void checkTopology(Check& check)
 {
@@ -414,6 +440,7 @@ std::vector<TreeFault> checkSphereTree(const SphereTree& tree, const openvdb::Bo
     checkTransform(check);
     checkObject(check);
     checkRecords(check);
+    checkStoredRecords(check);
     checkTopology(check);
     checkRadii(check, tree.spheres, "");
     if (isGiven(tree)) { // which have no links, and promise nothing but what is asked of them

@@ -317,13 +317,53 @@ TEST_F(TreeCheck, SaysWhenTheErrorsOfSomeLevelsAreLost)
     const BoolGrid::Ptr object = plusAndDot();
     SphereTree tree = plusAndDotTree(*object);
     tree.levels[1].error.reset();
+    tree.levels[1].stored.reset();
     tree.levels[1].errorUnknown = "too large";
     EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "nothing was lost";
     for (SphereTreeLevel& level : tree.levels) {
         level.error.reset();
+        level.stored.reset();
         level.errorUnknown.clear();
     }
     EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "they were not asked for";
+}
+
+TEST_F(TreeCheck, SaysWhenTheErrorsOfStoredSpheresOfSomeLevelsAreLost)
+{
+    for (int level : {0, 1, 2}) {
+        const std::string name = "level " + std::to_string(level);
+        expectFault(
+            FaultKind::Records, [=](SphereTree& tree) { tree.levels[level].stored.reset(); },
+            name + " records no errors of its stored spheres, though other levels do");
+        expectFault(
+            FaultKind::Records,
+            [=](SphereTree& tree) {
+                tree.levels[level].error.reset();
+                tree.levels[level].errorUnknown = "too large";
+            },
+            name + " records errors of its stored spheres, but none without padding");
+    }
+    expectFault(
+        FaultKind::Records, [](SphereTree& tree) { tree.levels[1].storedUnknown = "too large"; },
+        "level 1 records errors of its stored spheres, and why it has none");
+    expectFault(
+        FaultKind::Records,
+        [](SphereTree& tree) {
+            tree.levels[1].stored.reset();
+            tree.levels[1].storedUnknown = "too large";
+            tree.levels[1].error.reset();
+        },
+        "level 1 records why it has no errors of its stored spheres, but none without padding");
+    const BoolGrid::Ptr object = plusAndDot();
+    SphereTree tree = plusAndDotTree(*object);
+    tree.levels[1].stored.reset();
+    tree.levels[1].storedUnknown = "too large";
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "nothing was lost";
+    for (SphereTreeLevel& level : tree.levels) {
+        level.stored.reset();
+        level.storedUnknown.clear();
+    }
+    EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "") << "a file of version 0.1";
 }
 
 TEST_F(TreeCheck, SaysWhenTheRadiiOfANodeDisagree)
