@@ -3,6 +3,7 @@
 
 #include <openvdb_spheretree/base/Interrupted.h>
 #include <openvdb_spheretree/voxel/GridTemplates.h> // compiles in half the time
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/math/Math.h>
 #include <openvdb/tools/ParticlesToLevelSet.h>
@@ -19,11 +20,13 @@ struct StoredSpheres {
     using PosType = openvdb::Vec3R;
     const SphereTree& tree;
     const SphereTreeLevel& level;
+    double indexScale = 0; ///< where they are: in index space times this; 0: in the world
 
     size_t size() const { return size_t(level.size()); }
     void getPos(size_t n, openvdb::Vec3R& xyz) const
     {
-        xyz = tree.centerWorld(level.begin + int32_t(n));
+        const int32_t id = level.begin + int32_t(n);
+        xyz = indexScale > 0 ? tree.spheres.center[size_t(id)] * indexScale : tree.centerWorld(id);
     }
     void getPosRad(size_t n, openvdb::Vec3R& xyz, openvdb::Real& radius) const
     {
@@ -107,6 +110,11 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
             "the balls of dist=" << toString(tree.settings.dist())
                                  << " are no spheres and make no level set: take levelUnion()");
     }
+    if (!voxelSize && !hasCubicVoxels(*tree.transform)) {
+        OPENVDB_THROW(openvdb::ValueError,
+            "the tree's transform has been changed, and its voxels are no cubes: choose a voxel "
+            "size");
+    }
     constexpr double kSmallestVoxel = 2e-5; // OpenVDB's own limit is at 1.4e-5
     if (voxelSize && !(*voxelSize >= kSmallestVoxel && std::isfinite(*voxelSize))) {
         OPENVDB_THROW(openvdb::ValueError,
@@ -119,8 +127,11 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     }
     const double voxel = voxelSize.value_or(tree.voxelSize());
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, halfWidth);
-    if (!voxelSize) grid->setTransform(tree.transform->copy());
-    const StoredSpheres spheres{tree, level};
+    // The rasterizer takes small or large voxels that are turned for no cubes (UniformVoxels.h): its
+    // spheres are then those of index space.
+    const bool isRefused = !voxelSize && !tree.transform->hasUniformScale();
+    if (!voxelSize && !isRefused) grid->setTransform(tree.transform->copy());
+    const StoredSpheres spheres{tree, level, isRefused ? voxel : 0};
     requireRoom(spheres, *grid, halfWidth);
     openvdb::util::NullInterrupter silent;
     openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid, void, openvdb::util::NullInterrupter>
@@ -130,6 +141,7 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     raster.rasterizeSpheres(spheres);
     if (openvdb::util::wasInterrupted(interrupter)) throw Interrupted();
     raster.finalize(/*prune=*/true);
+    if (isRefused) grid->setTransform(tree.transform->copy());
     return grid;
 }
 

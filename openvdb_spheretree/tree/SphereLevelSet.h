@@ -21,7 +21,8 @@ constexpr int64_t kMaxLevelSetVoxels = int64_t(1) << 30;
 ///                   the tree's source grid. With one its axes are the world's, and so is its origin
 /// @param halfWidth  of the narrow band, in voxels of the result, 1 to 1000
 /// @throw openvdb::ValueError if an argument is out of range, or the tree's balls are no spheres:
-///        its distance is a norm; or, before any work, if the spheres and their band hold more
+///        its distance is a norm; or no voxel size is given and those of the tree are no cubes, as somebody has
+///        changed its transform; or, before any work, if the spheres and their band hold more
 ///        than kMaxLevelSetVoxels (or their box, where they overlap), or reach voxels beyond 2^30
 /// @throw Interrupted if the interrupter said so
 /// Cost: the voxels in the box of each sphere, a sphere a thread; 4 bytes a voxel inside, until the

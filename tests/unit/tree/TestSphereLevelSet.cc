@@ -95,6 +95,42 @@ TEST(SphereLevelSet, WhatCannotBeDrawnIsAnError)
     EXPECT_THROW(levelSetOfSpheres(tree, level, {}, 3, &stop), Interrupted);
 }
 
+/// OpenVDB takes most of these voxels for no cubes.
+TEST(SphereLevelSet, OfTurnedVoxelsOfAnySizeIsThatOfOthers)
+{
+    for (const double voxel : {1e-4, 1e-3, 1.0, 1e3, 1e6}) {
+        SphereTree straight = treeOf(1);
+        straight.transform = openvdb::math::Transform::createLinearTransform(voxel);
+        const double scale = voxel / treeOf(1).voxelSize();
+        for (float& radius : straight.spheres.radiusWorld) radius = float(radius * scale);
+        const auto expected = levelSetOfSpheres(straight, straight.levels.front());
+        for (int i = 0; i < 5; ++i) {
+            SphereTree turned = straight;
+            turned.transform = straight.transform->copy();
+            turned.transform->postRotate(0.3 + i, openvdb::math::X_AXIS);
+            turned.transform->postRotate(0.7 * i + 0.1, openvdb::math::Z_AXIS);
+            const auto found = levelSetOfSpheres(turned, turned.levels.front());
+            EXPECT_TRUE(found->transform() == *turned.transform);
+            for (auto value = expected->cbeginValueOn(); value; ++value) {
+                if (*value < -0.5 * voxel) continue; // what overlaps there depends on rounding
+                const float other = found->tree().getValue(value.getCoord());
+                ASSERT_NEAR(other / voxel, *value / voxel, 1e-3) << voxel << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST(SphereLevelSet, OfVoxelsThatAreNoCubesNeedsAVoxelSize)
+{
+    SphereTree tree = treeOf(1);
+    tree.transform = tree.transform->copy();
+    tree.transform->preScale(openvdb::Vec3d(1, 1, 1.01));
+    EXPECT_TRUE(
+        mentions(messageOf<openvdb::ValueError>([&] { levelSetOfSpheres(tree, tree.levels[0]); }),
+            "no cubes"));
+    EXPECT_NO_THROW(levelSetOfSpheres(tree, tree.levels[0], 1.0));
+}
+
 TEST(SphereLevelSet, RefusesBeforehandWhatWouldTakeTooManyVoxels)
 {
     const SphereTree tree = treeOf(1);
