@@ -6,6 +6,9 @@
 
 #include "support/TemporaryFolder.h"
 
+#include <openvdb_spheretree/export/ExportFormat.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -18,15 +21,14 @@ namespace {
 using namespace command_test;
 
 struct Output {
-    const char* name;
-    const char* arguments;
+    std::string name, arguments;
     std::vector<std::string> targets;
 };
 
 void PrintTo(const Output& output, std::ostream* out) { *out << output.name; }
 
 // Each writes several times what the stream's buffer holds, so that there is a middle.
-const Output kOutputs[] = {
+const std::vector<Output> kOwnOutputs = {
     {"Tree", "-read tree.vdb -write out.vdb codec=none", {"out.vdb"}},
     {"Table", "-read tree.vdb -write out.csv", {"out.csv", "out_dag.csv"}},
     {"Json", "-read tree.vdb -write out.json", {"out.json"}},
@@ -35,21 +37,35 @@ const Output kOutputs[] = {
     {"LevelSet", "-read tree.vdb -spheres2ls -write out.vdb codec=none", {"out.vdb"}},
     {"Mask", "-read a.vol -mask -write out.vdb codec=none", {"out.vdb"}},
     {"Volume", "-read a.vol -write out.vol", {"out.vol"}},
+    {"NanoVdbMask", "-read a.vol -write out.nvdb", {"out.nvdb"}},
     {"Photo", "-read tree.vdb -write out.jpg width=300 height=200", {"out.jpg"}},
     {"Curve", "-read tree.vdb -write out.svg", {"out.svg"}},
     {"CurveTable", "-read tree.vdb -write out.csv format=curve", {"out.csv"}},
-    {"Film", "-read tree.vdb -write out.usda", {"out.usda"}},
-    {"Robot", "-read tree.vdb -write out.urdf", {"out.urdf"}},
-    {"Clump", "-read tree.vdb -write out.vtp", {"out.vtp"}},
-    {"Points", "-read tree.vdb -write out.ply", {"out.ply"}},
-    {"Scene", "-read tree.vdb -write out.glb", {"out.glb"}},
-    {"Mesh", "-read tree.vdb -write out.stl level=1", {"out.stl"}},
-    {"NanoVdb", "-read tree.vdb -write out.nvdb", {"out.nvdb"}},
     {"Stats", "-read tree.vdb -stats json=out.json", {"out.json"}},
     {"StatsTable", "-read tree.vdb -stats csv=out.csv", {"out.csv"}},
     {"Answers", "-read tree.vdb tree.vdb -distance json=out.json", {"out.json"}},
     {"AnswerTable", "-read tree.vdb tree.vdb -collide csv=out.csv", {"out.csv"}},
+    {"Rays", "-read tree.vdb -raycast origin=-9,0,0 direction=1,0,0 json=out.json", {"out.json"}},
+    {"RayTable", "-read tree.vdb -raycast origin=-9,0,0 direction=1,0,0 csv=out.csv", {"out.csv"}},
+    {"Points", "-read tree.vdb -contains point=1,2,3 json=out.json", {"out.json"}},
+    {"PointTable", "-read tree.vdb -contains point=1,2,3 csv=out.csv", {"out.csv"}},
 };
+
+/// Those and every file for other tools that this build writes.
+std::vector<Output> allOutputs()
+{
+    std::vector<Output> outputs = kOwnOutputs;
+    for (const auto& format : openvdb_spheretree::exportFormats()) {
+        if (!format.missing.empty()) continue;
+        const std::string& extension = format.extensions.front();
+        std::string name = format.name + extension;
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+        outputs.push_back({name, "-read tree.vdb -write out" + extension + " format=" + format.name,
+            {"out" + extension}});
+    }
+    return outputs;
+}
 
 class CommandFullDisk : public FaultyCommandTest, public testing::WithParamInterface<Output> {
 protected:
@@ -97,18 +113,17 @@ TEST_P(CommandFullDisk, ALimitOnTheSizeOfFilesLeavesTheOldFile)
     // Times are in -stats, so that it is some digits longer or shorter each time.
     for (const long limit : spread(size - size / 8 - 1, 4)) {
         SCOPED_TRACE(limit);
-        const Result result =
-            start(split(std::string("-quiet ") + GetParam().arguments), "/dev/null", [=] {
-                const rlimit small = {rlim_t(limit), rlim_t(limit)};
-                setrlimit(RLIMIT_FSIZE, &small);
-            }).wait();
+        const Result result = start(split("-quiet " + GetParam().arguments), "/dev/null", [=] {
+            const rlimit small = {rlim_t(limit), rlim_t(limit)};
+            setrlimit(RLIMIT_FSIZE, &small);
+        }).wait();
         // stderr is a file as well, so a message may be cut.
         expectFailure(result, 4, {}, GetParam().targets);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Outputs, CommandFullDisk, testing::ValuesIn(kOutputs),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Outputs, CommandFullDisk, testing::ValuesIn(allOutputs()),
+    [](const auto& info) { return info.param.name; });
 
 class CommandRealDisk : public FaultyCommandTest {
 protected:

@@ -167,6 +167,19 @@ TEST_F(CommandScarce, LeafBallsThatCannotBeMergedInMemoryAreRefusedWithTheirNumb
     EXPECT_EQ(runWithin(20, noise + "tree=extended").exitCode, 0);
 }
 
+TEST_F(CommandScarce, APictureThatDoesNotFitTheMemoryIsRefusedBeforeItIsDrawn)
+{
+    for (const std::string drawn : {"tree.vdb", "a.vol"}) {
+        const std::string line = "-read " + drawn + " -write t.png ";
+        expectFailure(runWithin(5, line + "width=2000 height=1000"), 4,
+            {"-write", "shapes and the 2000 x 1000 pixels of a picture need about 5.8 MiB",
+                "more than the 5 MiB of this machine: draw a coarser level, or fewer pixels"},
+            {});
+        EXPECT_EQ(runWithin(5, line + "width=200 height=100").exitCode, 0);
+        std::filesystem::remove(path("t.png"));
+    }
+}
+
 TEST_F(CommandScarce, NoThreadIsAnErrorOfItsOwn)
 {
     expectOf(kWork);

@@ -8,6 +8,7 @@
 #include "support/SampleTrees.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/build/BuildSphereTree.h>
 #include <openvdb_spheretree/picture/PictureColors.h>
 #include <openvdb_spheretree/picture/SpherePicture.h>
@@ -449,6 +450,20 @@ TEST(SpherePicture, AnObjectAtTheEndOfCoordinatesLooksAsElsewhere)
     const auto expected = pictureAt(1 << 20);
     EXPECT_EQ(pictureAt(INT32_MAX - 127), expected);
     EXPECT_EQ(pictureAt(INT32_MIN), expected);
+}
+
+/// Nothing is asked of the spheres before: this level has none of those that it says.
+TEST(SpherePicture, ALevelThatDoesNotFitTheMemoryIsRefusedBeforeAnythingIsMade)
+{
+    SphereTree tree = treeOf({{Vec3d(0.0), 1}});
+    const double there = detail::physicalMemory();
+    constexpr double kShape = 400;
+    if (there == 0 || there >= kShape * INT32_MAX) GTEST_SKIP() << "no level is too large for it";
+    tree.levels.front().end = int32_t(there / kShape) + 1;
+    const std::string why =
+        messageOf<openvdb::ValueError>([&] { renderLevel(tree, 0, Camera(), small()); });
+    EXPECT_TRUE(mentions(why, "shapes and the 160 x 120 pixels of a picture need about"));
+    EXPECT_TRUE(mentions(why, "draw a coarser level, or fewer pixels"));
 }
 
 TEST(SpherePicture, WhatIsOutOfRangeIsNamed)
