@@ -40,12 +40,14 @@ constexpr DamagedFile kFiles[] = {
 
 class CommandDamaged : public CommandTest, public testing::WithParamInterface<DamagedFile> {
 protected:
-    /// The process of a sanitizer has terabytes of addresses.
-    static void limitMemory()
+    /// What the command takes for any file, and some for each byte of this one. The process of a sanitizer has
+    /// terabytes of addresses.
+    static void limitMemory(uint64_t fileBytes)
     {
         if (spheretree_test::kSanitized) return;
-        constexpr rlim_t kBytes = rlim_t(1) << 30;
-        const rlimit limit{kBytes, kBytes};
+        constexpr rlim_t kAnyFile = rlim_t(96) << 20, kPerByte = 300;
+        const rlim_t bytes = kAnyFile + kPerByte * rlim_t(fileBytes);
+        const rlimit limit{bytes, bytes};
         setrlimit(RLIMIT_DATA, &limit);
     }
 };
@@ -58,7 +60,9 @@ TEST_P(CommandDamaged, IsRefusedOrRead)
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "there is no " << file;
     for (const std::string delayed : {"delayed=0", "delayed=1"}) {
         const Result result =
-            start({"-read", file, delayed, "-print"}, "/dev/null", limitMemory).wait();
+            start({"-threads", "1", "-read", file, delayed, "-print"}, "/dev/null", [&] {
+                limitMemory(std::filesystem::file_size(file));
+            }).wait();
         EXPECT_EQ(result.exitCode, GetParam().exitCode) << delayed << "\n" << result.err;
         EXPECT_LT(result.err.size(), 3000u);
         EXPECT_EQ(result.err.find("not enough memory"), std::string::npos) << result.err;
