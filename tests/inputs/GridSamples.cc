@@ -11,6 +11,7 @@
 #include <openvdb/points/PointGroup.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb/tools/PointIndexGrid.h>
 
 namespace spheretree_test {
 
@@ -57,6 +58,36 @@ typename GridT::Ptr numbers()
     }
     grid->tree().addTile(/*level=*/1, openvdb::Coord(64, 0, 0), Value(1), /*active=*/true);
     grid->setName("numbers");
+    return grid;
+}
+
+/// As a camera sees it: its voxels are of many sizes.
+openvdb::FloatGrid::Ptr frustum()
+{
+    const auto grid = fog();
+    grid->setTransform(openvdb::math::Transform::createFrustumTransform(
+        openvdb::BBoxd(Vec3d(0), Vec3d(10)), /*taper=*/0.5, /*depth=*/4, /*voxelSize=*/0.1));
+    grid->setName("view");
+    return grid;
+}
+
+struct Places {
+    using PosType = Vec3d;
+    std::vector<Vec3d> all;
+    std::size_t size() const { return all.size(); }
+    void getPos(std::size_t i, Vec3d& place) const { place = all[i]; }
+};
+
+/// In one leaf: OpenVDB 10 cannot read more of them, and leaves the last eight bytes unread.
+openvdb::tools::PointIndexGrid::Ptr pointIndices()
+{
+    openvdb::initialize();
+    Places places;
+    for (int i = 0; i < 12; ++i) places.all.emplace_back(0.6 * i, 0.3 * i, i % 5);
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    const auto grid =
+        openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(places, *transform);
+    grid->setName("indices");
     return grid;
 }
 
@@ -116,6 +147,10 @@ std::string doubleZip() { return bytesOf<kZip>(numbers<openvdb::DoubleGrid>); }
 std::string vectorBlosc() { return bytesOf<kBlosc>(numbers<openvdb::Vec3SGrid>); }
 std::string pointsBlosc() { return bytesOf<kBlosc>(dust); }
 std::string pointsZip() { return bytesOf<kZip>(dust); }
+std::string vectorDoubles() { return bytesOf<kZip>(numbers<openvdb::Vec3DGrid>); }
+std::string vectorIntegers() { return bytesOf<kActive>(numbers<openvdb::Vec3IGrid>); }
+std::string frustumZip() { return bytesOf<kZip>(frustum); }
+std::string pointIndicesBlosc() { return bytesOf<kBlosc>(pointIndices); }
 std::string twoGrids() { return vdbBytes({levelSet(), numbers<openvdb::Int32Grid>()}, kBlosc); }
 
 } // namespace
@@ -138,6 +173,10 @@ const std::vector<SampleMaker>& gridSamples()
         {"int64_blosc", ".vdb", int64Blosc},
         {"double_zip", ".vdb", doubleZip},
         {"vector_blosc", ".vdb", vectorBlosc},
+        {"vector_doubles", ".vdb", vectorDoubles},
+        {"vector_integers", ".vdb", vectorIntegers},
+        {"frustum_zip", ".vdb", frustumZip},
+        {"point_indices", ".vdb", pointIndicesBlosc, /*saysItsLength=*/false},
         {"points_blosc", ".vdb", pointsBlosc},
         {"points_zip", ".vdb", pointsZip},
         {"two_grids", ".vdb", twoGrids},

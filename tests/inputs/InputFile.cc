@@ -25,33 +25,70 @@ std::string newFolder()
     return folder;
 }
 
-} // namespace
-
-InputFile::InputFile(const std::string& extension)
-    : mFd(memfd_create("input", MFD_CLOEXEC)), mFolder(newFolder()),
-      mPath(mFolder + "/input" + extension)
+/// Readers go by the extension, which a file without a name has not.
+int newFile(const std::string& path)
 {
-    if (mFd < 0) fail("memfd_create");
-    // Readers go by the extension, which a file without a name has not.
-    const std::string target = "/proc/self/fd/" + std::to_string(mFd);
-    if (symlink(target.c_str(), mPath.c_str()) != 0) fail("symlink");
+    const int fd = memfd_create("input", MFD_CLOEXEC);
+    if (fd < 0) fail("memfd_create");
+    const std::string target = "/proc/self/fd/" + std::to_string(fd);
+    if (symlink(target.c_str(), path.c_str()) != 0) fail("symlink");
+    return fd;
 }
 
-InputFile::~InputFile()
+void setBytes(int fd, const std::string& bytes)
 {
-    std::error_code ignored;
-    std::filesystem::remove_all(mFolder, ignored);
-    close(mFd);
-}
-
-void InputFile::set(const std::string& bytes)
-{
-    if (ftruncate(mFd, off_t(bytes.size())) != 0) fail("ftruncate");
+    if (ftruncate(fd, off_t(bytes.size())) != 0) fail("ftruncate");
     for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = pwrite(mFd, bytes.data() + done, bytes.size() - done, off_t(done));
+        const ssize_t count = pwrite(fd, bytes.data() + done, bytes.size() - done, off_t(done));
         if (count <= 0) fail("pwrite");
         done += std::size_t(count);
     }
+}
+
+void remove(const std::string& folder)
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+}
+
+} // namespace
+
+InputFile::InputFile(const std::string& extension)
+    : mFolder(newFolder()), mPath(mFolder + "/input" + extension), mFd(newFile(mPath))
+{}
+
+InputFile::~InputFile()
+{
+    remove(mFolder);
+    close(mFd);
+}
+
+void InputFile::set(const std::string& bytes) { setBytes(mFd, bytes); }
+
+InputFolder::InputFolder() : mPath(newFolder()) {}
+
+InputFolder::~InputFolder()
+{
+    remove(mPath);
+    for (const auto& [name, fd] : mFds) close(fd);
+}
+
+std::string InputFolder::set(const std::string& name, const std::string& bytes)
+{
+    const std::string path = mPath + "/" + name;
+    const auto found = mFds.find(name);
+    const int fd = found != mFds.end() ? found->second : mFds[name] = newFile(path);
+    setBytes(fd, bytes);
+    return path;
+}
+
+void InputFolder::clear()
+{
+    for (const auto& [name, fd] : mFds) {
+        close(fd);
+        unlink((mPath + "/" + name).c_str());
+    }
+    mFds.clear();
 }
 
 } // namespace spheretree_test

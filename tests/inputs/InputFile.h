@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 
 namespace spheretree_test {
@@ -24,8 +25,29 @@ public:
     const std::string& path() const { return mPath; }
 
 private:
-    int mFd;
     std::string mFolder, mPath;
+    int mFd;
+};
+
+/// Several such files side by side. What holds of one in a child process holds of each.
+class InputFolder {
+public:
+    InputFolder();
+    ~InputFolder();
+    InputFolder(const InputFolder&) = delete;
+    InputFolder& operator=(const InputFolder&) = delete;
+
+    const std::string& path() const { return mPath; }
+
+    /// Makes the file, or replaces what is in it.
+    /// @return its path
+    std::string set(const std::string& name, const std::string& bytes);
+    /// Removes all files.
+    void clear();
+
+private:
+    std::string mPath;
+    std::map<std::string, int> mFds; ///< by name
 };
 
 } // namespace spheretree_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InputReader.h"
 
+#include "MemoryLimit.h"
 #include "TreeUse.h"
 
 #include <openvdb_spheretree/input/DelayedValues.h>
@@ -18,7 +19,9 @@
 #include <openvdb/Exceptions.h>
 #include <openvdb/Grid.h>
 
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 
 namespace spheretree_test {
 
@@ -49,14 +52,8 @@ void readAsSpheres(const openvdb::GridBase& grid)
     } catch (const openvdb::ValueError&) {}
 }
 
-/// Of a .raw, which says nothing of its numbers, those of the sample.
-openvdb_spheretree::VolumeSettings volumeSettings()
-{
-    openvdb_spheretree::VolumeSettings settings;
-    settings.shape = {9, 5, 10};
-    settings.type = openvdb_spheretree::NumberType::UInt16;
-    return settings;
-}
+/// @return the same turn for the same bytes: a finding is one again when its file alone is tried.
+uint64_t turnOf(const std::string& bytes) { return std::hash<std::string_view>()(bytes); }
 
 } // namespace
 
@@ -74,42 +71,81 @@ bool InputReader::evaluates(const std::string& text)
     return true;
 }
 
-void InputReader::readVdb(bool delayed) const
+InputReader::InputReader(const std::string& extension, TreeUses uses)
+    : mExtension(extension), mFile(extension), mUses(uses)
+{
+    if (VolumeInput::isKind(extension)) mVolume.emplace(extension);
+}
+
+void InputReader::limit(const ReadingLimit& reading)
+{
+    mLimit = reading;
+    mBefore = bytesOfAddresses();
+}
+
+void InputReader::readVdb(const std::string& bytes, bool delayed) const
 {
     const auto line =
         command::parseLine({"-quiet", "-read", mFile.path(), delayed ? "delayed=1" : "delayed=0"});
     const command::Script script = command::scriptOf(line);
     command::Session session(script.plan);
-    session.run(script);
-    for (const auto& item : session.stack.items()) {
-        if (item->tree) useTree(*item->tree);
-        if (!item->grid) continue;
-        try {
-            openvdb_spheretree::requireReadableValues(*item->grid);
-        } catch (...) {
-            command::rethrowNamed(mFile.path(), command::kInput);
+    {
+        const MemoryLimit reading(allowed(bytes.size()));
+        session.run(script);
+        for (const auto& item : session.stack.items()) {
+            if (item->grid) readValues(*item->grid);
         }
-        readAsSpheres(*item->grid);
     }
+    for (const auto& item : session.stack.items()) {
+        const openvdb_spheretree::SphereTree* const tree = item->anyTree();
+        if (!tree) continue;
+        const uint64_t first = turnOf(bytes);
+        const uint64_t count = mUses == TreeUses::All ? kUseTurns : 1;
+        for (uint64_t turn = first; turn < first + count; ++turn) useTree(*tree, turn);
+    }
+}
+
+void InputReader::readValues(const openvdb::GridBase& grid) const
+{
+    try {
+        openvdb_spheretree::requireReadableValues(grid);
+    } catch (...) {
+        command::rethrowNamed(mFile.path(), command::kInput);
+    }
+    readAsSpheres(grid);
+}
+
+void InputReader::readOther(const std::string& bytes) const
+{
+    const std::string& path = mFile.path();
+    const MemoryLimit reading(allowed(bytes.size()));
+    if (mVolume) mVolume->read();
+    else if (mExtension == ".cfg") command::parseLine({"-config", path});
+    else if (mExtension == ".poses") openvdb_spheretree::readPoseTable(path);
+    else if (mExtension == ".bodies") openvdb_spheretree::readBodyPoseTable(path);
+    else if (mExtension == ".points") openvdb_spheretree::readPointTable(path);
+    else if (mExtension == ".rays") openvdb_spheretree::readRayTable(path);
+    else if (isVolFileName(path)) readVolFile(path);
+    else if (isVolumeFileName(path)) readVolumeFile(path);
+    else if (isSphereFileName(path)) readSphereFile(path);
+    else readMeshFile(path);
+}
+
+uint64_t InputReader::allowed(std::size_t fileBytes) const
+{
+    return mLimit.bytes ? mBefore + mLimit.bytes + mLimit.perByte * fileBytes : 0;
 }
 
 bool InputReader::read(const std::string& bytes, bool delayed)
 {
     if (mExtension == ".expression") return evaluates(bytes);
-    mFile.set(bytes);
-    const std::string& path = mFile.path();
+    if (mVolume) mVolume->set(bytes);
+    else mFile.set(bytes);
+    const std::string& path = mVolume ? mVolume->path() : mFile.path();
     const bool isConfig = mExtension == ".cfg";
     try {
-        if (mExtension == ".vdb") readVdb(delayed);
-        else if (isConfig) command::parseLine({"-config", path});
-        else if (mExtension == ".poses") openvdb_spheretree::readPoseTable(path);
-        else if (mExtension == ".bodies") openvdb_spheretree::readBodyPoseTable(path);
-        else if (mExtension == ".points") openvdb_spheretree::readPointTable(path);
-        else if (mExtension == ".rays") openvdb_spheretree::readRayTable(path);
-        else if (isVolFileName(path)) readVolFile(path);
-        else if (isVolumeFileName(path)) readVolumeFile(path, volumeSettings());
-        else if (isSphereFileName(path)) readSphereFile(path);
-        else readMeshFile(path);
+        if (mExtension == ".vdb") readVdb(bytes, delayed);
+        else readOther(bytes);
         return true;
     } catch (const command::CommandError& error) {
         // Actions in the wrong order may be the fault of the line that the file is a part of.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file TreeSamples.cc
-/// @brief Samples of sphere-trees: every kind, with edges and cuts, and every codec.
+/// @brief Samples of sphere-trees: every kind, with edges, cuts and tracks, and every codec.
 
 #include "SampleFiles.h"
 #include "VdbSamples.h"
 
 #include <openvdb_spheretree/build/BuildSphereTree.h>
+#include <openvdb_spheretree/measure/LevelErrors.h>
 #include <openvdb_spheretree/store/SphereTreePoints.h>
+#include <openvdb_spheretree/tree/GivenTree.h>
+#include <openvdb_spheretree/tree/SphereTracks.h>
 
 namespace spheretree_test {
 
@@ -14,13 +17,17 @@ namespace {
 
 using namespace openvdb_spheretree;
 
-openvdb::GridPtrVec gridsOf(const SphereTreeSettings& settings)
+openvdb::GridPtrVec gridsOf(const SphereTree& tree)
 {
-    const SphereTree tree = buildSphereTree(*sampleObject(), settings);
     openvdb::GridPtrVec grids{toPoints(tree)};
     if (const auto dag = dagToPoints(tree)) grids.push_back(dag);
     if (const auto cuts = cutsToPoints(tree)) grids.push_back(cuts);
     return grids;
+}
+
+openvdb::GridPtrVec gridsOf(const SphereTreeSettings& settings)
+{
+    return gridsOf(buildSphereTree(*sampleObject(), settings));
 }
 
 std::string treeBytes(
@@ -31,15 +38,21 @@ std::string treeBytes(
 }
 
 /// A tree without a checksum, as version 0.1 wrote it and strangers may: damage is to be found without.
-std::string uncheckedBytes(const SphereTreeSettings& settings)
+std::string uncheckedBytes(const openvdb::GridPtrVec& grids)
 {
-    const openvdb::GridPtrVec grids = gridsOf(settings);
     for (const auto& grid : grids) {
         grid->removeMeta("spheretree_checksum");
         grid->removeMeta("spheretree_checksum_transform");
     }
     return vdbBytes({grids.begin(), grids.end()}, kActive);
 }
+
+std::string uncheckedBytes(const SphereTreeSettings& settings)
+{
+    return uncheckedBytes(gridsOf(settings));
+}
+
+std::string uncheckedBytes(const SphereTree& tree) { return uncheckedBytes(gridsOf(tree)); }
 
 SphereTreeSettings tightWithCuts()
 {
@@ -70,6 +83,56 @@ std::string extendedUnchecked() { return uncheckedBytes(extendedWithDag()); }
 std::string reversibleUnchecked() { return uncheckedBytes(ReversibleOptions()); }
 std::string fitUnchecked() { return uncheckedBytes(FitOptions()); }
 
+std::string strictUnchecked()
+{
+    InnerOptions options;
+    options.strict = true;
+    options.cuts = true;
+    return uncheckedBytes(options);
+}
+
+/// The second frame of a sequence: some tracks are those of the first one, in another order.
+std::string tracksUnchecked()
+{
+    SphereTree first = buildSphereTree(*sampleObject()), second = first;
+    startTracks(first);
+    const auto moved = sampleObject();
+    moved->tree().setValueOn(openvdb::Coord(-4, 1, 2));
+    second = buildSphereTree(*moved);
+    continueTracks(second, first);
+    return uncheckedBytes(second);
+}
+
+/// With its errors: what a level says of itself.
+std::string keptUnchecked()
+{
+    SphereTree tree = buildSphereTree(*sampleObject());
+    computeLevelErrors(tree, *sampleObject());
+    return uncheckedBytes(keepLevel(tree, 1));
+}
+
+WorldSpheres someSpheres()
+{
+    WorldSpheres spheres;
+    spheres.name = "stones";
+    for (int i = 0; i < 9; ++i) {
+        spheres.center.emplace_back(0.1 * i - 0.3, 0.07 * (i % 4), 0.3 + 0.05 * (i % 3));
+        spheres.radius.push_back(0.1 + 0.02 * i);
+    }
+    return spheres;
+}
+
+std::string givenUnchecked() { return uncheckedBytes(givenTree(someSpheres())); }
+std::string givenInObject() { return uncheckedBytes(givenTree(someSpheres(), *sampleObject())); }
+
+/// That of no object.
+std::string emptyTree()
+{
+    SphereTree tree;
+    tree.transform = openvdb::math::Transform::createLinearTransform(0.5);
+    return vdbBytes({emptyTreeToPoints(tree)}, kActive);
+}
+
 } // namespace
 
 const std::vector<SampleMaker>& treeSamples()
@@ -89,6 +152,12 @@ const std::vector<SampleMaker>& treeSamples()
         {"extended_unchecked", ".vdb", extendedUnchecked},
         {"reversible_unchecked", ".vdb", reversibleUnchecked},
         {"fit_unchecked", ".vdb", fitUnchecked},
+        {"strict_unchecked", ".vdb", strictUnchecked},
+        {"tracks_unchecked", ".vdb", tracksUnchecked},
+        {"kept_unchecked", ".vdb", keptUnchecked},
+        {"given_unchecked", ".vdb", givenUnchecked},
+        {"given_in_object", ".vdb", givenInObject},
+        {"empty_tree", ".vdb", emptyTree},
     };
     return samples;
 }

@@ -4,6 +4,7 @@
 
 #include "SampleBytes.h"
 #include "SampleFiles.h"
+#include "VolumeInput.h"
 
 #include <zlib.h>
 
@@ -23,7 +24,14 @@ std::string numbers(bool swapped = false)
     return bytes;
 }
 
-std::string raw() { return numbers<uint16_t>(); }
+std::string raw()
+{
+    openvdb_spheretree::VolumeSettings settings;
+    settings.shape = {9, 5, 10};
+    settings.type = openvdb_spheretree::NumberType::UInt16;
+    settings.headerBytes = 6;
+    return rawInput(settings, "header" + numbers<uint16_t>());
+}
 
 std::string npyOf(const std::string& dictionary, const std::string& values)
 {
@@ -98,6 +106,13 @@ std::string niiQuaternion() { return niiOf(1); }
 std::string niiMatrix() { return niiOf(2); }
 std::string niiGzip() { return deflated(niiOf(2), Deflated::Gzip); }
 
+std::string detached()
+{
+    return "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 5 10\nendian: little\nencoding: raw\n"
+           "byte skip: 4\ndata file: input.raw"
+        + std::string(kPartEnd) + "skip" + numbers<int16_t>();
+}
+
 // Pictures of 13 x 6 pixels
 
 std::string chunk(const std::string& name, const std::string& bytes)
@@ -137,6 +152,14 @@ std::string pgmText()
     return text;
 }
 
+std::string stackOf(const std::string& slice)
+{
+    return slice + kPartEnd + slice + kPartEnd + slice;
+}
+
+std::string stackPgm() { return stackOf(pgmWide()); }
+std::string stackPng() { return stackOf(pngGray()); }
+
 } // namespace
 
 const std::vector<SampleMaker>& volumeSamples()
@@ -159,6 +182,9 @@ const std::vector<SampleMaker>& volumeSamples()
         {"pgm_bytes", ".pgm", pgmBytes},
         {"pgm_wide", ".pgm", pgmWide},
         {"pgm_text", ".pgm", pgmText, false},
+        {"detached", ".detached", detached},
+        {"stack_pgm", ".stack", stackPgm, false},
+        {"stack_png", ".stack", stackPng, false},
     };
     return samples;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ForkServer.h"
 
+#include "inputs/MemoryLimit.h"
 #include "support/Sanitizers.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <new>
@@ -64,9 +64,7 @@ void noteOutOfMemory()
 void limitMemory(uint64_t bytes)
 {
     if (kSanitized) return;
-    uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t limit = rlim_t(pages * uint64_t(sysconf(_SC_PAGESIZE)) + bytes);
+    const rlim_t limit = rlim_t(bytesOfAddresses() + bytes);
     const rlimit wanted{limit, limit};
     setrlimit(RLIMIT_AS, &wanted);
 }

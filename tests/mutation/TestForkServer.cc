@@ -4,6 +4,7 @@
 /// the others are tried all the same.
 
 #include "ForkServer.h"
+#include "inputs/MemoryLimit.h"
 #include "support/Sanitizers.h"
 
 #include <gtest/gtest.h>
@@ -74,6 +75,26 @@ TEST(ForkServer, FindsARequestForTooMuchMemoryEvenIfItIsHandled)
     const ForkedRun run = tryAll(8, greedy);
     ASSERT_EQ(run.findings.size(), 1u);
     EXPECT_EQ(run.findings[0].input, 5);
+}
+
+/// A part of the work may have less than all of it.
+TEST(ForkServer, FindsWhatTakesMoreThanItsPartMay)
+{
+    if (spheretree_test::kSanitized) GTEST_SKIP() << "memory is not limited under sanitizers";
+    const auto greedy = [](int64_t n) {
+        constexpr uint64_t kMebibyte = uint64_t(1) << 20;
+        {
+            const MemoryLimit part(bytesOfAddresses() + 64 * kMebibyte);
+            ::operator delete(::operator new((n == 2 ? 80 : 40) * kMebibyte));
+        }
+        ::operator delete(::operator new(80 * kMebibyte));
+        return true;
+    };
+    const ForkedRun run = tryAll(6, greedy);
+    EXPECT_EQ(run.read, 5);
+    ASSERT_EQ(run.findings.size(), 1u);
+    EXPECT_EQ(run.findings[0].input, 2);
+    EXPECT_EQ(run.findings[0].what, "asked for more memory than it may");
 }
 
 } // namespace

@@ -2,10 +2,12 @@
 /// @file TestMutants.cc
 /// @brief Every reader against damaged files: parts, flipped bytes, random mutants of a small file of
 /// each kind. Each is read whole or refused with a message; none ends its process, hangs, or asks for
-/// more than 1 GiB.
+/// more memory than kReading. What a tree is used for afterwards may take 1 GiB (ForkServer.h): a few spheres of
+/// a damaged one may be large.
 ///
 /// The mutants follow from kSeed and the sample's name, so a failure names one that comes again.
-/// With SPHERETREE_MUTANTS=all in the environment, long files are cut and flipped at every byte as well.
+/// With SPHERETREE_MUTANTS=all in the environment, long files are cut and flipped at every byte, and random mutants
+/// are twice as many.
 
 #include "ForkServer.h"
 
@@ -29,15 +31,21 @@ namespace {
 using namespace spheretree_test;
 
 constexpr uint64_t kSeed = 20240607;
-constexpr int64_t kRandomMutants = 10000;
+constexpr ReadingLimit kReading = {uint64_t(64) << 20, 300};
+
+/// Whether time does not matter.
+bool isAllWanted()
+{
+    const char* const wanted = std::getenv("SPHERETREE_MUTANTS");
+    return wanted && wanted == std::string("all");
+}
 
 /// Every place in the first 2 KiB, where headers and metadata are; of what follows, as many as keep
 /// the time of all samples within minutes.
 std::vector<std::size_t> placesIn(std::size_t size, std::size_t most)
 {
     constexpr std::size_t kHead = 2048;
-    const char* const wanted = std::getenv("SPHERETREE_MUTANTS");
-    if (wanted && wanted == std::string("all")) most = kHead + size;
+    if (isAllWanted()) most = kHead + size;
     std::set<std::size_t> places;
     for (std::size_t i = 0; i < std::min(size, kHead); ++i) places.insert(i);
     const std::size_t step = std::max<std::size_t>(1, size / (most - kHead));
@@ -57,8 +65,8 @@ uint64_t hashOf(const std::string& text)
 class MutantList {
 public:
     explicit MutantList(SampleFile sample)
-        : mSample(std::move(sample)), mCuts(placesIn(mSample.bytes.size(), 3000)),
-          mFlips(placesIn(mSample.bytes.size(), 5000))
+        : mSample(std::move(sample)), mCuts(placesIn(mSample.bytes.size(), 2500)),
+          mFlips(placesIn(mSample.bytes.size(), 3000))
     {
         if (mSample.extension == ".vdb") mFields = vdbFields(mSample.bytes);
     }
@@ -66,7 +74,7 @@ public:
     const SampleFile& sample() const { return mSample; }
     int64_t cuts() const { return int64_t(mCuts.size()); }
     int64_t flips() const { return int64_t(mFlips.size()); }
-    int64_t size() const { return cuts() + flips() + kRandomMutants; }
+    int64_t size() const { return cuts() + flips() + mRandom; }
 
     std::string bytes(int64_t number) const
     {
@@ -91,6 +99,7 @@ public:
 
 private:
     SampleFile mSample;
+    int64_t mRandom = isAllWanted() ? 10000 : 5000;
     std::vector<std::size_t> mCuts, mFlips;
     std::vector<Field> mFields; ///< none, if it is no .vdb
 };
@@ -130,9 +139,11 @@ private:
 TEST_P(Mutants, TheSampleItselfIsRead)
 {
     const SampleFile sample = sampleFile(GetParam());
-    InputReader reader(sample.extension);
+    InputReader reader(sample.extension, TreeUses::All);
     EXPECT_TRUE(reader.read(sample.bytes));
-    EXPECT_TRUE(reader.read(sample.bytes, /*delayed=*/true));
+    // OpenVDB 10 leaves the last bytes of point indices unread, so they do not end where the file says.
+    const bool mayBeDelayed = sample.name != "point_indices";
+    EXPECT_EQ(reader.read(sample.bytes, /*delayed=*/true), mayBeDelayed);
     EXPECT_EQ(sampleFile(GetParam()).bytes, sample.bytes) << "it must be the same each time";
 }
 
@@ -142,6 +153,8 @@ TEST_P(Mutants, AreReadOrRefused)
     const std::string& extension = mutants.sample().extension;
     const ForkedRun run = runForked(mutants.size(), [&] {
         const auto reader = std::make_shared<InputReader>(extension);
+        reader->read(mutants.sample().bytes); // makes what is there once
+        reader->limit(kReading);
         return [&, reader](int64_t number) {
             const bool isRead = reader->read(mutants.bytes(number), /*delayed=*/number / 2 % 2);
             if (isRead && number < mutants.cuts() && mutants.sample().saysItsLength) {
