@@ -3,8 +3,9 @@
 # Builds the fuzz targets (clang, address and undefined-behaviour sanitizers) and runs them in turn.
 #
 #   scripts/fuzz.sh MINUTES [TARGET...]    minutes for each target; all of them, or those named:
-#                                          vdb vol longvol npy nrrd nii png pgm obj off ply stl csv json
-#                                          poses bodies points rays config line settings text expression
+#                                          vdb vol longvol npy raw nrrd detached nii niigz png pgm stack
+#                                          obj off ply stl csv json poses bodies points rays config line
+#                                          settings text expression
 #
 # Inputs that found something new are kept in build/asan/fuzz/corpus/TARGET, findings in
 # build/asan/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
@@ -12,11 +13,12 @@
 set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
-all_targets=(vdb vol longvol npy nrrd nii png pgm obj off ply stl csv json poses bodies points rays config line settings text expression)
+all_targets=(vdb vol longvol npy raw nrrd detached nii niigz png pgm stack obj off ply stl csv json
+    poses bodies points rays config line settings text expression)
 most_findings=10 # of one target in one run: they are alike, as a rule
 
 usage() {
-    sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '3,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit "$1"
 }
 
@@ -88,7 +90,7 @@ folder="$project_root/build/asan/fuzz"
 programs="$project_root/build/asan/bin"
 install_packages "${build_packages[@]}" clang
 build_preset asan spheretree_fuzzers
-"$programs/spheretree_fuzz_seeds" "$folder/seeds"
+"$programs/spheretree_fuzz_seeds" "$folder/seeds" "$project_root/scripts/sanitizers/lines.txt"
 status=0
 for target in "${targets[@]}"; do
     run_target "$target" || status=1
