@@ -169,7 +169,7 @@ py::list checkMesh(const Tree& tree, const std::string& path, const std::string&
     const Volume* volume, const CallSettings& call)
 {
     return pairsOf(resultOfCall(call, [&](Interrupter* interrupter) {
-        const auto mesh = meshOfFile(path, units);
+        const auto mesh = meshOfFile(path, units, interrupter);
         const openvdb::BoolGrid* const object = volume ? volume->object.get() : nullptr;
         return spheretree::checkAgainst(tree.get(), object, &mesh, interrupter);
     }));

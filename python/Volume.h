@@ -60,7 +60,8 @@ openvdb::BoolGrid::Ptr objectOfGrid(const openvdb::GridBase::ConstPtr& grid,
 
 /// @param units  that the file is in: its points become metres; empty: they stay as they are
 /// @throw what readMeshFile() throws; InputError for a unit that is none
-openvdb_spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& units);
+openvdb_spheretree::TriangleMesh meshOfFile(
+    const std::string& path, const std::string& units, openvdb::util::NullInterrupter* interrupter);
 
 /// @return what a path is read as, by its extension: `vdb`, `vol`, `npy`, `array` (of other tools, and pictures),
 ///         `mesh`; or nothing.

@@ -145,7 +145,7 @@ double metresOf(const std::string& units)
 Volume volumeOfMesh(const std::string& path, const FileRequest& file, const ObjectRequest& request,
     openvdb::util::NullInterrupter* interrupter)
 {
-    const spheretree::TriangleMesh mesh = meshOfFile(path, file.units);
+    const spheretree::TriangleMesh mesh = meshOfFile(path, file.units, interrupter);
     const double voxel =
         file.voxel ? *file.voxel : spheretree::voxelSizeForDim(mesh, file.resolution);
     const Coverage coverage = request.settings.coverage;
@@ -243,10 +243,11 @@ openvdb::BoolGrid::Ptr objectOfGrid(const GridBase::ConstPtr& grid, const Object
     return object;
 }
 
-spheretree::TriangleMesh meshOfFile(const std::string& path, const std::string& units)
+spheretree::TriangleMesh meshOfFile(
+    const std::string& path, const std::string& units, openvdb::util::NullInterrupter* interrupter)
 {
     const double metres = metresOf(units);
-    spheretree::TriangleMesh mesh = spheretree::readMeshFile(path);
+    spheretree::TriangleMesh mesh = spheretree::readMeshFile(path, {}, interrupter);
     if (!units.empty()) command::scaleMesh(mesh, metres);
     return mesh;
 }

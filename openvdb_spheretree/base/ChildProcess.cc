@@ -4,6 +4,7 @@
 /// letter it has died.
 #include "ChildProcess.h"
 
+#include "Parallel.h"
 #include "Text.h"
 
 #include <openvdb/Exceptions.h>
@@ -18,6 +19,7 @@
 #include <new>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,13 +53,21 @@ void setLimit(int resource, uint64_t most)
     setrlimit(resource, &limit);
 }
 
+void raiseLimit(int resource, uint64_t by)
+{
+    rlimit limit;
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    setLimit(resource, uint64_t(limit.rlim_cur) + by);
+}
+
 /// Of a new process: the handlers of this one belong to threads that the child does not have.
-void takeDefaults(uint64_t extraBytes, pid_t parent)
+void takeDefaults(const ChildLimits& limits, pid_t parent)
 {
     for (const int signal :
-        {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+        {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
         std::signal(signal, SIG_DFL);
     }
+    std::set_new_handler(nullptr);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -71,7 +81,8 @@ void takeDefaults(uint64_t extraBytes, pid_t parent)
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
     }
     setLimit(RLIMIT_CORE, 0);
-    if (const uint64_t now = addressSpace()) setLimit(RLIMIT_AS, now + extraBytes);
+    if (const uint64_t now = addressSpace()) setLimit(RLIMIT_AS, now + limits.bytes);
+    setLimit(RLIMIT_CPU, limits.seconds); // its clock begins with it
 }
 
 bool writeAll(int pipe, const char* bytes, std::size_t count)
@@ -131,7 +142,7 @@ struct Child {
     }
 };
 
-Child startChild(const std::function<std::string()>& work, uint64_t extraBytes)
+Child startChild(const std::function<std::string()>& work, const ChildLimits& limits)
 {
     // One at a time: a child that began meanwhile would hold this pipe open.
     static std::mutex mutex;
@@ -141,7 +152,7 @@ Child startChild(const std::function<std::string()>& work, uint64_t extraBytes)
     const pid_t parent = getpid(), process = fork();
     if (process == 0) {
         close(pipe[0]);
-        takeDefaults(extraBytes, parent);
+        takeDefaults(limits, parent);
         runChild(work, pipe[1]);
     }
     const int error = errno;
@@ -151,21 +162,37 @@ Child startChild(const std::function<std::string()>& work, uint64_t extraBytes)
     failed("no process for its reader", error);
 }
 
-} // namespace
-
-std::string resultOfChild(const std::function<std::string()>& work, uint64_t extraBytes)
+/// @return all that the child writes.
+std::string bytesOf(const Child& child, openvdb::util::NullInterrupter* interrupter)
 {
-    Child child = startChild(work, extraBytes);
+    constexpr int kAskEvery = 50; // ms
     std::string bytes;
     std::array<char, 1 << 16> buffer;
     for (;;) {
-        const ssize_t count = read(child.pipe, buffer.data(), buffer.size());
+        checkInterrupt(interrupter);
+        pollfd end{child.pipe, POLLIN, 0};
+        const int ready = poll(&end, 1, interrupter ? kAskEvery : -1);
+        if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+        const ssize_t count = ready < 0 ? -1 : read(child.pipe, buffer.data(), buffer.size());
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) failed("what its reader says cannot be read", errno);
-        if (count == 0) break;
+        if (count == 0) return bytes;
         bytes.append(buffer.data(), std::size_t(count));
     }
+}
+
+} // namespace
+
+std::string resultOfChild(const std::function<std::string()>& work, const ChildLimits& limits,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    Child child = startChild(work, limits);
+    std::string bytes = bytesOf(child, interrupter);
     const int status = child.wait();
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+        throw openvdb::IoError("damaged: its reader does not end, in more processor time than a "
+                               "file of its size takes");
+    }
     if (WIFSIGNALED(status)) {
         throw openvdb::IoError(
             std::string("damaged: its reader crashed on it (") + strsignal(WTERMSIG(status)) + ")");
@@ -178,11 +205,10 @@ std::string resultOfChild(const std::function<std::string()>& work, uint64_t ext
     return bytes;
 }
 
-void allowMoreMemory(uint64_t bytes)
+void allowMore(const ChildLimits& limits)
 {
-    rlimit limit;
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-    setLimit(RLIMIT_AS, uint64_t(limit.rlim_cur) + bytes);
+    raiseLimit(RLIMIT_AS, limits.bytes);
+    raiseLimit(RLIMIT_CPU, limits.seconds);
 }
 
 } // namespace openvdb_spheretree::detail

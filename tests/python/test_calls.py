@@ -59,6 +59,36 @@ except KeyboardInterrupt:
     assert run.communicate(timeout=60)[0] == "interrupted True\n" and run.returncode == 0
 
 
+def test_ctrl_c_stops_the_reading_of_a_mesh(tmp_path):
+    """Of polygons that take minutes to cut into triangles: a zigzag below a parabola, again and again."""
+    corners, faces = 2000, 10000
+    points = np.zeros((corners, 3), "<f4")
+    points[:, 0] = np.arange(corners)
+    points[::2, 1] = np.arange(0, corners, 2) ** 2
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {corners}\nproperty float x\nproperty float y\n"
+              f"property float z\nelement face {faces}\nproperty list ushort ushort vertex_indices\nend_header\n")
+    face = np.array([corners, *range(corners)], "<u2")
+    (tmp_path / "slow.ply").write_bytes(header.encode() + points.tobytes() + np.tile(face, faces).tobytes())
+    program = """
+import signal, sys
+import spheretree
+signal.signal(signal.SIGINT, signal.default_int_handler)
+print("begins", flush=True)
+try:
+    spheretree.volume(sys.argv[1])
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    run = subprocess.Popen([sys.executable, "-c", program, tmp_path / "slow.ply"], stdout=subprocess.PIPE, text=True)
+    assert run.stdout.readline() == "begins\n"
+    time.sleep(0.5)
+    run.send_signal(signal.SIGINT)
+    try:
+        assert run.communicate(timeout=20)[0] == "interrupted\n" and run.returncode == 0
+    finally:
+        run.kill()
+
+
 def test_other_threads_of_python_go_on_meanwhile():
     ticks = []
     done = threading.Event()

@@ -256,7 +256,7 @@ void readContent(const std::string& path, Reading& reading, Session& session)
     }
     if (kind == FileKind::Mesh) {
         item.mesh = std::make_shared<openvdb_spheretree::TriangleMesh>(
-            openvdb_spheretree::readMeshFile(file, path));
+            openvdb_spheretree::readMeshFile(file, path, &session.progress));
     } else {
         item.grid = readVolume(file, path, reading, session);
         if (!reading.filter.accepts(item.grid->getName())) return;

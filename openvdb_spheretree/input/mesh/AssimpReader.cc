@@ -3,7 +3,7 @@
 /// @brief Of assimp only the importers are used: its own post-processing aborts the process on empty meshes in builds
 /// with assertions (Debian's), joins points that are merely near, and flattens the scene by rules of its own.
 ///
-/// In the child: the importer, by way of NearbyFiles; then placedSoup(), the scene's nodes, each with its transform, as
+/// In the child: the importer, by way of FilesOfScene; then placedSoup(), the scene's nodes, each with its transform, as
 /// one set of polygons; its bytes come back.
 
 #include "AssimpReader.h"
@@ -45,14 +45,18 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxMessage = 200;
 
-/// Address space of a reader: so much for each byte of its files (text in trees of nodes takes some 30 times its
-/// length), and this to begin with.
-constexpr uint64_t kMemoryPerByte = 64, kMemoryOfReader = uint64_t(256) << 20;
+/// Memory of a reader: so much for each byte of its files, as text in trees of nodes takes some 30 times its length.
+constexpr uint64_t kMemoryPerByte = 64;
+/// Processor time of a reader: 4 s for each MiB of its files. Assimp 5.2 needs 0.002 to 0.024 s (.dae .x .fbx .3ds .glb
+/// .x3d), and 0.12 s where the file is compressed (.3mf): a slow machine, or a sanitizer, has enough.
+constexpr uint64_t kBytesPerSecond = uint64_t(1) << 18;
+/// This to begin with.
+constexpr ChildLimits kBeginning = {/*bytes=*/uint64_t(256) << 20, /*seconds=*/60};
 
 /// The mesh's file, and regular files in its folder or below. Others are not opened, and noted.
-class NearbyFiles : public Assimp::DefaultIOSystem {
+class FilesOfScene : public Assimp::DefaultIOSystem {
 public:
-    explicit NearbyFiles(const std::string& path)
+    explicit FilesOfScene(const std::string& path)
         : mFolder(fs::weakly_canonical(fs::absolute(path)).parent_path())
     {}
 
@@ -73,7 +77,7 @@ public:
         if (!Exists(name)) return nullptr;
         std::error_code error;
         const std::uintmax_t size = fs::file_size(name, error);
-        if (!error) allowMoreMemory(kMemoryPerByte * uint64_t(size));
+        if (!error) allowMore({kMemoryPerByte * uint64_t(size), uint64_t(size) / kBytesPerSecond});
         return DefaultIOSystem::Open(name, mode);
     }
 
@@ -192,7 +196,7 @@ void take(std::string_view& bytes, std::vector<T>& values)
 std::string bytesOfScene(const std::string& path)
 {
     Assimp::Importer importer;
-    auto* const files = new NearbyFiles(path); // the importer deletes it
+    auto* const files = new FilesOfScene(path); // the importer deletes it
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(path, 0);
     // Without what it names, assimp takes a file of the same name from elsewhere.
@@ -245,13 +249,13 @@ bool assimpKnows(const std::string& extension)
     return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-PolygonSoup readByAssimp(const std::string& path)
+PolygonSoup readByAssimp(const std::string& path, openvdb::util::NullInterrupter* interrupter)
 {
     std::string bytes;
     try {
-        bytes = resultOfChild([&] { return bytesOfScene(path); }, kMemoryOfReader);
+        bytes = resultOfChild([&] { return bytesOfScene(path); }, kBeginning, interrupter);
     } catch (const std::bad_alloc&) {
-        throw openvdb::IoError("it takes more memory than " + asText(kMemoryOfReader) + " and "
+        throw openvdb::IoError("it takes more memory than " + asText(kBeginning.bytes) + " and "
             + std::to_string(kMemoryPerByte)
             + " times its size: damaged, or one mesh shown very many times; write each as "
               "triangles, as .ply or .stl");
@@ -277,7 +281,7 @@ bool assimpKnows(const std::string& extension)
     return false;
 }
 
-PolygonSoup readByAssimp(const std::string&)
+PolygonSoup readByAssimp(const std::string&, openvdb::util::NullInterrupter*)
 {
     throw openvdb::IoError(
         "this build reads .obj, .off, .ply and .stl meshes only; for other formats "

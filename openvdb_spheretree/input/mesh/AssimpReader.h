@@ -6,6 +6,8 @@
 
 #include "MeshFormats.h"
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <string>
 
 namespace openvdb_spheretree::detail {
@@ -20,9 +22,10 @@ bool assimpKnows(const std::string& extension);
 ///
 /// Files of strangers make assimp crash, or ask for all memory, in more ways than can be foreseen (counts below zero,
 /// strides beyond arrays, nodes within themselves, nesting deeper than a stack). So it runs in a child process, with as
-/// much memory as kMemoryPerByte allows. What it reads from elsewhere (the buffers of a `.gltf`) must be regular files
-/// in the file's folder, or below it.
+/// much memory and time as its files allow (kBeginning). What it reads from elsewhere (the buffers of a `.gltf`) must be
+/// regular files in the file's folder, or below it.
 /// @throw openvdb::IoError without the name of the file: it cannot be read, is damaged, or names files that it may not
-PolygonSoup readByAssimp(const std::string& path);
+/// @throw Interrupted if the interrupter, which may be null, said so
+PolygonSoup readByAssimp(const std::string& path, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::detail

@@ -12,6 +12,7 @@
 #include "MeshFormats.h"
 #include "Polygon.h"
 #include <openvdb_spheretree/base/Hash.h>
+#include <openvdb_spheretree/base/InterruptSteps.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Exceptions.h>
@@ -37,6 +38,7 @@ using detail::PolygonSoup;
 using openvdb::IoError;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
+using openvdb::util::NullInterrupter;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
@@ -54,20 +56,28 @@ void needRegularFile(const std::string& path, const std::string& name)
 }
 
 /// @throw IoError without the name of the file, std::ios_base::failure with the system's reason
-std::string contentsOf(const std::string& path)
+std::string contentsOf(const std::string& path, NullInterrupter* interrupter)
 {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) throw IoError("cannot be read: " + error.message());
     std::ifstream file(path, std::ios::binary);
     if (!file) throw IoError("cannot be opened for reading");
-    file.exceptions(std::ios::badbit); // otherwise the system's reason is lost
-    std::string bytes(size, '\0');
-    file.read(bytes.data(), static_cast<std::streamsize>(size));
-    const auto count = static_cast<std::uintmax_t>(file.gcount());
-    if (count == size) return bytes;
-    throw IoError("ends after " + std::to_string(count) + " of its " + std::to_string(size)
-        + " bytes: it was cut while it was read");
+    file.exceptions(std::ios::badbit);         // otherwise the system's reason is lost
+    constexpr std::uintmax_t kPiece = 1 << 24; // some milliseconds
+    std::string bytes;
+    bytes.reserve(size);
+    while (bytes.size() < size) {
+        detail::checkInterrupt(interrupter);
+        const std::size_t begin = bytes.size();
+        bytes.resize(std::min(size, begin + kPiece));
+        file.read(&bytes[begin], static_cast<std::streamsize>(bytes.size() - begin));
+        const std::uintmax_t end = begin + static_cast<std::uintmax_t>(file.gcount());
+        if (end == bytes.size()) continue;
+        throw IoError("ends after " + std::to_string(end) + " of its " + std::to_string(size)
+            + " bytes: it was cut while it was read");
+    }
+    return bytes;
 }
 
 /// A point in steps of the coordinates' rounding.
@@ -97,7 +107,8 @@ Vec3d roundingOf(const std::vector<Vec3d>& points)
 
 /// Joins points that are the same but for rounding, drops triangles that this makes a line or a point, and keeps the points
 /// that are left in use, in order of their first use.
-void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, TriangleMesh& mesh)
+void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, TriangleMesh& mesh,
+    detail::InterruptSteps& steps)
 {
     const Vec3d rounding = roundingOf(points);
     const auto placeOf = [&](const Vec3d& point) {
@@ -111,6 +122,7 @@ void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles,
     std::unordered_map<Place, std::uint32_t, PlaceHash> numbers;
     numbers.reserve(points.size());
     for (const Vec3I& triangle : triangles) {
+        steps.add();
         Place places[3];
         for (int i = 0; i < 3; ++i) places[i] = placeOf(points[triangle[i]]);
         if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
@@ -125,19 +137,20 @@ void weld(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles,
     }
 }
 
-TriangleMesh toTriangles(const PolygonSoup& soup)
+TriangleMesh toTriangles(const PolygonSoup& soup, NullInterrupter* interrupter)
 {
+    detail::InterruptSteps steps(interrupter);
     std::vector<Vec3I> triangles;
     std::vector<std::uint32_t> corners;
     auto at = soup.corners.begin();
     for (const std::uint32_t count : soup.counts) {
         corners.assign(at, at + count);
         at += count;
-        detail::triangulate(soup.points, corners, triangles);
+        detail::triangulate(soup.points, corners, triangles, steps);
     }
     TriangleMesh mesh;
     if (triangles.empty()) throw IoError("the file holds no triangle");
-    weld(soup.points, triangles, mesh);
+    weld(soup.points, triangles, mesh, steps);
     if (mesh.triangles.empty())
         throw IoError("the file holds no triangle but those with two corners at one place");
     return mesh;
@@ -153,7 +166,8 @@ bool isMeshFileName(const std::string& path)
     return detail::isStrictFormat(extension) || detail::assimpKnows(extension);
 }
 
-TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs)
+TriangleMesh readMeshFile(
+    const std::string& path, const std::string& shownAs, NullInterrupter* interrupter)
 {
     const std::string& name = shownAs.empty() ? path : shownAs;
     needRegularFile(path, name);
@@ -161,8 +175,9 @@ TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs)
     TriangleMesh mesh;
     try {
         mesh = toTriangles(detail::isStrictFormat(extension)
-                ? detail::parseMesh(extension, contentsOf(path))
-                : detail::readByAssimp(path));
+                ? detail::parseMesh(extension, contentsOf(path, interrupter), interrupter)
+                : detail::readByAssimp(path, interrupter),
+            interrupter);
     } catch (const std::bad_alloc&) {
         fail(name, "not enough memory for the mesh");
     } catch (const std::ios_base::failure& error) {

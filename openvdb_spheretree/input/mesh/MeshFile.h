@@ -9,6 +9,8 @@
 
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <string>
 
 namespace openvdb_spheretree {
@@ -30,6 +32,8 @@ bool isMeshFileName(const std::string& path);
 /// @throw openvdb::IoError if the file cannot be read, is damaged, or holds no triangle; the
 ///        message names the file. (An OBJ does not say how much it holds: one cut between two lines
 ///        is read as the smaller mesh that it is.)
-TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs = {});
+/// @throw Interrupted if the interrupter, which may be null, said so
+TriangleMesh readMeshFile(const std::string& path, const std::string& shownAs = {},
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 } // namespace openvdb_spheretree

@@ -20,6 +20,7 @@ namespace {
 
 using openvdb::IoError;
 using openvdb::Vec3d;
+using openvdb::util::NullInterrupter;
 
 constexpr std::size_t kStlHeaderBytes = 84; // 80 of text, and the number of facets
 constexpr std::size_t kStlFacetBytes = 50;  // a normal, three corners, and two bytes of colour
@@ -95,9 +96,10 @@ void addTriangle(PolygonSoup& soup)
     soup.counts.push_back(3);
 }
 
-PolygonSoup parseBinaryStl(const std::string& bytes)
+PolygonSoup parseBinaryStl(const std::string& bytes, NullInterrupter* interrupter)
 {
     PolygonSoup soup;
+    InterruptSteps steps(interrupter);
     for (std::size_t at = kStlHeaderBytes; at < bytes.size(); at += kStlFacetBytes) {
         for (int corner = 1; corner <= 3; ++corner) { // the normal, at 0, is not needed
             Vec3d point;
@@ -114,6 +116,7 @@ PolygonSoup parseBinaryStl(const std::string& bytes)
             soup.points.push_back(point);
         }
         addTriangle(soup);
+        steps.add();
     }
     return soup;
 }
@@ -128,10 +131,10 @@ void needWords(MeshText& text, std::initializer_list<const char*> expectedWords)
     }
 }
 
-PolygonSoup parseAsciiStl(const std::string& bytes)
+PolygonSoup parseAsciiStl(const std::string& bytes, NullInterrupter* interrupter)
 {
     PolygonSoup soup;
-    MeshText text(bytes);
+    MeshText text(bytes, interrupter);
     for (std::string_view solid = text.wordOnAnyLine(); !solid.empty();
          solid = text.wordOnAnyLine()) {
         if (lowerCase(solid) != "solid") text.fail(inQuotes(solid) + " instead of 'solid'");
@@ -185,7 +188,7 @@ void offFace(MeshText& text, PolygonSoup& soup)
     else soup.corners.resize(begin); // a point or a line has no area
 }
 
-PolygonSoup parseObj(std::string bytes)
+PolygonSoup parseObj(std::string bytes, NullInterrupter* interrupter)
 {
     joinLines(bytes);
     PolygonSoup soup;
@@ -194,7 +197,7 @@ PolygonSoup parseObj(std::string bytes)
     const auto isStrange = [](unsigned char c) {
         return !std::isalnum(c) && c != '_' && c != '-' && c != '.';
     };
-    MeshText text(bytes);
+    MeshText text(bytes, interrupter);
     while (text.nextLine()) {
         text.dropComment();
         const std::string_view word = text.word();
@@ -216,10 +219,10 @@ PolygonSoup parseObj(std::string bytes)
     return soup;
 }
 
-PolygonSoup parseOff(const std::string& bytes)
+PolygonSoup parseOff(const std::string& bytes, NullInterrupter* interrupter)
 {
     PolygonSoup soup;
-    MeshText text(bytes);
+    MeshText text(bytes, interrupter);
     text.needLine("the keyword OFF");
     std::string_view word = text.word();
     for (const std::string_view prefix : {"ST", "C", "N"}) { // what points have besides coordinates
@@ -247,13 +250,14 @@ PolygonSoup parseOff(const std::string& bytes)
     return soup;
 }
 
-PolygonSoup parseStl(const std::string& bytes)
+PolygonSoup parseStl(const std::string& bytes, NullInterrupter* interrupter)
 {
     const bool hasHeader = bytes.size() >= kStlHeaderBytes;
-    if (hasHeader && bytes.size() == binaryStlSize(bytes)) return parseBinaryStl(bytes);
+    if (hasHeader && bytes.size() == binaryStlSize(bytes))
+        return parseBinaryStl(bytes, interrupter);
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
     const bool isAscii = first != bytes.npos && lowerCase(bytes.substr(first, 5)) == "solid";
-    if (isAscii) return parseAsciiStl(bytes);
+    if (isAscii) return parseAsciiStl(bytes, interrupter);
     if (!hasHeader) throw IoError("too short for an STL file; it is truncated");
     throw IoError("neither an ASCII STL nor a whole binary one: its header asks for "
         + std::to_string(binaryStlSize(bytes)) + " bytes, the file holds "
@@ -267,15 +271,15 @@ bool isStrictFormat(const std::string& extension)
     return extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
 }
 
-PolygonSoup parseMesh(const std::string& extension, std::string bytes)
+PolygonSoup parseMesh(const std::string& extension, std::string bytes, NullInterrupter* interrupter)
 {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max() * std::uint64_t(4)) {
         throw IoError("files of more than 16 GiB cannot be read"); // points have 32-bit numbers
     }
-    if (extension == ".obj") return parseObj(std::move(bytes));
-    if (extension == ".off") return parseOff(bytes);
-    if (extension == ".ply") return parsePly(bytes);
-    return parseStl(bytes);
+    if (extension == ".obj") return parseObj(std::move(bytes), interrupter);
+    if (extension == ".off") return parseOff(bytes, interrupter);
+    if (extension == ".ply") return parsePly(bytes, interrupter);
+    return parseStl(bytes, interrupter);
 }
 
 } // namespace openvdb_spheretree::detail

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <openvdb/Types.h>
+#include <openvdb/util/NullInterrupter.h>
 
 #include <cstdint>
 #include <string>
@@ -28,9 +29,11 @@ bool isStrictFormat(const std::string& extension);
 /// @param bytes  the whole file
 /// @throw openvdb::IoError if anything is wrong with it; the message says where, but does not name
 ///        the file
-PolygonSoup parseMesh(const std::string& extension, std::string bytes);
+/// @throw Interrupted if the interrupter, which may be null, said so
+PolygonSoup parseMesh(
+    const std::string& extension, std::string bytes, openvdb::util::NullInterrupter* interrupter);
 
 /// The reader of PLY, in PlyFormat.cc.
-PolygonSoup parsePly(const std::string& bytes);
+PolygonSoup parsePly(const std::string& bytes, openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::detail

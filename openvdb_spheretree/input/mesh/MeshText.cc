@@ -24,6 +24,7 @@ std::optional<Number> parse(std::string_view word)
 
 bool MeshText::nextLine()
 {
+    mSteps.add();
     if (mRest.empty()) {
         mLine = {};
         return false;
@@ -47,6 +48,7 @@ void MeshText::needLine(const char* what)
 
 std::string_view MeshText::word()
 {
+    mSteps.add();
     const std::size_t begin = std::min(mLine.find_first_not_of(kBlanks), mLine.size());
     const std::size_t end = std::min(mLine.find_first_of(kBlanks, begin), mLine.size());
     const std::string_view found = mLine.substr(begin, end - begin);

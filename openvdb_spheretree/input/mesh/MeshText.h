@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/InterruptSteps.h>
 #include <openvdb_spheretree/base/Text.h>
 
 #include <openvdb/Types.h>
@@ -17,7 +18,10 @@ namespace openvdb_spheretree::detail {
 /// Goes through a text line by line and word by word.
 class MeshText {
 public:
-    explicit MeshText(std::string_view text) : mRest(text) {}
+    /// @param interrupter  is asked now and then by whatever goes on; may be null
+    MeshText(std::string_view text, openvdb::util::NullInterrupter* interrupter)
+        : mRest(text), mSteps(interrupter)
+    {}
 
     /// Go to the next line. @return false at the end of the text.
     bool nextLine();
@@ -52,6 +56,7 @@ public:
 private:
     std::string_view mRest, mLine;
     std::uint64_t mNumber = 0;
+    InterruptSteps mSteps;
 };
 
 } // namespace openvdb_spheretree::detail

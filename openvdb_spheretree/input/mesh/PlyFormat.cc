@@ -156,14 +156,15 @@ PlyHeader headerOf(MeshText& text)
 /// Reads the values after the header in their order.
 class PlyValues {
 public:
-    PlyValues(Encoding encoding, const MeshText& text)
-        : mEncoding(encoding), mText(text), mBytes(text.rest())
+    PlyValues(Encoding encoding, const MeshText& text, openvdb::util::NullInterrupter* interrupter)
+        : mEncoding(encoding), mText(text), mBytes(text.rest()), mSteps(interrupter)
     {
         mText.nextLine();
     }
 
     double next(PlyType type)
     {
+        mSteps.add();
         if (mEncoding != Encoding::kAscii) return nextBinary(type);
         const std::string_view word = mText.wordOnAnyLine();
         if (word.empty()) fail("the file ends before its last element; it is truncated");
@@ -210,6 +211,7 @@ private:
     Encoding mEncoding;
     MeshText mText;
     std::string_view mBytes;
+    InterruptSteps mSteps;
 };
 
 /// Reads one property, and calls use(value) for each of its values.
@@ -292,11 +294,11 @@ void readFaces(PlyValues& values, const PlyElement& element, PolygonSoup& soup)
 
 } // namespace
 
-PolygonSoup parsePly(const std::string& bytes)
+PolygonSoup parsePly(const std::string& bytes, openvdb::util::NullInterrupter* interrupter)
 {
-    MeshText text(bytes);
+    MeshText text(bytes, interrupter);
     const PlyHeader header = headerOf(text);
-    PlyValues values(header.encoding, text);
+    PlyValues values(header.encoding, text, interrupter);
     PolygonSoup soup;
     for (const PlyElement& element : header.elements) {
         if (element.name == "vertex") readVertices(values, element, soup);

@@ -66,13 +66,14 @@ bool isEar(
 }
 
 void cutEars(const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& corners,
-    std::vector<Vec3I>& triangles)
+    std::vector<Vec3I>& triangles, InterruptSteps& steps)
 {
     std::vector<std::uint32_t> remaining(corners.size());
     for (std::size_t i = 0; i < remaining.size(); ++i) remaining[i] = std::uint32_t(i);
     std::size_t at = 0, tried = 0;
     while (remaining.size() > 3) {
         const std::size_t n = remaining.size();
+        steps.add(n);
         // If no corner is an ear, the polygon crosses itself. Then any corner goes, so this ends.
         if (tried < n && !isEar(flat, remaining, at)) {
             at = (at + 1) % n;
@@ -91,8 +92,9 @@ void cutEars(const std::vector<Vec2d>& flat, const std::vector<std::uint32_t>& c
 } // namespace
 
 void triangulate(const std::vector<Vec3d>& points, const std::vector<std::uint32_t>& corners,
-    std::vector<Vec3I>& triangles)
+    std::vector<Vec3I>& triangles, InterruptSteps& steps)
 {
+    steps.add(corners.size());
     if (corners.size() > 3) {
         const std::vector<Vec2d> flat = flattened(points, corners);
         if (!isConvex(flat)) {
@@ -101,7 +103,7 @@ void triangulate(const std::vector<Vec3d>& points, const std::vector<std::uint32
                     "a concave polygon has " << corners.size()
                                              << " corners; triangulate the mesh first");
             }
-            return cutEars(flat, corners, triangles);
+            return cutEars(flat, corners, triangles, steps);
         }
     }
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <openvdb_spheretree/base/InterruptSteps.h>
+
 #include <openvdb/Types.h>
 
 #include <cstddef>
@@ -20,8 +22,10 @@ constexpr std::size_t kMaxConcaveCorners = 2000;
 /// nearest to its own. A polygon that crosses itself becomes n - 2 triangles as well, though no
 /// result is right.
 /// @param corners  at least three indices into @a points
-/// @throw openvdb::ValueError if it is concave and has more than kMaxConcaveCorners
+/// @param steps  asks an interrupter as corners are looked at
+/// @throw openvdb::ValueError if it is concave and has more than kMaxConcaveCorners; Interrupted
 void triangulate(const std::vector<openvdb::Vec3d>& points,
-    const std::vector<std::uint32_t>& corners, std::vector<openvdb::Vec3I>& triangles);
+    const std::vector<std::uint32_t>& corners, std::vector<openvdb::Vec3I>& triangles,
+    InterruptSteps& steps);
 
 } // namespace openvdb_spheretree::detail

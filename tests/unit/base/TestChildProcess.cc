@@ -4,6 +4,8 @@
 
 #include <openvdb_spheretree/base/ChildProcess.h>
 
+#include <openvdb_spheretree/base/Interrupted.h>
+
 #include "support/Messages.h"
 #include "support/Sanitizers.h"
 
@@ -12,37 +14,50 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <new>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace {
 
 using namespace openvdb_spheretree::detail;
+using openvdb_spheretree::Interrupted;
 using spheretree_test::mentions;
 using spheretree_test::messageOf;
 
 constexpr uint64_t kMemory = uint64_t(64) << 20;
+constexpr ChildLimits kLimits = {kMemory, /*seconds=*/60};
 
-std::string whyNot(const std::function<std::string()>& work)
+std::string whyNot(const std::function<std::string()>& work, const ChildLimits& limits = kLimits)
 {
-    return messageOf<openvdb::IoError>([&] { resultOfChild(work, kMemory); });
+    return messageOf<openvdb::IoError>([&] { resultOfChild(work, limits); });
+}
+
+/// Work that takes so much processor time.
+std::function<std::string()> working(double seconds)
+{
+    return [seconds] {
+        while (double(std::clock()) < seconds * CLOCKS_PER_SEC) {} // of the child
+        return std::string("x");
+    };
 }
 
 TEST(ChildProcess, ReturnsWhatItsWorkReturns)
 {
-    EXPECT_EQ(resultOfChild([] { return std::string(); }, kMemory), "");
+    EXPECT_EQ(resultOfChild([] { return std::string(); }, kLimits), "");
     const std::string large(10000000, 'x'); // more than a pipe holds
-    EXPECT_EQ(resultOfChild([&] { return large + '\0' + "y"; }, kMemory), large + '\0' + "y");
+    EXPECT_EQ(resultOfChild([&] { return large + '\0' + "y"; }, kLimits), large + '\0' + "y");
 }
 
 TEST(ChildProcess, ChangesNothingHere)
 {
     int number = 1;
-    resultOfChild([&] { return std::string(size_t(number = 2), 'x'); }, kMemory);
+    resultOfChild([&] { return std::string(size_t(number = 2), 'x'); }, kLimits);
     EXPECT_EQ(number, 1);
 }
 
@@ -51,7 +66,7 @@ TEST(ChildProcess, ThrowsWhatItsWorkThrows)
     EXPECT_EQ(whyNot([]() -> std::string { throw openvdb::IoError("no such thing"); }),
         "IoError: no such thing");
     EXPECT_THROW(
-        resultOfChild([]() -> std::string { throw std::bad_alloc(); }, kMemory), std::bad_alloc);
+        resultOfChild([]() -> std::string { throw std::bad_alloc(); }, kLimits), std::bad_alloc);
 }
 
 TEST(ChildProcess, ItsEndIsAnError)
@@ -73,13 +88,55 @@ TEST(ChildProcess, HasSoMuchMemoryMoreAndNoMore)
     const auto take = [](uint64_t bytes) {
         return [bytes] { return std::string(bytes, 'x').substr(0, 1); };
     };
-    EXPECT_EQ(resultOfChild(take(kMemory / 4), kMemory), "x");
-    EXPECT_THROW(resultOfChild(take(2 * kMemory), kMemory), std::bad_alloc);
+    EXPECT_EQ(resultOfChild(take(kMemory / 4), kLimits), "x");
+    EXPECT_THROW(resultOfChild(take(2 * kMemory), kLimits), std::bad_alloc);
     const auto takeMore = [&] {
-        allowMoreMemory(4 * kMemory);
+        allowMore({4 * kMemory, 0});
         return take(2 * kMemory)();
     };
-    EXPECT_EQ(resultOfChild(takeMore, kMemory), "x");
+    EXPECT_EQ(resultOfChild(takeMore, kLimits), "x");
+}
+
+TEST(ChildProcess, WithoutAnEndIsStopped)
+{
+    const ChildLimits second = {kMemory, 1};
+    const auto before = std::signal(SIGXCPU, SIG_IGN); // of this process, not of the child
+    const std::string why = whyNot(working(1e9), second);
+    std::signal(SIGXCPU, before);
+    EXPECT_TRUE(mentions(why, "damaged"));
+    EXPECT_TRUE(mentions(why, "its reader does not end"));
+    EXPECT_EQ(resultOfChild(working(0.1), second), "x");
+    const auto workMore = [] {
+        allowMore({0, 2});
+        return working(1.5)();
+    };
+    EXPECT_EQ(resultOfChild(workMore, second), "x");
+}
+
+/// Says yes to "interrupted?" from the @a after-th question on.
+class StopAfter : public openvdb::util::NullInterrupter {
+public:
+    explicit StopAfter(int after) : mLeft(after) {}
+    bool wasInterrupted(int = -1) override { return mLeft-- <= 0; }
+
+private:
+    int mLeft;
+};
+
+TEST(ChildProcess, IsStoppedByAnInterrupter)
+{
+    const auto wait = []() -> std::string {
+        for (;;) pause();
+    };
+    const auto writeMuch = [] { return std::string(kMemory / 4, 'x'); };
+    for (const int after : {0, 1, 5}) {
+        StopAfter whileWaiting(after), whileReading(after);
+        EXPECT_THROW(resultOfChild(wait, kLimits, &whileWaiting), Interrupted);
+        EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "the child is still there";
+        EXPECT_THROW(resultOfChild(writeMuch, kLimits, &whileReading), Interrupted);
+    }
+    StopAfter never(1 << 30);
+    EXPECT_EQ(resultOfChild(writeMuch, kLimits, &never).size(), kMemory / 4);
 }
 
 TEST(ChildProcess, WorksFromManyThreads)
@@ -89,7 +146,7 @@ TEST(ChildProcess, WorksFromManyThreads)
     for (std::string& result : results) {
         threads.emplace_back([&result] {
             for (int i = 0; i < 20; ++i) {
-                result += resultOfChild([i] { return std::to_string(i % 10); }, kMemory);
+                result += resultOfChild([i] { return std::to_string(i % 10); }, kLimits);
             }
         });
     }

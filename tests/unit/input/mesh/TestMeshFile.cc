@@ -4,6 +4,9 @@
 
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
+#include <openvdb_spheretree/base/Interrupted.h>
+#include <openvdb_spheretree/input/mesh/MeshFormats.h>
+
 #include "support/MeshFiles.h"
 #include "support/Messages.h"
 
@@ -478,6 +481,89 @@ TEST(MeshFile, AFileMayBeShownUnderAnotherName)
             EXPECT_EQ(std::string(error.what()).find(path), std::string::npos) << error.what();
         }
     }
+}
+
+/// Counts questions, and says yes from the @a after-th on.
+class Asked : public openvdb::util::NullInterrupter {
+public:
+    explicit Asked(int after = 1 << 30) : mAfter(after) {}
+    bool wasInterrupted(int = -1) override { return mCount++ >= mAfter; }
+    int count() const { return mCount; }
+
+private:
+    int mAfter, mCount = 0;
+};
+
+std::string repeated(int count, const std::string& text)
+{
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+}
+
+TEST(MeshFile, AsksItsInterrupterAsItReads)
+{
+    const int many = 20000;
+    const std::string number = std::to_string(many), point = "1 2 3\n";
+    const std::string bytes = repeated(12 * many, std::string(1, '\0'));
+    const std::string facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+        "endloop endfacet\n";
+    const auto vertices = [&](const std::string& format) {
+        return "ply\nformat " + format + " 1.0\nelement vertex " + number
+            + "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    };
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {".obj", repeated(many, "v " + point)},
+        {".obj", repeated(many, "\n")},
+        {".obj", "f" + repeated(many, " 1") + "\nv 0 0 0"},
+        {".off", "OFF\n" + number + " 0 0\n" + repeated(many, point)},
+        {".ply", vertices("ascii") + repeated(many, point)},
+        {".ply", vertices("binary_little_endian") + bytes},
+        {".stl", "solid\n" + repeated(many / 4, facet) + "endsolid\n"},
+        {".stl", std::string(80, '\0') + bytesOf(many) + repeated(many, std::string(50, '\0'))},
+    };
+    for (const auto& [extension, contents] : files) {
+        SCOPED_TRACE(extension + ": " + contents.substr(0, 20));
+        Asked asked;
+        detail::parseMesh(extension, contents, &asked);
+        EXPECT_GE(asked.count(), 4);
+        for (const int after : {0, 2}) {
+            Asked stop(after);
+            EXPECT_THROW(detail::parseMesh(extension, contents, &stop), Interrupted);
+        }
+    }
+}
+
+TEST(MeshFile, AsksItsInterrupterAsItMakesTriangles)
+{
+    const int many = 20000;
+    const std::string bytes = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated(many, "f 1 2 3\n");
+    const TempFile file("many.obj", bytes);
+    Asked parsing, asked;
+    detail::parseMesh(".obj", bytes, &parsing);
+    readMeshFile(file.path, {}, &asked);
+    const int corners = 3 * many / 4096, triangles = many / 4096;
+    EXPECT_GE(asked.count(), parsing.count() + corners + triangles);
+    Asked before(0), late(asked.count() - 1);
+    EXPECT_THROW(readMeshFile(file.path, {}, &before), Interrupted);
+    EXPECT_THROW(readMeshFile(file.path, {}, &late), Interrupted);
+}
+
+TEST(MeshFile, AsksItsInterrupterWithinAPolygon)
+{
+    const int many = 1000;
+    std::string bytes, face = "f";
+    for (int i = 0; i < many;
+         ++i) { // a zigzag below a parabola: concave, and few of its corners are ears
+        bytes +=
+            "v " + std::to_string(i) + (i % 2 ? " 0 0\n" : " " + std::to_string(i * i) + " 0\n");
+        face += " " + std::to_string(i + 1);
+    }
+    const TempFile file("zigzag.obj", bytes + face);
+    Asked asked;
+    EXPECT_EQ(readMeshFile(file.path, {}, &asked).triangles.size(), std::size_t(many - 2));
+    EXPECT_GE(asked.count(), 100);
 }
 
 TEST(MeshFile, ReadsTheSampleMeshes)

@@ -4,6 +4,8 @@
 
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
+#include <openvdb_spheretree/base/Interrupted.h>
+
 #include "support/MeshFiles.h"
 #include "support/Messages.h"
 #include "support/Sanitizers.h"
@@ -197,6 +199,16 @@ TEST(MeshScene, BuffersAreRegularFilesBelowTheFolderOfTheFile)
         EXPECT_TRUE(mentions(whyNot(uri), "in its folder")) << uri;
     }
     EXPECT_TRUE(mentions(whyNot(folder.path() + "/b.bin"), "in its folder"));
+}
+
+TEST(MeshScene, CanBeInterrupted)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    struct : openvdb::util::NullInterrupter {
+        bool wasInterrupted(int) override { return true; }
+    } stop;
+    const TempFile file("scene.gltf", gltfScene());
+    EXPECT_THROW(readMeshFile(file.path, {}, &stop), Interrupted);
 }
 
 TEST(MeshScene, SaysHowToGetWhatABuildWithoutAssimpLacks)
