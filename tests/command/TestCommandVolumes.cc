@@ -165,6 +165,12 @@ TEST_F(CommandVolumes, FilesThatAreNoneAreNamed)
     expectError("-read slice_%03d.png -print", 3, "there is no slice_010.png");
     std::filesystem::remove(path("detached.raw.gz"));
     expectError("-read detached.nhdr -print", 3, "its data file './detached.raw.gz': no such file");
+    std::filesystem::create_directory(path("in"));
+    std::string header = readText(path("detached.nhdr"));
+    header.replace(header.find("./detached.raw.gz"), 17, "../i1.npy");
+    writeText(path("in/other.nhdr"), header);
+    expectError("-read in/other.nhdr -print", 3,
+        "in/other.nhdr: its data file 'in/../i1.npy' is not in the header's folder");
 }
 
 TEST_F(CommandVolumes, OfOtherKindsAreRefusedWithWhatToDo)

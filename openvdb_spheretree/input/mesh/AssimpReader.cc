@@ -13,6 +13,7 @@
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <openvdb_spheretree/base/ChildProcess.h>
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/NearbyFiles.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
 
@@ -56,18 +57,12 @@ constexpr ChildLimits kBeginning = {/*bytes=*/uint64_t(256) << 20, /*seconds=*/6
 /// The mesh's file, and regular files in its folder or below. Others are not opened, and noted.
 class FilesOfScene : public Assimp::DefaultIOSystem {
 public:
-    explicit FilesOfScene(const std::string& path)
-        : mFolder(fs::weakly_canonical(fs::absolute(path)).parent_path())
-    {}
+    explicit FilesOfScene(const std::string& path) : mNearby(path) {}
 
     bool Exists(const char* name) const override
     {
         std::error_code error;
-        const fs::path path = fs::weakly_canonical(fs::absolute(name), error);
-        const bool isBelow = !error
-            && std::mismatch(mFolder.begin(), mFolder.end(), path.begin(), path.end()).first
-                == mFolder.end();
-        if (isBelow && fs::is_regular_file(path, error)) return true;
+        if (mNearby.hold(name) && fs::is_regular_file(name, error)) return true;
         if (mRefused.empty()) mRefused = name;
         return false;
     }
@@ -85,7 +80,7 @@ public:
     const std::string& refused() const { return mRefused; }
 
 private:
-    fs::path mFolder;
+    NearbyFiles mNearby;
     mutable std::string mRefused;
 };
 

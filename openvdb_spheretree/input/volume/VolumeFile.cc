@@ -7,6 +7,7 @@
 
 #include "ImageStack.h"
 #include "VolumeHeader.h"
+#include <openvdb_spheretree/base/NearbyFiles.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/array/ArrayFile.h>
 #include <openvdb_spheretree/input/array/ArrayGrid.h>
@@ -135,12 +136,16 @@ GridBase::Ptr readNrrd(std::ifstream& file, uint64_t fileBytes, const std::strin
     if (header.dataFile.empty()) {
         return readNumbers(file, fileBytes, header, settings, interrupter);
     }
-    const auto data = std::filesystem::path(name).parent_path() / header.dataFile;
-    return detail::readArrayFile(data.string(),
-        "its data file " + detail::inQuotes(data.string(), 200),
-        [&](std::ifstream& numbers, uint64_t bytes) {
-            return readNumbers(numbers, bytes, header, settings, interrupter);
-        });
+    const std::string data = (std::filesystem::path(name).parent_path() / header.dataFile).string();
+    const std::string shown = "its data file " + detail::inQuotes(data, 200);
+    if (!detail::NearbyFiles(name).hold(data)) {
+        throw IoError(shown
+            + " is not in the header's folder or below (links are followed): move it there, and "
+              "mend 'data file' in the header");
+    }
+    return detail::readArrayFile(data, shown, [&](std::ifstream& numbers, uint64_t bytes) {
+        return readNumbers(numbers, bytes, header, settings, interrupter);
+    });
 }
 
 GridBase::Ptr readImages(

@@ -66,7 +66,8 @@ std::vector<std::string> stackFiles(const std::string& name);
 /// @param shownAs  in place of @a path, what messages and the grid are named after, and whose
 ///                 extension says the format: for files without a name of their own
 /// @throw openvdb::IoError that names the file and what is wrong, if it cannot be read, is damaged, has
-///        more or fewer numbers than its header says, or numbers of a kind that is not read
+///        more or fewer numbers than its header says, or numbers of a kind that is not read; or if its
+///        data file is not in its folder or below
 /// @throw Interrupted if the interrupter said so
 /// Cost: one pass over the numbers. Parallel; the result does not depend on threads.
 openvdb::GridBase::Ptr readVolumeFile(const std::string& path, const VolumeSettings& settings = {},

@@ -184,6 +184,40 @@ TEST(VolumeFile, ReadsNrrdInItsPlace)
     mentions(errorOf(sample("hex.nrrd")), "'hex'");
 }
 
+TEST(VolumeFile, DataFilesAreBelowTheFolderOfTheirHeader)
+{
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const fs::path top = folder.path();
+    fs::create_directories(top / "in/deep");
+    for (const char* name : {"in/b.raw", "in/deep/b.raw", "b.raw"}) {
+        std::ofstream(top / name) << std::string(60, 'x');
+    }
+    fs::create_symlink("../b.raw", top / "in/link.raw");
+    const std::string header = (top / "in/a.nhdr").string();
+    const auto write = [&](const std::string& data) {
+        std::ofstream(header) << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 3 5\nencoding: "
+                                 "raw\ndata file: "
+                              << data << '\n';
+    };
+    for (const std::string data : {"b.raw", "deep/b.raw", "../in/b.raw"}) {
+        write(data);
+        EXPECT_EQ(readVolumeFile(header)->activeVoxelCount(), 60u) << data;
+    }
+    write((top / "in/b.raw").string());
+    EXPECT_EQ(readVolumeFile(header)->activeVoxelCount(), 60u);
+    for (const std::string& data :
+        {std::string("../b.raw"), (top / "b.raw").string(), std::string("link.raw")}) {
+        write(data);
+        const std::string why = errorOf(header);
+        mentions(why, "a.nhdr: its data file");
+        mentions(why, "not in the header's folder or below");
+        mentions(why, "move it there");
+    }
+    write("none.raw");
+    mentions(errorOf(header), "no such file");
+}
+
 TEST(VolumeFile, ReadsPicturesAsOneSlice)
 {
     const CoordBBox slice(Coord(0, 0, 4), Coord(3, 2, 4));
