@@ -208,6 +208,27 @@ TEST_F(CommandChanges, AnInputWrittenOverWhileItIsRead)
     expectFailure(command.wait(), 3, {"a.vol", "changed while it was read"}, {"t.vdb"});
 }
 
+/// The header stays as it was.
+TEST_F(CommandChanges, ADataFileWrittenOverWhileItIsRead)
+{
+    const std::string numbers(32 * 32 * 32, 'x'), line = "-read a.nhdr -write t.vdb";
+    writeText(path("a.nhdr"),
+        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 32 32 32\nencoding: raw\ndata file: a.raw\n");
+    writeText(path("a.raw"), numbers);
+    ASSERT_EQ(run(line).exitCode, 0);
+    int refused = 0;
+    for (const long n : spread(callsOf(line)["read"], 12)) {
+        SCOPED_TRACE(n);
+        writeOld({"t.vdb"});
+        const Result result =
+            changedAt(line, "read", n, [&] { writeText(path("a.raw"), numbers); });
+        if (result.exitCode == 0) continue; // before its first byte, or after its last
+        expectFailure(result, 3, {"a.nhdr", "'a.raw'", "changed while it was read"}, {"t.vdb"});
+        ++refused;
+    }
+    EXPECT_GT(refused, 0);
+}
+
 /// The values of a file that is read with delayed=1 are still in it when the output is begun.
 class CommandDelayed : public CommandChanges {
 protected:

@@ -12,6 +12,7 @@
 
 #ifdef SPHERETREE_WITH_ASSIMP
 #include <openvdb_spheretree/base/ChildProcess.h>
+#include <openvdb_spheretree/base/FileStamp.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/NearbyFiles.h>
 #include <openvdb_spheretree/base/Text.h>
@@ -73,14 +74,25 @@ public:
         std::error_code error;
         const std::uintmax_t size = fs::file_size(name, error);
         if (!error) allowMore({kMemoryPerByte * uint64_t(size), uint64_t(size) / kBytesPerSecond});
+        mStamps.emplace_back(name);
         return DefaultIOSystem::Open(name, mode);
     }
 
     /// @return the first file that was asked for in vain.
     const std::string& refused() const { return mRefused; }
 
+    /// @throw openvdb::IoError if a file has been written to since it was opened
+    void requireUnchanged() const
+    {
+        for (const FileStamp& stamp : mStamps) {
+            if (stamp.isUnchanged()) continue;
+            throw openvdb::IoError(onOneLine(stamp.path(), kMaxMessage) + ": " + kWasChanged);
+        }
+    }
+
 private:
     NearbyFiles mNearby;
+    std::vector<FileStamp> mStamps;
     mutable std::string mRefused;
 };
 
@@ -194,6 +206,7 @@ std::string bytesOfScene(const std::string& path)
     auto* const files = new FilesOfScene(path); // the importer deletes it
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(path, 0);
+    files->requireUnchanged(); // whatever came of it
     // Without what it names, assimp takes a file of the same name from elsewhere.
     const std::string extension = lowerExtension(path);
     const bool needsAll = extension == ".gltf" || extension == ".glb";

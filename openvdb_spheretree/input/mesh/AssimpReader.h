@@ -24,7 +24,8 @@ bool assimpKnows(const std::string& extension);
 /// strides beyond arrays, nodes within themselves, nesting deeper than a stack). So it runs in a child process, with as
 /// much memory and time as its files allow (kBeginning). What it reads from elsewhere (the buffers of a `.gltf`) must be
 /// regular files in the file's folder, or below it.
-/// @throw openvdb::IoError without the name of the file: it cannot be read, is damaged, or names files that it may not
+/// @throw openvdb::IoError without the name of the file: it cannot be read, is damaged, or names files that it may not,
+/// or one of them was written to meanwhile
 /// @throw Interrupted if the interrupter, which may be null, said so
 PolygonSoup readByAssimp(const std::string& path, openvdb::util::NullInterrupter* interrupter);
 

@@ -7,6 +7,7 @@
 
 #include "ImageStack.h"
 #include "VolumeHeader.h"
+#include <openvdb_spheretree/base/FileStamp.h>
 #include <openvdb_spheretree/base/NearbyFiles.h>
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/array/ArrayFile.h>
@@ -143,8 +144,11 @@ GridBase::Ptr readNrrd(std::ifstream& file, uint64_t fileBytes, const std::strin
             + " is not in the header's folder or below (links are followed): move it there, and "
               "mend 'data file' in the header");
     }
+    const detail::FileStamp stamp(data);
     return detail::readArrayFile(data, shown, [&](std::ifstream& numbers, uint64_t bytes) {
-        return readNumbers(numbers, bytes, header, settings, interrupter);
+        const GridBase::Ptr grid = readNumbers(numbers, bytes, header, settings, interrupter);
+        if (!stamp.isUnchanged()) throw IoError(detail::kWasChanged);
+        return grid;
     });
 }
 

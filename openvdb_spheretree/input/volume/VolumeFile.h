@@ -67,7 +67,7 @@ std::vector<std::string> stackFiles(const std::string& name);
 ///                 extension says the format: for files without a name of their own
 /// @throw openvdb::IoError that names the file and what is wrong, if it cannot be read, is damaged, has
 ///        more or fewer numbers than its header says, or numbers of a kind that is not read; or if its
-///        data file is not in its folder or below
+///        data file is not in its folder or below, or was written to meanwhile
 /// @throw Interrupted if the interrupter said so
 /// Cost: one pass over the numbers. Parallel; the result does not depend on threads.
 openvdb::GridBase::Ptr readVolumeFile(const std::string& path, const VolumeSettings& settings = {},

@@ -13,12 +13,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 namespace {
@@ -199,6 +202,31 @@ TEST(MeshScene, BuffersAreRegularFilesBelowTheFolderOfTheFile)
         EXPECT_TRUE(mentions(whyNot(uri), "in its folder")) << uri;
     }
     EXPECT_TRUE(mentions(whyNot(folder.path() + "/b.bin"), "in its folder"));
+}
+
+TEST(MeshScene, ABufferThatIsWrittenToWhileItIsReadIsAnError)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const TemporaryFolder folder;
+    const std::string scene = gltfScene(), path = folder.path() + "/a.gltf";
+    const std::string buffer = folder.path() + "/b.bin";
+    const std::size_t begin = scene.find("data:"), end = scene.find('"', begin);
+    std::ofstream(path) << scene.substr(0, begin) + "b.bin" + scene.substr(end);
+    std::ofstream(buffer, std::ios::binary) << cornersOfTetrahedron();
+    ASSERT_EQ("", errorOf(path));
+    std::atomic<bool> isOver{false};
+    std::thread writer([&] {
+        for (long i = 0; !isOver; ++i) {
+            const timespec times[] = {{i, 0}, {i, 0}};
+            utimensat(AT_FDCWD, buffer.c_str(), times, 0);
+        }
+    });
+    std::string why;
+    for (int i = 0; i < 100 && why.empty(); ++i) why = errorOf(path);
+    isOver = true;
+    writer.join();
+    EXPECT_TRUE(mentions(why, "b.bin: the file was changed while it was read"));
+    EXPECT_EQ("", errorOf(path));
 }
 
 TEST(MeshScene, CanBeInterrupted)
