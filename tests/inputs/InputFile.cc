@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -25,14 +26,27 @@ std::string newFolder()
     return folder;
 }
 
-/// Readers go by the extension, which a file without a name has not.
-int newFile(const std::string& path)
+/// @return a file in memory, which the path leads to: readers go by the extension, which it has not itself.
+int fileInMemory(const std::string& path)
 {
     const int fd = memfd_create("input", MFD_CLOEXEC);
     if (fd < 0) fail("memfd_create");
     const std::string target = "/proc/self/fd/" + std::to_string(fd);
     if (symlink(target.c_str(), path.c_str()) != 0) fail("symlink");
     return fd;
+}
+
+/// @return one that is in the folder that its path says, as it must be if it names others or is named.
+int fileInFolder(const std::string& path)
+{
+    const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (fd < 0) fail("open");
+    return fd;
+}
+
+bool namesOthers(const std::string& extension)
+{
+    return extension == ".nhdr" || extension == ".gltf" || extension == ".glb";
 }
 
 void setBytes(int fd, const std::string& bytes)
@@ -54,7 +68,8 @@ void remove(const std::string& folder)
 } // namespace
 
 InputFile::InputFile(const std::string& extension)
-    : mFolder(newFolder()), mPath(mFolder + "/input" + extension), mFd(newFile(mPath))
+    : mFolder(newFolder()), mPath(mFolder + "/input" + extension),
+      mFd(namesOthers(extension) ? fileInFolder(mPath) : fileInMemory(mPath))
 {}
 
 InputFile::~InputFile()
@@ -77,7 +92,7 @@ std::string InputFolder::set(const std::string& name, const std::string& bytes)
 {
     const std::string path = mPath + "/" + name;
     const auto found = mFds.find(name);
-    const int fd = found != mFds.end() ? found->second : mFds[name] = newFile(path);
+    const int fd = found != mFds.end() ? found->second : mFds[name] = fileInFolder(path);
     setBytes(fd, bytes);
     return path;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file InputFile.h
-/// @brief Bytes that a reader sees as a regular file of a given extension, without touching a disk:
-/// thousands of inputs a second are tried this way.
+/// @brief Bytes that a reader sees as a regular file of a given extension, without touching a disk
+/// where it can be helped: thousands of inputs a second are tried this way.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace spheretree_test {
 
-/// A file in memory. A child process must make its own: one that it inherits has the same bytes as its
+/// A file in memory, but for kinds that name others beside them. A child process must make its own: one that it inherits has the same bytes as its
 /// parent's.
 class InputFile {
 public:
-    /// @param extension  with its dot
+    /// The file's name is `input`. @param extension  with its dot
     explicit InputFile(const std::string& extension);
     ~InputFile();
     InputFile(const InputFile&) = delete;
@@ -29,7 +29,7 @@ private:
     int mFd;
 };
 
-/// Several such files side by side. What holds of one in a child process holds of each.
+/// Several files side by side, in a folder of their own. What holds of one in a child process holds of each.
 class InputFolder {
 public:
     InputFolder();

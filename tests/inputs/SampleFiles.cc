@@ -10,7 +10,8 @@ namespace {
 std::vector<SampleMaker> allSamples()
 {
     std::vector<SampleMaker> all;
-    for (const auto* part : {&textSamples(), &volumeSamples(), &treeSamples(), &gridSamples()}) {
+    for (const auto* part :
+        {&textSamples(), &sceneSamples(), &volumeSamples(), &treeSamples(), &gridSamples()}) {
         all.insert(all.end(), part->begin(), part->end());
     }
     return all;
@@ -29,7 +30,7 @@ SampleFile sampleFile(const std::string& name)
 {
     for (const SampleMaker& sample : allSamples()) {
         if (sample.name != name) continue;
-        return {sample.name, sample.extension, sample.saysItsLength, sample.make()};
+        return {sample.name, sample.extension, sample.saysItsLength, sample.make(), sample.mutants};
     }
     throw std::invalid_argument("there is no sample named " + name);
 }

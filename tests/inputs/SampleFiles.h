@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SampleFile {
     /// Whether a part of the file is never a sound file: true of formats that say how much they hold.
     bool saysItsLength = true;
     std::string bytes;
+    int64_t mutants = 10000; ///< at random: fewer where each costs a process of its own
 };
 
 /// @return the names of all samples.
@@ -31,12 +33,14 @@ struct SampleMaker {
     std::string name, extension;
     std::string (*make)();
     bool saysItsLength = true;
+    int64_t mutants = 10000;
 };
 
 /// @name Parts of the list
 /// @{
 const std::vector<SampleMaker>& textSamples();   ///< .vol, meshes, spheres, questions, config files
 const std::vector<SampleMaker>& volumeSamples(); ///< other volumes, and pictures
+const std::vector<SampleMaker>& sceneSamples();  ///< what assimp reads; none without it
 const std::vector<SampleMaker>& treeSamples();   ///< sphere-trees, as `.vdb`
 const std::vector<SampleMaker>& gridSamples();   ///< other grids, as `.vdb`
 /// @}

@@ -74,7 +74,7 @@ public:
     const SampleFile& sample() const { return mSample; }
     int64_t cuts() const { return int64_t(mCuts.size()); }
     int64_t flips() const { return int64_t(mFlips.size()); }
-    int64_t size() const { return cuts() + flips() + mRandom; }
+    int64_t size() const { return cuts() + flips() + mSample.mutants; }
 
     std::string bytes(int64_t number) const
     {
@@ -99,7 +99,6 @@ public:
 
 private:
     SampleFile mSample;
-    int64_t mRandom = isAllWanted() ? 10000 : 5000;
     std::vector<std::size_t> mCuts, mFlips;
     std::vector<Field> mFields; ///< none, if it is no .vdb
 };
