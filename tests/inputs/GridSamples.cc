@@ -78,7 +78,7 @@ struct Places {
     void getPos(std::size_t i, Vec3d& place) const { place = all[i]; }
 };
 
-/// In one leaf: OpenVDB 10 cannot read more of them, and leaves the last eight bytes unread.
+/// In one leaf: OpenVDB 10 cannot read more of them.
 openvdb::tools::PointIndexGrid::Ptr pointIndices()
 {
     openvdb::initialize();
@@ -173,10 +173,10 @@ const std::vector<SampleMaker>& gridSamples()
         {"int64_blosc", ".vdb", int64Blosc},
         {"double_zip", ".vdb", doubleZip},
         {"vector_blosc", ".vdb", vectorBlosc},
-        {"vector_doubles", ".vdb", vectorDoubles},
-        {"vector_integers", ".vdb", vectorIntegers},
-        {"frustum_zip", ".vdb", frustumZip},
-        {"point_indices", ".vdb", pointIndicesBlosc, /*saysItsLength=*/false},
+        {"vector_doubles", ".vdb", vectorDoubles, true, kOfOneMore},
+        {"vector_integers", ".vdb", vectorIntegers, true, kOfOneMore},
+        {"frustum_zip", ".vdb", frustumZip, true, kOfOneMore},
+        {"point_indices", ".vdb", pointIndicesBlosc, true, kOfOneMore},
         {"points_blosc", ".vdb", pointsBlosc},
         {"points_zip", ".vdb", pointsZip},
         {"two_grids", ".vdb", twoGrids},

@@ -11,6 +11,9 @@
 
 namespace spheretree_test {
 
+/// Mutants at random: of a kind of file, and of one more of a kind.
+constexpr int64_t kOfAKind = 10000, kOfOneMore = 2500;
+
 struct SampleFile {
     std::string name; ///< such as `tight_blosc`; no other sample has it
     /// With its dot. `.cfg` is a file of -config; `.poses`, `.bodies`, `.points` and `.rays` are tables of questions;
@@ -19,7 +22,7 @@ struct SampleFile {
     /// Whether a part of the file is never a sound file: true of formats that say how much they hold.
     bool saysItsLength = true;
     std::string bytes;
-    int64_t mutants = 10000; ///< at random: fewer where each costs a process of its own
+    int64_t mutants = kOfAKind; ///< at random
 };
 
 /// @return the names of all samples.
@@ -33,7 +36,7 @@ struct SampleMaker {
     std::string name, extension;
     std::string (*make)();
     bool saysItsLength = true;
-    int64_t mutants = 10000;
+    int64_t mutants = kOfAKind;
 };
 
 /// @name Parts of the list

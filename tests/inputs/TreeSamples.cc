@@ -152,12 +152,12 @@ const std::vector<SampleMaker>& treeSamples()
         {"extended_unchecked", ".vdb", extendedUnchecked},
         {"reversible_unchecked", ".vdb", reversibleUnchecked},
         {"fit_unchecked", ".vdb", fitUnchecked},
-        {"strict_unchecked", ".vdb", strictUnchecked},
-        {"tracks_unchecked", ".vdb", tracksUnchecked},
-        {"kept_unchecked", ".vdb", keptUnchecked},
-        {"given_unchecked", ".vdb", givenUnchecked},
-        {"given_in_object", ".vdb", givenInObject},
-        {"empty_tree", ".vdb", emptyTree},
+        {"strict_unchecked", ".vdb", strictUnchecked, true, kOfOneMore},
+        {"tracks_unchecked", ".vdb", tracksUnchecked, true, kOfOneMore},
+        {"kept_unchecked", ".vdb", keptUnchecked, true, kOfOneMore},
+        {"given_unchecked", ".vdb", givenUnchecked, true, kOfOneMore},
+        {"given_in_object", ".vdb", givenInObject, true, kOfOneMore},
+        {"empty_tree", ".vdb", emptyTree, true, kOfOneMore},
     };
     return samples;
 }

@@ -71,7 +71,7 @@ private:
         if (Coord(x, y, z) != mLeaves[mLeaf]) window.fail("a leaf is where no leaf can be");
     }
 
-    /// OpenVDB 10 does not read the last eight bytes that it writes for each leaf
+    /// OpenVDB 10 does not read the last eight bytes that it writes for each leaf, a count of what follows
     /// (PointIndexLeafNode::readBuffers without a box), and so takes the next leaf for another.
     void takePointIndices(ByteWindow& window) const
     {
@@ -82,6 +82,7 @@ private:
         const auto count = window.value<uint64_t>();
         if (count >> 60 != 0) window.fail("a leaf has more than a file can hold");
         window.take(sizeof(uint32_t) * count);
+        window.take(window.value<uint64_t>());
     }
 
     void takeLeafValues(ByteWindow& window) const
