@@ -13,7 +13,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <mutex>
 #include <new>
@@ -68,6 +70,7 @@ void takeDefaults(const ChildLimits& limits, pid_t parent)
         std::signal(signal, SIG_DFL);
     }
     std::set_new_handler(nullptr);
+    std::set_terminate(std::abort);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);

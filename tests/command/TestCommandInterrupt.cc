@@ -45,28 +45,6 @@ TEST_F(CommandInterrupt, StopsALongBuildAndLeavesNothing)
     }
 }
 
-/// Of a mesh whose polygons take long to cut into triangles.
-TEST_F(CommandInterrupt, StopsTheReadingOfAMesh)
-{
-    constexpr int kCorners = 2000, kFaces = 500;
-    std::string points, face = std::to_string(kCorners);
-    for (int i = 0; i < kCorners; ++i) { // a zigzag below a parabola
-        points += std::to_string(i) + (i % 2 ? " 0 0\n" : " " + std::to_string(i * i) + " 0\n");
-        face += " " + std::to_string(i);
-    }
-    std::string mesh = "OFF " + std::to_string(kCorners) + " " + std::to_string(kFaces) + " 0\n";
-    mesh += points;
-    for (int i = 0; i < kFaces; ++i) mesh += face + "\n";
-    command_test::writeText(path("slow.off"), mesh);
-    writeBlock("a.vol");
-    Running command = start({"-read", "a.vol", "-read", "slow.off", "-print"});
-    ASSERT_TRUE(command.waitForError("-read a.vol ... completed"));
-    command.send(SIGTERM);
-    const Result result = command.wait();
-    EXPECT_EQ(result.exitCode, 5) << result.err;
-    EXPECT_EQ(result.err.find("-read slow.off ... completed"), std::string::npos) << result.err;
-}
-
 /// A script's background jobs ignore Ctrl-C, and what nohup starts ignores the end of its terminal.
 TEST_F(CommandInterrupt, LeavesIgnoredSignalsIgnored)
 {

@@ -14,7 +14,9 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
+#include <exception>
 #include <new>
 #include <string>
 #include <thread>
@@ -95,6 +97,20 @@ TEST(ChildProcess, HasSoMuchMemoryMoreAndNoMore)
         return take(2 * kMemory)();
     };
     EXPECT_EQ(resultOfChild(takeMore, kLimits), "x");
+}
+
+/// They may say that it is this process which ends, and remove what it would leave.
+TEST(ChildProcess, HandlersOfThisProcessAreNotItsOwn)
+{
+    if (spheretree_test::kSanitized) GTEST_SKIP() << "its allocator ends the process";
+    const auto end = [] { _exit(0); };
+    const auto newHandler = std::set_new_handler(end);
+    const auto terminate = std::set_terminate(end);
+    const auto takeTooMuch = [] { return std::string(2 * kMemory, 'x').substr(0, 1); };
+    EXPECT_THROW(resultOfChild(takeTooMuch, kLimits), std::bad_alloc);
+    EXPECT_TRUE(mentions(whyNot([]() -> std::string { std::terminate(); }), strsignal(SIGABRT)));
+    std::set_new_handler(newHandler);
+    std::set_terminate(terminate);
 }
 
 TEST(ChildProcess, WithoutAnEndIsStopped)
