@@ -29,15 +29,14 @@ enum Trait : unsigned {
     kXml = 2048,
     kWord = 4096,
     kIdentifier = 8192,
-    kEmpty = 16384,         ///< ExportFormat::empty
-    kUp = 32768,            ///< ExportFormat::up
-    kFloatIds = 65536,      ///< ExportFormat::floatIds
-    kLinks = 131072,        ///< ExportFormat::links
-    kIds = 262144,          ///< ExportFormat::ids
-    kNameless = 524288,     ///< not ExportFormat::named
-    kErrors = 1048576,      ///< ExportFormat::errors
-    kPrincipal = 2097152,   ///< ExportFormat::principal
-    kAlwaysMetres = 4194304 ///< ExportFormat::alwaysMetres
+    kEmpty = 16384,      ///< ExportFormat::empty
+    kUp = 32768,         ///< ExportFormat::up
+    kFloatIds = 65536,   ///< ExportFormat::floatIds
+    kLinks = 131072,     ///< ExportFormat::links
+    kIds = 262144,       ///< ExportFormat::ids
+    kNameless = 524288,  ///< not ExportFormat::named
+    kErrors = 1048576,   ///< ExportFormat::errors
+    kPrincipal = 2097152 ///< ExportFormat::principal
 };
 
 struct Row {
@@ -70,13 +69,13 @@ constexpr Row kRows[] = {
         kFloats | kAllLevels | kIds | kSamples | kIdentifier | kEmpty | kUp, detail::writeUsda},
     {"ply", ".ply", "Open3D, meshio", kTree, kFloats | kAllLevels | kIds | kWord | kEmpty, detail::writePly},
     {"ply-ascii", ".ply", "the same, as text", kTree, kFloats | kAllLevels | kIds | kByName | kWord | kEmpty, detail::writePlyAscii},
-    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kIds | kAlwaysMetres | kUtf8 | kUp | kFloatIds, detail::writeGlb},
+    {"glb", ".glb", "three.js (instances)", kTree, kFloats | kAllLevels | kIds | kUtf8 | kUp | kFloatIds, detail::writeGlb},
     {"nanovdb", ".nvdb", "NanoVDB", "all levels: centers, radii, ids, parents; or the voxels of grids",
         kFloats | kAllLevels | kIds, detail::writeNanoVdbPoints},
 
     {"mesh", ".obj", "all that read meshes", kTriangles, kFloats | kWord | kEmpty, detail::writeMeshObj},
     {"mesh", ".stl", "all that read meshes", kTriangles, kFloats | kWord, detail::writeMeshStl},
-    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kAlwaysMetres | kByName | kUtf8 | kUp, detail::writeMeshGlb},
+    {"mesh", ".glb", "all that read meshes", kTriangles, kFloats | kByName | kUtf8 | kUp, detail::writeMeshGlb},
     {"unreal", ".obj", "Unreal (sphere colliders)", "a level as triangles with names", kFloats | kByName | kWord,
         detail::writeUnrealObj},
 
@@ -125,7 +124,6 @@ ExportFormat makeFormat(const Row& row)
     format.named = !has(kNameless);
     format.errors = has(kErrors);
     format.principal = has(kPrincipal);
-    format.alwaysMetres = has(kAlwaysMetres);
     if (format.name == "nanovdb" && !writesNanoVdb()) {
         format.missing = "this build has no NanoVDB (Debian: libnanovdb-dev)";
     }

@@ -56,7 +56,6 @@ struct ExportFormat {
     bool errors = false; ///< has errors, of another kind than those of trees, and gets 0 for them
     bool principal =
         false; ///< its readers want spheres in the frame of the body, and its mass by hand
-    bool alwaysMetres = false; ///< is in metres by its standard, however large what it holds is
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;
     void (*write)(

@@ -43,7 +43,7 @@ void requireNames(
     case ExportNames::Bytes: return;
     case ExportNames::Utf8:
     case ExportNames::Xml:
-        requireText(scene.name, "name=", format);
+        if (format.named) requireText(scene.name, "name=", format);
         if (format.link) requireText(scene.link, "link=", format);
         return;
     case ExportNames::Word:

@@ -155,13 +155,12 @@ void noteUnits(
     const ExportScene& scene, const ExportFormat& format, std::vector<std::string>& notes)
 {
     constexpr double kSmallest = 0.002, kLargest = 20; // metres
-    if (!format.metres && !format.alwaysMetres) return;
+    if (!format.metres) return;
     if (scene.metersPerUnit != 1) {
         notes.push_back("readers of " + format.name
             + " take its numbers for metres, and units= makes them others");
         return;
     }
-    if (format.alwaysMetres) return;
     const double span = ExportScene::boxOf(scene.finest()).extents().length();
     if (span > kSmallest && span < kLargest) return;
     notes.push_back(format.name + " is in metres, and these spheres span " + shortNumber(span)
@@ -180,19 +179,23 @@ void noteMany(const ExportScene& scene, const ExportFormat& format, std::vector<
 }
 
 /// Programs of discrete elements are told by hand what a clump weighs.
-/// @param body  in the frame and the units of the file, of a density of 1
+/// @param body  in the frame and the units of the file, of a density of 1; known if the frame is the body's
 void noteBody(const MassProperties& body, const ExportSettings& settings,
     const ExportFormat& format, std::vector<std::string>& notes)
 {
+    if (settings.frame != ExportFrame::Principal) {
+        notes.push_back("readers of " + format.name
+            + " take spheres around the center of mass, along the principal axes: "
+              "frame=principal, which tells their mass as well");
+        return;
+    }
     std::string moments;
     for (int axis = 0; axis < 3; ++axis) {
         moments += (axis > 0 ? ", " : "") + shortNumber(body.principalMoments[axis]);
     }
-    const bool isPrincipal = settings.frame == ExportFrame::Principal;
     notes.push_back("with a density of 1 this body has the mass " + shortNumber(body.volume)
         + " and the principal moments of inertia " + moments + ", which readers of " + format.name
-        + " want to be told"
-        + (isPrincipal ? "" : "; they take spheres around the center of mass: frame=principal"));
+        + " want to be told");
 }
 
 /// Planners take spheres in the frame of their link.
@@ -355,14 +358,10 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const bool needsFrame = settings.frame != ExportFrame::World && !frameOfSamples;
     MassProperties ofUnion;
     if (needsUnion || needsFrame) ofUnion = massOf(tree, interrupter);
-    const FileFrame frame = frameOfSamples.value_or(FileFrame(settings, ofUnion));
+    const FileFrame frame = frameOfSamples ? *frameOfSamples : FileFrame(settings, ofUnion);
     if (format.samples) frameOfSamples = frame;
     if (needsUnion) noteMass(tree.levels.front(), notes);
-    if (format.principal) {
-        const auto body = needsFrame ? std::optional(ofUnion)
-                                     : massProperties(tree, tree.levels.front(), interrupter);
-        if (body) noteBody(frame.toFile(*body, 1), settings, format, notes);
-    }
+    if (format.principal) noteBody(frame.toFile(ofUnion, 1), settings, format, notes);
 
     ExportScene scene = sceneFor(tree, format, settings, place, notes);
     if (format.mass) {

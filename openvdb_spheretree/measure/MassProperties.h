@@ -30,14 +30,14 @@ namespace openvdb_spheretree {
 /// Of a body of density 1, in world units and axes. Of another density, multiply the volume and the
 /// inertia by it.
 struct MassProperties {
-    double volume = 0;               ///< world units^3; the mass
-    openvdb::Vec3d center;           ///< of mass, world space
-    openvdb::Mat3d inertia;          ///< about the center, world units^5; symmetric
-    openvdb::Vec3d principalMoments; ///< the eigenvalues of the inertia, ascending
+    double volume = 0;                               ///< world units^3; the mass
+    openvdb::Vec3d center{0, 0, 0};                  ///< of mass, world space
+    openvdb::Mat3d inertia = openvdb::Mat3d::zero(); ///< about the center, world units^5; symmetric
+    openvdb::Vec3d principalMoments{0, 0, 0};        ///< the eigenvalues of the inertia, ascending
     /// A row is the unit vector, in world space, of a principal moment. Right-handed. The largest
     /// coordinate of the first two is positive. Where moments are equal, vectors are any that fit,
     /// and the axes of the world if these do.
-    openvdb::Mat3d principalAxes;
+    openvdb::Mat3d principalAxes = openvdb::Mat3d::identity();
 };
 
 /// @return those of the active voxels as cubes; nothing if there are none. Voxels need not be cubes

@@ -62,8 +62,12 @@ TEST(ExportNames, NamesInOtherBytesAreRefusedWhereReadersLookForThem)
 {
     for (const ExportFormat& format : exportFormats()) {
         if (kXml.count(format.name) + kYaml.count(format.name) == 0) continue;
-        EXPECT_TRUE(mentions(why(format, kLatin1, "a"), "UTF-8")) << format.name;
-        EXPECT_TRUE(mentions(why(format, kLatin1, "a"), "name=")) << format.name;
+        if (format.named) {
+            EXPECT_TRUE(mentions(why(format, kLatin1, "a"), "UTF-8")) << format.name;
+            EXPECT_TRUE(mentions(why(format, kLatin1, "a"), "name=")) << format.name;
+        } else {
+            EXPECT_NO_THROW(written(format, kLatin1, "a")) << format.name;
+        }
         EXPECT_TRUE(mentions(why(format, "a", kLatin1), "UTF-8")) << format.name;
         EXPECT_TRUE(mentions(why(format, "a", kLatin1), "link=")) << format.name;
     }
