@@ -61,7 +61,8 @@ void fillDense(
     for (; tile; ++tile) {
         openvdb::CoordBBox box;
         tile.getBoundingBox(box);
-        for (auto ijk = box.begin(); ijk; ++ijk) data[place(*ijk)] = T(convert(*tile));
+        openvdb_spheretree::detail::forEachVoxelOf(
+            box, [&](const openvdb::Coord& ijk) { data[place(ijk)] = T(convert(*tile)); });
     }
 }
 

@@ -317,9 +317,9 @@ py::array coordinatesOf(const Volume& volume)
         for (auto value = volume.object->cbeginValueOn(); value; ++value) {
             openvdb::CoordBBox box;
             value.getBoundingBox(box);
-            for (auto ijk = box.begin(); ijk; ++ijk, to += axes) {
-                for (int i = 0; i < axes; ++i) to[i] = (*ijk)[volume.reversed ? axes - 1 - i : i];
-            }
+            spheretree::detail::forEachVoxelOf(box, [&](const openvdb::Coord& ijk) {
+                for (int i = 0; i < axes; ++i) *to++ = ijk[volume.reversed ? axes - 1 - i : i];
+            });
         }
     }
     return array;

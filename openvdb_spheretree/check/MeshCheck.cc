@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
 #include <openvdb_spheretree/tree/GivenTree.h>
 #include <openvdb_spheretree/tree/TreeShape.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 
 #include <openvdb/Grid.h>
@@ -108,13 +109,14 @@ public:
             *mVoxels);
         if (longest > kFew) return mayMeet(box, longest, values) ? Met::Some : Met::None;
         bool all = true, none = true;
-        for (auto voxel = box.begin(); voxel && (all || none); ++voxel) {
-            if (values.isValueOn(*voxel)) {
+        detail::forEachVoxelOf(box, [&](const Coord& voxel) {
+            if (!all && !none) return; // of few voxels
+            if (values.isValueOn(voxel)) {
                 none = false;
-            } else if (meetsVoxel(piece.corner[0], piece.corner[1], piece.corner[2], *voxel)) {
+            } else if (meetsVoxel(piece.corner[0], piece.corner[1], piece.corner[2], voxel)) {
                 all = false;
             }
-        }
+        });
         return none ? Met::None : all ? Met::All : Met::Some;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BoxSides.h
-/// @brief The sides of a box of voxels, wherever it is.
+/// @brief The sides and the voxels of a box, wherever it is.
 
 #pragma once
 
@@ -25,6 +25,19 @@ inline int64_t longestSideOf(const openvdb::CoordBBox& box)
 {
     const auto side = sidesOf(box);
     return std::max({side[0], side[1], side[2]});
+}
+
+/// Calls f(ijk) for every voxel of a box, x first. Its iterators step beyond the last coordinate, and do not end there.
+template <typename F>
+void forEachVoxelOf(const openvdb::CoordBBox& box, const F& f)
+{
+    for (int64_t x = box.min()[0]; x <= box.max()[0]; ++x) {
+        for (int64_t y = box.min()[1]; y <= box.max()[1]; ++y) {
+            for (int64_t z = box.min()[2]; z <= box.max()[2]; ++z) {
+                f(openvdb::Coord(int32_t(x), int32_t(y), int32_t(z)));
+            }
+        }
+    }
 }
 
 } // namespace openvdb_spheretree::detail

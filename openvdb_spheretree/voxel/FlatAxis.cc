@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlatAxis.h"
 
+#include "BoxSides.h"
 #include "Masks.h"
 
 #include <openvdb/Grid.h>
@@ -25,7 +26,7 @@ MaskTree::Ptr turned(const MaskTree& mask, const Turn& turn)
         }
     }
     detail::forEachTile(mask, [&](const openvdb::CoordBBox& box) {
-        for (const Coord& voxel : box) accessor.setValueOn(turn(voxel));
+        detail::forEachVoxelOf(box, [&](const Coord& ijk) { accessor.setValueOn(turn(ijk)); });
     });
     return result;
 }
