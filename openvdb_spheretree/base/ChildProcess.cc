@@ -52,6 +52,9 @@ void setLimit(int resource, uint64_t most)
     rlimit limit;
     if (getrlimit(resource, &limit) != 0) return;
     limit.rlim_cur = std::min<rlim_t>(most, limit.rlim_max);
+    // At the hard limit of time comes SIGKILL, which does not say what for.
+    const bool isHard = resource == RLIMIT_CPU && limit.rlim_cur == limit.rlim_max;
+    if (isHard && limit.rlim_cur > 0) --limit.rlim_cur;
     setrlimit(resource, &limit);
 }
 
@@ -65,8 +68,8 @@ void raiseLimit(int resource, uint64_t by)
 /// Of a new process: the handlers of this one belong to threads that the child does not have.
 void takeDefaults(const ChildLimits& limits, pid_t parent)
 {
-    for (const int signal :
-        {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
         std::signal(signal, SIG_DFL);
     }
     std::set_new_handler(nullptr);
@@ -84,8 +87,9 @@ void takeDefaults(const ChildLimits& limits, pid_t parent)
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
     }
     setLimit(RLIMIT_CORE, 0);
-    if (const uint64_t now = addressSpace()) setLimit(RLIMIT_AS, now + limits.bytes);
-    setLimit(RLIMIT_CPU, limits.seconds); // its clock begins with it
+    const uint64_t now = limits.bytes > 0 ? addressSpace() : 0;
+    if (now > 0) setLimit(RLIMIT_AS, now + limits.bytes);
+    if (limits.seconds > 0) setLimit(RLIMIT_CPU, limits.seconds); // its clock begins with it
 }
 
 bool writeAll(int pipe, const char* bytes, std::size_t count)
@@ -192,6 +196,8 @@ std::string resultOfChild(const std::function<std::string()>& work, const ChildL
     Child child = startChild(work, limits);
     std::string bytes = bytesOf(child, interrupter);
     const int status = child.wait();
+    const bool isDead = status != 0 || bytes.empty();
+    if (isDead) checkInterrupt(interrupter); // who stops this process may have ended the child
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
         throw openvdb::IoError("damaged: its reader does not end, in more processor time than a "
                                "file of its size takes");
@@ -200,7 +206,7 @@ std::string resultOfChild(const std::function<std::string()>& work, const ChildL
         throw openvdb::IoError(
             std::string("damaged: its reader crashed on it (") + strsignal(WTERMSIG(status)) + ")");
     }
-    if (status != 0 || bytes.empty()) throw openvdb::IoError("damaged: its reader crashed on it");
+    if (isDead) throw openvdb::IoError("damaged: its reader crashed on it");
     const char kind = bytes.front();
     bytes.erase(0, 1);
     if (kind == kNoMemory) throw std::bad_alloc();

@@ -22,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -129,6 +130,36 @@ TEST(ChildProcess, WithoutAnEndIsStopped)
     EXPECT_EQ(resultOfChild(workMore, second), "x");
 }
 
+/// ulimit -t
+TEST(ChildProcess, WithoutAnEndBelowAHardLimitIsStopped)
+{
+    const auto sayWhy = [] {
+        const rlimit hard = {2, 2};
+        setrlimit(RLIMIT_CPU, &hard);
+        _exit(mentions(whyNot(working(20)), "its reader does not end") ? 0 : 1);
+    };
+    EXPECT_EXIT(sayWhy(), testing::ExitedWithCode(0), ""); // in a process of its own
+}
+
+TEST(ChildProcess, HasNoLimitWhereNoneIsGiven)
+{
+    EXPECT_EQ(resultOfChild(working(1.5), {kMemory, 0}), "x");
+    const auto take = [] { return std::string(2 * kMemory, 'x').substr(0, 1); };
+    EXPECT_EQ(resultOfChild(take, {0, 60}), "x");
+}
+
+/// A terminal sends Ctrl-C to both; what it means to this process is its own affair.
+TEST(ChildProcess, IsNotEndedBySignalsThatAskForAnEnd)
+{
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+        const auto raiseIt = [signal] {
+            raise(signal);
+            return std::string("x");
+        };
+        EXPECT_EQ(resultOfChild(raiseIt, kLimits), "x") << signal;
+    }
+}
+
 /// Says yes to "interrupted?" from the @a after-th question on.
 class StopAfter : public openvdb::util::NullInterrupter {
 public:
@@ -154,6 +185,19 @@ TEST(ChildProcess, IsStoppedByAnInterrupter)
     }
     StopAfter never(1 << 30);
     EXPECT_EQ(resultOfChild(writeMuch, kLimits, &never).size(), kMemory / 4);
+}
+
+TEST(ChildProcess, ThatIsEndedWithThisProcessIsNoDamage)
+{
+    const auto end = []() -> std::string {
+        raise(SIGKILL);
+        return "x";
+    };
+    StopAfter afterwards(1);
+    EXPECT_THROW(resultOfChild(end, kLimits, &afterwards), Interrupted);
+    StopAfter never(1 << 30);
+    EXPECT_TRUE(mentions(
+        messageOf<openvdb::IoError>([&] { resultOfChild(end, kLimits, &never); }), "crashed"));
 }
 
 TEST(ChildProcess, WorksFromManyThreads)
