@@ -18,6 +18,11 @@ namespace openvdb_spheretree::detail {
 /// For messages, behind the name of the file.
 constexpr const char* kWasChanged = "the file was changed while it was read; run it again";
 
+/// @return whether both are of one file.
+bool isSameFile(const struct stat& one, const struct stat& other);
+/// @return whether a file has not been written to between the two, as far as they tell.
+bool isUnwritten(const struct stat& before, const struct stat& now);
+
 class FileStamp {
 public:
     /// @param path  what is no regular file, or not there, is never compared

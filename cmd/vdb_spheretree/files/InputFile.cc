@@ -4,6 +4,8 @@
 #include "base/Errors.h"
 #include "base/Stop.h"
 
+#include <openvdb_spheretree/base/FileStamp.h>
+
 #include <cerrno>
 
 #include <fcntl.h>
@@ -11,6 +13,9 @@
 #include <unistd.h>
 
 namespace command {
+
+using openvdb_spheretree::detail::isSameFile;
+using openvdb_spheretree::detail::isUnwritten;
 
 namespace {
 
@@ -45,10 +50,8 @@ InputFile::~InputFile()
 bool InputFile::isStill(const std::string& path) const
 {
     struct stat opened, named;
-    return fstat(mFd, &opened) == 0 && stat(path.c_str(), &named) == 0
-        && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino
-        && opened.st_size == named.st_size && opened.st_mtim.tv_sec == named.st_mtim.tv_sec
-        && opened.st_mtim.tv_nsec == named.st_mtim.tv_nsec;
+    return fstat(mFd, &opened) == 0 && stat(path.c_str(), &named) == 0 && isSameFile(opened, named)
+        && isUnwritten(opened, named);
 }
 
 } // namespace command

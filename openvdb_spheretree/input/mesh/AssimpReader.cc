@@ -31,10 +31,13 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include <sys/stat.h>
 #endif
 
 namespace openvdb_spheretree::detail {
@@ -71,10 +74,14 @@ public:
     Assimp::IOStream* Open(const char* name, const char* mode) override
     {
         if (!Exists(name)) return nullptr;
-        std::error_code error;
-        const std::uintmax_t size = fs::file_size(name, error);
-        if (!error) allowMore({kMemoryPerByte * uint64_t(size), uint64_t(size) / kBytesPerSecond});
-        mStamps.emplace_back(name);
+        struct stat info;
+        if (stat(name, &info) != 0) return nullptr;
+        // Once: a scene may name one file a thousand times.
+        if (mOpened.emplace(info.st_dev, info.st_ino).second) {
+            const auto size = uint64_t(info.st_size);
+            allowMore({kMemoryPerByte * size, size / kBytesPerSecond});
+            mStamps.emplace_back(name);
+        }
         return DefaultIOSystem::Open(name, mode);
     }
 
@@ -92,7 +99,8 @@ public:
 
 private:
     NearbyFiles mNearby;
-    std::vector<FileStamp> mStamps;
+    std::set<std::pair<dev_t, ino_t>> mOpened;
+    std::vector<FileStamp> mStamps; ///< of these
     mutable std::string mRefused;
 };
 

@@ -51,6 +51,19 @@ TEST_F(FileStampTest, TellsTheTimeToTheNanosecond)
     }
 }
 
+TEST_F(FileStampTest, OneFileHasManyNames)
+{
+    fs::create_hard_link(path(), path("link"));
+    std::ofstream(path("other")) << "abc";
+    struct stat file, link, other;
+    ASSERT_EQ(stat(path().c_str(), &file), 0);
+    ASSERT_EQ(stat(path("link").c_str(), &link), 0);
+    ASSERT_EQ(stat(path("other").c_str(), &other), 0);
+    EXPECT_TRUE(openvdb_spheretree::detail::isSameFile(file, link));
+    EXPECT_TRUE(openvdb_spheretree::detail::isUnwritten(file, link));
+    EXPECT_FALSE(openvdb_spheretree::detail::isSameFile(file, other));
+}
+
 TEST_F(FileStampTest, LeavesAloneWhatIsReplacedOrGone)
 {
     const FileStamp stamp(path()), none(path("none")), folder(path(""));

@@ -204,6 +204,35 @@ TEST(MeshScene, BuffersAreRegularFilesBelowTheFolderOfTheFile)
     EXPECT_TRUE(mentions(whyNot(folder.path() + "/b.bin"), "in its folder"));
 }
 
+/// Assimp reads it as often, and the limits are of files.
+TEST(MeshScene, ABufferThatIsNamedOftenCountsOnce)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    if (kSanitized) GTEST_SKIP() << "its allocator ends the process";
+    constexpr int kBytes = 1 << 20;
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() + "/b.bin", std::ios::binary)
+        << cornersOfTetrahedron() << std::string(kBytes - 144, '\0');
+    const auto whyNot = [&](int count) {
+        std::string primitives, accessors, views, buffers;
+        for (int i = 0; i < count; ++i) {
+            const std::string comma = i > 0 ? "," : "", number = std::to_string(i);
+            primitives += comma + "{\"attributes\":{\"POSITION\":" + number + "}}";
+            accessors += comma + "{\"bufferView\":" + number
+                + R"(,"componentType":5126,"count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]})";
+            views += comma + "{\"buffer\":" + number + ",\"byteLength\":144}";
+            buffers += comma + R"({"uri":"b.bin","byteLength":)" + std::to_string(kBytes) + "}";
+        }
+        std::ofstream(folder.path() + "/a.gltf")
+            << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+            << "\"meshes\":[{\"primitives\":[" << primitives << "]}],\"accessors\":[" << accessors
+            << "],\"bufferViews\":[" << views << "],\"buffers\":[" << buffers << "]}";
+        return errorOf(folder.path() + "/a.gltf");
+    };
+    EXPECT_EQ("", whyNot(10));
+    EXPECT_TRUE(mentions(whyNot(600), "more memory")); // than 256 MiB, and 64 for the buffer
+}
+
 TEST(MeshScene, ABufferThatIsWrittenToWhileItIsReadIsAnError)
 {
     if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
