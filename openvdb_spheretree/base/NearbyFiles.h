@@ -16,6 +16,9 @@ public:
     /// @param path  of the file that names others
     explicit NearbyFiles(const std::string& path);
 
+    /// @return where the file is, links followed: what it names is counted from there.
+    const std::filesystem::path& folder() const { return mFolder; }
+
     /// @return whether @a path lies in the folder or below, links followed; nothing need be there.
     bool hold(const std::string& path) const;
 

@@ -170,7 +170,7 @@ TEST_F(CommandVolumes, FilesThatAreNoneAreNamed)
     header.replace(header.find("./detached.raw.gz"), 17, "../i1.npy");
     writeText(path("in/other.nhdr"), header);
     expectError("-read in/other.nhdr -print", 3,
-        "in/other.nhdr: its data file 'in/../i1.npy' is not in the header's folder");
+        "in/other.nhdr: its data file '../i1.npy' is not in the header's folder");
 }
 
 TEST_F(CommandVolumes, OfOtherKindsAreRefusedWithWhatToDo)

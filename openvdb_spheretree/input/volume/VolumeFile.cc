@@ -129,7 +129,7 @@ GridBase::Ptr readNifti(std::ifstream& file, uint64_t fileBytes, bool isGzip,
     return gridOf(source, header, settings, interrupter);
 }
 
-/// @param name  that the header was read under: a data file is beside it
+/// @param name  that the header was read under: a data file is beside what it leads to
 GridBase::Ptr readNrrd(std::ifstream& file, uint64_t fileBytes, const std::string& name,
     const VolumeSettings& settings, NullInterrupter* interrupter)
 {
@@ -137,17 +137,27 @@ GridBase::Ptr readNrrd(std::ifstream& file, uint64_t fileBytes, const std::strin
     if (header.dataFile.empty()) {
         return readNumbers(file, fileBytes, header, settings, interrupter);
     }
-    const std::string data = (std::filesystem::path(name).parent_path() / header.dataFile).string();
-    const std::string shown = "its data file " + detail::inQuotes(data, 200);
-    if (!detail::NearbyFiles(name).hold(data)) {
+    const detail::NearbyFiles nearby(name);
+    const std::string data = (nearby.folder() / header.dataFile).string();
+    const std::string shown = "its data file " + detail::inQuotes(header.dataFile, 200);
+    if (!nearby.hold(data)) {
         throw IoError(shown
             + " is not in the header's folder or below (links are followed): move it there, and "
               "mend 'data file' in the header");
     }
     const detail::FileStamp stamp(data);
-    return detail::readArrayFile(data, shown, [&](std::ifstream& numbers, uint64_t bytes) {
-        const GridBase::Ptr grid = readNumbers(numbers, bytes, header, settings, interrupter);
+    const auto requireUnchanged = [&] {
         if (!stamp.isUnchanged()) throw IoError(detail::kWasChanged);
+    };
+    return detail::readArrayFile(data, shown, [&](std::ifstream& numbers, uint64_t bytes) {
+        GridBase::Ptr grid;
+        try {
+            grid = readNumbers(numbers, bytes, header, settings, interrupter);
+        } catch (const openvdb::Exception&) {
+            requireUnchanged(); // else it is truncated, or its numbers none
+            throw;
+        }
+        requireUnchanged();
         return grid;
     });
 }

@@ -32,6 +32,7 @@ TEST(NearbyFiles, AreThoseOfTheFolderAndBelow)
     // Of the file itself, by a link too: its parts are beside the file that the link leads to.
     for (const fs::path& file : {folder / "a", folder / "not_there", top / "link_a"}) {
         const NearbyFiles nearby(file.string());
+        EXPECT_EQ(nearby.folder(), fs::canonical(folder)) << file;
         for (const char* name :
             {"a", "deep/er/b", "deep/../a", "link_in", "./not_there", "../in/a"})
             EXPECT_TRUE(nearby.hold((folder / name).string())) << file << ' ' << name;

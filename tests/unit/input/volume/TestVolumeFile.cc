@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/base/Interrupted.h>
 
 #include "support/DataFolder.h"
+#include "support/Messages.h"
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +217,43 @@ TEST(VolumeFile, DataFilesAreBelowTheFolderOfTheirHeader)
     }
     write("none.raw");
     mentions(errorOf(header), "no such file");
+    fs::create_symlink("in/a.nhdr", top / "link.nhdr"); // beside what it leads to
+    for (const std::string data : {"deep/b.raw", "../in/b.raw"}) {
+        write(data);
+        EXPECT_EQ(readVolumeFile((top / "link.nhdr").string())->activeVoxelCount(), 60u) << data;
+    }
+    write("../b.raw");
+    mentions(errorOf((top / "link.nhdr").string()), "not in the header's folder or below");
+}
+
+/// Each time it is asked, it cuts a file.
+class FileCutter : public openvdb::util::NullInterrupter {
+public:
+    explicit FileCutter(const std::string& path) : mPath(path) {}
+    bool wasInterrupted(int = -1) override
+    {
+        std::filesystem::resize_file(mPath, 100);
+        return false;
+    }
+
+private:
+    const std::string mPath;
+};
+
+TEST(VolumeFile, ADataFileThatIsCutWhileItIsReadHasChanged)
+{
+    const TemporaryFolder folder;
+    const std::string header = folder.path() + "/a.nhdr", data = folder.path() + "/a.raw";
+    std::ofstream(header) << "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 64 64 64\nencoding: "
+                             "raw\ndata file: a.raw\n";
+    std::ofstream(data) << std::string(64 * 64 * 64, 'x');
+    FileCutter cutter(data);
+    const auto whyNot = [&](openvdb::util::NullInterrupter* interrupter) {
+        return spheretree_test::messageOf<openvdb::IoError>(
+            [&] { readVolumeFile(header, {}, interrupter); });
+    };
+    mentions(whyNot(&cutter), "'a.raw': the file was changed while it was read");
+    mentions(whyNot(nullptr), "truncated"); // it was before
 }
 
 TEST(VolumeFile, ReadsPicturesAsOneSlice)
