@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file UnnamedFile.h
-/// @brief A temporary file without a name: whatever ends the program, nothing of it is left.
+/// @brief A temporary file without a name: whatever ends the program, nothing that it holds is left.
 ///
 /// By O_TMPFILE, where the file system has it (Linux; not network file systems), it never had a name.
 /// Elsewhere it loses the one it was made with at once, and a SIGKILL just between the two calls

@@ -2,7 +2,7 @@
 /// @file SpillFile.h
 /// @brief A temporary file for what does not fit into memory.
 ///
-/// It has no name (UnnamedFile.h), so that nothing is left behind however the process ends.
+/// It has no name (UnnamedFile.h), so that nothing that it holds is left however the process ends.
 
 #pragma once
 

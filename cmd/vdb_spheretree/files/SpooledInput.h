@@ -10,7 +10,7 @@
 namespace command {
 
 /// Copies standard input to its end into a file in `$TMPDIR`, or `/tmp`, that has no name
-/// (UnnamedFile.h): whatever ends the program, nothing is left. It takes a buffer of memory, however
+/// (UnnamedFile.h): whatever ends the program, nothing that it holds is left. It takes a buffer of memory, however
 /// long the input is.
 class SpooledInput {
 public:
