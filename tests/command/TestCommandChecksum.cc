@@ -119,6 +119,31 @@ TEST_F(CommandChecksum, AFileWithoutATreeIsDamagedWhereverItIs)
     EXPECT_TRUE(mentions(result.err, "no grid in it has a checksum of its own")) << result.err;
 }
 
+/// Two trees in a file, of which the last has lost the names of its checksums: with it, the digest contradicts the file.
+TEST_F(CommandChecksum, ATreeWithoutAChecksumIsNotSaidToBeWhole)
+{
+    for (const std::string name : {"one", "two"}) {
+        const std::string line = "-read a.vol -spheretree name=" + name + " -write ";
+        ASSERT_EQ(run(line + name + ".vdb").exitCode, 0);
+    }
+    ASSERT_EQ(run("-read one.vdb two.vdb -write both.vdb").exitCode, 0);
+    std::string bytes = readText(path("both.vdb"));
+    const std::vector<std::string> said = {
+        "those of its trees that have checksums are whole by them;",
+        "no grid in it has a checksum of its own"};
+    for (const std::string& part : said) {
+        for (int key = 0; key < 2; ++key) { // of the attributes, and of the transform
+            const std::size_t place = bytes.rfind("spheretree_checksum");
+            ASSERT_NE(place, bytes.npos);
+            bytes[place] = 'S';
+        }
+        writeText(path("u.vdb"), bytes);
+        const Result result = run("-read u.vdb -print");
+        EXPECT_EQ(result.exitCode, 3);
+        EXPECT_TRUE(mentions(result.err, part)) << result.err;
+    }
+}
+
 TEST_F(CommandChecksum, ATreeOfALaterFormatIsRefusedWithWhatToDo)
 {
     for (const auto& [name, key] :

@@ -9,7 +9,9 @@
 #include <openvdb_spheretree/store/SphereTreePoints.h>
 
 #include <openvdb/Exceptions.h>
+#include <openvdb/util/NullInterrupter.h>
 
+#include <new>
 #include <vector>
 
 namespace command {
@@ -18,12 +20,19 @@ namespace {
 
 using openvdb::points::PointDataGrid;
 
+/// Asks as reading does, without progress to be shown.
+class StopAsker : public openvdb::util::NullInterrupter {
+public:
+    bool wasInterrupted(int = -1) override { return stopRequested(); }
+};
+
 /// @return why a tree is not read with these companions; empty if it is.
 std::string whyNot(const PointDataGrid& tree, const PointDataGrid* dag, const PointDataGrid* cuts)
 {
     throwIfStopped();
+    StopAsker stop;
     try {
-        openvdb_spheretree::fromPoints(tree, dag, cuts);
+        openvdb_spheretree::fromPoints(tree, dag, cuts, &stop);
         return {};
     } catch (const openvdb::Exception& error) {
         return oneLine(openvdb_spheretree::detail::messageOf(error), 300);
@@ -58,16 +67,16 @@ std::string listed(const std::vector<std::string>& damage)
     return text;
 }
 
-} // namespace
-
-std::string placeOfDamage(const openvdb::GridPtrVec& grids)
+std::string foundDamage(const openvdb::GridPtrVec& grids)
 {
     const CompanionIndex index(grids);
     std::vector<std::string> damage;
-    bool areSummed = false;
+    bool areSummed = false, areAllSummed = true;
     for (const openvdb::GridBase::Ptr& grid : grids) {
         if (!openvdb_spheretree::isSphereTree(*grid)) continue;
-        areSummed = areSummed || openvdb_spheretree::hasChecksum(*grid);
+        const bool isSummed = openvdb_spheretree::hasChecksum(*grid);
+        areSummed = areSummed || isSummed;
+        areAllSummed = areAllSummed && isSummed;
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
         for (const std::string& why : damageOf(*points, index.of(grid->getName()))) {
             damage.push_back(why);
@@ -75,8 +84,23 @@ std::string placeOfDamage(const openvdb::GridPtrVec& grids)
     }
     if (!damage.empty()) return listed(damage);
     if (!areSummed) return "no grid in it has a checksum of its own that would say where";
-    return "its trees are whole by their own checksums; what changed is the file's header, a name, "
-           "another grid, or what OpenVDB stores around the points";
+    const std::string whole = areAllSummed ? "its trees are whole by their own checksums"
+                                           : "those of its trees that have checksums are whole by "
+                                             "them";
+    return whole
+        + "; what changed is the file's header, a name, another grid, or what OpenVDB stores "
+          "around the points";
+}
+
+} // namespace
+
+std::string placeOfDamage(const openvdb::GridPtrVec& grids)
+{
+    try {
+        return foundDamage(grids);
+    } catch (const std::bad_alloc&) {
+        return "nobody knows where, as there is not enough memory to look";
+    }
 }
 
 } // namespace command

@@ -12,7 +12,8 @@
 namespace command {
 
 /// @return what changed, as clauses for a message: parts of trees by name, the first few; or that these are whole, and
-///         it is elsewhere; or that the file has none that would tell. Linear in the nodes of trees
+///         it is elsewhere; or that the file has none that would tell; or that memory is short. Linear in the nodes of
+///         trees
 /// @throw Interrupted if a stop has been requested
 std::string placeOfDamage(const openvdb::GridPtrVec& grids);
 
