@@ -323,9 +323,8 @@ TEST_F(CommandFrames, AFrameOfOtherVoxelsFailsBeforeItsTreeIsMade)
     writeLargerVoxels("smoke_0010.vdb");
     const Result result = run("-read smoke_####.vdb -spheretree spheres=1 -write tree_####.vdb");
     EXPECT_EQ(result.exitCode, 3);
-    EXPECT_TRUE(holds(result.err,
-        "frame=10: -spheretree: the voxels of this frame are of 0.25, "
-        "and those of the frames before of 0.5"))
+    EXPECT_TRUE(holds(
+        result.err, "frame=10: -spheretree: voxels are of 0.25, and in the frames before of 0.5"))
         << result.err;
     EXPECT_TRUE(holds(result.err, "1 of 4 frames failed, 3 are done")) << result.err;
     EXPECT_TRUE(existAll("tree", {8, 9, 11}, "vdb"));
@@ -351,6 +350,43 @@ TEST_F(CommandFrames, OtherVoxelsAreTakenOrMadeTheSame)
         run("-each d=smoke,smoke -read {$d}_####.vdb frames=8,9 -spheretree spheres=1 name=a "
             "keep=1 -resample voxel=2 -spheretree spheres=1 name=b -clear -end");
     EXPECT_EQ(twoSizes.exitCode, 0) << twoSizes.err;
+}
+
+TEST_F(CommandFrames, MeshesOfOneResolutionAreToldToHaveOneVoxelSize)
+{
+    const auto writeMesh = [&](const std::string& name, const std::string& side) {
+        command_test::writeText(path(name),
+            "v 0 0 0\nv " + side + " 0 0\nv 0 " + side + " 0\nv 0 0 " + side
+                + "\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    };
+    writeMesh("part_0001.obj", "8");
+    writeMesh("part_0002.obj", "16");
+    const std::string read = "-read part_####.obj -mesh2ls ", write = " -write t_####.vdb";
+    const Result other = run(read + "dim=16 -spheretree spheres=1" + write);
+    EXPECT_EQ(other.exitCode, 3) << other.err;
+    EXPECT_TRUE(holds(other.err,
+        "voxels are of 1, and in the frames before of 0.5: -mesh2ls voxel=0.5 (meshes) or "
+        "-resample "
+        "voxel=0.5 (volumes) makes them the same; samevoxels=0 allows it\n"))
+        << other.err;
+    for (const char* line :
+        {"voxel=0.5 -spheretree spheres=1", "dim=16 -spheretree spheres=1 samevoxels=0"}) {
+        const Result result = run(read + line + write);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+    }
+}
+
+TEST_F(CommandFrames, VoxelsOfAFrameWithoutATreeAreNoMeasureForOthers)
+{
+    writeLargerVoxels("smoke_0008.vdb"); // a ball, of which no flat tree is made
+    auto disc = openvdb::FloatGrid::create(0);
+    disc->setName("density");
+    disc->fill(openvdb::CoordBBox({0, 0, 0}, {5, 5, 0}), 1);
+    for (const char* name : {"smoke_0009.vdb", "smoke_0010.vdb"}) writeGrids(name, {disc});
+    const Result result = run("-read smoke_####.vdb -spheretree dim=2 spheres=1 -write t_####.vdb");
+    EXPECT_EQ(result.exitCode, 3) << result.err;
+    EXPECT_TRUE(holds(result.err, "1 of 3 frames failed, 2 are done")) << result.err;
+    EXPECT_TRUE(existAll("t", {9, 10}));
 }
 
 TEST_F(CommandFrames, OtherVoxelsInALoopOfNumbersAreWarnedOf)

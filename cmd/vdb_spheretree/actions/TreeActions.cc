@@ -184,7 +184,8 @@ void runSpheretree(const ActionCall& call, Session& session)
         objectSettings.coverage = spheretree::Coverage::Whole;
     }
     const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
-    if (call.flag("samevoxels")) session.requireVoxelsOfSequence(object->voxelSize()[0]);
+    const double voxel = object->voxelSize()[0];
+    if (call.flag("samevoxels")) session.requireVoxelsOfSequence(voxel);
     if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
     result.object = object;
@@ -193,6 +194,7 @@ void runSpheretree(const ActionCall& call, Session& session)
     warnOfDistance(*object, settings, session);
     result.tree = std::make_shared<SphereTree>(
         treeOf(*object, {leaves ? leaves->given.get() : nullptr, last.get()}, settings, session));
+    if (call.flag("samevoxels")) session.noteVoxelsOfSequence(voxel);
     if (leaves && !call.flag("keep")) session.stack.drop(leaves);
     if (call.given("like")) {
         if (!last) spheretree::startTracks(*result.tree);

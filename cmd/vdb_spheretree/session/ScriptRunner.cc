@@ -6,7 +6,6 @@
 #include "script/OpenCall.h"
 
 #include <openvdb_spheretree/base/Interrupted.h>
-#include <openvdb_spheretree/base/Text.h>
 
 #include <algorithm>
 
@@ -130,17 +129,15 @@ struct ScriptRunner::Turns {
                 + " frames failed, " + doneText() + ": " + someOf(failures, kNamed));
     }
 
-    /// Numbers may be those of frames. What -each and -files name are things of their own, of whatever voxels, and
-    /// trees of a sequence are held to those of its first frame.
+    /// Numbers may be those of frames. What -each and -files name are things of their own, of whatever
+    /// voxels, and trees of a sequence are held to those of its first one.
     void warnOfVoxel(const StackItem* item, Session& session)
     {
         if (!item || loop.isSequence || loop.call.spec().name != "for") return;
         const double size = item->tree->voxelSize();
         if (voxel == 0) voxel = size;
         if (Session::areSameVoxels(size, voxel)) return;
-        using openvdb_spheretree::detail::shortNumber;
-        session.warn("voxels are of " + shortNumber(size) + ", and in the frames before of "
-            + shortNumber(voxel) + ": -resample voxel= makes them the same");
+        session.warn(Session::otherVoxelsText(size, voxel));
         voxel = size;
     }
 };

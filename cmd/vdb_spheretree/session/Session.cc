@@ -45,21 +45,32 @@ Session::InLoop::InLoop(Session& session, bool isSequence)
 
 Session::InLoop::~InLoop() { mSession.mVoxels = mOuter; }
 
-void Session::requireVoxelsOfSequence(double size)
+void Session::requireVoxelsOfSequence(double size) const
 {
     if (!mVoxels) return;
-    const double first = mVoxels->emplace(mPlace, size).first->second;
-    if (areSameVoxels(size, first)) return;
-    using openvdb_spheretree::detail::shortNumber;
-    throwInput("the voxels of this frame are of " + shortNumber(size)
-        + ", and those of the frames before of " + shortNumber(first) + ": -resample voxel="
-        + shortNumber(first) + " makes them the same, and samevoxels=0 takes them as they are");
+    const auto first = mVoxels->find(mPlace);
+    if (first == mVoxels->end() || areSameVoxels(size, first->second)) return;
+    throwInput(otherVoxelsText(size, first->second) + "; samevoxels=0 allows it");
+}
+
+void Session::noteVoxelsOfSequence(double size)
+{
+    if (mVoxels) mVoxels->emplace(mPlace, size);
 }
 
 bool Session::areSameVoxels(double size, double other)
 {
     constexpr double kSame = 1e-5;
     return std::abs(size - other) <= kSame * other;
+}
+
+std::string Session::otherVoxelsText(double size, double before)
+{
+    using openvdb_spheretree::detail::shortNumber;
+    const std::string wanted = " voxel=" + shortNumber(before);
+    return "voxels are of " + shortNumber(size) + ", and in the frames before of "
+        + shortNumber(before) + ": -mesh2ls" + wanted + " (meshes) or -resample" + wanted
+        + " (volumes) makes them the same";
 }
 
 void Session::runOne(const ActionCall& call)

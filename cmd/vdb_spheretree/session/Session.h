@@ -63,8 +63,9 @@ struct Session {
         std::string mName, mLabel; ///< those of before
     };
 
-    /// While a loop runs. If it is one over the files of a sequence, the trees of its frames are of one voxel size;
-    /// in loops of other things, those within its frames too, they may be of any.
+    /// While a loop runs. In a loop over the files of a sequence, all trees that an action makes must
+    /// have voxels of one size. In any other loop they may have any size, even if that loop stands
+    /// within a frame of a sequence.
     class InLoop {
     public:
         InLoop(Session& session, bool isSequence);
@@ -81,8 +82,12 @@ struct Session {
     /// @brief To be called before a tree is made.
     /// @param size  of its voxels
     /// @throw CommandError (input) if the action has made trees of other voxels in the frames before
-    void requireVoxelsOfSequence(double size);
+    void requireVoxelsOfSequence(double size) const;
+    /// To be called when it has been made: the frames after are held to it.
+    void noteVoxelsOfSequence(double size);
     static bool areSameVoxels(double size, double other);
+    /// @return what differs from the frames before, and how to have it the same.
+    static std::string otherVoxelsText(double size, double before);
 
     /// Has parallel work take so many threads at most, until the program ends.
     void limitThreads(size_t count);
