@@ -186,10 +186,24 @@ GridBase::Ptr gridOfArrayFile(const std::string& path, const spheretree::VolumeS
     return spheretree::readVolumeFile(path, settings, interrupter);
 }
 
+/// A file of bools has no room for a value that is outside of all labels: it is read for the refusal of
+/// labels that follows.
+GridBase::Ptr numbersOfArrayFile(const std::string& path,
+    const spheretree::VolumeSettings& settings, const ObjectRequest& request,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    try {
+        return gridOfArrayFile(path, settings, interrupter);
+    } catch (const openvdb::IoError&) {
+        if (!asksFor(request, "label")) throw;
+        return gridOfArrayFile(path, {}, interrupter); // what is damaged throws again
+    }
+}
+
 Volume volumeOfArrayFile(const std::string& path, const FileRequest& file,
     const ObjectRequest& request, openvdb::util::NullInterrupter* interrupter)
 {
-    const GridBase::Ptr grid = gridOfArrayFile(path, file.array, interrupter);
+    const GridBase::Ptr grid = numbersOfArrayFile(path, file.array, request, interrupter);
     Volume volume;
     try {
         volume.object = objectOfGrid(grid, request, interrupter);

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import sys
 import tempfile
@@ -228,10 +229,15 @@ def _object_keywords(
 
 
 def _is_inside(value: float, wanted: dict[str, Any]) -> bool:
-    if "label" in wanted:
-        return value in wanted["label"]
+    """Of numbers by a threshold or a range."""
     lowest = wanted.get("threshold", wanted.get("above", None if "below" in wanted else 0))
     return (lowest is None or value > lowest) and ("below" not in wanted or value < wanted["below"])
+
+
+def _no_label(labels: Iterable[int]) -> float:
+    """The least number from 0 on that is none of some labels."""
+    known = set(labels)
+    return next(float(number) for number in itertools.count() if number not in known)
 
 
 def _outside(values: Iterable[float], wanted: dict[str, Any]) -> float | None:
@@ -243,6 +249,8 @@ def _background(array: npt.NDArray[Any], wanted: dict[str, Any]) -> float:
     """A value for all that is outside of the array: one that is not inside the object."""
     if array.dtype == np.bool_:
         return 0
+    if "label" in wanted:
+        return _no_label(wanted["label"])
     value = _outside((0, array.min(), array.max()), wanted)
     if value is None:
         raise InputError("every value of volume is inside the object, so there is nothing to interpolate to at its border: "
@@ -510,7 +518,9 @@ def _of_file(
     if anisotropy is not None:
         given["spacing"] = _edges(anisotropy, 3)
     known = readable(path)
-    if kind in ARRAY_FILES and _is_inside(0, wanted):  # what is beyond an array is outside, of a file as well
+    if kind in ARRAY_FILES and "label" in wanted:
+        given["background"] = _no_label(wanted["label"])
+    elif kind in ARRAY_FILES and _is_inside(0, wanted):  # what is beyond an array is outside, of a file as well
         given["background"] = _background_of_file(known, wanted, part_of(progress, 0, 0.5), threads)
         progress = part_of(progress, 0.5, 1)
     return Volume(_spheretree.volume_of_file(known, given, wanted, progress, thread_count(threads)))

@@ -98,7 +98,8 @@ def test_the_first_index_of_a_npy_is_x_or_z(name):
     {}, {"threshold": 2}, {"threshold": -3}, {"above": -3, "below": 3}, {"below": -1}, {"below": 2}, {"label": 0},
     {"label": [-5, 0, 5]}, {"coverage": "cubes"}, {"coverage": "whole", "threshold": -5}, {"coverage": "cubes", "below": 2},
     {"anisotropy": 0.5}, {"anisotropy": (1, 1, 2)}, {"anisotropy": (3, 1, 1), "threshold": -3},
-    {"anisotropy": (1, 2, 1), "label": 0}, {"largest": True, "fill": True, "threshold": -2}])
+    {"anisotropy": (1, 2, 1), "label": 0}, {"label": range(-6, 7)}, {"anisotropy": (1, 2, 1), "label": range(-6, 7)},
+    {"largest": True, "fill": True, "threshold": -2}])
 def test_a_npy_is_the_object_of_the_same_array(tmp_path, dtype, keywords):
     values = np.random.default_rng(5).integers(-6, 7, (19, 9, 12)).astype(dtype)
     np.save(tmp_path / "a.npy", values)
@@ -252,6 +253,22 @@ def test_trees_have_the_bytes_of_the_commands(bone, tmp_path, command, write, na
     tree.save(tmp_path / "ours.vdb")
     assert (tmp_path / "ours.vdb").read_bytes() == (tmp_path / "theirs.vdb").read_bytes()
     assert not tree.check(tmp_path / name, **keywords)
+
+
+@pytest.mark.parametrize("labels", [[0, 1, 3], [0, 3], [3], [0, 1, 2, 3]])
+def test_labels_may_be_the_least_value_and_the_largest(tmp_path, monkeypatch, labels):
+    values = (np.arange(4 * 5 * 6) % 4).astype(np.uint8).reshape(4, 5, 6)
+    np.save(tmp_path / "a.npy", values)
+    monkeypatch.setattr(spheretree._spheretree, "value_range_of_file", None)  # it is read once
+    wanted = np.isin(values, labels)
+    assert np.array_equal(inside(spheretree.volume(tmp_path / "a.npy", label=labels), values.shape), wanted)
+    assert np.array_equal(spheretree.volume(values, label=labels).to_array(), wanted)
+
+
+@pytest.mark.parametrize("labels", [[1], [0], [0, 1]])
+def test_bools_have_no_labels(labels):
+    with pytest.raises(spheretree.InputError, match="bool.npy: label is for volumes of numbers"):
+        spheretree.volume(SAMPLES / "bool.npy", label=labels)
 
 
 def test_progress_of_a_file_that_is_read_twice_never_falls(monkeypatch):
