@@ -37,6 +37,8 @@ std::string failingOnce(const std::string& call, long n, int error)
     return faultOf(call, n, "once", error);
 }
 
+std::string halved(long n) { return faultOf("write", n, "part", 0); }
+
 std::string signalled(const std::string& call, long n, int signal)
 {
     return faultOf(call, n, "signal", signal);

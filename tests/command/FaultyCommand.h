@@ -17,6 +17,8 @@ namespace command_test {
 std::string failing(const std::string& call, long n, int error);
 /// Only the n-th call fails.
 std::string failingOnce(const std::string& call, long n, int error);
+/// Only half of what the n-th write is given is written.
+std::string halved(long n);
 /// A signal comes just before the n-th call.
 std::string signalled(const std::string& call, long n, int signal);
 /// The n-th call takes so many seconds, whatever signals come.

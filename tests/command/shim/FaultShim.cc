@@ -10,8 +10,9 @@
 ///   ones), `fsync`, `link`, `unlink`, `rename`, `thread` or `malloc`;
 /// - `N` counts these calls from 1;
 /// - `EFFECT` is `error` (it fails with this errno, and so do all later ones; of a write, half is
-///   written first), `once` (only this one fails), `signal` (SIGSTOP lets the test act meanwhile), or
-///   `hang` (it takes so many seconds, whatever signals come).
+///   written first), `once` (only this one fails), `part` (of a write: half is written, and no later
+///   one fails), `signal` (SIGSTOP lets the test act meanwhile), or `hang` (it takes so many seconds,
+///   whatever signals come).
 ///
 /// SPHERETREE_FAULT_MEMORY is how many MiB of memory the machine says it has.
 ///
@@ -42,7 +43,7 @@ enum Call { kTmpfile, kWrite, kRead, kFsync, kLink, kUnlink, kRename, kThread, k
 constexpr const char* kNames[kCalls] = {
     "tmpfile", "write", "read", "fsync", "link", "unlink", "rename", "thread", "malloc"};
 
-enum class Effect { Error, Once, Signal, Hang };
+enum class Effect { Error, Once, Part, Signal, Hang };
 
 struct Fault {
     Call call;
@@ -75,6 +76,7 @@ int readFaults()
         fault.number = number;
         fault.effect = *effect == 'e' ? Effect::Error
             : *effect == 'o'          ? Effect::Once
+            : *effect == 'p'          ? Effect::Part
             : *effect == 'h'          ? Effect::Hang
                                       : Effect::Signal;
         text = std::strchr(text, ';');
@@ -107,7 +109,8 @@ Verdict countCall(Call call)
         } else if (fault.effect == Effect::Hang) {
             if (isNow) hangFor(fault.number);
         } else if (isNow || fault.effect == Effect::Error) {
-            verdict = isNow ? Verdict::Half : Verdict::Fail;
+            const bool isHalf = isNow && fault.effect != Effect::Once;
+            verdict = isHalf ? Verdict::Half : Verdict::Fail;
             error = fault.number;
         }
     }
