@@ -7,6 +7,7 @@
 #include "Tree.h"
 
 #include "files/AtomicFile.h"
+#include "files/Companions.h"
 #include "files/VdbStream.h"
 
 #include <openvdb_spheretree/base/Text.h>
@@ -120,22 +121,15 @@ void save(const SphereTree& tree, const std::string& path, Interrupter* interrup
 std::vector<TreePtr> treesOf(
     const openvdb::GridPtrVec& grids, const std::string& path, Interrupter* interrupter)
 {
-    const auto companionOf = [&](const std::string& tree,
-                                 const auto& claims) -> PointDataGrid::Ptr {
-        for (const auto& grid : grids) {
-            if (claims(*grid, tree)) return openvdb::gridPtrCast<PointDataGrid>(grid);
-        }
-        return nullptr;
-    };
+    const command::CompanionIndex index(grids);
     std::vector<TreePtr> trees;
     for (const auto& grid : grids) {
         const auto points = openvdb::gridPtrCast<PointDataGrid>(grid);
         if (!points || !spheretree::isSphereTree(*grid)) continue;
-        const auto dag = companionOf(grid->getName(), spheretree::isDagOf);
-        const auto cuts = companionOf(grid->getName(), spheretree::isCutsOf);
+        const command::Companions others = index.of(grid->getName());
         try {
             trees.push_back(std::make_shared<Tree>(
-                spheretree::fromPoints(*points, dag.get(), cuts.get(), interrupter)));
+                spheretree::fromPoints(*points, others.dag.get(), others.cuts.get(), interrupter)));
         } catch (const openvdb::Exception& error) { // the file's fault
             OPENVDB_THROW(openvdb::IoError,
                 path << ": sphere-tree " << inQuotes(grid->getName()) << ": "

@@ -225,8 +225,8 @@ Coord pyramidOrigin(const CoordBBox& bbox)
         if (extent > kMaxExtent) {
             OPENVDB_THROW(openvdb::ValueError,
                 "the object is " << extent << " voxels wide along "
-                                 << "xyz"[axis]
-                                 << ", more than 2^28: use a larger voxel, or split the object");
+                                 << "xyz"[axis] << ", more than 2^" << kMaxExtentBits
+                                 << ": use a larger voxel, or split the object");
         }
     }
     return bbox.min() & ~7;

@@ -30,7 +30,8 @@
 namespace openvdb_spheretree {
 
 /// A side of the object's box may have this many voxels, so that squares of distances fit 64 bits.
-constexpr int64_t kMaxExtent = int64_t(1) << 28;
+constexpr int kMaxExtentBits = 28;
+constexpr int64_t kMaxExtent = int64_t(1) << kMaxExtentBits;
 
 /// @brief The OR model. Parallel; the result has no full node that could be a tile.
 openvdb::MaskTree::Ptr coarsen(const openvdb::MaskTree& level, const PyramidStep& step,

@@ -239,8 +239,9 @@ std::vector<Damage> boxDamage(const SphereTree& tree)
     }
     const int64_t longest = longestSideOf(box);
     if (longest > kMaxExtent && !tree.settings.isGiven()) {
-        return {single("the object's box goes from ", box.min(), " to ", box.max(), ", over ",
-            longest, " voxels along an axis, and trees are built of 2^28 at most")};
+        return {
+            single("the object's box goes from ", box.min(), " to ", box.max(), ", over ", longest,
+                " voxels along an axis, and trees are built of 2^", kMaxExtentBits, " at most")};
     }
     const auto side = sidesOf(box);
     // As quotients: the box may have 2^96 voxels.
