@@ -33,9 +33,9 @@ endfunction()
 # parsed once a target, and no file compiles the trees of masks again (voxel/Masks.h). The whole of
 # <openvdb/openvdb.h> is not among them: its maps leave 80 KB of code in each file that sees it. Further
 # arguments are headers of the target's own. Sources include what they use all the same:
-# SPHERETREE_PRECOMPILE=OFF builds without. In angle brackets they are named without the folder of the checkout, or clones in
-# other folders would find nothing of theirs in the compiler cache. Grids of other types are compiled once, too, for targets that have no kernels
-# (in the library, for the files that include the header).
+# SPHERETREE_PRECOMPILE=OFF builds without. In angle brackets they are named without a folder, or the
+# compiler cache would depend on where the sources lie. Grids of other types are compiled once, too, for
+# targets that have no kernels (in the library, for the files that include the header).
 set(SPHERETREE_GRID_TEMPLATES <openvdb_spheretree/voxel/GridTemplates.h>)
 function(spheretree_precompile target)
     if(NOT SPHERETREE_PRECOMPILE)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file FuzzSeeds.cc
 /// @brief Writes seeds, a folder a target: `spheretree_fuzz_seeds FOLDER LINES` makes FOLDER/vdb/tight_blosc and so
-/// on, of the samples (inputs/SampleFiles.h), and FOLDER/line/1 and so on, of a file of command lines.
+/// on, of the samples (inputs/SampleFiles.h), and FOLDER/line/lines_1 and so on, of a file of command lines.
 
 #include "inputs/SampleFiles.h"
 

@@ -10,8 +10,8 @@
 
 namespace spheretree_test {
 
-/// A file in memory, but for kinds that name others beside them. A child process must make its own: one that it inherits has the same bytes as its
-/// parent's.
+/// A file in memory, but for kinds that name others beside them. A child process must make its own: one
+/// that it inherits has the same bytes as its parent's.
 class InputFile {
 public:
     /// The file's name is `input`. @param extension  with its dot
@@ -29,7 +29,8 @@ private:
     int mFd;
 };
 
-/// Several files side by side, in a folder of their own. What holds of one in a child process holds of each.
+/// Several files side by side, in a folder of their own. What holds of one in a child process holds of
+/// each.
 class InputFolder {
 public:
     InputFolder();

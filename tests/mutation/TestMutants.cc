@@ -6,8 +6,7 @@
 /// a damaged one may be large.
 ///
 /// The mutants follow from kSeed and the sample's name, so a failure names one that comes again.
-/// With SPHERETREE_MUTANTS=all in the environment, long files are cut and flipped at every byte, and random mutants
-/// are twice as many.
+/// With SPHERETREE_MUTANTS=all in the environment, long files are cut and flipped at every byte.
 
 #include "ForkServer.h"
 

@@ -57,10 +57,11 @@ std::vector<std::string> stackFiles(const std::string& name);
 /// @brief Read a volume as a sparse grid, named after the file: of bools a BoolGrid, of integers an
 /// Int32Grid or Int64Grid, of floats a FloatGrid or DoubleGrid.
 ///
-/// Voxel (0, 0, 0) is the first number. Voxels with the background, and NaN, are inactive; where there are
-/// NaN, metadata `nan_values` (an int64) says how many. Leaves of one value are tiles. The transform is that of the file: spacings, or the matrix of an `.nrrd` or
-/// NIfTI, in its own axes and units. What a number stands for by the slope of a NIfTI is taken, as a
-/// float. A picture is one voxel thick along z; its columns are x, its rows y, from the top.
+/// Voxel (0, 0, 0) is the first number. Voxels with the background, and NaN, are inactive; where there
+/// are NaN, metadata `nan_values` (an int64) says how many. Leaves of one value are tiles. The
+/// transform is that of the file: spacings, or the matrix of an `.nrrd` or NIfTI, in its own axes and
+/// units. What a number stands for by the slope of a NIfTI is taken, as a float. A picture is one voxel
+/// thick along z; its columns are x, its rows y, from the top.
 /// Axes of one number are left out, so a fourth one is no obstacle.
 /// Memory: the result, and sixteen slices along the slowest axis.
 /// @param shownAs  in place of @a path, what messages and the grid are named after, and whose
