@@ -248,8 +248,8 @@ TEST(ExportScene, WhatFilesOfOneFormatLackIsSaid)
     for (const char* whole : {".vtp", ".sph", ".swc"}) {
         EXPECT_EQ(notesOf(tree, whole, "", {}), "") << whole;
     }
-    tree.track.resize(std::size_t(tree.size()), 0);
-    tree.nextTrack = 1;
+    for (int32_t id = 0; id < tree.size(); ++id) tree.track.push_back(id);
+    tree.nextTrack = tree.size();
     for (const char* without : {".swc", ".sph", ".stl"}) {
         EXPECT_TRUE(mentions(notesOf(tree, without, "", finest), "from frame to frame")) << without;
     }
