@@ -42,7 +42,7 @@ void printSpheres(const nanovdb::UInt32Grid& grid)
                     + nanovdb::Vec3d(voxel.getCoord()[0], voxel.getCoord()[1], voxel.getCoord()[2]);
                 const nanovdb::Vec3d at = grid.indexToWorld(index);
                 const auto i = begin - first;
-                std::printf("%.17g %.17g %.17g %.9g %d %d %d\n", at[0], at[1], at[2],
+                std::printf("%.17g %.17g %.17g %.17g %d %d %d\n", at[0], at[1], at[2],
                     double(radii[i]), levels[i], ids[i], parents[i]);
             }
         }

@@ -26,8 +26,8 @@ def turned_by(w, x, y, z):
 # Where the axes of index space are in the world, for row vectors, and where its origin is.
 PLACES = {
     "turned and mirrored": ([[-0.04, 0.0, 0.03], [0.018, 0.04, 0.024], [-0.024, 0.03, -0.032]], (3.1, -2.2, 0.7)),
-    "turned": (turned_by(1, 2, -3, 4), (-0.4, 1.5, 12.25)),
-    "axes swapped": ([[0, 0.05, 0], [0.05, 0, 0], [0, 0, 0.05]], (0, 0, -7)),
+    "turned": (turned_by(1, 2, -3, 4), (-0.4, 1.5, 2.25)),
+    "axes swapped": ([[0, 0.05, 0], [0.05, 0, 0], [0, 0, 0.05]], (0, 0, -1.5)),
     "as it is": ([[0.05, 0, 0], [0, 0.05, 0], [0, 0, 0.05]], (0, 0, 0)),
 }
 
