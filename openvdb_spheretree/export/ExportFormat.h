@@ -53,9 +53,8 @@ struct ExportFormat {
     bool positiveRadii = false; ///< its readers refuse a radius of 0
     bool ids = false;           ///< holds which sphere is which, and whose child
     bool named = true;          ///< holds the name of what is in it
-    bool errors = false; ///< has errors, of another kind than those of trees, and gets 0 for them
-    bool principal =
-        false; ///< its readers want spheres in the frame of the body, and its mass by hand
+    bool errors = false;        ///< has errors of another kind than those of trees, which are 0
+    bool principal = false;     ///< wants the frame of the body, and is told its mass by hand
     /// Why this build does not write it: what it lacks. Empty if it does.
     std::string missing;
     void (*write)(

@@ -48,6 +48,18 @@ Exported sceneOf(
     return result;
 }
 
+/// @return all notes of an export, a `; ` behind each.
+std::string notesOf(
+    const SphereTree& tree, const char* extension, const char* name, const ExportSettings& settings)
+{
+    std::string all;
+    for (const std::string& note :
+        sceneOf(tree, *findExportFormat(extension, name), settings).notes) {
+        all += note + "; ";
+    }
+    return all;
+}
+
 /// A turn, a mirror, a scale and a shift of index space.
 openvdb::math::Transform::Ptr turned()
 {
@@ -138,29 +150,24 @@ TEST(ExportScene, UnitsScaleCentersAndRadii)
     EXPECT_LE(root.radii[0], radius * (1 + 1e-12));
 }
 
-/// A body is what it is in any frame: distances stay, and the mass is where the frame says.
 TEST(ExportScene, RobotsAreInMetres)
 {
-    const auto notesOf = [](const char* extension, double scale, double metersPerUnit) {
+    const auto inUnits = [](const char* extension, double scale, double metersPerUnit) {
         ExportSettings settings;
         settings.level = 0;
         settings.scale = scale / metersPerUnit;
         settings.metersPerUnit = metersPerUnit;
-        std::string all;
-        for (const std::string& note :
-            sceneOf(turnedTree(), *findExportFormat(extension), settings).notes) {
-            all += note + "; ";
-        }
-        return all;
+        return notesOf(turnedTree(), extension, "", settings);
     };
-    EXPECT_TRUE(mentions(notesOf(".urdf", 1, 1), "urdf is in metres, and these spheres span"));
-    EXPECT_TRUE(mentions(notesOf(".yml", 1e-6, 1), "curobo is in metres"));
-    EXPECT_EQ(notesOf(".urdf", 0.01, 1), "");
-    EXPECT_TRUE(mentions(notesOf(".srdf", 0.01, 0.001), "take its numbers for metres"));
-    EXPECT_EQ(notesOf(".vtp", 1, 0.001), "");
-    EXPECT_EQ(notesOf(".glb", 1, 0.001), ""); // its root node makes metres of them
+    EXPECT_TRUE(mentions(inUnits(".urdf", 1, 1), "urdf is in metres, and these spheres span"));
+    EXPECT_TRUE(mentions(inUnits(".yml", 1e-6, 1), "curobo is in metres"));
+    EXPECT_EQ(inUnits(".urdf", 0.01, 1), "");
+    EXPECT_TRUE(mentions(inUnits(".srdf", 0.01, 0.001), "take its numbers for metres"));
+    EXPECT_EQ(inUnits(".vtp", 1, 0.001), "");
+    EXPECT_EQ(inUnits(".glb", 1, 0.001), ""); // its root node makes metres of them
 }
 
+/// A body is what it is in any frame: distances stay, and the mass is where the frame says.
 TEST(ExportScene, FramesOfTheBody)
 {
     const SphereTree tree = turnedTree();
@@ -224,17 +231,6 @@ TEST(ExportScene, SamplesAreInTheFrameOfTheFirst)
         }
         for (const double distance : distances(ofLinks)) EXPECT_NEAR(distance, 0, 1e-9);
     }
-}
-
-std::string notesOf(
-    const SphereTree& tree, const char* extension, const char* name, const ExportSettings& settings)
-{
-    std::string all;
-    for (const std::string& note :
-        sceneOf(tree, *findExportFormat(extension, name), settings).notes) {
-        all += note + "; ";
-    }
-    return all;
 }
 
 TEST(ExportScene, WhatFilesOfOneFormatLackIsSaid)
