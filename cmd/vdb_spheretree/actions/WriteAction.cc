@@ -4,6 +4,7 @@
 /// complete before the first takes its place.
 
 #include "base/LastWords.h"
+#include "base/Terminal.h"
 #include "files/AtomicFile.h"
 #include "files/FdBuffer.h"
 #include "files/VdbStream.h"
@@ -341,6 +342,25 @@ private:
     std::string mToStdout; ///< empty if nothing goes there
 };
 
+/// Whether a file of this name has room for more than one tree.
+bool holdsSeveral(const ActionCall& call, const std::string& path)
+{
+    const openvdb_spheretree::ExportFormat* const format = exportFormatOf(call, path);
+    return format ? format->links || format->samples : fileKind(path) == FileKind::Vdb;
+}
+
+/// Says that a file behind a loop lacks the trees that were written in it.
+void noteGone(const std::string& path, const std::vector<StackItem*>& items, Session& session)
+{
+    const auto isOfLoop = [](const StackItem* item) { return item->anyTree() && item->depth > 0; };
+    const int64_t held = std::count_if(items.begin(), items.end(), isOfLoop);
+    const int64_t gone = session.stack.writtenAndGone();
+    if (held == 0 || gone == 0) return;
+    session.note(path + " lacks " + std::to_string(gone) + " of the "
+        + counted(held + gone, "sphere-tree") + " of the loop, which were given up when they had "
+        + "been written there: keep=1 of that -write keeps them for this file");
+}
+
 /// Says what a user may not expect of the files that are written.
 void noteSurprises(const ActionCall& call, const std::vector<StackItem*>& items, Session& session)
 {
@@ -348,6 +368,7 @@ void noteSurprises(const ActionCall& call, const std::vector<StackItem*>& items,
     const bool anyTree = std::any_of(items.begin(), items.end(), isTree);
     for (const std::string& path : call.list("files")) {
         session.noteIfReplaced(path);
+        if (holdsSeveral(call, path) && !call.given("vdb")) noteGone(path, items, session);
         if (fileKind(path) != FileKind::Vdb || !anyTree || call.given("vdb")) continue;
         for (const StackItem* item : items) {
             if (item->tree) continue;

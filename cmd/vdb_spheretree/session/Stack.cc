@@ -110,8 +110,7 @@ void Stack::setFile(const std::string& path)
 
 void Stack::push(StackItem item)
 {
-    const auto isWritten = [](const auto& old) { return old->written; };
-    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isWritten), mItems.end());
+    dropIf([](const StackItem& old) { return old.written; });
     item.source = mSource;
     item.isOfFile = mIsFile;
     item.batch = mBatch;
@@ -123,8 +122,17 @@ void Stack::push(StackItem item)
 
 void Stack::drop(const StackItem* item)
 {
-    const auto isIt = [item](const auto& other) { return other.get() == item; };
-    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isIt), mItems.end());
+    dropIf([item](const StackItem& other) { return &other == item; });
+}
+
+void Stack::dropIf(const Suits& isGone)
+{
+    const auto leaves = [&](const std::unique_ptr<StackItem>& item) {
+        if (!isGone(*item)) return false;
+        mWrittenAndGone += item->written && item->depth > 0 && item->anyTree();
+        return true;
+    };
+    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), leaves), mItems.end());
 }
 
 std::vector<StackItem> Stack::copies() const

@@ -41,6 +41,7 @@ struct StackItem {
     std::shared_ptr<openvdb_spheretree::SphereTree> emptyTree = {};
     std::optional<int64_t> frame = {}; ///< that it was made in; nothing outside of loops
     bool unverified = false;           ///< a tree of a file without a checksum
+    bool interpolated = false;         ///< values of a grid are means of what -resample found
     int batch = 0;                     ///< the same number for all items of one action
     int64_t serial = 0;                ///< of pushing; a copy keeps it
     std::size_t depth = 0;             ///< of the loops that it was made in
@@ -78,6 +79,8 @@ public:
     void endTurn() { mTurns.pop_back(); }
     void push(StackItem item);
     void drop(const StackItem* item);
+    /// @return how many trees of loops were written there, and are gone: 0 within a loop.
+    int64_t writtenAndGone() const { return mTurns.empty() ? mWrittenAndGone : 0; }
     void clear() { mItems.clear(); }
     /// @return copies of all items that are not written yet, which share their grids, trees and meshes with them.
     std::vector<StackItem> copies() const;
@@ -107,6 +110,7 @@ public:
     bool holdsMesh() const;
 
 private:
+    void dropIf(const Suits& isGone);
     std::vector<StackItem*> oldestFirst(bool meshes);
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
@@ -121,6 +125,7 @@ private:
     bool mIsFile = false;
     std::optional<int64_t> mFrame;
     int64_t mPushed = 0;
+    int64_t mWrittenAndGone = 0; ///< trees of loops
     std::vector<int64_t> mTurns; ///< the first serial of each turn that goes on
     int mBatch = 0;
 };
