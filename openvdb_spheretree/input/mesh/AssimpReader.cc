@@ -11,6 +11,8 @@
 #include <openvdb/Exceptions.h>
 
 #ifdef SPHERETREE_WITH_ASSIMP
+#include "GltfExtensions.h"
+
 #include <openvdb_spheretree/base/ChildProcess.h>
 #include <openvdb_spheretree/base/FileStamp.h>
 #include <openvdb_spheretree/base/Memory.h>
@@ -207,20 +209,29 @@ void take(std::string_view& bytes, std::vector<T>& values)
     bytes.remove_prefix(count * sizeof(T));
 }
 
+/// @return the name as the scene has it: the importer puts the scene's folder before it, whatever it is.
+std::string refusedName(const std::string& asked, const std::string& path)
+{
+    const std::string folder = path.substr(0, path.rfind('/') + 1);
+    const bool isPrefixed = asked.size() > folder.size() && asked.rfind(folder, 0) == 0;
+    return onOneLine(isPrefixed ? asked.substr(folder.size()) : asked, kMaxMessage);
+}
+
 /// In the child.
 std::string bytesOfScene(const std::string& path)
 {
+    const std::string extension = lowerExtension(path);
+    const bool isGltf = extension == ".gltf" || extension == ".glb";
+    if (isGltf) requireKnownExtensions(path);
     Assimp::Importer importer;
     auto* const files = new FilesOfScene(path); // the importer deletes it
     importer.SetIOHandler(files);
     const aiScene* scene = importer.ReadFile(path, 0);
     files->requireUnchanged(); // whatever came of it
     // Without what it names, assimp takes a file of the same name from elsewhere.
-    const std::string extension = lowerExtension(path);
-    const bool needsAll = extension == ".gltf" || extension == ".glb";
-    if (needsAll && !files->refused().empty()) {
-        throw openvdb::IoError("it needs the file " + onOneLine(files->refused(), kMaxMessage)
-            + ", which is no regular file in its folder or below");
+    if (isGltf && !files->refused().empty()) {
+        throw openvdb::IoError("it needs the file '" + refusedName(files->refused(), path)
+            + "', which is no regular file in its folder or below");
     }
     if (!scene) {
         const std::string_view why = importer.GetErrorString(); // any text
@@ -228,7 +239,7 @@ std::string bytesOfScene(const std::string& path)
         throw openvdb::IoError("not a mesh file that assimp can read, or damaged ("
             + onOneLine(why.substr(0, why.find('\n')), kMaxMessage) + ")");
     }
-    const bool storesFloats = needsAll || extension == ".3ds";
+    const bool storesFloats = isGltf || extension == ".3ds";
     if (!storesFloats) requireNearOrigin(*scene);
     const PolygonSoup soup = placedSoup(*scene);
     std::string bytes;

@@ -197,11 +197,45 @@ TEST(MeshScene, BuffersAreRegularFilesBelowTheFolderOfTheFile)
     ASSERT_EQ(0, mkfifo((folder.path() + "/in/pipe.bin").c_str(), 0600));
     EXPECT_EQ("", whyNot("b.bin"));
     EXPECT_EQ("", whyNot("c/b.bin"));
-    for (const std::string uri : {"../b.bin", "pipe.bin", "/dev/zero", "http://127.0.0.1:1/b.bin",
-             "%2e%2e/b.bin", "none.bin"}) {
-        EXPECT_TRUE(mentions(whyNot(uri), "in its folder")) << uri;
+    for (const std::string uri :
+        {"../b.bin", "pipe.bin", "/dev/zero", "http://127.0.0.1:1/b.bin", "none.bin"}) {
+        EXPECT_TRUE(
+            mentions(whyNot(uri), "the file '" + uri + "', which is no regular file in its folder"))
+            << whyNot(uri);
     }
+    EXPECT_TRUE(mentions(whyNot("%2e%2e/b.bin"), "in its folder"));
     EXPECT_TRUE(mentions(whyNot(folder.path() + "/b.bin"), "in its folder"));
+}
+
+/// Assimp reads such a scene all the same, and shows one mesh for many instances, or packed points as they lie.
+TEST(MeshScene, RefusesExtensionsThatSayWhichTrianglesThereAre)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const auto withRequired = [](const std::string& list) {
+        return gltfScene().insert(1, "\"extensionsRequired\":" + list + ",");
+    };
+    const auto asGlb = [](std::string json) {
+        const std::size_t uri = json.find(",\"uri\""), end = json.find('}', uri);
+        json.erase(uri, end - uri); // its buffer is the second chunk
+        while (json.size() % 4 != 0) json += ' ';
+        const std::string buffer = cornersOfTetrahedron();
+        const auto length = uint32_t(json.size()), own = uint32_t(buffer.size());
+        return "glTF" + bytesOf(uint32_t(2)) + bytesOf(28 + length + own) + bytesOf(length) + "JSON"
+            + json + bytesOf(own) + std::string("BIN\0", 4) + buffer;
+    };
+    for (const std::string name : {"EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
+             "KHR_mesh_quantization", "EXT_meshopt_compression", "OTHER"}) {
+        const std::string scene = withRequired("[\"KHR_materials_unlit\",\"" + name + "\"]");
+        EXPECT_TRUE(mentions(errorOf("a.gltf", scene), "extension '" + name + "'")) << name;
+        EXPECT_TRUE(mentions(errorOf("a.glb", asGlb(scene)), "extension '" + name + "'")) << name;
+    }
+    for (const std::string list : {"[]", "[\"KHR_materials_unlit\",\"KHR_texture_transform\"]"}) {
+        EXPECT_EQ("", errorOf("a.gltf", withRequired(list))) << list;
+        EXPECT_EQ("", errorOf("a.glb", asGlb(withRequired(list)))) << list;
+    }
+    std::string used = gltfScene(); // not required: the scene is whole without
+    used.insert(1, "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],");
+    EXPECT_EQ("", errorOf("a.gltf", used));
 }
 
 /// Assimp reads it as often, and the limits are of files.
