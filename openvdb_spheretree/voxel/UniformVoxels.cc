@@ -45,6 +45,13 @@ struct VoxelEdges {
     double length[3];
 };
 
+/// Numbers that are no distances may be labels.
+bool holdsNumbers(const openvdb::GridBase& grid)
+{
+    return grid.getGridClass() != openvdb::GRID_LEVEL_SET && grid.valueType() != "bool"
+        && grid.valueType() != "mask";
+}
+
 } // namespace
 
 void requireUniformVoxels(const openvdb::GridBase& grid)
@@ -79,7 +86,7 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
             << " has voxels of " << length[0] << " x " << length[1] << " x " << length[2]
             << (voxel.areOrthogonal() ? "" : ", and its axes are sheared")
             << "; spheres need cubic voxels: resample it to a uniform voxel size (-resample voxel="
-            << voxel.shortest() << ")");
+            << voxel.shortest() << (holdsNumbers(grid) ? ", for labels with nearest=1)" : ")"));
 }
 
 bool hasCubicVoxels(const openvdb::math::Transform& transform)

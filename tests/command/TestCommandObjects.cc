@@ -187,6 +187,8 @@ TEST_F(CommandObjects, VoxelsThatAreNoCubesAreMadeCubes)
 {
     writeSlices("a.vol", "0.5 0.5 1");
     expectError(3, "-read a.vol -spheretree -write t.vdb", "-resample voxel=0.5");
+    expectError(3, "-read a.vol -spheretree -write t.vdb", "for labels with nearest=1");
+    expectError(3, "-read a.vol -resample voxel=0.5 -mask label=3 -write t.vdb", "nearest=1");
     const auto grid = gridOf("-read a.vol -resample voxel=0.5");
     EXPECT_EQ(grid->type(), "Tree_int32_5_4_3");
     EXPECT_EQ(grid->getName(), "a");

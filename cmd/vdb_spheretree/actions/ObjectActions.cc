@@ -207,6 +207,11 @@ void runMask(const ActionCall& call, Session& session)
     const Stopwatch watch;
     StackItem& item = selectObjectGrid(session, call.text("vdb"));
     requireRelevant(call, *item.grid);
+    if (call.given("label") && item.interpolated) {
+        throwInput("label: " + item.description()
+            + " has been interpolated, so that between labels "
+              "1 and 3 there is 2 where nothing of it was: add nearest=1 to -resample");
+    }
     const spheretree::ObjectSettings settings = objectSettingsOf(call);
     StackItem result;
     auto object = objectOf(item, settings, session);
