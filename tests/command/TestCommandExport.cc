@@ -56,6 +56,8 @@ TEST_F(CommandExport, TheExtensionSaysWhichAndFormatWhereThereAreSeveral)
     EXPECT_TRUE(beginsWith(written("f.json", "format=foam"), "[{\"mean\""));
     EXPECT_TRUE(beginsWith(written("t.csv"), "level,id,parent"));
     EXPECT_TRUE(beginsWith(written("x.csv", "format=multisphere"), "x,y,z,radius\n"));
+    EXPECT_EQ(written("c.mol"), written("c.txt", "format=lammps"));
+    EXPECT_EQ(written("c.multisphere"), written("c.txt", "format=liggghts"));
     EXPECT_TRUE(beginsWith(written("T.PLY"), "ply\nformat binary_little_endian"));
 }
 
@@ -193,6 +195,31 @@ TEST_F(CommandExport, SeveralTreesAreLinksOfOneRobot)
         << "names come before files";
     EXPECT_TRUE(mentions(
         run("-read arm.vdb palm.vdb -write stdout.srdf level=0").out, "<robot name=\"robot\">"));
+}
+
+TEST_F(CommandExport, AFileBehindALoopSaysWhichTreesItLacks)
+{
+    const std::string lack = " lacks 2 of the 3 sphere-trees of the loop", advice = "keep=1";
+    const auto linesOf = [&](const std::string& keep, const std::string& behind) {
+        const Result result = run(
+            "-each link=a,b,c -read a.vol -spheretree spheres=3 name={$link} -write {$link}.vdb "
+            + keep + " -end " + behind);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    for (const std::string file : {"robot.yml", "robot.usda", "all.vdb"}) {
+        const std::string told = linesOf("", "-write " + file);
+        EXPECT_TRUE(mentions(told, file + lack) && mentions(told, advice)) << told;
+        const std::string one = file == "robot.usda" ? " start=1" : "";
+        EXPECT_FALSE(mentions(linesOf("keep=1", "-write " + file + one), "lacks"));
+    }
+    for (const char* behind : {"-write last.urdf", "-write c.yml vdb=c",
+             "-read a.vol -spheretree spheres=2 name=d -write d.yml", "-print"}) {
+        EXPECT_FALSE(mentions(linesOf("", behind), "lacks")) << behind;
+    }
+    const std::string inner =
+        linesOf("", "-for i=0,2 -read a.vol -spheretree spheres=2 name=e -write e{$i}.yml -end");
+    EXPECT_FALSE(mentions(inner, "lacks")) << inner;
 }
 
 TEST_F(CommandExport, LinksAreInTheOrderOfTheList)

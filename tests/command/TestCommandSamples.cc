@@ -17,11 +17,14 @@ TEST_F(CommandFrames, FilesOfOtherToolsAreThereOfAnEmptyFrameIfTheyCanBe)
 {
     writeFrames({8, 9}, 9);
     const std::string line = "-read smoke_####.vdb -spheretree spheres=4 empty=write -write ";
-    const Result write =
-        run(line + "e_####.usda e_####.ply e_####.xyz e_####.obj e_####.csv format=deme");
+    const Result write = run(line
+        + "e_####.usda e_####.ply e_####.xyz e_####.obj e_####.vtp e_####.vtk e_####.csv "
+          "format=deme");
     EXPECT_EQ(write.exitCode, 0) << write.err;
     EXPECT_TRUE(holds(readText(path("e_0009.usda")), "point3f[] points = []"));
     EXPECT_TRUE(holds(readText(path("e_0009.ply")), "element vertex 0\n"));
+    EXPECT_TRUE(holds(readText(path("e_0009.vtp")), "NumberOfPoints=\"0\""));
+    EXPECT_TRUE(holds(readText(path("e_0009.vtk")), "POINTS 0 double"));
     EXPECT_EQ(readText(path("e_0009.xyz")).find("0\n"), 0u);
     EXPECT_EQ(readText(path("e_0009.csv")), "x,y,z,r\n");
     for (const char* file : {"f_####.glb", "f_####.urdf", "f_####.nvdb", "f_####.html"}) {

@@ -58,8 +58,6 @@ const BadLine kBadLines[] = {
         ".usdc files are not written; of USD it writes the text, .usda"},
     {"AnExtensionOfSeveral", "-read a.vol -spheretree -write t.vdb clump.txt",
         ".txt does not say what to write: format=liggghts or format=yade or format=lammps does"},
-    {"AnExtensionThatWantsAName", "-read a.vol -spheretree -write t.vdb clump.mol",
-        ".mol does not say what to write: format=lammps does"},
     {"ANameWithoutExtension", "-read a.vol -spheretree -write t.vdb tree", "without an extension"},
     {"StatsOfOtherKind", "-read a.vol -spheretree -stats lev.txt -write t.vdb",
         "lev.txt: -stats writes .json or .csv"},

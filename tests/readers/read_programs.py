@@ -131,6 +131,19 @@ def read_vtk(trees):
         polydata = reader.GetOutput()
         assert polydata.GetNumberOfVerts() == polydata.GetNumberOfPoints()
         require_covered(points_of(polydata), trees.spheres("turned.vdb"))
+        require_none(reader, trees, "none" + name[-4:])
+
+
+def require_none(reader, trees, name):
+    """A frame without spheres has its arrays, without values."""
+    import pyopenvdb
+
+    pyopenvdb.write(str(trees.folder / "none.vdb"), grids=[pyopenvdb.BoolGrid()])
+    trees.run("-read", "none.vdb", "-spheretree", "empty=write", "-write", name)
+    reader.SetFileName(str(trees.folder / name))
+    reader.Update()
+    assert reader.GetErrorCode() == 0 and reader.GetOutput().GetNumberOfPoints() == 0
+    assert reader.GetOutput().GetPointData().GetNumberOfArrays() == 4
 
 
 def require_corners_on(spheres, polydata, triangles):
@@ -174,7 +187,7 @@ def read_mesh(trees):
 
 def read_lammps(trees):
     need("lmp")
-    trees.write("turned.vdb", "clump.mol", "format=lammps", "frame=centroid", "density=2500")
+    trees.write("turned.vdb", "clump.mol", "frame=centroid", "density=2500")
     (trees.folder / "in.clump").write_text(
         "atom_style hybrid sphere molecular\nregion box block -9 9 -9 9 -9 9\ncreate_box 1 box\ncomm_modify cutoff 9\n"
         "molecule clump clump.mol\ncreate_atoms 0 single 0 0 0 mol clump 1234 rotate 0 0 0 1\n"

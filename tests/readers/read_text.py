@@ -111,7 +111,7 @@ def read_morphit(trees):
 def read_liggghts(trees):
     import numpy
 
-    path = trees.write("turned.vdb", "clump.multisphere", "format=liggghts", "units=mm")
+    path = trees.write("turned.vdb", "clump.multisphere", "units=mm")
     found = of_rows(numpy.loadtxt(path))
     require_covered(found, trees.finest("turned.vdb"), scale=1000)
 
