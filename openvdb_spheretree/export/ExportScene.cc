@@ -163,10 +163,12 @@ void noteUnits(
     }
     const double span = ExportScene::boxOf(scene.finest()).extents().length();
     if (span > kSmallest && span < kLargest) return;
-    notes.push_back(format.name + " is in metres, and these spheres span " + shortNumber(span)
-        + ": if the tree is in millimetres, read what it is made of with units=mm, or write it "
-          "with "
-          "scale=0.001");
+    const std::string remedy = span >= kLargest
+        ? "if the tree is in millimetres, read what it is made of with units=mm, or write it with "
+          "scale=0.001"
+        : "if the tree is in another unit, or was scaled twice, write it with scale=";
+    notes.push_back(
+        format.name + " is in metres, and these spheres span " + shortNumber(span) + ": " + remedy);
 }
 
 /// Planners and physics ask all spheres of a link against all of others, many times a second.

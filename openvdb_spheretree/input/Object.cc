@@ -351,7 +351,10 @@ MaskTree::Ptr centersIn(const GridT& grid, const Wanted& wanted, std::atomic<int
             detail::TextStream background;
             background << grid.background();
             throwUnbounded(grid, background.str(), wanted.text,
-                wanted.below ? "choose values without it" : "choose a threshold above it");
+                wanted.below || !wanted.labels.empty()
+                    ? "choose values without it (a file of an array or a picture may be read with "
+                      "another background=)"
+                    : "choose a threshold above it");
         }
         using Inside = std::decay_t<decltype(inside)>;
         return decide(grid.tree(), ValueCriterion<Inside>{inside, &notNumbers}, interrupter);

@@ -340,7 +340,8 @@ void scaleGrid(openvdb::GridBase& grid, double factor)
         OPENVDB_THROW(openvdb::ValueError,
             detail::describe(grid)
                 << " has voxels of size " << grid.voxelSize()[0] << ", and times " << factor
-                << " they are of none that a transform holds: choose another scale");
+                << " they are of none that OpenVDB holds, which takes cubes of 1.5e-5 and larger: "
+                   "leave it as it is, and let scale= of -write change the files of other tools");
     }
     grid.setTransform(scaled);
     if (grid.getGridClass() != openvdb::GRID_LEVEL_SET) return;

@@ -207,7 +207,7 @@ TEST_F(CommandFrames, AnEmptyFrameFailsOrIsSkippedOrWritten)
     EXPECT_EQ(skip.exitCode, 0) << skip.err;
     EXPECT_TRUE(existAll("skip", {8, 10}));
     EXPECT_FALSE(exists("skip_0009.vdb"));
-    EXPECT_TRUE(holds(skip.err, "frame=9 (2 of 3): skipped: ")) << skip.err;
+    EXPECT_TRUE(holds(skip.err, "frame=9 (2 of 3): skipped: -spheretree")) << skip.err;
 
     const Result write = run(line
         + "write -stats json={$frame}.json -write e_####.vdb e_####.csv e_####.json e_####.png "

@@ -330,6 +330,16 @@ void runCheck(const ActionCall& call, Session& session)
     if (!faults.empty() && isGiven) {
         throw CommandError(kCheckFailed, item.description() + ": " + faults.front().sentence);
     }
+    const auto isOfMesh = [](const auto& fault) {
+        return fault.kind == spheretree::FaultKind::Surface;
+    };
+    if (object && !faults.empty() && std::all_of(faults.begin(), faults.end(), isOfMesh)) {
+        throw CommandError(kCheckFailed,
+            item.description()
+                + " holds what it promises of its voxels, but not the mesh, as only voxels of "
+                  "-mesh2ls cover=1 are sure to: "
+                + faults.front().sentence);
+    }
     if (!faults.empty()) {
         throw CommandError(kCheckFailed,
             item.description() + " does not hold what it promises: " + std::to_string(faults.size())

@@ -82,6 +82,13 @@ std::string summaryOf(const FrameItems& frame)
         + counted(int64_t(levels.size()), "level") + ", ";
 }
 
+/// @return what an error of a frame says, without the frame's name before it.
+std::string withoutName(const std::string& why, const std::string& frame)
+{
+    const std::string before = frame + ": ";
+    return why.rfind(before, 0) == 0 ? why.substr(before.size()) : why;
+}
+
 /// @return a part of the names of many things.
 std::string someOf(const std::vector<std::string>& names, size_t most)
 {
@@ -268,7 +275,7 @@ void ScriptRunner::runFrame(const Frame& frame, Turns& turns, bool isEnd)
         if (turns.loop.isSequence || !isLast) items.drop(turns.loop.isSequence);
     } catch (const FrameSkipped& skipped) {
         ++turns.skipped;
-        mSession.tell(turns.label() + ": skipped: " + skipped.why);
+        mSession.tell(turns.label() + ": skipped: " + withoutName(skipped.why, frame.name));
         items.drop(true);
     } catch (const openvdb_spheretree::Interrupted&) {
         mSession.tellInterrupted(turns.label(), turns.doneText());

@@ -67,9 +67,11 @@ Transform::Ptr transformOf(const openvdb::Vec3d& voxelSize)
             openvdb::math::MapBase::Ptr(new openvdb::math::ScaleMap(voxelSize)));
     } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
         std::ostringstream size;
-        size << "voxels of " << voxelSize[0] << " x " << voxelSize[1] << " x " << voxelSize[2]
-             << " are too small for an OpenVDB transform, which takes a volume of 3e-15 and more: "
-                "choose a smaller unit of length";
+        size
+            << "voxels of " << voxelSize[0] << " x " << voxelSize[1] << " x " << voxelSize[2]
+            << " are too small for OpenVDB, which takes cubes of 1.5e-5 and larger: read the file "
+               "without units= or with another spacing, so that numbers are larger, and let scale= "
+               "of -write make those of other tools' files smaller";
         throw IoError(size.str());
     }
 }

@@ -333,6 +333,12 @@ void parseSphereJson(std::istream& in, SphereList& spheres)
     JsonHandler handler(spheres);
     Json::sax_parse(in, &handler);
     handler.requireCounts();
+    if (spheres.size() == 0) {
+        throw openvdb::IoError(
+            "it holds no sphere: they are taken from a list of objects with x, y, z (or center) "
+            "and "
+            "radius, or from rows below 'columns'; those of foam and MorphIt are not read");
+    }
 }
 
 #else
