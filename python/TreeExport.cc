@@ -42,9 +42,14 @@ const ExportFormat& formatOf(const std::string& path, const std::string& name)
                 + (format.byExtension ? "" : " (format=\"" + format.name + "\")");
         }
     }
+    const bool isSaved = extension == ".vdb" || extension == ".json" || extension == ".csv";
+    const bool isPage = extension == ".html" || extension == ".htm";
     throw InputError(path + ": no file of another tool "
-        + (name.empty() ? "ends so" : "of format=\"" + name + "\" ends so") + "; those are "
-        + known);
+        + (name.empty() ? "ends so" : "of format=\"" + name + "\" ends so")
+        + (isSaved       ? " (Tree.save() writes " + extension + " of trees)"
+                : isPage ? " (Tree.write_html() writes pages)"
+                         : "")
+        + "; those are " + known);
 }
 
 template <typename Value>

@@ -12,6 +12,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
+#include <openvdb_spheretree/export/ExportFormat.h>
 #include <openvdb_spheretree/input/vdb/VdbGrids.h>
 #include <openvdb_spheretree/store/SphereTreeCsv.h>
 #include <openvdb_spheretree/store/SphereTreeJson.h>
@@ -93,7 +94,8 @@ const Format& formatOf(const std::string& path)
     throw InputError(path + ": "
         + (extension.empty() ? "a name without an extension says not what to write"
                              : "a tree is not saved as " + extension)
-        + "; it is as " + known);
+        + "; it is as " + known
+        + (spheretree::findExportFormat(extension) ? ", and export() writes " + extension : ""));
 }
 
 /// All files are complete before the first takes its place.

@@ -331,7 +331,9 @@ void requireObjectOf(
     const spheretree::SphereTree& tree, const Volume& volume, const std::string& what)
 {
     if (spheretree::isObjectOf(*volume.object, tree)) return;
-    throw InputError(what + ": the volume has other voxels than those that the tree was built of");
+    throw InputError(what
+        + ": the volume has other voxels than those that the tree was built of: make it once, by "
+          "volume() with all keywords, and give that to build() and here");
 }
 
 std::vector<py::ssize_t> Volume::shape() const

@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 from . import _spheretree
-from ._volume import Progress, VolumeLike, system_path, text, whole_number
+from ._volume import Progress, VolumeLike, system_path, text, warn, whole_number
 from ._volume import volume as as_volume
 
 if TYPE_CHECKING:
@@ -136,7 +135,7 @@ def export(
     own = None if volume is None else as_volume(volume)._handle
     handles = [tree._handle for tree in several]
     for note in _spheretree.export(handles, system_path(path), text("format", format), words, list(given), own, progress):
-        warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
+        warn(f"{os.fspath(path)}: {note}")
 
 
 def _several(trees: Tree | Iterable[Tree]) -> list[Tree]:

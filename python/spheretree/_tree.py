@@ -223,7 +223,8 @@ class Tree:
         path
             `.html` or `.htm`.
         volume
-            What the tree was built over: its surface is shown, too.
+            What the tree was built over: its surface is shown, too. Where that took keywords, as of meshes, it is the
+            `volume()` that was made with them.
         triangles
             The most that the surface has. It is made of blocks of voxels where it would have more; 0: there is none.
         progress
@@ -301,6 +302,8 @@ def load(path: str | os.PathLike[str], name: str | None = None, *, progress: Pro
     >>> spheretree.load("cube.vdb")
     <spheretree.Tree 'spheretree': 8, 1 spheres on 2 levels>
     """
+    if os.fsdecode(path).lower().endswith((".csv", ".json")):
+        raise _spheretree.InputError(f"{os.fspath(path)}: trees are loaded from a .vdb alone, which save() writes without loss")
     return Tree(_spheretree.load(readable(path), "" if name is None else text("name", name), progress))
 
 

@@ -112,6 +112,15 @@ def thread_count(threads: int | None) -> int:
     return int(threads)
 
 
+def warn(message: str) -> None:
+    """A UserWarning at the line that called this package."""
+    package = os.path.dirname(__file__)
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and os.path.dirname(frame.f_code.co_filename) == package:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, stacklevel=level)
+
+
 def readable(path: str | os.PathLike[str]) -> bytes:
     """The path as the system has it. Raises what open() raises: FileNotFoundError, PermissionError ... The name of a
     stack of slices is that of no file, and is taken as it is."""
@@ -455,7 +464,7 @@ def volume(
     else:
         result = _of_grid(source, wanted, progress, threads)
     for warning in result._handle.warnings:
-        warnings.warn(warning, stacklevel=2)
+        warn(warning)
     return result
 
 

@@ -121,6 +121,21 @@ def test_several_trees_are_links_of_one_robot(tree, tmp_path):
     assert 'collision_link_names: ["palm"]' in path.read_text()
 
 
+def test_a_warning_points_to_the_line_that_called(tree, tmp_path):
+    for write in (lambda: spheretree.export(tree, tmp_path / "t.urdf"), lambda: tree.export(tmp_path / "t.urdf")):
+        with pytest.warns(UserWarning, match="holds one level") as caught:
+            write()
+        assert {warning.filename for warning in caught} == {__file__}
+
+
+def test_what_belongs_to_another_function_is_said(tree, tmp_path):
+    with pytest.raises(spheretree.InputError, match=r"export\(\) writes .urdf"):
+        tree.save(tmp_path / "t.urdf")
+    tree.save(tmp_path / "t.csv")
+    with pytest.raises(spheretree.InputError, match="loaded from a .vdb"):
+        spheretree.load(tmp_path / "t.csv")
+
+
 def test_a_level_as_numbers(tree, tmp_path):
     spheretree.export(tree, tmp_path / "t.json", format="morphit", spheres=5)
     read = json.load(open(tmp_path / "t.json"))
@@ -131,6 +146,8 @@ def test_a_level_as_numbers(tree, tmp_path):
 
 @pytest.mark.parametrize("words, why", [
     ({"path": "t.xyzw"}, "no file of another tool ends so"),
+    ({"path": "t.csv"}, r"Tree.save\(\) writes .csv"),
+    ({"path": "t.html"}, r"Tree.write_html\(\) writes pages"),
     ({"path": "t.urdf", "format": "usd"}, 'format="usd"'),
     ({"path": "t.usda", "up": "x"}, 'up="x" is none of'),
     ({"path": "t.usda", "units": "mile"}, 'units="mile"'),
