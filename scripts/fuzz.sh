@@ -4,8 +4,8 @@
 #
 #   scripts/fuzz.sh MINUTES [TARGET...]    minutes for each target; all of them, or those named:
 #                                          vdb vol longvol npy raw nrrd detached nii niigz png pgm stack
-#                                          obj off ply stl csv json poses bodies points rays config line
-#                                          settings text expression
+#                                          obj off ply stl gltf glb csv json poses bodies points rays config
+#                                          line settings text expression
 #
 # Inputs that found something new are kept in build/asan/fuzz/corpus/TARGET, findings in
 # build/asan/fuzz/findings/TARGET. Exit code: 0, or 1 if there are findings. A run goes on after a finding,
@@ -13,8 +13,8 @@
 set -euo pipefail
 # shellcheck source=scripts/dependencies.sh
 source "$(dirname "${BASH_SOURCE[0]}")/dependencies.sh"
-all_targets=(vdb vol longvol npy raw nrrd detached nii niigz png pgm stack obj off ply stl csv json
-    poses bodies points rays config line settings text expression)
+all_targets=(vdb vol longvol npy raw nrrd detached nii niigz png pgm stack obj off ply stl gltf glb csv
+    json poses bodies points rays config line settings text expression)
 most_findings=10 # of one target in one run: they are alike, as a rule
 
 usage() {
