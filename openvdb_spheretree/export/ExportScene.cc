@@ -166,7 +166,7 @@ void noteUnits(
     const std::string remedy = span >= kLargest
         ? "if the tree is in millimetres, read what it is made of with units=mm, or write it with "
           "scale=0.001"
-        : "if the tree is in another unit, or was scaled twice, write it with scale=";
+        : "if that is too small, scale= of -write makes it larger";
     notes.push_back(
         format.name + " is in metres, and these spheres span " + shortNumber(span) + ": " + remedy);
 }

@@ -329,20 +329,21 @@ openvdb::GridBase::Ptr resampled(const openvdb::GridBase& grid, double voxelSize
 void scaleGrid(openvdb::GridBase& grid, double factor)
 {
     const Transform::Ptr scaled = grid.transform().copy();
-    bool isFine = factor > 0 && std::isfinite(factor);
-    try {
-        if (isFine) scaled->postScale(factor);
-        isFine = isFine && scaled->voxelSize().isFinite();
-    } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
-        isFine = false;
-    }
-    if (!isFine) {
+    const auto fail = [&](const char* why) {
         OPENVDB_THROW(openvdb::ValueError,
-            detail::describe(grid)
-                << " has voxels of size " << grid.voxelSize()[0] << ", and times " << factor
-                << " they are of none that OpenVDB holds, which takes cubes of 1.5e-5 and larger: "
-                   "leave it as it is, and let scale= of -write change the files of other tools");
+            detail::describe(grid) << " has voxels of size " << grid.voxelSize()[0]
+                                   << ", and times " << factor << why);
+    };
+    constexpr auto kNone = " they are of none that a transform holds: choose another scale";
+    if (!(factor > 0 && std::isfinite(factor))) fail(kNone);
+    try {
+        scaled->postScale(factor);
+    } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
+        fail(
+            " they are smaller than the cubes of 1.5e-5 that OpenVDB takes: leave it as it is, and "
+            "let scale= of -write change the files of other tools");
     }
+    if (!scaled->voxelSize().isFinite()) fail(kNone);
     grid.setTransform(scaled);
     if (grid.getGridClass() != openvdb::GRID_LEVEL_SET) return;
     grid.apply<openvdb::RealGridTypes>([&](auto& typed) {

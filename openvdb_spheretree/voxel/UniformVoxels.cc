@@ -48,8 +48,10 @@ struct VoxelEdges {
 /// Numbers that are no distances may be labels.
 bool holdsNumbers(const openvdb::GridBase& grid)
 {
-    return grid.getGridClass() != openvdb::GRID_LEVEL_SET && grid.valueType() != "bool"
-        && grid.valueType() != "mask";
+    const std::string type = grid.valueType();
+    const bool arePoints = type.rfind("ptdataidx", 0) == 0;
+    return grid.getGridClass() != openvdb::GRID_LEVEL_SET && type != "bool" && type != "mask"
+        && !arePoints;
 }
 
 } // namespace

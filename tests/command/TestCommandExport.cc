@@ -213,13 +213,33 @@ TEST_F(CommandExport, AFileBehindALoopSaysWhichTreesItLacks)
         const std::string one = file == "robot.usda" ? " start=1" : "";
         EXPECT_FALSE(mentions(linesOf("keep=1", "-write " + file + one), "lacks"));
     }
-    for (const char* behind : {"-write last.urdf", "-write c.yml vdb=c",
-             "-read a.vol -spheretree spheres=2 name=d -write d.yml", "-print"}) {
+    const std::string make = "-read a.vol -spheretree spheres=2 name={$l} ";
+    for (const std::string& behind :
+        {std::string("-write last.urdf"), std::string("-write c.yml vdb=c"),
+            std::string("-read a.vol -spheretree spheres=2 name=d -write d.yml"),
+            "-each l=d,e " + make + "-write {$l}.vdb keep=1 -end -write de.yml vdb=d,e",
+            "-clear -each l=d,e " + make + "-end -write de.yml",
+            "-for l=0,2 " + make + "-write e{$l}.yml -end"}) {
         EXPECT_FALSE(mentions(linesOf("", behind), "lacks")) << behind;
     }
-    const std::string inner =
-        linesOf("", "-for i=0,2 -read a.vol -spheretree spheres=2 name=e -write e{$i}.yml -end");
-    EXPECT_FALSE(mentions(inner, "lacks")) << inner;
+    const auto toldOf = [&](const std::string& line) {
+        const Result result = run(line);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_FALSE(mentions(toldOf("-each l=a,b " + make + "-write {$l}.vdb -end -each l=d,e " + make
+                              + "-write {$l}.vdb keep=1 -end -write de.yml"),
+        "lacks"))
+        << "the first loop is not that of the file";
+    EXPECT_FALSE(mentions(toldOf("-each l=a,b " + make
+                              + "-write {$l}.vdb -level level=0 name={$l} "
+                                "-write {$l}.csv keep=1 -end -write r.yml"),
+        "lacks"))
+        << "-level took them";
+    const std::string nested =
+        toldOf("-each r=p,q -each l=a,b " + make + "-write {$r}{$l}.vdb -end -write {$r}.yml -end");
+    EXPECT_TRUE(mentions(nested, "p.yml lacks 1 of the 2")) << nested;
+    EXPECT_TRUE(mentions(nested, "q.yml lacks 1 of the 2")) << nested;
 }
 
 TEST_F(CommandExport, LinksAreInTheOrderOfTheList)

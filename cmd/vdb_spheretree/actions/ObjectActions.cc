@@ -209,8 +209,7 @@ void runMask(const ActionCall& call, Session& session)
     requireRelevant(call, *item.grid);
     if (call.given("label") && item.interpolated) {
         throwInput("label: " + item.description()
-            + " has been interpolated, so that between labels "
-              "1 and 3 there is 2 where nothing of it was: add nearest=1 to -resample");
+            + " is interpolated, and a mean of labels 1 and 3 is 2: add nearest=1 to -resample");
     }
     const spheretree::ObjectSettings settings = objectSettingsOf(call);
     StackItem result;

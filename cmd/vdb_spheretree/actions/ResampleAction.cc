@@ -30,7 +30,7 @@ void runResample(const ActionCall& call, Session& session)
     } catch (...) {
         rethrowNamed(item.description(), kInput);
     }
-    result.interpolated = !call.flag("nearest");
+    result.interpolated = item.interpolated || !call.flag("nearest");
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());

@@ -333,12 +333,12 @@ void runCheck(const ActionCall& call, Session& session)
     const auto isOfMesh = [](const auto& fault) {
         return fault.kind == spheretree::FaultKind::Surface;
     };
-    if (object && !faults.empty() && std::all_of(faults.begin(), faults.end(), isOfMesh)) {
+    const bool isSound = std::all_of(faults.begin(), faults.end(), isOfMesh);
+    const bool isOfCubes = object && spheretree::coverageOf(*object) == spheretree::Coverage::Cubes;
+    if (!faults.empty() && isSound && object && !isOfCubes) {
         throw CommandError(kCheckFailed,
-            item.description()
-                + " holds what it promises of its voxels, but not the mesh, as only voxels of "
-                  "-mesh2ls cover=1 are sure to: "
-                + faults.front().sentence);
+            item.description() + " covers all voxels of its object, but not all of the mesh ("
+                + faults.front().sentence + "); those of -mesh2ls cover=1 hold all of it");
     }
     if (!faults.empty()) {
         throw CommandError(kCheckFailed,

@@ -352,7 +352,9 @@ bool holdsSeveral(const ActionCall& call, const std::string& path)
 /// Says that a file behind a loop lacks the trees that were written in it.
 void noteGone(const std::string& path, const std::vector<StackItem*>& items, Session& session)
 {
-    const auto isOfLoop = [](const StackItem* item) { return item->anyTree() && item->depth > 0; };
+    const auto isOfLoop = [&](const StackItem* item) {
+        return item->anyTree() && session.stack.isOfEndedLoop(*item);
+    };
     const int64_t held = std::count_if(items.begin(), items.end(), isOfLoop);
     const int64_t gone = session.stack.writtenAndGone();
     if (held == 0 || gone == 0) return;

@@ -50,7 +50,8 @@ public:
     void drop(bool all)
     {
         for (const StackItem* item : items()) {
-            if (all || item->written) mSession.stack.drop(item);
+            if (all) mSession.stack.drop(item);
+            else if (item->written) mSession.stack.giveUp(item);
         }
         auto& inputs = mSession.inputs;
         const size_t kept = std::min(mInputs, inputs.size());
@@ -245,6 +246,7 @@ void ScriptRunner::runLoop(const Step& loop, bool isEnd)
     if (!loop.note.empty()) mSession.note(loop.note);
     Turns turns{loop};
     const Session::InLoop inLoop(mSession, loop.isSequence);
+    mSession.stack.beginLoop();
     const std::vector<StackItem> before =
         loop.isSequence ? mSession.stack.copies() : std::vector<StackItem>();
     for (const Frame& frame : loop.frames) {

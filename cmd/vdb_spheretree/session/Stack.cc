@@ -110,7 +110,11 @@ void Stack::setFile(const std::string& path)
 
 void Stack::push(StackItem item)
 {
-    dropIf([](const StackItem& old) { return old.written; });
+    std::vector<const StackItem*> written;
+    for (const auto& old : mItems) {
+        if (old->written) written.push_back(old.get());
+    }
+    for (const StackItem* old : written) giveUp(old);
     item.source = mSource;
     item.isOfFile = mIsFile;
     item.batch = mBatch;
@@ -122,17 +126,38 @@ void Stack::push(StackItem item)
 
 void Stack::drop(const StackItem* item)
 {
-    dropIf([item](const StackItem& other) { return &other == item; });
+    const auto isIt = [item](const auto& other) { return other.get() == item; };
+    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), isIt), mItems.end());
 }
 
-void Stack::dropIf(const Suits& isGone)
+void Stack::giveUp(const StackItem* item)
 {
-    const auto leaves = [&](const std::unique_ptr<StackItem>& item) {
-        if (!isGone(*item)) return false;
-        mWrittenAndGone += item->written && item->depth > 0 && item->anyTree();
-        return true;
-    };
-    mItems.erase(std::remove_if(mItems.begin(), mItems.end(), leaves), mItems.end());
+    const bool isOfThisTurn = !mTurns.empty() && item->serial >= mTurns.back();
+    if (isOfThisTurn && item->anyTree()) mGone.emplace_back(item->serial, item->depth);
+    drop(item);
+}
+
+bool Stack::isOfEndedLoop(int64_t serial, std::size_t depth) const
+{
+    return depth > mTurns.size() && serial >= (mTurns.empty() ? 0 : mTurns.back());
+}
+
+int64_t Stack::writtenAndGone() const
+{
+    return std::count_if(mGone.begin(), mGone.end(),
+        [&](const auto& gone) { return isOfEndedLoop(gone.first, gone.second); });
+}
+
+void Stack::beginLoop()
+{
+    const auto isOld = [&](const auto& gone) { return isOfEndedLoop(gone.first, gone.second); };
+    mGone.erase(std::remove_if(mGone.begin(), mGone.end(), isOld), mGone.end());
+}
+
+void Stack::clear()
+{
+    mItems.clear();
+    mGone.clear();
 }
 
 std::vector<StackItem> Stack::copies() const
@@ -188,15 +213,12 @@ StackItem* Stack::find(const std::string& ageOrName, bool meshes)
 
 std::vector<StackItem*> Stack::ofAllTurns(StackItem* item, const std::string& ageOrName)
 {
-    const int64_t first = mTurns.empty() ? 0 : mTurns.back();
-    const auto isOfEndedLoop = [&](const StackItem* other) {
-        return other->depth > mTurns.size() && other->serial >= first && other->name() == ageOrName;
+    const auto isOther = [&](const StackItem* other) {
+        return !isOfEndedLoop(*other) || other->name() != ageOrName;
     };
-    if (!isOfEndedLoop(item)) return {item};
+    if (isOther(item)) return {item};
     std::vector<StackItem*> all = oldestFirst(false);
-    all.erase(std::remove_if(all.begin(), all.end(),
-                  [&](const StackItem* other) { return !isOfEndedLoop(other); }),
-        all.end());
+    all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
     return all;
 }
 

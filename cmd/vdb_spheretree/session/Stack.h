@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace command {
@@ -77,11 +78,20 @@ public:
     /// What is pushed between the two belongs to a turn of a loop; turns may be within each other.
     void beginTurn() { mTurns.push_back(mPushed); }
     void endTurn() { mTurns.pop_back(); }
+    /// Forgets what loops before gave up.
+    void beginLoop();
     void push(StackItem item);
     void drop(const StackItem* item);
-    /// @return how many trees of loops were written there, and are gone: 0 within a loop.
-    int64_t writtenAndGone() const { return mTurns.empty() ? mWrittenAndGone : 0; }
-    void clear() { mItems.clear(); }
+    /// Drops what has been written, and remembers that for writtenAndGone().
+    void giveUp(const StackItem* item);
+    /// @return whether it is of a loop that has ended since the present turn began.
+    bool isOfEndedLoop(const StackItem& item) const
+    {
+        return isOfEndedLoop(item.serial, item.depth);
+    }
+    /// @return how many trees of the last such loop have been given up in it.
+    int64_t writtenAndGone() const;
+    void clear();
     /// @return copies of all items that are not written yet, which share their grids, trees and meshes with them.
     std::vector<StackItem> copies() const;
     /// Makes the stack what it was when it was copied.
@@ -110,7 +120,7 @@ public:
     bool holdsMesh() const;
 
 private:
-    void dropIf(const Suits& isGone);
+    bool isOfEndedLoop(int64_t serial, std::size_t depth) const;
     std::vector<StackItem*> oldestFirst(bool meshes);
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
@@ -125,7 +135,8 @@ private:
     bool mIsFile = false;
     std::optional<int64_t> mFrame;
     int64_t mPushed = 0;
-    int64_t mWrittenAndGone = 0; ///< trees of loops
+    std::vector<std::pair<int64_t, std::size_t>>
+        mGone;                   ///< trees that were given up in their loops: serials, depths
     std::vector<int64_t> mTurns; ///< the first serial of each turn that goes on
     int mBatch = 0;
 };

@@ -67,11 +67,10 @@ Transform::Ptr transformOf(const openvdb::Vec3d& voxelSize)
             openvdb::math::MapBase::Ptr(new openvdb::math::ScaleMap(voxelSize)));
     } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
         std::ostringstream size;
-        size
-            << "voxels of " << voxelSize[0] << " x " << voxelSize[1] << " x " << voxelSize[2]
-            << " are too small for OpenVDB, which takes cubes of 1.5e-5 and larger: read the file "
-               "without units= or with another spacing, so that numbers are larger, and let scale= "
-               "of -write make those of other tools' files smaller";
+        size << "voxels of " << voxelSize[0] << " x " << voxelSize[1] << " x " << voxelSize[2]
+             << " are too small for OpenVDB, which takes cubes of 1.5e-5 and larger: give "
+                "a larger spacing=, of a smaller unit of length, and let scale= of -write make the "
+                "numbers of other tools' files smaller";
         throw IoError(size.str());
     }
 }
@@ -83,7 +82,8 @@ Transform::Ptr transformOf(const openvdb::Mat4d& indexToWorld)
     try {
         return Transform::createLinearTransform(indexToWorld); // the simplest map that it is
     } catch (const openvdb::Exception&) {
-        throw IoError("its voxels have no volume, or one too small for an OpenVDB transform");
+        throw IoError("its voxels have no volume, or are smaller than the cubes of 1.5e-5 that "
+                      "OpenVDB takes");
     }
 }
 

@@ -75,16 +75,21 @@ public:
 
     Assimp::IOStream* Open(const char* name, const char* mode) override
     {
-        if (!Exists(name)) return nullptr;
+        return Exists(name) && allowFor(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+    }
+
+    /// Raises the limits for a file, once: a scene may name one a thousand times.
+    /// @return whether it is there
+    bool allowFor(const std::string& name)
+    {
         struct stat info;
-        if (stat(name, &info) != 0) return nullptr;
-        // Once: a scene may name one file a thousand times.
+        if (stat(name.c_str(), &info) != 0) return false;
         if (mOpened.emplace(info.st_dev, info.st_ino).second) {
             const auto size = uint64_t(info.st_size);
             allowMore({kMemoryPerByte * size, size / kBytesPerSecond});
             mStamps.emplace_back(name);
         }
-        return DefaultIOSystem::Open(name, mode);
+        return true;
     }
 
     /// @return the first file that was asked for in vain.
@@ -221,11 +226,14 @@ std::string refusedName(const std::string& asked, const std::string& path)
 std::string bytesOfScene(const std::string& path)
 {
     const std::string extension = lowerExtension(path);
-    const bool isGltf = extension == ".gltf" || extension == ".glb";
-    if (isGltf) requireKnownExtensions(path);
+    const bool isGltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
     Assimp::Importer importer;
     auto* const files = new FilesOfScene(path); // the importer deletes it
     importer.SetIOHandler(files);
+    if (isGltf) {
+        files->allowFor(path);
+        requireKnownExtensions(path);
+    }
     const aiScene* scene = importer.ReadFile(path, 0);
     files->requireUnchanged(); // whatever came of it
     // Without what it names, assimp takes a file of the same name from elsewhere.

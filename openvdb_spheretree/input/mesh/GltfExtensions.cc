@@ -3,8 +3,9 @@
 
 #include <openvdb/Exceptions.h>
 
-#ifdef SPHERETREE_WITH_NLOHMANN_JSON
+#ifdef SPHERETREE_WITH_ASSIMP
 #include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/base/TextStream.h>
 
 #include <nlohmann/json.hpp>
 
@@ -13,17 +14,19 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <istream>
 #include <vector>
 #endif
 
 namespace openvdb_spheretree::detail {
 
-#ifdef SPHERETREE_WITH_NLOHMANN_JSON
+#ifdef SPHERETREE_WITH_ASSIMP
 
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr const char* kMember = "extensionsRequired";
 
 /// Extensions that leave all triangles what they are.
 bool isOfLooks(const std::string& extension)
@@ -35,45 +38,49 @@ bool isOfLooks(const std::string& extension)
         [&](const char* beginning) { return extension.rfind(beginning, 0) == 0; });
 }
 
-/// @return the JSON of a scene: all of a `.gltf`, and the first chunk of a `.glb` of version 2; empty where there is none.
-std::string jsonOf(const std::string& path)
+/// The text of a scene; parts of it that are not asked for take no memory.
+Json parsed(std::istream& text)
+{
+    const auto isKept = [](int depth, Json::parse_event_t event, const Json& key) {
+        return depth != 1 || event != Json::parse_event_t::key || key == kMember;
+    };
+    Json scene = Json::parse(text, isKept, /*allow_exceptions=*/false);
+    if (scene.is_discarded()) throw openvdb::IoError("damaged: its text is no JSON in UTF-8");
+    return scene;
+}
+
+/// @return the scene of a `.gltf`, or of the first chunk of a `.glb`; null of one of version 1, which requires nothing.
+Json sceneOf(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
-    if (lowerExtension(path) != ".glb") return {std::istreambuf_iterator<char>(file), {}};
     struct Header {
         char magic[4];
         uint32_t version, bytes, chunkBytes;
         char chunk[4];
     } header = {};
     file.read(reinterpret_cast<char*>(&header), sizeof(header));
-    const bool isScene = std::memcmp(header.magic, "glTF", 4) == 0 && header.version == 2
-        && std::memcmp(header.chunk, "JSON", 4) == 0;
-    std::string json;
-    for (uint32_t left = isScene ? header.chunkBytes : 0; left > 0 && file;) {
-        char piece[1 << 16];
-        file.read(piece, std::min<std::streamsize>(sizeof(piece), left));
-        json.append(piece, std::size_t(file.gcount()));
-        left -= uint32_t(file.gcount());
+    if (std::memcmp(header.magic, "glTF", 4) != 0) {
+        file.clear();
+        file.seekg(0);
+        return parsed(file);
     }
-    return json;
-}
-
-/// @return the member of the scene that lists them, and null where there is none or the text is no JSON.
-Json requiredExtensions(const std::string& json)
-{
-    constexpr auto kMember = "extensionsRequired";
-    const auto isKept = [](int depth, Json::parse_event_t event, const Json& key) {
-        return depth != 1 || event != Json::parse_event_t::key || key == kMember;
-    };
-    const Json scene = Json::parse(json, isKept, /*allow_exceptions=*/false);
-    return scene.is_object() && scene.contains(kMember) ? scene[kMember] : Json();
+    if (header.version != 2 || std::memcmp(header.chunk, "JSON", 4) != 0) return {};
+    TextStream text;
+    char piece[1 << 16];
+    for (uint32_t left = header.chunkBytes; left > 0 && file; left -= uint32_t(file.gcount())) {
+        file.read(piece, std::min<std::streamsize>(sizeof(piece), left));
+        text.write(piece, file.gcount());
+    }
+    return parsed(text);
 }
 
 } // namespace
 
 void requireKnownExtensions(const std::string& path)
 {
-    for (const Json& extension : requiredExtensions(jsonOf(path))) {
+    const Json scene = sceneOf(path);
+    if (!scene.is_object() || !scene.contains(kMember)) return;
+    for (const Json& extension : scene[kMember]) {
         if (!extension.is_string() || isOfLooks(extension)) continue;
         constexpr std::size_t kMaxName = 60;
         throw openvdb::IoError("it requires the glTF extension '"
@@ -81,15 +88,6 @@ void requireKnownExtensions(const std::string& path)
             + "', which is not read here: export it as plain triangles, without instances, "
               "compression and quantization, or as .ply, .obj or .stl");
     }
-}
-
-#else
-
-void requireKnownExtensions(const std::string&)
-{
-    throw openvdb::IoError(
-        "this build lacks nlohmann-json, which .gltf and .glb need: install it (Debian: "
-        "nlohmann-json3-dev) and configure with -DSPHERETREE_WITH_NLOHMANN_JSON=ON");
 }
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file GltfExtensions.h
-/// @brief What a glTF scene requires of its readers (glTF 2.0, section 3.12: one that does not know an extension that is
-/// required must not show the scene; assimp reads it all the same, with other points or too few).
+/// @brief What a glTF scene requires of its readers. One that does not know a required extension must not show the scene
+/// (glTF 2.0, section 3.12); assimp does, with other triangles.
 
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace openvdb_spheretree::detail {
 
-/// @param path  of a `.gltf` or `.glb`; damage is not found here, but by who reads it whole
-/// @throw openvdb::IoError if the scene requires an extension that may say which triangles there are: all but those
-///        of looks, lights and texts
+/// @param path  of a `.gltf` or `.glb`; what else is damaged in it is found by who reads it whole
+/// @throw openvdb::IoError if the scene's text is no JSON, or if it requires an extension that may say which triangles there
+///        are: all but those of looks, lights and texts
 void requireKnownExtensions(const std::string& path);
 
 } // namespace openvdb_spheretree::detail

@@ -156,6 +156,9 @@ public:
             + ")");
     }
 
+    /// Does the file say that it is a tree of ours?
+    bool isOurs() const { return mIsOurs; }
+
     /// To be called when all is read.
     void requireCounts() const
     {
@@ -333,7 +336,7 @@ void parseSphereJson(std::istream& in, SphereList& spheres)
     JsonHandler handler(spheres);
     Json::sax_parse(in, &handler);
     handler.requireCounts();
-    if (spheres.size() == 0) {
+    if (spheres.size() == 0 && !handler.isOurs()) {
         throw openvdb::IoError(
             "it holds no sphere: they are taken from a list of objects with x, y, z (or center) "
             "and "

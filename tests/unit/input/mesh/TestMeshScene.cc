@@ -233,9 +233,26 @@ TEST(MeshScene, RefusesExtensionsThatSayWhichTrianglesThereAre)
         EXPECT_EQ("", errorOf("a.gltf", withRequired(list))) << list;
         EXPECT_EQ("", errorOf("a.glb", asGlb(withRequired(list)))) << list;
     }
+    const std::string latin = withRequired("[\"OTHER\"]").insert(1, "\"name\":\"\xfc\",");
+    EXPECT_TRUE(mentions(errorOf("a.gltf", latin), "no JSON in UTF-8"));
+    EXPECT_TRUE(mentions(errorOf("a.glb", asGlb(latin)), "no JSON in UTF-8"));
     std::string used = gltfScene(); // not required: the scene is whole without
     used.insert(1, "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],");
     EXPECT_EQ("", errorOf("a.gltf", used));
+}
+
+/// Numbers that are in the text itself: the limits are those of the file.
+TEST(MeshScene, ALargeTextIsRead)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    if (kSanitized) GTEST_SKIP() << "its allocator ends the process";
+    std::string scene = gltfScene();
+    const std::size_t end = scene.find("\"}]}");
+    scene.insert(end, std::string(std::size_t(96) << 20, 'A')); // more zeros behind the numbers
+    const std::string bytes = "\"byteLength\":144,\"uri\"";
+    scene.replace(scene.find(bytes), bytes.size(),
+        "\"byteLength\":" + std::to_string(144 + (std::size_t(72) << 20)) + ",\"uri\"");
+    EXPECT_EQ("", errorOf("large.gltf", scene));
 }
 
 /// Assimp reads it as often, and the limits are of files.
