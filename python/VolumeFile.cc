@@ -114,16 +114,21 @@ GridBase::Ptr chosenGrid(
         + namesOf(grids) + (isTree ? "; spheretree.load() reads sphere-trees" : ""));
 }
 
-void warnOfMesh(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& object,
+void warnIfOpen(const spheretree::TriangleMesh& mesh, Volume& volume,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    const int64_t open = spheretree::openEdges(mesh, interrupter);
+    if (open == 0) return;
+    volume.warnings.push_back("mesh " + inQuotes(mesh.name) + " is not closed ("
+        + std::to_string(open)
+        + " open edges): where it is open by more than a voxel it has no inside; gap= closes "
+          "holes");
+}
+
+void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& object,
     Volume& volume, openvdb::util::NullInterrupter* interrupter)
 {
     const std::string name = "mesh " + inQuotes(mesh.name);
-    const int64_t open = spheretree::openEdges(mesh, interrupter);
-    if (open > 0) {
-        volume.warnings.push_back(name + " is not closed (" + std::to_string(open)
-            + " open edges): where it is open by more than a voxel it has no inside; gap= closes "
-              "holes");
-    }
     const auto missed = spheretree::missedSurface(mesh, object, interrupter);
     if (missed.voxels == 0) return;
     volume.warnings.push_back("the object of " + name + " lacks thin parts, by up to "
@@ -150,6 +155,7 @@ Volume volumeOfMesh(const std::string& path, const FileRequest& file, const Obje
         file.voxel ? *file.voxel : spheretree::voxelSizeForDim(mesh, file.resolution);
     const Coverage coverage = request.settings.coverage;
     Volume volume;
+    if (!file.gap) warnIfOpen(mesh, volume, interrupter);
     ObjectRequest rest = request; // of an object that is there
     rest.settings = {};
     if (file.gap || coverage != Coverage::Centers) {
@@ -163,12 +169,17 @@ Volume volumeOfMesh(const std::string& path, const FileRequest& file, const Obje
         settings.gap = file.gap.value_or(0);
         volume.object = objectOfGrid(
             spheretree::meshToObject(mesh, voxel, settings, interrupter), rest, interrupter);
+        if (file.gap) {
+            const std::string hollow =
+                spheretree::hollowWarning(mesh, *volume.object, *file.gap, interrupter);
+            if (!hollow.empty()) volume.warnings.push_back(hollow);
+        }
     } else {
         rest.settings.iso = request.settings.iso;
         const auto levelSet = spheretree::meshToLevelSet(mesh, voxel, 3, interrupter);
         levelSet->setName(mesh.name);
         volume.object = objectOfGrid(levelSet, rest, interrupter);
-        warnOfMesh(mesh, *volume.object, volume, interrupter);
+        warnOfMissed(mesh, *volume.object, volume, interrupter);
     }
     return volume;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TriangleMesh.h"
 
-#include <openvdb_spheretree/base/ParallelSort.h>
+#include "MeshHoles.h"
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/math/Transform.h>
@@ -24,21 +24,7 @@ constexpr double kMaxIndex = 1 << 29; // a side of twice that has boxes of 2^31
 
 int64_t openEdges(const TriangleMesh& mesh, openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<uint64_t> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (const Vec3I& triangle : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) {
-            const uint64_t a = triangle[i], b = triangle[(i + 1) % 3];
-            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
-        }
-    }
-    detail::parallelSort(edges.begin(), edges.end(), interrupter);
-    int64_t open = 0;
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-        while (end < edges.size() && edges[end] == edges[begin]) ++end;
-        open += int64_t((end - begin) % 2);
-    }
-    return open;
+    return int64_t(openEdgesOf(mesh, interrupter).size());
 }
 
 double voxelSizeForDim(const TriangleMesh& mesh, int dim)

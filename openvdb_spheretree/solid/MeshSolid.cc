@@ -6,6 +6,8 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
+#include <openvdb_spheretree/base/Text.h>
+#include <openvdb_spheretree/mesh/MeshHoles.h>
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
 #include <openvdb_spheretree/solid/WindingNumber.h>
 #include <openvdb_spheretree/pyramid/BallMorphology.h>
@@ -172,6 +174,29 @@ double hollowShare(const TriangleMesh& mesh, const openvdb::BoolGrid& object)
         hollow += area * bare / points;
     }
     return all > 0 ? hollow / all : 0;
+}
+
+std::string hollowWarning(const TriangleMesh& mesh, const openvdb::BoolGrid& object, double gap,
+    NullInterrupter* interrupter)
+{
+    constexpr double kMuch = 0.25, kSome = 0.05, kBeyond = 0.25;
+    const std::vector<OpenEdge> edges = openEdgesOf(mesh, interrupter);
+    if (edges.empty()) return {};
+    const MeshHoles holes = holesOf(mesh, edges);
+    // Voxels at the surface reach out of the solid, by half of one on average. Half of that is sure.
+    const double voxel = object.voxelSize()[0];
+    const double inside =
+        double(object.activeVoxelCount()) * voxel * voxel * voxel - kBeyond * voxel * areaOf(mesh);
+    const double lacking = holes.volume > 0 ? 1 - inside / holes.volume : 0;
+    const double hollow = hollowShare(mesh, object);
+    if (hollow < kMuch && lacking < kSome) return {};
+    const auto percent = [](double share) { return std::to_string(int(100 * share)) + "%"; };
+    return "mesh " + detail::inQuotes(mesh.name) + " is open, and "
+        + (hollow < kMuch ? "its object lacks " + percent(lacking) + " of what it bounds"
+                          : percent(hollow) + " of it has nothing inside")
+        + ": where it ought to be solid, a hole is wider than gap=" + detail::shortNumber(gap)
+        + ", so make gap larger (the widest hole measures about "
+        + detail::shortNumber(holes.widest) + ")";
 }
 
 MissedSurface missedSurface(

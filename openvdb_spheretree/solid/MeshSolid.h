@@ -30,6 +30,8 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
+#include <string>
+
 namespace openvdb_spheretree {
 
 struct MeshSolidSettings {
@@ -53,6 +55,14 @@ openvdb::SharedPtr<openvdb::BoolGrid> meshToObject(const TriangleMesh& mesh, dou
 /// mesh that is open too wide to have an inside, it is large.
 /// @note Some thousand points of the mesh are looked at. Cost: O(triangles).
 double hollowShare(const TriangleMesh& mesh, const openvdb::BoolGrid& object);
+
+/// @brief Whether the object of an open mesh, whose holes were to be closed, has something inside.
+/// @param gap  that they were closed with
+/// @return a sentence for people if it has not, because a quarter of the mesh has nothing inside (hollowShare()), or
+///         because a twentieth of the volume is missing that the mesh has once its holes are closed (MeshHoles.h);
+///         empty if it has, or if the mesh is closed
+std::string hollowWarning(const TriangleMesh& mesh, const openvdb::BoolGrid& object, double gap,
+    openvdb::util::NullInterrupter* interrupter = nullptr);
 
 /// What an object lacks of a mesh.
 struct MissedSurface {

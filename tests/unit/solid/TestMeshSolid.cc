@@ -233,6 +233,23 @@ TEST_F(MeshSolid, WithAGapClosesHolesOfThatWidth)
     }
 }
 
+/// A part of a fifth of the area, and a ninth of the volume.
+TEST_F(MeshSolid, SaysThatAPartIsHollow)
+{
+    TriangleMesh parts = openBox(20);
+    addBox(parts, Vec3d(100), Vec3d(180));
+    const auto warning = [](const TriangleMesh& mesh, double gap) {
+        return hollowWarning(mesh, *meshToObject(mesh, 1, withGap(gap)), gap);
+    };
+    EXPECT_TRUE(mentions(warning(parts, 3), "its object lacks 7% of what it bounds"))
+        << warning(parts, 3);
+    EXPECT_TRUE(
+        mentions(warning(parts, 3), "gap=3, so make gap larger (the widest hole measures "));
+    EXPECT_EQ("", warning(parts, 21));
+    EXPECT_EQ("", warning(boxMesh(Vec3d(0), Vec3d(40, 40, 2)), 3)) << "it is closed";
+    EXPECT_TRUE(mentions(warning(openBox(20), 3), "nothing inside"));
+}
+
 /// Slits in any direction, as wide as they may be: nothing gets in.
 TEST_F(MeshSolid, WithAGapClosesSlitsThatAreTurned)
 {
