@@ -209,6 +209,14 @@ void noteFrame(
         + " take its spheres in the frame of the link, and frame= puts them into another");
 }
 
+/// Of a file in millimetres, the density of water in metres is a thousand million times too large.
+void noteDensity(const ExportSettings& settings, std::vector<std::string>& notes)
+{
+    const double water = 1000 * std::pow(settings.metersPerUnit, 3);
+    notes.push_back("its mass is of density=" + shortNumber(settings.density)
+        + " a cubed unit of the file, where water has " + shortNumber(water));
+}
+
 /// Of the finest level.
 MassProperties massOf(const SphereTree& tree, openvdb::util::NullInterrupter* interrupter)
 {
@@ -363,6 +371,7 @@ ExportScene makeScene(const SphereTree& whole, const ExportFormat& format,
     const FileFrame frame = frameOfSamples ? *frameOfSamples : FileFrame(settings, ofUnion);
     if (format.samples) frameOfSamples = frame;
     if (needsUnion) noteMass(tree.levels.front(), notes);
+    if (format.mass && settings.metersPerUnit != 1) noteDensity(settings, notes);
     if (format.principal) noteBody(frame.toFile(ofUnion, 1), settings, format, notes);
 
     ExportScene scene = sceneFor(tree, format, settings, place, notes);

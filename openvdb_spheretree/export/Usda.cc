@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/base/Rounding.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 
 namespace openvdb_spheretree::detail {
@@ -18,13 +19,17 @@ using WriteValue = std::function<void(ExportText&, const ExportLevel&)>;
 
 constexpr const char* kIndent = "        ";
 
-/// Levels are numbered, so those of one number are one prim.
-const ExportLevel* findLevel(const ExportScene& scene, int number)
+/// Levels are numbered, so those of one number are one prim. A tree with fewer levels than others shows the nearest that
+/// it has there: else what it covers would be gone for a frame.
+/// @return null of a sample without spheres
+const ExportLevel* levelIn(const ExportScene& scene, int number)
 {
+    const ExportLevel* nearest = nullptr;
     for (const ExportLevel& level : scene.levels) {
-        if (level.number == number) return &level;
+        const int off = std::abs(level.number - number);
+        if (!nearest || off < std::abs(nearest->number - number)) nearest = &level;
     }
-    return nullptr;
+    return nearest;
 }
 
 /// @return the numbers of the levels of all samples, the finest first; 0 if none has any.
@@ -54,7 +59,10 @@ void writeArray(ExportText& text, std::size_t count, const WriteItem& writeItem)
 void writeExtent(ExportText& text, const ExportLevel& level)
 {
     if (level.size() == 0) {
-        text << "[]";
+        constexpr const char* kMost = "340282346638528859811704183484516925440"; // of a float
+        text << "[(" << kMost << ", " << kMost << ", " << kMost << "), (-" << kMost << ", -"
+             << kMost << ", -" << kMost
+             << ")]"; // the box of nothing, as UsdGeomPoints::ComputeExtent() has it
         return;
     }
     const openvdb::BBoxd box = ExportScene::boxOf(level);
@@ -68,19 +76,19 @@ void writeExtent(ExportText& text, const ExportLevel& level)
     text.floats(high, ", ") << ")]";
 }
 
-/// One value, or one a sample; a sample without the level has an empty one.
+/// One value, or one a sample; a sample without spheres has an empty one.
 void writeAttribute(ExportText& text, const Samples& samples, int number, const std::string& name,
     const char* metadata, const WriteValue& writeValue)
 {
     static const ExportLevel kNothing;
-    const auto levelIn = [&](const ExportScene& scene) -> const ExportLevel& {
-        const ExportLevel* const level = findLevel(scene, number);
+    const auto levelOf = [&](const ExportScene& scene) -> const ExportLevel& {
+        const ExportLevel* const level = levelIn(scene, number);
         return level ? *level : kNothing;
     };
     text << kIndent << name;
     if (samples.size() == 1) {
         text << " = ";
-        writeValue(text, levelIn(samples.front()));
+        writeValue(text, levelOf(samples.front()));
         text << metadata << '\n';
         return;
     }
@@ -90,7 +98,7 @@ void writeAttribute(ExportText& text, const Samples& samples, int number, const 
     for (const ExportScene& scene : samples) {
         text << kIndent << "    ";
         text.real(scene.sample) << ": ";
-        writeValue(text, levelIn(scene));
+        writeValue(text, levelOf(scene));
         text << ",\n";
     }
     text << kIndent << "}\n";

@@ -256,6 +256,19 @@ bool wroteGrids(const ActionCall& call, const std::string& path,
     return true;
 }
 
+/// Readers show the sample before where there is none.
+void noteSkipped(const std::string& path, Session& session)
+{
+    constexpr std::size_t kNamed = 6;
+    const std::vector<std::string>& frames = session.skippedFrames;
+    if (frames.empty()) return;
+    const std::vector<std::string> named(
+        frames.begin(), frames.begin() + std::ptrdiff_t(std::min(kNamed, frames.size())));
+    session.note(path + ": no sample of " + joined(named, ", ")
+        + (frames.size() > kNamed ? ", ..." : "")
+        + ", skipped as there is no object: what is shown before stays; with empty=write it goes");
+}
+
 } // namespace
 
 std::vector<OptionSpec> exportOptions()
@@ -371,6 +384,7 @@ void writeExport(const ActionCall& call, const std::string& path,
             + " sphere-trees are samples over time, from "
             + shortNumber(settings.sampleTimes.front()) + " to "
             + shortNumber(settings.sampleTimes.back()));
+        noteSkipped(path, session);
     }
     try {
         const auto notes = exportTrees(trees, format, settings, out, &session.progress);

@@ -177,6 +177,10 @@ void ScriptRunner::runSteps(const std::vector<Step>& steps, bool isEnd)
 bool ScriptRunner::goOnEmpty(
     const std::vector<Step>& steps, const Step& failed, const EmptyError& error)
 {
+    if (mSession.stack.newestTreeIsEmpty() && !mSession.plan.frame().empty()) {
+        mSession.note(std::string(error.what()) + "; what needs spheres is left out");
+        return true;
+    }
     const Step* const end = steps.data() + steps.size();
     const Step* const tree = std::find_if(&failed, end, [](const Step& step) {
         return step.kind == Step::Kind::Action && step.call.spec().runEmpty;
@@ -277,6 +281,7 @@ void ScriptRunner::runFrame(const Frame& frame, Turns& turns, bool isEnd)
         if (turns.loop.isSequence || !isLast) items.drop(turns.loop.isSequence);
     } catch (const FrameSkipped& skipped) {
         ++turns.skipped;
+        mSession.skippedFrames.push_back(frame.name);
         mSession.tell(turns.label() + ": skipped: " + withoutName(skipped.why, frame.name));
         items.drop(true);
     } catch (const openvdb_spheretree::Interrupted&) {

@@ -106,7 +106,7 @@ void Session::noteIfUnverified(const StackItem& item)
 void Session::noteIfReplaced(const std::string& path)
 {
     if (!plan.replacesInput(path)) return;
-    note(path + ", which was read, is replaced by what is written");
+    warn(path + ", which was read, is replaced by what is written");
 }
 
 void Session::limitThreads(size_t count)

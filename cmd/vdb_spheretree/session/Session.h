@@ -113,7 +113,7 @@ struct Session {
     }
     /// Notes that nobody can tell whether a tree is whole, if that is so.
     void noteIfUnverified(const StackItem& item);
-    /// Notes that a file that this line reads is about to be written, if that is so.
+    /// Warns that a file that this line reads is about to be written, if that is so.
     void noteIfReplaced(const std::string& path);
     /// Says once in which frame Ctrl-C came, with -quiet too.
     void tellInterrupted(const std::string& frame, const std::string& done);
@@ -124,7 +124,8 @@ struct Session {
     Stack stack;
     Progress progress;
     Verbosity verbosity = Verbosity::Normal;
-    bool stopsAtErrors = false; ///< of frames (-onerror)
+    bool stopsAtErrors = false;                  ///< of frames (-onerror)
+    std::vector<std::string> skippedFrames = {}; ///< of loops, by empty=skip
     /// Files whose values may not all be in memory yet.
     std::vector<InputStamp> inputs;
     /// The last tree of each name that was built with like=, without edges and cuts.
