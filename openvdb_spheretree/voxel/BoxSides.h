@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace openvdb_spheretree::detail {
@@ -25,6 +26,13 @@ inline int64_t longestSideOf(const openvdb::CoordBBox& box)
 {
     const auto side = sidesOf(box);
     return std::max({side[0], side[1], side[2]});
+}
+
+/// @return from corner to corner, in voxels.
+inline double diagonalOf(const openvdb::CoordBBox& box)
+{
+    const auto side = sidesOf(box);
+    return std::hypot(double(side[0]), double(side[1]), double(side[2]));
 }
 
 /// Calls f(ijk) for every voxel of a box, x first. Its iterators step beyond the last coordinate, and do not end there.

@@ -122,6 +122,18 @@ TEST_F(CommandMesh, CheckTakesATreeOfAFileAndItsMeshAlone)
     EXPECT_TRUE(has(result.err, "what is inside of the mesh was not looked at")) << result.err;
 }
 
+TEST_F(CommandMesh, CheckSaysThatTheMeshIsGone)
+{
+    write("flange.obj", flange());
+    const auto told = [&](const std::string& keep) {
+        return run("-read flange.obj -mesh2ls dim=20 cover=1 " + keep
+            + " -spheretree spheres=2 quality=fast -check")
+            .err;
+    };
+    EXPECT_TRUE(has(told(""), "keep=1 of -mesh2ls leaves it for -check")) << told("");
+    EXPECT_FALSE(has(told("keep=1"), "leaves it for -check"));
+}
+
 TEST_F(CommandMesh, CheckSaysWhatItDoesNotHoldAgainstTheMesh)
 {
     write("flange.obj", flange());

@@ -201,6 +201,8 @@ TEST_F(CommandObjects, VoxelsThatAreNoCubesAreMadeCubes)
         0);
     EXPECT_EQ(voxelsOf("-read a.vol -resample voxel=0.5 nearest=1 -mask label=3"), 800u);
     expectError(3, "-read a.vol -resample voxel=1e-4 -write u.vdb", "larger voxel");
+    const std::string huge = run("-quiet -read a.vol -resample voxel=300 -write u.vdb").err;
+    EXPECT_NE(huge.find("is larger than all of grid 'a'"), std::string::npos) << huge;
     for (const std::string size : {"0.5 0.5", "1 2 3 4", "1 x 1", "1 0 1", ""}) {
         writeSlices("bad.vol", size);
         expectError(3, "-read bad.vol -mask -write u.vdb", "'Voxel-Size'");

@@ -256,7 +256,7 @@ TEST_F(CommandPipes, WhatAFileGetsBesidesTheTreeIsNoted)
     EXPECT_FALSE(says(run(build + "t.vdb vdb=sphere_tree"), "gets grid"));
     EXPECT_FALSE(says(run(build + "t.csv"), "gets grid"));
     EXPECT_FALSE(says(run("-read two.vdb -write u.vdb"), "gets grid"));
-    EXPECT_TRUE(says(run(build + "two.vdb"), "note: two.vdb, which was read, is replaced"));
+    EXPECT_TRUE(says(run(build + "two.vdb"), "warning: two.vdb, which was read, is replaced"));
     EXPECT_FALSE(says(run("-read two.vdb -spheretree vdb=0 -write t.vdb"), "is replaced"));
 }
 

@@ -59,6 +59,57 @@ TEST_F(CommandFrames, EmptyFramesAreSamplesWithoutSpheres)
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1);
 }
 
+TEST_F(CommandFrames, ASampleOfFewerLevelsShowsTheCoarsestThatItHas)
+{
+    writeBlock("a.vol");
+    writeVol("point.vol", {1, 1, 1}, "\x01");
+    ASSERT_EQ(run("-read a.vol -spheretree spheres=6,1 -write tree_0009.vdb").exitCode, 0);
+    ASSERT_EQ(run("-read point.vol -spheretree spheres=1 -write tree_0010.vdb").exitCode, 0);
+    ASSERT_EQ(run("-for i=9,11 -read tree_####.vdb -end -write t.usda").exitCode, 0);
+    const std::string stage = readText(path("t.usda"));
+    const std::size_t coarse = stage.find("def Points \"level_1\"");
+    const std::size_t sample = stage.find("10: [", stage.find("points.timeSamples", coarse));
+    ASSERT_NE(sample, stage.npos) << stage;
+    EXPECT_EQ(stage.compare(sample, 6, "10: [("), 0) << stage.substr(sample, 100);
+}
+
+TEST_F(CommandFrames, FramesThatAreSkippedAreNamedWhereSamplesAreWritten)
+{
+    writeFrames({8, 9, 10}, 9);
+    const std::string read = "-for i=8,11 -read smoke_####.vdb -spheretree spheres=2 empty=";
+    const Result skipped = run(read + "skip -end -write t.usda");
+    EXPECT_TRUE(holds(skipped.err, "t.usda: no sample of i=9, skipped")) << skipped.err;
+    EXPECT_FALSE(holds(run(read + "write -end -write t.usda").err, "no sample"));
+    EXPECT_TRUE(holds(readText(path("t.usda")), "9: [(3402823466385288598"))
+        << "the box of nothing";
+}
+
+TEST_F(CommandFrames, NumbersOfFewerDigitsAreTold)
+{
+    writeFrames({8, 9, 10});
+    for (const int frame : {9, 10}) {
+        std::filesystem::copy(
+            path(nameOf("smoke", frame, "vdb")), path("f_" + std::to_string(frame) + ".vdb"));
+    }
+    const auto told = [&](const std::string& name) { return run("-read " + name + " -print").err; };
+    EXPECT_TRUE(holds(told("f_##.vdb"), "f_9.vdb is no frame of f_##.vdb")) << told("f_##.vdb");
+    EXPECT_FALSE(holds(told("f_%d.vdb"), "is no frame"));
+    EXPECT_FALSE(holds(told("smoke_####.vdb"), "is no frame"));
+}
+
+TEST_F(CommandFrames, WhatNeedsSpheresIsLeftOutOfFramesWithoutThem)
+{
+    writeFrames({8, 9}, 8);
+    ASSERT_EQ(
+        run("-read smoke_####.vdb -spheretree spheres=2 empty=write -write t_####.vdb").exitCode,
+        0);
+    const Result result = run("-read t_####.vdb -stats st_####.csv -write u_####.csv");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_TRUE(holds(result.err, "what needs spheres is left out")) << result.err;
+    EXPECT_TRUE(exists("st_0009.csv") && !exists("st_0008.csv"));
+    EXPECT_TRUE(existAll("u", {8, 9}, "csv"));
+}
+
 TEST_F(CommandFrames, AnEmptyTreeThatIsReadIsATreeAmongOthers)
 {
     writeFrames({8, 9, 10}, 8);

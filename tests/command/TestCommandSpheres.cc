@@ -56,6 +56,17 @@ protected:
     }
 };
 
+TEST_F(CommandSpheres, OtherUnitsAreWarnedOf)
+{
+    writeText(path("mm.csv"), "x,y,z,r\n2000,2000,2000,6000\n");
+    const auto told = [&](const std::string& line) {
+        return run("-quiet " + line + " -check").err;
+    };
+    EXPECT_NE(told("-read a.vol mm.csv").find("in the same unit"), std::string::npos);
+    EXPECT_EQ(
+        told("-read a.vol -read mm.csv scale=0.001").find("in the same unit"), std::string::npos);
+}
+
 TEST_F(CommandSpheres, TheirErrorsAreThoseCountedByHand)
 {
     const auto [inBlock, all] = countedByHand();

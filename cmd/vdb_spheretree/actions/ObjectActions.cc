@@ -76,19 +76,6 @@ void warnOfMissed(const spheretree::TriangleMesh& mesh, const openvdb::FloatGrid
         + spheretree::detail::shortNumber(missed.distance) + " (world units): " + remedy);
 }
 
-/// Of an open mesh whose holes are not closed there is little but the surface.
-void warnIfHollow(const spheretree::TriangleMesh& mesh, const openvdb::BoolGrid& object, double gap,
-    Session& session)
-{
-    constexpr double kMuch = 0.25;
-    if (spheretree::openEdges(mesh, &session.progress) == 0) return;
-    const double share = spheretree::hollowShare(mesh, object);
-    if (share < kMuch) return;
-    session.warn("mesh '" + mesh.name + "' is open, and " + std::to_string(int(100 * share))
-        + "% of it has nothing inside: where it ought to be solid, a hole is wider than gap="
-        + spheretree::detail::shortNumber(gap) + ", so make gap larger");
-}
-
 openvdb::GridBase::Ptr gridOf(
     const spheretree::TriangleMesh& mesh, double voxel, const ActionCall& call, Session& session)
 {
@@ -99,7 +86,10 @@ openvdb::GridBase::Ptr gridOf(
     if (!outside) warnIfOpen(mesh, session);
     if (outside || call.text("cover") != "0") {
         const auto object = spheretree::meshToObject(mesh, voxel, settings, &session.progress);
-        if (outside) warnIfHollow(mesh, *object, settings.gap, session);
+        const std::string hollow = outside
+            ? spheretree::hollowWarning(mesh, *object, settings.gap, &session.progress)
+            : std::string();
+        if (!hollow.empty()) session.warn(hollow);
         return object;
     }
     const auto levelSet =
@@ -117,6 +107,7 @@ void runMesh2ls(const ActionCall& call, Session& session)
         : spheretree::voxelSizeForDim(*mesh, int(call.integer("dim")));
     StackItem result;
     result.grid = gridOf(*mesh, voxel, call, session);
+    result.ofMesh = true;
     result.grid->setName(call.given("name") ? call.text("name") : mesh->name);
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -217,6 +208,7 @@ void runMask(const ActionCall& call, Session& session)
     if (call.flag("largest")) object = spheretree::largestPart(*object, &session.progress);
     if (call.flag("fill")) object = spheretree::filledCavities(*object, &session.progress);
     result.grid = object;
+    result.ofMesh = item.ofMesh;
     if (call.given("name")) result.grid->setName(call.text("name"));
     if (!call.flag("keep")) session.stack.drop(&item);
     session.stack.beginBatch(call.label());
@@ -331,7 +323,7 @@ ActionSpec mesh2lsAction()
             "every voxel whose "
             "cube meets the solid: thin parts stay, and spheres cover the solid itself; whole: of "
             "those that are "
-            "all inside"),
+            "all inside. A hollow within the mesh is filled by 0 and 1, and left out by whole"),
         choice("fill", {"closed", "outside"},
             "what is inside: what a closed mesh bounds, or all that cannot be reached from outside "
             "through "

@@ -5,13 +5,32 @@
 #include "line/Actions.h"
 #include "ObjectChoice.h"
 
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/Resample.h>
+
+#include <algorithm>
 
 namespace command {
 
 namespace spheretree = openvdb_spheretree;
 
 namespace {
+
+/// Of volumes in micrometres a voxel of metres is none.
+void warnOfSize(const StackItem& item, double voxel, Session& session)
+{
+    const openvdb::CoordBBox box = item.grid->evalActiveVoxelBoundingBox();
+    double across = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double voxels = 1 + double(box.max()[axis]) - double(box.min()[axis]);
+        across = std::max(across, voxels * item.grid->voxelSize()[axis]);
+    }
+    if (box.empty() || across >= voxel) return;
+    using openvdb_spheretree::detail::shortNumber;
+    session.warn("-resample voxel=" + shortNumber(voxel) + " is larger than all of "
+        + item.description() + ", which is " + shortNumber(across)
+        + " across: is it in another unit (voxel=0.1mm)?");
+}
 
 void runResample(const ActionCall& call, Session& session)
 {
@@ -20,6 +39,7 @@ void runResample(const ActionCall& call, Session& session)
     try {
         const double voxel =
             call.given("voxel") ? call.length("voxel") : spheretree::shortestVoxelEdge(*item.grid);
+        warnOfSize(item, voxel, session);
         result.grid = spheretree::resampled(*item.grid, voxel,
             call.flag("nearest") ? spheretree::Sampling::Nearest : spheretree::Sampling::Linear,
             &session.progress);

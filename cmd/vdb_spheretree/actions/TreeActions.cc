@@ -68,13 +68,6 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
     }
 }
 
-/// @return in voxels.
-double diagonalOf(const openvdb::CoordBBox& box)
-{
-    const auto side = spheretree::detail::sidesOf(box);
-    return openvdb::Vec3d(double(side[0]), double(side[1]), double(side[2])).length();
-}
-
 /// A bound that any sphere around the object is within was seldom meant.
 void warnOfDistance(
     const BoolGrid& object, const spheretree::SphereTreeSettings& settings, Session& session)
@@ -83,7 +76,7 @@ void warnOfDistance(
     const auto* tight = settings.find<spheretree::TightOptions>();
     if (!tight || !tight->budget.distance) return;
     const double voxel = object.voxelSize()[0];
-    const double size = voxel * diagonalOf(object.evalActiveVoxelBoundingBox());
+    const double size = voxel * spheretree::detail::diagonalOf(object.evalActiveVoxelBoundingBox());
     const double bound = tight->budget.distanceWorld(voxel);
     if (bound < size) return;
     session.warn("distance=" + shortNumber(bound)
@@ -186,8 +179,9 @@ void runSpheretree(const ActionCall& call, Session& session)
     const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
     const double voxel = object->voxelSize()[0];
     if (call.flag("samevoxels")) session.requireVoxelsOfSequence(voxel);
-    if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     StackItem result;
+    result.ofMesh = input.ofMesh;
+    if (!call.flag("keep")) session.stack.drop(&input); // its memory is wanted now
     result.object = object;
     const auto settings = settingsOf(call);
     warnOfSize(*object, settings.dim, session);
@@ -258,6 +252,7 @@ void runLevel(const ActionCall& call, Session& session)
     result.object = input.object;
     result.given = input.given; // all of them: they have one level
     result.unverified = input.unverified;
+    result.ofMesh = input.ofMesh;
     result.tree = std::make_shared<SphereTree>(levelOf(*input.tree, call, session));
     if (call.given("name")) result.tree->settings.name = call.text("name");
     if (!call.flag("keep")) session.stack.drop(&input);
@@ -278,7 +273,7 @@ std::shared_ptr<const spheretree::TriangleMesh> meshOf(const Session& session)
 void warnOfUnits(const SphereTree& tree, const spheretree::TriangleMesh& mesh, Session& session)
 {
     constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
-    const double object = tree.voxelSize() * diagonalOf(tree.object.bbox);
+    const double object = tree.voxelSize() * spheretree::detail::diagonalOf(tree.object.bbox);
     const double ratio = spheretree::boxOf(mesh).extents().length() / object;
     if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;
     const bool larger = ratio > 1;
@@ -359,6 +354,9 @@ void runCheck(const ActionCall& call, Session& session)
         session.note("spheres of side=" + std::string(settings.isFit() ? "fit" : "inner")
             + " need not cover anything, so they are not held against mesh '"
             + oneLine(anyMesh->name, 60) + "'");
+    } else if (covers && item.ofMesh) {
+        session.note("held against the voxels alone, as the mesh is not there any more: keep=1 of "
+                     "-mesh2ls leaves it for -check");
     }
 }
 

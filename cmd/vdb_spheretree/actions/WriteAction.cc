@@ -358,9 +358,9 @@ void noteGone(const std::string& path, const std::vector<StackItem*>& items, Ses
     const int64_t held = std::count_if(items.begin(), items.end(), isOfLoop);
     const int64_t gone = session.stack.writtenAndGone();
     if (held == 0 || gone == 0) return;
-    session.note(path + " lacks " + std::to_string(gone) + " of the "
+    session.warn(path + " lacks " + std::to_string(gone) + " of the "
         + counted(held + gone, "sphere-tree") + " of the loop, which were given up when they had "
-        + "been written there: keep=1 of that -write keeps them for this file");
+        + "been written there: vdb=0 keep=1 of that -write writes each and keeps it for this file");
 }
 
 /// Says what a user may not expect of the files that are written.

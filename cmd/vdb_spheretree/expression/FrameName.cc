@@ -66,6 +66,19 @@ std::optional<int64_t> readNumber(const char*& at, const char* end)
     return number;
 }
 
+/// @return the name with other text in each of its places.
+template <typename TextOf>
+std::string replaced(const std::string& name, const TextOf& textOf)
+{
+    std::string result;
+    std::size_t begin = 0;
+    while (const auto place = nextPlaceholder(name, begin)) {
+        result += name.substr(begin, place->begin - begin) + textOf(*place);
+        begin = place->begin + place->size;
+    }
+    return result + name.substr(begin);
+}
+
 [[noreturn]] void refuseRange(const std::string& typed, const std::string& why)
 {
     throwUsage("frames=" + oneLine(typed, 60) + " " + why
@@ -120,13 +133,12 @@ bool hasFrame(const std::string& name) { return nextPlaceholder(name, 0).has_val
 
 std::string withFrame(const std::string& name, int64_t frame)
 {
-    std::string result;
-    std::size_t begin = 0;
-    while (const auto place = nextPlaceholder(name, begin)) {
-        result += name.substr(begin, place->begin - begin) + numberText(*place, frame);
-        begin = place->begin + place->size;
-    }
-    return result + name.substr(begin);
+    return replaced(name, [frame](const Placeholder& place) { return numberText(place, frame); });
+}
+
+std::string withAnyDigits(const std::string& name)
+{
+    return replaced(name, [](const Placeholder&) { return "%d"; });
 }
 
 std::string patternOf(const std::vector<std::string>& names)

@@ -19,6 +19,9 @@ bool hasFrame(const std::string& name);
 /// @return the name with the number in each of its places.
 std::string withFrame(const std::string& name, int64_t frame);
 
+/// @return the name with `%d` for its places, which takes numbers of any number of digits.
+std::string withAnyDigits(const std::string& name);
+
 /// @return a name with a placeholder that has all of these: that of names that differ by one number alone. Empty if
 ///         they do not.
 std::string patternOf(const std::vector<std::string>& names);

@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/input/volume/VolumeFile.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace command {
 
@@ -33,6 +34,18 @@ std::string gapsIn(const std::vector<int64_t>& frames, const std::string& name)
     return "of " + oneLine(name, 200) + " there are the frames " + oneLine(rangeOfFrames(frames))
         + "; " + std::to_string(missing) + " in between " + (missing == 1 ? "is" : "are")
         + " not there";
+}
+
+/// `####` passes over `9.vdb`, which is before `0010.vdb`.
+std::string shorterIn(const std::vector<int64_t>& frames, const std::string& name)
+{
+    const std::string before = withFrame(withAnyDigits(name), frames.front() - 1);
+    std::error_code error;
+    if (before == withFrame(name, frames.front() - 1) || !std::filesystem::exists(before, error)) {
+        return "";
+    }
+    return oneLine(before, 200) + " is no frame of " + oneLine(name, 200)
+        + ", as its number has fewer digits: %d takes all of them";
 }
 
 } // namespace
@@ -69,7 +82,8 @@ SequenceFrames framesOfSequence(
     if (frames.empty()) {
         throwInput("no file is named like " + oneLine(name, 200) + ", with a number for its frame");
     }
-    return {frames, gapsIn(frames, name)};
+    const std::string shorter = shorterIn(frames, name), gaps = gapsIn(frames, name);
+    return {frames, shorter + (shorter.empty() || gaps.empty() ? "" : "; ") + gaps};
 }
 
 } // namespace command

@@ -180,6 +180,13 @@ bool Stack::holdsMesh() const
     return std::any_of(mItems.begin(), mItems.end(), [](const auto& i) { return bool(i->mesh); });
 }
 
+bool Stack::newestTreeIsEmpty() const
+{
+    const auto newest = std::find_if(
+        mItems.rbegin(), mItems.rend(), [](const auto& item) { return item->anyTree(); });
+    return newest != mItems.rend() && (*newest)->emptyTree;
+}
+
 std::vector<StackItem*> Stack::oldestFirst(bool meshes)
 {
     std::vector<StackItem*> items;
@@ -272,6 +279,10 @@ StackItem& Stack::select(
 StackItem& Stack::selectTree(const std::string& ageOrName)
 {
     const auto isTree = [](const StackItem& item) { return bool(item.tree); };
+    if (ageOrName.empty() && newestTreeIsEmpty()) {
+        throw EmptyError(
+            "the newest sphere-tree is that of no object, without spheres; " + listing());
+    }
     return select("a sphere-tree", isTree, ageOrName);
 }
 

@@ -42,6 +42,7 @@ struct StackItem {
     std::shared_ptr<openvdb_spheretree::SphereTree> emptyTree = {};
     std::optional<int64_t> frame = {}; ///< that it was made in; nothing outside of loops
     bool unverified = false;           ///< a tree of a file without a checksum
+    bool ofMesh = false;               ///< made of a mesh
     bool interpolated = false;         ///< values of a grid are means of what -resample found
     int batch = 0;                     ///< the same number for all items of one action
     int64_t serial = 0;                ///< of pushing; a copy keeps it
@@ -118,6 +119,8 @@ public:
     /// Oldest first.
     const std::vector<std::unique_ptr<StackItem>>& items() const { return mItems; }
     bool holdsMesh() const;
+    /// Whether the newest tree is that of no object.
+    bool newestTreeIsEmpty() const;
 
 private:
     bool isOfEndedLoop(int64_t serial, std::size_t depth) const;

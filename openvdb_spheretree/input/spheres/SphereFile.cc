@@ -55,7 +55,12 @@ void SphereList::add(SphereEntry& entry)
         if (!entry[field]) fail(std::string("there is no ") + name);
         if (!std::isfinite(*entry[field])) fail(std::string(name) + " is not finite");
     }
-    if (!(*radius > 0)) fail("the radius " + std::to_string(*radius) + " is not above 0");
+    if (!(*radius > 0)) {
+        fail("the radius " + shortNumber(*radius)
+            + " is not above 0: spheres of trees without padding may be points, of which the .vdb "
+              "is "
+              "read alone");
+    }
     if (mSpheres.size() >= std::size_t(std::numeric_limits<int32_t>::max())) {
         fail("there are more than the 2^31 - 1 spheres that can be numbered");
     }

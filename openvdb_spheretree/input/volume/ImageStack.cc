@@ -86,6 +86,21 @@ std::string withNumber(const StackPattern& pattern, uint64_t number)
     return pattern.before + digits + pattern.after;
 }
 
+/// @throw IoError if slices before these have numbers of fewer digits: they would be missing without a word
+void requireAllDigits(const std::filesystem::path& folder, const StackPattern& pattern,
+    uint64_t first, const std::string& stack)
+{
+    if (pattern.digits == 1 || first == 0) return;
+    StackPattern shorter = pattern;
+    shorter.digits = 1;
+    const std::string before = withNumber(shorter, first - 1);
+    std::error_code error;
+    if (before == withNumber(pattern, first - 1)) return;
+    if (!std::filesystem::exists(folder / before, error)) return;
+    throw IoError(stack + ": there is " + (folder / before).string()
+        + " as well, whose number has fewer digits: %d in the name takes all of them");
+}
+
 } // namespace
 
 bool isStackName(const std::string& path)
@@ -112,6 +127,7 @@ std::vector<std::string> stackFiles(const std::string& name)
     if (error) throw IoError(name + ": its folder cannot be read: " + error.message());
     if (numbers.empty()) throw IoError(name + ": no file has such a name with a number");
     std::sort(numbers.begin(), numbers.end());
+    requireAllDigits(folder, *pattern, numbers.front(), name);
     std::vector<std::string> slices;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto file = [&](uint64_t number) {

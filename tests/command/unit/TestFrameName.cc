@@ -72,6 +72,13 @@ TEST(FrameName, RangesAreToldAsTheyAreTyped)
     EXPECT_EQ(command::rangeOfFrames({}), "");
 }
 
+TEST(FrameName, NamesWithAnyDigitsTakeAllNumbers)
+{
+    EXPECT_EQ(command::withAnyDigits("a_####.vdb"), "a_%d.vdb");
+    EXPECT_EQ(command::withAnyDigits("f_%04d/a_##.vdb"), "f_%d/a_%d.vdb");
+    EXPECT_EQ(command::withAnyDigits("a_#.vdb"), "a_#.vdb");
+}
+
 TEST(FrameName, FramesOnDiskAreThoseWithExactlySuchNames)
 {
     namespace fs = std::filesystem;

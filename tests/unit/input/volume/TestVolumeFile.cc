@@ -306,6 +306,11 @@ TEST(VolumeFile, RefusesStacksThatAreNone)
     std::filesystem::remove(folder.path() + "/a10.png");
     std::ofstream(folder.path() + "/a10.png") << "no picture";
     EXPECT_TRUE(mentions(errorOf(stack), "a10.png: is no sound .png"));
+    put("slice_008.png", "b9.png");
+    put("slice_009.png", "b10.png");
+    EXPECT_TRUE(mentions(
+        errorOf(folder.path() + "/b##.png"), "b9.png as well, whose number has fewer digits"));
+    EXPECT_EQ("", errorOf(folder.path() + "/b%d.png"));
 }
 
 TEST(VolumeFile, SpacingComesInPlaceOfWhatTheFileSays)
