@@ -12,29 +12,31 @@ namespace command {
 
 namespace {
 
-/// Spheres in millimetres hold any object in metres.
-void warnOfUnits(const StackItem& item, const openvdb::BoolGrid& object, Session& session)
+/// @return from corner to corner of the box around all.
+double sizeOf(const openvdb_spheretree::WorldSpheres& spheres)
 {
-    constexpr double kOtherUnits = 30; // inches and metres are 39 apart
     openvdb::BBoxd box;
-    const openvdb_spheretree::WorldSpheres& spheres = *item.given;
     for (std::size_t i = 0; i < spheres.size(); ++i) {
         const openvdb::Vec3d reach(spheres.radius[i]);
         box.expand(spheres.center[i] - reach);
         box.expand(spheres.center[i] + reach);
     }
-    const openvdb::CoordBBox voxels = object.evalActiveVoxelBoundingBox();
-    const double ratio = box.extents().length()
-        / (object.voxelSize()[0] * openvdb_spheretree::detail::diagonalOf(voxels));
-    if (ratio < kOtherUnits && ratio > 1 / kOtherUnits) return;
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.3g", ratio > 1 ? ratio : 1 / ratio);
-    session.warn(item.description() + " are " + factor + " times as "
-        + (ratio > 1 ? "large" : "small")
-        + " as the object: are they in the same unit (scale= or units= of -read)?");
+    return box.extents().length();
 }
 
 } // namespace
+
+void warnOfUnits(const std::string& what, double size, double object, Session& session)
+{
+    constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
+    const double ratio = size / object;
+    if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;
+    const bool larger = ratio > 1;
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.3g", larger ? ratio : 1 / ratio);
+    session.warn(what + " " + factor + " times as " + (larger ? "large" : "small")
+        + " as the object: are they in the same unit (scale= or units= of -read)?");
+}
 
 void placeInObject(StackItem& item, Session& session, const std::string& ageOrName)
 {
@@ -53,7 +55,9 @@ void placeInObject(StackItem& item, Session& session, const std::string& ageOrNa
         rethrowNamed(item.description(), kInput);
     }
     item.tree->settings.name = name;
-    warnOfUnits(item, *object, session);
+    const openvdb::CoordBBox voxels = object->evalActiveVoxelBoundingBox();
+    warnOfUnits(item.description() + " are", sizeOf(*item.given),
+        object->voxelSize()[0] * openvdb_spheretree::detail::diagonalOf(voxels), session);
     item.object = object;
 }
 

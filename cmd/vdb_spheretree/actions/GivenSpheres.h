@@ -17,4 +17,10 @@ namespace command {
 /// @throw CommandError (input) if @a ageOrName is given and suits no grid
 void placeInObject(StackItem& item, Session& session, const std::string& ageOrName = {});
 
+/// @brief Warns of what is so much larger or smaller than an object that the two have nothing to say of each other: one in
+/// millimetres and one in metres.
+/// @param what  as the sentence begins: "mesh 'hand' is"
+/// @param size, object  of both, from corner to corner, in world units
+void warnOfUnits(const std::string& what, double size, double object, Session& session);
+
 } // namespace command

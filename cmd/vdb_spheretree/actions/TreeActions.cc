@@ -269,22 +269,6 @@ std::shared_ptr<const spheretree::TriangleMesh> meshOf(const Session& session)
     return newest == items.rend() ? nullptr : (*newest)->mesh;
 }
 
-/// A mesh in millimetres and a tree in metres have nothing to say of each other.
-void warnOfUnits(const SphereTree& tree, const spheretree::TriangleMesh& mesh, Session& session)
-{
-    constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
-    const double object = tree.voxelSize() * spheretree::detail::diagonalOf(tree.object.bbox);
-    const double ratio = spheretree::boxOf(mesh).extents().length() / object;
-    if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;
-    const bool larger = ratio > 1;
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.3g", larger ? ratio : 1 / ratio);
-    session.warn("mesh '" + oneLine(mesh.name, 60) + "' is " + factor + " times as "
-        + (larger ? "large" : "small")
-        + " as the object of the tree: are they in the same unit (scale= or "
-          "units= of -read)?");
-}
-
 /// The object that a tree is checked against; null if there is but a mesh.
 BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, Session& session)
 {
@@ -316,7 +300,12 @@ void runCheck(const ActionCall& call, Session& session)
         !settings.isInner() && !settings.isFit(); // and there is something to prove of a mesh
     const auto anyMesh = meshOf(session);
     const auto mesh = covers ? anyMesh : nullptr;
-    if (mesh) warnOfUnits(*item.tree, *mesh, session);
+    if (mesh) {
+        warnOfUnits("mesh '" + oneLine(mesh->name, 60) + "' is",
+            spheretree::boxOf(*mesh).extents().length(),
+            item.tree->voxelSize() * spheretree::detail::diagonalOf(item.tree->object.bbox),
+            session);
+    }
     const auto faults =
         spheretree::checkAgainst(*item.tree, object.get(), mesh.get(), &session.progress);
     throwIfStopped();
