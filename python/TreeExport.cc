@@ -9,6 +9,7 @@
 
 #include "files/AtomicFile.h"
 #include "line/Length.h"
+#include "line/Plan.h"
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/export/ExportTree.h>
@@ -31,6 +32,17 @@ using spheretree::ExportSettings;
 
 namespace {
 
+/// @return which function of trees writes it, in brackets; empty if none does.
+std::string whoWrites(const std::string& path)
+{
+    using command::FileKind;
+    const FileKind kind = command::fileKind(path);
+    if (kind == FileKind::Html) return " (Tree.write_html() writes pages)";
+    const bool isSaved = kind == FileKind::Vdb || kind == FileKind::Csv || kind == FileKind::Json;
+    const std::string extension = spheretree::detail::lowerExtension(path);
+    return isSaved ? " (Tree.save() writes " + extension + " of trees)" : "";
+}
+
 const ExportFormat& formatOf(const std::string& path, const std::string& name)
 {
     const std::string extension = spheretree::detail::lowerExtension(path);
@@ -42,13 +54,8 @@ const ExportFormat& formatOf(const std::string& path, const std::string& name)
                 + (format.byExtension ? "" : " (format=\"" + format.name + "\")");
         }
     }
-    const bool isSaved = extension == ".vdb" || extension == ".json" || extension == ".csv";
-    const bool isPage = extension == ".html" || extension == ".htm";
     throw InputError(path + ": no file of another tool "
-        + (name.empty() ? "ends so" : "of format=\"" + name + "\" ends so")
-        + (isSaved       ? " (Tree.save() writes " + extension + " of trees)"
-                : isPage ? " (Tree.write_html() writes pages)"
-                         : "")
+        + (name.empty() ? "ends so" : "of format=\"" + name + "\" ends so") + whoWrites(path)
         + "; those are " + known);
 }
 

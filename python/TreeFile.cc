@@ -9,6 +9,7 @@
 #include "files/AtomicFile.h"
 #include "files/Companions.h"
 #include "files/VdbStream.h"
+#include "line/Plan.h"
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
@@ -143,6 +144,10 @@ std::vector<TreePtr> treesOf(
 
 TreePtr load(const std::string& path, const std::string& name, Interrupter* interrupter)
 {
+    const command::FileKind kind = command::fileKind(path);
+    if (kind == command::FileKind::Csv || kind == command::FileKind::Json) {
+        throw InputError(path + ": trees are loaded from a .vdb, which save() writes without loss");
+    }
     const auto grids = command::readVdb(path, command::Loading::Whole);
     TreePtr found;
     std::string names;

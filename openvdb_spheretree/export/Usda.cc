@@ -21,15 +21,16 @@ constexpr const char* kIndent = "        ";
 
 /// Levels are numbered, so those of one number are one prim. A tree with fewer levels than others shows the nearest that
 /// it has there: else what it covers would be gone for a frame.
-/// @return null of a sample without spheres
-const ExportLevel* levelIn(const ExportScene& scene, int number)
+/// @return one without spheres of a sample that has none
+const ExportLevel& levelIn(const ExportScene& scene, int number)
 {
+    static const ExportLevel kNothing;
     const ExportLevel* nearest = nullptr;
     for (const ExportLevel& level : scene.levels) {
         const int off = std::abs(level.number - number);
         if (!nearest || off < std::abs(nearest->number - number)) nearest = &level;
     }
-    return nearest;
+    return nearest ? *nearest : kNothing;
 }
 
 /// @return the numbers of the levels of all samples, the finest first; 0 if none has any.
@@ -80,15 +81,10 @@ void writeExtent(ExportText& text, const ExportLevel& level)
 void writeAttribute(ExportText& text, const Samples& samples, int number, const std::string& name,
     const char* metadata, const WriteValue& writeValue)
 {
-    static const ExportLevel kNothing;
-    const auto levelOf = [&](const ExportScene& scene) -> const ExportLevel& {
-        const ExportLevel* const level = levelIn(scene, number);
-        return level ? *level : kNothing;
-    };
     text << kIndent << name;
     if (samples.size() == 1) {
         text << " = ";
-        writeValue(text, levelOf(samples.front()));
+        writeValue(text, levelIn(samples.front(), number));
         text << metadata << '\n';
         return;
     }
@@ -98,7 +94,7 @@ void writeAttribute(ExportText& text, const Samples& samples, int number, const 
     for (const ExportScene& scene : samples) {
         text << kIndent << "    ";
         text.real(scene.sample) << ": ";
-        writeValue(text, levelOf(scene));
+        writeValue(text, levelIn(scene, number));
         text << ",\n";
     }
     text << kIndent << "}\n";

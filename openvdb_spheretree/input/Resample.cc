@@ -339,9 +339,9 @@ void scaleGrid(openvdb::GridBase& grid, double factor)
     try {
         scaled->postScale(factor);
     } catch (const openvdb::ArithmeticError&) { // OpenVDB takes tiny voxels for none
-        fail(" they are smaller than the cubes of 1.5e-5 that OpenVDB takes: choose another scale, "
-             "or "
-             "leave it as it is and let scale= of -write change the files of other tools");
+        fail(
+            " they are smaller than the cubes of 1.5e-5 that OpenVDB takes: choose another "
+            "scale, or leave it as it is and let scale= of -write change the files of other tools");
     }
     if (!scaled->voxelSize().isFinite()) fail(kNone);
     grid.setTransform(scaled);

@@ -4,9 +4,9 @@
 #include <openvdb_spheretree/base/EmptyObject.h>
 #include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/index/NearestVoxel.h>
-#include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/mesh/MeshHoles.h>
 #include <openvdb_spheretree/mesh/TriangleVoxels.h>
 #include <openvdb_spheretree/solid/WindingNumber.h>

@@ -83,6 +83,8 @@ SphereTree treeIn(Transform::Ptr transform, const WorldSpheres& spheres)
     return tree;
 }
 
+} // namespace
+
 openvdb::BBoxd boxOf(const WorldSpheres& spheres)
 {
     openvdb::BBoxd box;
@@ -92,8 +94,6 @@ openvdb::BBoxd boxOf(const WorldSpheres& spheres)
     }
     return box;
 }
-
-} // namespace
 
 SphereTree givenTree(const WorldSpheres& spheres)
 {

@@ -17,12 +17,17 @@
 #include <openvdb_spheretree/input/spheres/WorldSpheres.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
 
+#include <openvdb/math/BBox.h>
+
 namespace openvdb_spheretree {
 
 /// Units in a voxel of the centers of given spheres.
 constexpr int kGivenSubdivision = 1024;
 /// How far that moves a center at most: half the diagonal of a unit, in voxels, rounded up.
 constexpr double kGivenMove = 0.8661 / kGivenSubdivision;
+
+/// @return the box around all, in world units.
+openvdb::math::BBox<openvdb::Vec3d> boxOf(const WorldSpheres& spheres);
 
 /// @brief In a frame of their own, where no object is known: voxels are cubes along the axes of the
 /// world, a power of two wide, and the longest side of the spheres' box is 128 to 256 of them. `object` has no voxels, and

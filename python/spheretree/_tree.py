@@ -302,10 +302,7 @@ def load(path: str | os.PathLike[str], name: str | None = None, *, progress: Pro
     >>> spheretree.load("cube.vdb")
     <spheretree.Tree 'spheretree': 8, 1 spheres on 2 levels>
     """
-    known = readable(path)
-    if known.lower().endswith((b".csv", b".json")):
-        raise _spheretree.InputError(f"{os.fsdecode(path)}: trees are loaded from a .vdb, which save() writes without loss")
-    return Tree(_spheretree.load(known, "" if name is None else text("name", name), progress))
+    return Tree(_spheretree.load(readable(path), "" if name is None else text("name", name), progress))
 
 
 def read_points(path: str | os.PathLike[str], *, progress: Progress = None) -> dict[str, dict[str, Any]]:

@@ -10,22 +10,6 @@
 
 namespace command {
 
-namespace {
-
-/// @return from corner to corner of the box around all.
-double sizeOf(const openvdb_spheretree::WorldSpheres& spheres)
-{
-    openvdb::BBoxd box;
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const openvdb::Vec3d reach(spheres.radius[i]);
-        box.expand(spheres.center[i] - reach);
-        box.expand(spheres.center[i] + reach);
-    }
-    return box.extents().length();
-}
-
-} // namespace
-
 void warnOfUnits(const std::string& what, double size, double object, Session& session)
 {
     constexpr double kOtherUnits = 50; // inches and metres are 39 apart, and wrong anyhow
@@ -56,7 +40,8 @@ void placeInObject(StackItem& item, Session& session, const std::string& ageOrNa
     }
     item.tree->settings.name = name;
     const openvdb::CoordBBox voxels = object->evalActiveVoxelBoundingBox();
-    warnOfUnits(item.description() + " are", sizeOf(*item.given),
+    warnOfUnits(item.description() + " are",
+        openvdb_spheretree::boxOf(*item.given).extents().length(),
         object->voxelSize()[0] * openvdb_spheretree::detail::diagonalOf(voxels), session);
     item.object = object;
 }

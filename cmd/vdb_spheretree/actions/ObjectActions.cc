@@ -86,10 +86,11 @@ openvdb::GridBase::Ptr gridOf(
     if (!outside) warnIfOpen(mesh, session);
     if (outside || call.text("cover") != "0") {
         const auto object = spheretree::meshToObject(mesh, voxel, settings, &session.progress);
-        const std::string hollow = outside
-            ? spheretree::hollowWarning(mesh, *object, settings.gap, &session.progress)
-            : std::string();
-        if (!hollow.empty()) session.warn(hollow);
+        if (outside) {
+            const std::string hollow =
+                spheretree::hollowWarning(mesh, *object, settings.gap, &session.progress);
+            if (!hollow.empty()) session.warn(hollow);
+        }
         return object;
     }
     const auto levelSet =

@@ -80,7 +80,7 @@ void writeReportFiles(const ActionCall& call, Session& session,
             session.print(text.str(), standardOutput());
             continue;
         }
-        session.noteIfReplaced(path);
+        session.warnIfReplaced(path);
         files.push_back(std::make_unique<AtomicFile>(path));
         files.back()->write([&, form = form](std::ostream& out) { write(out, form); });
     }

@@ -7,6 +7,7 @@
 
 #include <openvdb_spheretree/base/Text.h>
 #include <openvdb_spheretree/input/Resample.h>
+#include <openvdb_spheretree/voxel/BoxSides.h>
 
 #include <algorithm>
 
@@ -19,14 +20,13 @@ namespace {
 /// Of volumes in micrometres a voxel of metres is none.
 void warnOfSize(const StackItem& item, double voxel, Session& session)
 {
-    const openvdb::CoordBBox box = item.grid->evalActiveVoxelBoundingBox();
-    double across = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double voxels = 1 + double(box.max()[axis]) - double(box.min()[axis]);
-        across = std::max(across, voxels * item.grid->voxelSize()[axis]);
-    }
-    if (box.empty() || across >= voxel) return;
     using openvdb_spheretree::detail::shortNumber;
+    const auto side = openvdb_spheretree::detail::sidesOf(item.grid->evalActiveVoxelBoundingBox());
+    double across = 0; // of an empty grid
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        across = std::max(across, double(side[axis]) * item.grid->voxelSize()[int(axis)]);
+    }
+    if (across == 0 || across >= voxel) return;
     session.warn("-resample voxel=" + shortNumber(voxel) + " is larger than all of "
         + item.description() + ", which is " + shortNumber(across)
         + " across: is it in another unit (voxel=0.1mm)?");

@@ -289,6 +289,29 @@ BoolGrid::ConstPtr objectToCheck(const StackItem& item, const ActionCall& call, 
     return timedObjectOf(grid, settings, session);
 }
 
+/// @param object  that the tree was held against; null if there is but a mesh
+/// @throw CommandError (check failed) that says what the first fault means, if there is one
+void requireNone(
+    const std::vector<spheretree::TreeFault>& faults, const StackItem& item, const BoolGrid* object)
+{
+    if (faults.empty()) return;
+    const std::string name = item.description(), first = faults.front().sentence;
+    if (item.tree->settings.isGiven()) throw CommandError(kCheckFailed, name + ": " + first);
+    const auto isOfMesh = [](const spheretree::TreeFault& fault) {
+        return fault.kind == spheretree::FaultKind::Surface;
+    };
+    const bool holdsMesh =
+        !object || spheretree::coverageOf(*object) == spheretree::Coverage::Cubes;
+    if (!holdsMesh && std::all_of(faults.begin(), faults.end(), isOfMesh)) {
+        throw CommandError(kCheckFailed,
+            name + " covers all voxels of its object, but not all of the mesh (" + first
+                + "); those of -mesh2ls cover=1 hold all of it");
+    }
+    throw CommandError(kCheckFailed,
+        name + " does not hold what it promises: " + std::to_string(faults.size())
+            + " of the checks failed, the first: " + first);
+}
+
 void runCheck(const ActionCall& call, Session& session)
 {
     StackItem& item = session.stack.selectTree("");
@@ -310,27 +333,10 @@ void runCheck(const ActionCall& call, Session& session)
         spheretree::checkAgainst(*item.tree, object.get(), mesh.get(), &session.progress);
     throwIfStopped();
     for (const auto& fault : faults) session.print(oneLine(fault.sentence) + "\n");
-    const bool isGiven = settings.isGiven();
-    if (!faults.empty() && isGiven) {
-        throw CommandError(kCheckFailed, item.description() + ": " + faults.front().sentence);
-    }
-    const auto isOfMesh = [](const auto& fault) {
-        return fault.kind == spheretree::FaultKind::Surface;
-    };
-    const bool isSound = std::all_of(faults.begin(), faults.end(), isOfMesh);
-    const bool isOfCubes = object && spheretree::coverageOf(*object) == spheretree::Coverage::Cubes;
-    if (!faults.empty() && isSound && object && !isOfCubes) {
-        throw CommandError(kCheckFailed,
-            item.description() + " covers all voxels of its object, but not all of the mesh ("
-                + faults.front().sentence + "); those of -mesh2ls cover=1 hold all of it");
-    }
-    if (!faults.empty()) {
-        throw CommandError(kCheckFailed,
-            item.description() + " does not hold what it promises: " + std::to_string(faults.size())
-                + " of the checks failed, the first: " + faults.front().sentence);
-    }
+    requireNone(faults, item, object.get());
     if (session.verbosity == Verbosity::Quiet) return;
-    if (object) session.print(isGiven ? "the spheres cover the object\n" : "all checks hold\n");
+    if (object)
+        session.print(settings.isGiven() ? "the spheres cover the object\n" : "all checks hold\n");
     if (mesh) {
         session.print("every triangle of mesh '" + oneLine(mesh->name, 60)
             + "' lies in the stored spheres of every level\n");

@@ -349,8 +349,8 @@ bool holdsSeveral(const ActionCall& call, const std::string& path)
     return format ? format->links || format->samples : fileKind(path) == FileKind::Vdb;
 }
 
-/// Says that a file behind a loop lacks the trees that were written in it.
-void noteGone(const std::string& path, const std::vector<StackItem*>& items, Session& session)
+/// Of a file behind a loop that lacks the trees that were written in it.
+void warnOfGone(const std::string& path, const std::vector<StackItem*>& items, Session& session)
 {
     const auto isOfLoop = [&](const StackItem* item) {
         return item->anyTree() && session.stack.isOfEndedLoop(*item);
@@ -369,8 +369,8 @@ void noteSurprises(const ActionCall& call, const std::vector<StackItem*>& items,
     const auto isTree = [](const StackItem* item) { return bool(item->tree); };
     const bool anyTree = std::any_of(items.begin(), items.end(), isTree);
     for (const std::string& path : call.list("files")) {
-        session.noteIfReplaced(path);
-        if (holdsSeveral(call, path) && !call.given("vdb")) noteGone(path, items, session);
+        session.warnIfReplaced(path);
+        if (holdsSeveral(call, path) && !call.given("vdb")) warnOfGone(path, items, session);
         if (fileKind(path) != FileKind::Vdb || !anyTree || call.given("vdb")) continue;
         for (const StackItem* item : items) {
             if (item->tree) continue;

@@ -103,7 +103,7 @@ void Session::noteIfUnverified(const StackItem& item)
         + " has no checksum, as those of version 0.1: nobody can tell whether it is whole");
 }
 
-void Session::noteIfReplaced(const std::string& path)
+void Session::warnIfReplaced(const std::string& path)
 {
     if (!plan.replacesInput(path)) return;
     warn(path + ", which was read, is replaced by what is written");

@@ -114,7 +114,7 @@ struct Session {
     /// Notes that nobody can tell whether a tree is whole, if that is so.
     void noteIfUnverified(const StackItem& item);
     /// Warns that a file that this line reads is about to be written, if that is so.
-    void noteIfReplaced(const std::string& path);
+    void warnIfReplaced(const std::string& path);
     /// Says once in which frame Ctrl-C came, with -quiet too.
     void tellInterrupted(const std::string& frame, const std::string& done);
     /// As a note, for what may be a mistake; with -quiet, too.

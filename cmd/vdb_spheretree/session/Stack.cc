@@ -133,7 +133,7 @@ void Stack::drop(const StackItem* item)
 void Stack::giveUp(const StackItem* item)
 {
     const bool isOfThisTurn = !mTurns.empty() && item->serial >= mTurns.back();
-    if (isOfThisTurn && item->anyTree()) mGone.emplace_back(item->serial, item->depth);
+    if (isOfThisTurn && item->anyTree()) mGivenUp.push_back({item->serial, item->depth});
     drop(item);
 }
 
@@ -144,20 +144,20 @@ bool Stack::isOfEndedLoop(int64_t serial, std::size_t depth) const
 
 int64_t Stack::writtenAndGone() const
 {
-    return std::count_if(mGone.begin(), mGone.end(),
-        [&](const auto& gone) { return isOfEndedLoop(gone.first, gone.second); });
+    return std::count_if(mGivenUp.begin(), mGivenUp.end(),
+        [this](const GivenUp& gone) { return isOfEndedLoop(gone); });
 }
 
 void Stack::beginLoop()
 {
-    const auto isOld = [&](const auto& gone) { return isOfEndedLoop(gone.first, gone.second); };
-    mGone.erase(std::remove_if(mGone.begin(), mGone.end(), isOld), mGone.end());
+    const auto isOld = [this](const GivenUp& gone) { return isOfEndedLoop(gone); };
+    mGivenUp.erase(std::remove_if(mGivenUp.begin(), mGivenUp.end(), isOld), mGivenUp.end());
 }
 
 void Stack::clear()
 {
     mItems.clear();
-    mGone.clear();
+    mGivenUp.clear();
 }
 
 std::vector<StackItem> Stack::copies() const

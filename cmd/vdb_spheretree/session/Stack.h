@@ -19,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace command {
@@ -123,7 +122,13 @@ public:
     bool newestTreeIsEmpty() const;
 
 private:
+    /// Of an item that is gone.
+    struct GivenUp {
+        int64_t serial;
+        std::size_t depth;
+    };
     bool isOfEndedLoop(int64_t serial, std::size_t depth) const;
+    bool isOfEndedLoop(const GivenUp& gone) const { return isOfEndedLoop(gone.serial, gone.depth); }
     std::vector<StackItem*> oldestFirst(bool meshes);
     std::vector<StackItem*> newestFirst(bool meshes);
     StackItem* find(const std::string& ageOrName, bool meshes);
@@ -138,9 +143,8 @@ private:
     bool mIsFile = false;
     std::optional<int64_t> mFrame;
     int64_t mPushed = 0;
-    std::vector<std::pair<int64_t, std::size_t>>
-        mGone;                   ///< trees that were given up in their loops: serials, depths
-    std::vector<int64_t> mTurns; ///< the first serial of each turn that goes on
+    std::vector<GivenUp> mGivenUp; ///< trees, in their loops
+    std::vector<int64_t> mTurns;   ///< the first serial of each turn that goes on
     int mBatch = 0;
 };
 

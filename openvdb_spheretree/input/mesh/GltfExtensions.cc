@@ -15,7 +15,6 @@
 #include <cstring>
 #include <fstream>
 #include <istream>
-#include <vector>
 #endif
 
 namespace openvdb_spheretree::detail {

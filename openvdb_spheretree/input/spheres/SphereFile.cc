@@ -57,9 +57,8 @@ void SphereList::add(SphereEntry& entry)
     }
     if (!(*radius > 0)) {
         fail("the radius " + shortNumber(*radius)
-            + " is not above 0: spheres of trees without padding may be points, of which the .vdb "
-              "is "
-              "read alone");
+            + " is not above 0: spheres of trees without padding may be points, of which the "
+              ".vdb is read alone");
     }
     if (mSpheres.size() >= std::size_t(std::numeric_limits<int32_t>::max())) {
         fail("there are more than the 2^31 - 1 spheres that can be numbered");

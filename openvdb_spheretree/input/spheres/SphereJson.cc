@@ -339,8 +339,7 @@ void parseSphereJson(std::istream& in, SphereList& spheres)
     if (spheres.size() == 0 && !handler.isOurs()) {
         throw openvdb::IoError(
             "it holds no sphere: they are taken from a list of objects with x, y, z (or center) "
-            "and "
-            "radius, or from rows below 'columns'; those of foam and MorphIt are not read");
+            "and radius, or from rows below 'columns'; those of foam and MorphIt are not read");
     }
 }
 
