@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FaultyCommand.h"
 
-#include "support/Sanitizers.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -63,9 +61,6 @@ std::vector<long> spread(long last, long most)
 
 void FaultyCommandTest::SetUp()
 {
-    if (spheretree_test::kSanitized) {
-        GTEST_SKIP() << "sanitizers have their own malloc and system calls";
-    }
     CommandTest::SetUp();
     writeBlock("a.vol");
     const Result made = run("-read a.vol -spheretree tree=extended dag=1 -write tree.vdb");

@@ -5,6 +5,8 @@
 
 #include "FaultyCommand.h"
 
+#include "support/Sanitizers.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -80,6 +82,7 @@ class CommandSignalled : public CommandKilled, public testing::WithParamInterfac
 /// Memory is asked for in every part of a run, so requests count moments better than a clock does.
 TEST_P(CommandSignalled, AtThirtyMoments)
 {
+    if (spheretree_test::kSanitized) GTEST_SKIP() << "sanitizers have a malloc of their own";
     const int signal = GetParam().signal;
     const std::string line = GetParam().work + kWrite;
     expectOf(GetParam().work);

@@ -241,10 +241,10 @@ void useTree(const SphereTree& tree, uint64_t turn)
     attempt([&] { cutsToPoints(tree); });
     attempt([&] { writeCsv(tree, out); });
     attempt([&] { writeJson(tree, out); });
-    for (std::size_t k = 0; k < tree.levels.size(); ++k) {
-        attempt([&] { levelUnion(tree, tree.levels[k]); });
-        attempt([&] { drawSmall(tree, tree.levels[k].level); });
-    }
+    // The check has painted every level.
+    const SphereTreeLevel& level = tree.levels[turn % tree.levels.size()];
+    attempt([&] { levelUnion(tree, level); });
+    attempt([&] { drawSmall(tree, level.level); });
     for (std::size_t i = turn % kUseTurns; i < uses.size(); i += kUseTurns) uses[i](tree);
 }
 

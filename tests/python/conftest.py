@@ -34,6 +34,12 @@ def bone():
     return shaft & (x > 3) & (x < 37) & (x + 2 * y + z > 18)
 
 
+def run_program(*arguments, folder=None):
+    """A program of this build. It has its own sanitizer, if any: not the one that Python loads first."""
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    subprocess.run(list(map(str, arguments)), check=True, cwd=folder, env=environment)
+
+
 @pytest.fixture
 def command(tmp_path):
     """Runs the command vdb_spheretree in a folder of the test's own."""
@@ -42,7 +48,7 @@ def command(tmp_path):
         pytest.skip("VDB_SPHERETREE does not name the command")
 
     def run(*arguments):
-        subprocess.run([program, "-quiet", *map(str, arguments)], check=True, cwd=tmp_path)
+        run_program(program, "-quiet", *arguments, folder=tmp_path)
 
     return run
 

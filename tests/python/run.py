@@ -3,6 +3,7 @@
 or run.py example PROGRAM.
 
 It works in a folder of its own, and ends with 77 (skipped) where what a test is run by is not installed.
+Python loads the libraries of SPHERETREE_PRELOAD first: a sanitizer's, of a module that is compiled with it.
 """
 import importlib.util
 import os
@@ -24,21 +25,28 @@ def require(*modules):
         sys.exit(SKIPPED)
 
 
+def run_python(*arguments, folder, **variables):
+    preload = os.environ.get("SPHERETREE_PRELOAD")
+    if preload:
+        variables["LD_PRELOAD"] = preload
+    environment = dict(os.environ, **variables)
+    return subprocess.run([sys.executable, "-B", *map(str, arguments)], cwd=folder, env=environment).returncode
+
+
 def run(*arguments, folder):
-    sys.exit(subprocess.run([sys.executable, "-B", *map(str, arguments)], cwd=folder).returncode)
+    sys.exit(run_python(*arguments, folder=folder))
 
 
 def run_example(program, folder):
     """A program ends with a file that was not there before, and is no empty one."""
     require("numpy", "matplotlib", "scipy")
-    environment = dict(os.environ, MPLBACKEND="Agg")
-    done = subprocess.run([sys.executable, "-B", program], cwd=folder, env=environment)
+    code = run_python(program, folder=folder, MPLBACKEND="Agg")
     files = [path for path in pathlib.Path(folder).iterdir() if path.stat().st_size > 0]
     print("files:", *sorted(path.name for path in files))
     keep = os.environ.get("SPHERETREE_KEEP_EXAMPLES")
     for path in files if keep else []:
         (pathlib.Path(keep) / path.name).write_bytes(path.read_bytes())
-    sys.exit(done.returncode or (0 if files else "the program has left no file"))
+    sys.exit(code or (0 if files else "the program has left no file"))
 
 
 def main(what, *arguments):
@@ -48,6 +56,9 @@ def main(what, *arguments):
         elif what == "doctest":
             require("numpy", "pytest")
             run("-m", "pytest", "-q", "-p", "no:cacheprovider", "--doctest-modules", "--pyargs", "spheretree", folder=folder)
+        elif what in ("types", "wheel") and "SPHERETREE_PRELOAD" in os.environ:
+            print("skipped: the programs that this test runs know nothing of the sanitizer")
+            sys.exit(SKIPPED)
         elif what == "types":
             require("numpy", "mypy")
             run("-m", "mypy", "--strict", "--cache-dir", folder, "-p", "spheretree", folder=folder)

@@ -2,13 +2,13 @@
 """Files of other tools: the bytes of the command, warnings for what is lost, errors for what cannot be held."""
 import json
 import os
-import subprocess
 import warnings
 import xml.etree.ElementTree as xml
 
 import numpy as np
 import pytest
 import spheretree
+from conftest import run_program
 
 
 @pytest.fixture(scope="module")
@@ -27,8 +27,8 @@ def test_the_bytes_are_those_of_the_command(tree, tmp_path, monkeypatch):
     for name, format in (("t.urdf", ""), ("t.usda", ""), ("t.yml", "lula"), ("t.glb", ""), ("t.csv", "deme")):
         spheretree.export(tree, "python/" + name, format=format, **words)
         options = [f"{key}={value}" for key, value in words.items()]
-        subprocess.run([command, "-quiet", "-read", "tree.vdb", "-write", name, *options,
-                        *([f"format={format}"] if format else [])], check=True)
+        run_program(command, "-quiet", "-read", "tree.vdb", "-write", name, *options,
+                    *([f"format={format}"] if format else []))
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / name).read_bytes(), name
 
 

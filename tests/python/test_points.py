@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Points of any .vdb as arrays."""
 import os
-import subprocess
 
 import numpy as np
 import pytest
 import spheretree
+from conftest import run_program
 
 
 def test_points_of_a_tree_are_its_spheres(bone, tmp_path):
@@ -31,7 +31,7 @@ def test_points_of_every_type_are_read(tmp_path):
     if not maker:
         pytest.skip("SPHERETREE_POINT_SAMPLE does not name the program that makes the file")
     path = tmp_path / "points.vdb"
-    subprocess.run([maker, path], check=True)
+    run_program(maker, path)
     points = spheretree.read_points(path)["sample"]
     n = np.arange(1, 6)
     order = np.argsort(points["int32"])
@@ -68,7 +68,7 @@ def test_damaged_points_are_refused_or_read_and_never_more(bone, tmp_path, seed)
     path = tmp_path / "points.vdb"
     maker = os.environ.get("SPHERETREE_POINT_SAMPLE")
     if seed % 2 and maker:
-        subprocess.run([maker, path], check=True)
+        run_program(maker, path)
     else:
         spheretree.build(bone, [32, 4]).save(path)
     sound = path.read_bytes()
