@@ -357,8 +357,10 @@ void bindVolume(py::module_& module)
         .def_property_readonly("matrix", matrixOf)
         .def_property_readonly(
             "name", [](const Volume& volume) { return textOf(volume.object->getName()); })
-        .def_property_readonly(
-            "voxel_size", [](const Volume& volume) { return volume.object->voxelSize()[0]; })
+        .def_property_readonly("voxel_size",
+            [](const Volume& volume) {
+                return openvdb_spheretree::voxelSizeOf(volume.object->transform());
+            })
         .def_readonly("flat", &Volume::flat)
         .def_property_readonly("warnings",
             [](const Volume& volume) {

@@ -101,11 +101,12 @@ void checkTransform(Check& check)
         const openvdb::Vec3d here = check.object.transform().indexToWorld(at);
         farthest = std::max(farthest, (here - tree.transform->indexToWorld(at)).length());
     }
-    if (farthest <= kMuchOfVoxel * check.object.voxelSize()[0]) return;
+    const double voxel = voxelSizeOf(check.object.transform());
+    if (farthest <= kMuchOfVoxel * voxel) return;
     check.fail("the object's transform is not the tree's: the corners of its box (voxels of ",
-        check.object.voxelSize()[0], ", first corner at ",
-        check.object.transform().indexToWorld(box.min()), ") lie up to ", farthest,
-        " world units from where the tree has them (voxels of ", tree.voxelSize(), ')');
+        voxel, ", first corner at ", check.object.transform().indexToWorld(box.min()),
+        ") lie up to ", farthest, " world units from where the tree has them (voxels of ",
+        tree.voxelSize(), ')');
 }
 
 /// What is recorded of the object is so.

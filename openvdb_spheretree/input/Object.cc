@@ -234,7 +234,7 @@ void checkFinite(double value, const char* name)
 void checkIso(const openvdb::GridBase& grid, double iso, double background)
 {
     if (iso < background && iso > -background) return;
-    if (background <= 0) {
+    if (!(background > 0)) { // or NaN
         OPENVDB_THROW(openvdb::ValueError,
             detail::describe(grid)
                 << " is of the class of level sets, and its background is " << background

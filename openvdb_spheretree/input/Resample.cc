@@ -90,6 +90,13 @@ openvdb::BBoxd boundedReachOf(
                "move it towards its origin");
 }
 
+/// NaN is a background like others.
+template <typename ValueT>
+bool areSame(const ValueT& a, const ValueT& b)
+{
+    return a == b || (a != a && b != b);
+}
+
 /// The boxes of voxels that are not merely background: leaf nodes, and tiles.
 template <typename TreeT>
 std::vector<CoordBBox> boxesOf(const TreeT& tree)
@@ -98,7 +105,7 @@ std::vector<CoordBBox> boxesOf(const TreeT& tree)
     auto tile = tree.cbeginValueAll();
     tile.setMaxDepth(TreeT::ValueAllCIter::LEAF_DEPTH - 1);
     for (; tile; ++tile) {
-        if (!tile.isValueOn() && *tile == tree.background()) continue;
+        if (!tile.isValueOn() && areSame(*tile, tree.background())) continue;
         boxes.push_back(tile.getBoundingBox());
     }
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) boxes.push_back(leaf->getNodeBoundingBox());
@@ -267,6 +274,13 @@ template <typename GridT>
 typename GridT::Ptr rebuilt(
     const GridT& grid, const Transform::Ptr& to, openvdb::util::NullInterrupter* interrupter)
 {
+    if (!std::isfinite(double(grid.background()))) {
+        OPENVDB_THROW(openvdb::ValueError,
+            detail::describe(grid)
+                << " is of the class of level sets, and its background is "
+                << double(grid.background())
+                << ", which is no distance: if it is no level set, change the grid's class");
+    }
     // A surface of so much area has a band of that width, of leaf nodes of which a quarter is used.
     const double voxel = to->voxelSize()[0], background = std::abs(double(grid.background()));
     const double volume = double(grid.activeVoxelCount()) * voxelVolume(grid);

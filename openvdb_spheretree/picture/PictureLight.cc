@@ -2,6 +2,7 @@
 #include "PictureLight.h"
 
 #include "PictureColors.h"
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/math/Math.h>
 #include <openvdb/math/Transform.h>
@@ -31,7 +32,7 @@ void makeBasis(const Vec3d& n, Vec3d& across, Vec3d& along)
 CameraRays::CameraRays(const Camera& camera, const openvdb::math::Transform& transform,
     const openvdb::Coord& middle, int width, int height)
     : parallel(camera.isOrthographic()),
-      pixel((parallel ? camera.height / transform.voxelSize()[0]
+      pixel((parallel ? camera.height / voxelSizeOf(transform)
                       : 2 * std::tan(camera.fovDegrees * kPi / 360))
           / height),
       halfWidth(pixel * width / 2), halfHeight(pixel * height / 2)

@@ -16,6 +16,7 @@
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
 #include <openvdb_spheretree/voxel/TopologyCopy.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
@@ -184,7 +185,7 @@ std::string hollowWarning(const TriangleMesh& mesh, const openvdb::BoolGrid& obj
     if (edges.empty()) return {};
     const MeshHoles holes = holesOf(mesh, edges);
     // Voxels at the surface reach out of the solid, by half of one on average. Half of that is sure.
-    const double voxel = object.voxelSize()[0];
+    const double voxel = voxelSizeOf(object.transform());
     const double inside =
         double(object.activeVoxelCount()) * voxel * voxel * voxel - kBeyond * voxel * areaOf(mesh);
     const double lacking = holes.volume > 0 ? 1 - inside / holes.volume : 0;
@@ -223,7 +224,7 @@ MissedSurface missedSurface(
     result.voxels = missed.voxels;
     for (const int64_t sq : furthestSq) {
         result.distance =
-            std::max(result.distance, std::sqrt(double(sq)) / 2 * object.voxelSize()[0]);
+            std::max(result.distance, std::sqrt(double(sq)) / 2 * voxelSizeOf(object.transform()));
     }
     return result;
 }

@@ -40,7 +40,7 @@ struct StoredSpheres {
 class LevelSetSize {
 public:
     explicit LevelSetSize(const openvdb::math::Transform& transform, double halfWidth)
-        : mTransform(transform), mVoxel(transform.voxelSize()[0]), mHalfWidth(halfWidth)
+        : mTransform(transform), mVoxel(voxelSizeOf(transform)), mHalfWidth(halfWidth)
     {}
 
     void add(const openvdb::Vec3d& world, double radiusWorld)

@@ -2,6 +2,7 @@
 #include "SphereTree.h"
 
 #include "TreeShape.h"
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/math/Transform.h>
@@ -15,7 +16,7 @@ openvdb::Vec3d SphereTree::centerWorld(int32_t id) const
     return transform->indexToWorld(spheres.center[id]);
 }
 
-double SphereTree::voxelSize() const { return transform->voxelSize()[0]; }
+double SphereTree::voxelSize() const { return voxelSizeOf(*transform); }
 
 int SphereTree::levelOf(int32_t id) const
 {

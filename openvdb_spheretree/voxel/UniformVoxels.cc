@@ -103,6 +103,11 @@ std::string detail::describe(const openvdb::GridBase& grid)
     return name.empty() ? "the grid without a name" : "grid " + detail::inQuotes(name, 80);
 }
 
+double voxelSizeOf(const openvdb::math::Transform& transform)
+{
+    return VoxelEdges(transform).length[0];
+}
+
 double largestStretch(const openvdb::math::Transform& transform)
 {
     const VoxelEdges voxel(transform);

@@ -19,6 +19,11 @@ void requireUniformVoxels(const openvdb::GridBase& grid);
 /// @return whether they are cubes, by the same measure; also where they are too far away to be told apart.
 bool hasCubicVoxels(const openvdb::math::Transform& transform);
 
+/// @return how long the first edge of a voxel is in world units, wherever the object is. (Transform::voxelSize()
+///         of a turned grid is the distance between two of its places: 10^8 voxels away from the world's
+///         origin it has eight digits less.)
+double voxelSizeOf(const openvdb::math::Transform& transform);
+
 /// @return an upper bound of the world units a voxel, over all directions: the voxel size, a hair
 ///         more where voxels are cubes only nearly.
 double largestStretch(const openvdb::math::Transform& transform);

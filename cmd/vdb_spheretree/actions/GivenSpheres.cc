@@ -5,6 +5,7 @@
 
 #include <openvdb_spheretree/tree/GivenTree.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <cstdio>
 
@@ -42,7 +43,9 @@ void placeInObject(StackItem& item, Session& session, const std::string& ageOrNa
     const openvdb::CoordBBox voxels = object->evalActiveVoxelBoundingBox();
     warnOfUnits(item.description() + " are",
         openvdb_spheretree::boxOf(*item.given).extents().length(),
-        object->voxelSize()[0] * openvdb_spheretree::detail::diagonalOf(voxels), session);
+        openvdb_spheretree::voxelSizeOf(object->transform())
+            * openvdb_spheretree::detail::diagonalOf(voxels),
+        session);
     item.object = object;
 }
 

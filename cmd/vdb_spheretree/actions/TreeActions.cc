@@ -19,6 +19,7 @@
 #include <openvdb_spheretree/tree/SphereTracks.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointDataGrid.h>
@@ -75,7 +76,7 @@ void warnOfDistance(
     using spheretree::detail::shortNumber;
     const auto* tight = settings.find<spheretree::TightOptions>();
     if (!tight || !tight->budget.distance) return;
-    const double voxel = object.voxelSize()[0];
+    const double voxel = spheretree::voxelSizeOf(object.transform());
     const double size = voxel * spheretree::detail::diagonalOf(object.evalActiveVoxelBoundingBox());
     const double bound = tight->budget.distanceWorld(voxel);
     if (bound < size) return;
@@ -177,7 +178,7 @@ void runSpheretree(const ActionCall& call, Session& session)
         objectSettings.coverage = spheretree::Coverage::Whole;
     }
     const BoolGrid::ConstPtr object = timedObjectOf(input, objectSettings, session);
-    const double voxel = object->voxelSize()[0];
+    const double voxel = spheretree::voxelSizeOf(object->transform());
     if (call.flag("samevoxels")) session.requireVoxelsOfSequence(voxel);
     StackItem result;
     result.ofMesh = input.ofMesh;

@@ -7,6 +7,7 @@
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointDataGrid.h>
@@ -108,7 +109,11 @@ std::string gridFact(const std::string& name, const StackItem& item)
     if (name == "sphereCount") return whole(treeOf(item).size());
     if (name == "levelCount") return whole(int64_t(treeOf(item).levels.size()));
     const GridFacts facts(item);
-    if (name == "voxelSize") return textOfReal(facts.transform->voxelSize()[0]);
+    if (name == "voxelSize") {
+        const bool isLinear = facts.transform->isLinear();
+        return textOfReal(isLinear ? openvdb_spheretree::voxelSizeOf(*facts.transform)
+                                   : facts.transform->voxelSize()[0]);
+    }
     if (name == "voxelCount") return whole(facts.voxels);
     if (name == "isGridEmpty") return truth(facts.voxels == 0);
     if (name == "gridDim") {

@@ -77,6 +77,30 @@ TEST_F(TreeCheck, FindsNothingWrongWithPaddedRadiiWhateverTheVoxelSize)
     }
 }
 
+/// As in a scan of a landscape: any angle, and far away from the world's origin.
+TEST_F(TreeCheck, FindsNothingWrongWithTurnedObjectsFarAway)
+{
+    const BoolGrid::Ptr object = plusAndDot();
+    for (const double far : {1e4, 3e4, 1e5, 1e8, 1e12}) {
+        for (int turn = 1; turn < 15; ++turn) {
+            openvdb::Mat4d matrix = openvdb::Mat4d::identity();
+            matrix.postRotate(openvdb::math::Z_AXIS, 0.1 * turn);
+            matrix.postTranslate(openvdb::Vec3d(far, 2 * far, 3 * far));
+            object->setTransform(openvdb::math::Transform::createLinearTransform(matrix));
+            const SphereTreeSettings::Kind kinds[] = {
+                TightOptions(), InnerOptions(), ExtendedOptions()};
+            for (const SphereTreeSettings::Kind& kind : kinds) {
+                SphereTreeSettings settings;
+                settings.kind = kind;
+                if (!settings.isInner()) settings.padding = SphereTreeSettings::kPadCubes;
+                const SphereTree tree = buildSphereTree(*object, settings);
+                EXPECT_EQ(sentencesOf(checkSphereTree(tree, *object)), "")
+                    << far << ", turned by " << turn << " tenths, kind " << kind.index();
+            }
+        }
+    }
+}
+
 TEST_F(TreeCheck, FindsNothingWrongWithADiscInTwoDimensions)
 {
     BoolGrid::Ptr object = BoolGrid::create();

@@ -248,6 +248,22 @@ TEST(Resample, WhatCannotBeIsRefusedWithTheNumber)
     EXPECT_TRUE(mentions(valueError([&] { resampled(*frustum, 1); }), "frustum"));
 }
 
+/// NaN is equal to nothing: tiles of such a background were taken for values, of gigabytes.
+TEST(Resample, ABackgroundThatIsNoNumberTakesNoRoom)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto grid = named<FloatGrid>("o", nan);
+    grid->tree().fill(CoordBBox(Coord(0), Coord(7)), 1.0f);
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    const auto result = openvdb::gridPtrCast<FloatGrid>(resampled(*grid, 0.5));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->tree().getValue(Coord(7)), 1.0f);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    EXPECT_TRUE(mentions(
+        valueError([&] { resampled(*grid, 0.5); }), "its background is nan, which is no distance"));
+    EXPECT_TRUE(mentions(valueError([&] { objectOf(*grid); }), "its background is nan, where"));
+}
+
 TEST(Resample, StopsWhenInterrupted)
 {
     const auto grid = named<FloatGrid>("fog", 0.0f);
