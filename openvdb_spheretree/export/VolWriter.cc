@@ -4,6 +4,7 @@
 #include "ExportText.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/MaskGrids.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <openvdb/Exceptions.h>
 #include <openvdb/tree/ValueAccessor.h>
@@ -88,7 +89,9 @@ CoordBBox boxOf(const openvdb::BoolGrid& object)
 
 void writeHeader(const openvdb::BoolGrid& object, const CoordBBox& box, std::ostream& out)
 {
-    const openvdb::Vec3d size = object.voxelSize();
+    const bool isCube = hasCubicVoxels(object.transform());
+    const openvdb::Vec3d size =
+        isCube ? openvdb::Vec3d(voxelSizeOf(object.transform())) : object.voxelSize();
     detail::ExportText text(out, 0);
     const Coord dim = box.dim();
     for (int axis = 0; axis < 3; ++axis)
@@ -96,7 +99,6 @@ void writeHeader(const openvdb::BoolGrid& object, const CoordBBox& box, std::ost
              << "XYZ"[axis] << ": " << dim[axis] / 2 << '\n';
     for (int axis = 0; axis < 3; ++axis) text << "XYZ"[axis] << ": " << dim[axis] << '\n';
     text << "Voxel-Size: ";
-    const bool isCube = size[0] == size[1] && size[0] == size[2];
     for (int axis = 0; axis < (isCube ? 1 : 3); ++axis) {
         if (axis > 0) text << ' ';
         text.real(size[axis]);

@@ -41,6 +41,19 @@ TEST(VolWriter, WhatIsWrittenIsReadBack)
     }
 }
 
+TEST(VolWriter, ATurnedObjectFarAwayHasOneVoxelSize)
+{
+    openvdb::Mat4d matrix = openvdb::Mat4d::identity();
+    matrix.postRotate(openvdb::math::X_AXIS, 0.4);
+    matrix.postTranslate(openvdb::Vec3d(1e8, 2e8, 3e8));
+    const auto object = openvdb::BoolGrid::create();
+    object->setTransform(openvdb::math::Transform::createLinearTransform(matrix));
+    object->tree().setValueOn(Coord(0), true);
+    std::ostringstream out;
+    writeVolFile(*object, out);
+    EXPECT_NE(out.str().find("\nVoxel-Size: 1\n"), std::string::npos) << out.str();
+}
+
 TEST(VolWriter, WhatHasNoBoxOrTooLargeAOneIsRefused)
 {
     const auto object = openvdb::BoolGrid::create();
