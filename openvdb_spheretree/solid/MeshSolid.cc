@@ -222,9 +222,9 @@ MissedSurface missedSurface(
     });
     MissedSurface result;
     result.voxels = missed.voxels;
+    const double voxel = voxelSizeOf(object.transform());
     for (const int64_t sq : furthestSq) {
-        result.distance =
-            std::max(result.distance, std::sqrt(double(sq)) / 2 * voxelSizeOf(object.transform()));
+        result.distance = std::max(result.distance, std::sqrt(double(sq)) / 2 * voxel);
     }
     return result;
 }

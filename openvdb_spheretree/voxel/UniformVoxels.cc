@@ -105,7 +105,8 @@ std::string detail::describe(const openvdb::GridBase& grid)
 
 double voxelSizeOf(const openvdb::math::Transform& transform)
 {
-    return VoxelEdges(transform).length[0];
+    if (!transform.isLinear()) return transform.voxelSize()[0];
+    return transform.baseMap()->applyJacobian({1, 0, 0}).length();
 }
 
 double largestStretch(const openvdb::math::Transform& transform)

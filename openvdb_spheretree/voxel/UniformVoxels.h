@@ -21,7 +21,7 @@ bool hasCubicVoxels(const openvdb::math::Transform& transform);
 
 /// @return how long the first edge of a voxel is in world units, wherever the object is. (Transform::voxelSize()
 ///         of a turned grid is the distance between two of its places: 10^8 voxels away from the world's
-///         origin it has eight digits less.)
+///         origin it has eight digits less. Of a frustum, whose voxels differ, it is that number.)
 double voxelSizeOf(const openvdb::math::Transform& transform);
 
 /// @return an upper bound of the world units a voxel, over all directions: the voxel size, a hair

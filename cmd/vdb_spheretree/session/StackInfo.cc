@@ -109,11 +109,7 @@ std::string gridFact(const std::string& name, const StackItem& item)
     if (name == "sphereCount") return whole(treeOf(item).size());
     if (name == "levelCount") return whole(int64_t(treeOf(item).levels.size()));
     const GridFacts facts(item);
-    if (name == "voxelSize") {
-        const bool isLinear = facts.transform->isLinear();
-        return textOfReal(isLinear ? openvdb_spheretree::voxelSizeOf(*facts.transform)
-                                   : facts.transform->voxelSize()[0]);
-    }
+    if (name == "voxelSize") return textOfReal(openvdb_spheretree::voxelSizeOf(*facts.transform));
     if (name == "voxelCount") return whole(facts.voxels);
     if (name == "isGridEmpty") return truth(facts.voxels == 0);
     if (name == "gridDim") {
