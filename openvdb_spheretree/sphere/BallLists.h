@@ -15,8 +15,9 @@
 
 namespace openvdb_spheretree::detail {
 
-/// The spheres that reach into each child of a cube, as one array with offsets. Reused, as building
-/// these lists is most of the work for small spheres.
+/// The spheres that reach into each child of a cube. Reused, as building these lists is most of the
+/// work for small spheres. Cost: goes by the children from the first to the last that a ball
+/// reaches.
 class BallLists {
 public:
     /// Children along an axis, first and last.
@@ -36,24 +37,24 @@ public:
         mOrigin = origin;
         mLog2 = log2;
         mChildLog2 = childLog2;
-        const std::size_t count = std::size_t(1) << (3 * (log2 - childLog2));
-        mFull.assign(count, 0);
-        mOffset.assign(count + 1, 0);
-        mEntries.clear();
+        clear(std::size_t(1) << (3 * (log2 - childLog2)));
         for (const int32_t* i = begin; i != end; ++i) enter(balls[*i], *i);
-        for (std::size_t c = 0; c < count; ++c) mOffset[c + 1] += mOffset[c];
-        mItems.resize(mEntries.size());
-        for (auto e = mEntries.rbegin(); e != mEntries.rend(); ++e) {
-            mItems[--mOffset[e->child + 1]] = e->ball;
+        int32_t sum = 0;
+        for (std::size_t c = mFirst; c < mEnd; ++c) {
+            List& list = mLists[c];
+            list.begin = sum;
+            sum += list.end;
+            list.end = list.begin;
         }
-        // Each offset was moved to the front of its own child's items: one place to the left of
-        // where it is read.
-        mOffset.push_back(int32_t(mItems.size()));
+        mItems.resize(mEntries.size());
+        for (const Entry& entry : mEntries) mItems[mLists[entry.child].end++] = entry.ball;
     }
-    std::size_t size() const { return mFull.size(); }
-    bool full(std::size_t child) const { return mFull[child]; }
-    const int32_t* begin(std::size_t child) const { return mItems.data() + mOffset[child + 1]; }
-    const int32_t* end(std::size_t child) const { return mItems.data() + mOffset[child + 2]; }
+    /// Children before and after these are reached by no ball.
+    std::size_t firstReached() const { return mFirst; }
+    std::size_t endReached() const { return mEnd; }
+    bool full(std::size_t child) const { return mLists[child].full; }
+    const int32_t* begin(std::size_t child) const { return mItems.data() + mLists[child].begin; }
+    const int32_t* end(std::size_t child) const { return mItems.data() + mLists[child].end; }
     openvdb::Coord childOrigin(std::size_t child) const
     {
         const int n = mLog2 - mChildLog2, mask = (1 << n) - 1, c = int(child);
@@ -68,10 +69,25 @@ private:
         int32_t child, ball;
     };
 
+    /// A child's place among the items. While balls are entered, end is their number.
+    struct List {
+        int32_t begin = 0, end = 0;
+        bool full = false;
+    };
+
     /// The children under the ball's box.
     struct Children {
         int32_t first[3], last[3];
     };
+
+    void clear(std::size_t children)
+    {
+        for (std::size_t c = mFirst; c < mEnd; ++c) mLists[c] = {};
+        mLists.resize(children);
+        mEntries.clear();
+        mFirst = children;
+        mEnd = 0;
+    }
 
     void enter(const ClippedSphere& ball, int32_t index)
     {
@@ -84,6 +100,11 @@ private:
         }
         under.first[0] = std::max(under.first[0], mAlongX.first);
         under.last[0] = std::min(under.last[0], mAlongX.last);
+        for (int a = 0; a < 3; ++a) {
+            if (under.first[a] > under.last[a]) return;
+        }
+        mFirst = std::min(mFirst, childAt(under.first));
+        mEnd = std::max(mEnd, childAt(under.last) + 1);
         if (ball.plain) enterPlain(ball, index, under);
         else enterAny(ball, index, under);
     }
@@ -116,7 +137,7 @@ private:
         for (int32_t x = under.first[0]; x <= under.last[0]; ++x) {
             for (int32_t y = under.first[1]; y <= under.last[1]; ++y) {
                 for (int32_t z = under.first[2]; z <= under.last[2]; ++z) {
-                    if (mFull[childAt(x, y, z)]) continue;
+                    if (mLists[childAt(x, y, z)].full) continue;
                     const int32_t first[3] = {lowest(0, x), lowest(1, y), lowest(2, z)};
                     const int32_t last[3] = {highest(0, x), highest(1, y), highest(2, z)};
                     if (!ball.touches(first, last)) continue;
@@ -125,22 +146,24 @@ private:
             }
         }
     }
-    void enterChild(int32_t child, int32_t index, bool contained)
+    void enterChild(std::size_t child, int32_t index, bool contained)
     {
-        if (mFull[child]) return;
+        List& list = mLists[child];
+        if (list.full) return;
         if (contained) {
-            mFull[child] = 1;
+            list.full = true;
             return;
         }
-        mEntries.push_back({child, index});
-        ++mOffset[child + 1];
+        mEntries.push_back({int32_t(child), index});
+        ++list.end;
     }
 
-    int32_t childAt(int32_t x, int32_t y, int32_t z) const
+    std::size_t childAt(int32_t x, int32_t y, int32_t z) const
     {
         const int n = mLog2 - mChildLog2;
-        return (((x << n) | y) << n) | z;
+        return std::size_t((((x << n) | y) << n) | z);
     }
+    std::size_t childAt(const int32_t (&at)[3]) const { return childAt(at[0], at[1], at[2]); }
     /// Voxels of child i along an axis.
     int32_t lowest(int axis, int32_t i) const { return mOrigin[axis] + (i << mChildLog2); }
     int32_t highest(int axis, int32_t i) const
@@ -151,9 +174,10 @@ private:
     openvdb::Coord mOrigin;
     int mLog2 = 0, mChildLog2 = 0;
     Range mAlongX{0, INT32_MAX};
-    std::vector<char> mFull;
-    std::vector<int32_t> mOffset, mItems;
-    std::vector<Entry> mEntries;
+    std::vector<List> mLists;         ///< by child
+    std::size_t mFirst = 0, mEnd = 0; ///< of the children under balls' boxes
+    std::vector<int32_t> mItems;      ///< the balls of the children, one after the other
+    std::vector<Entry> mEntries;      ///< pairs of a child and a ball, in the order of balls
     int64_t mNearSq[3][kMostAlong], mFarSq[3][kMostAlong]; ///< of one ball, by child
 };
 

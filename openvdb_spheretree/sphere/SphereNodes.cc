@@ -131,11 +131,11 @@ struct Children {
 Children childrenOf(const BallLists& lists, const ClipMask& clipMask)
 {
     Children result;
-    for (std::size_t child = 0; child < lists.size(); ++child) {
+    for (std::size_t child = lists.firstReached(); child < lists.endReached(); ++child) {
         const bool full = lists.full(child);
         if (!full && lists.begin(child) == lists.end(child)) continue;
         const Coord origin = lists.childOrigin(child);
-        if (!clipMask.has<LowerNode>(origin)) continue;
+        if (!clipMask.hasLowerNode(origin)) continue;
         if (!full) result.balls.insert(result.balls.end(), lists.begin(child), lists.end(child));
         result.children.push_back({origin, full, result.balls.size()});
     }
@@ -169,6 +169,19 @@ ClipMask::ClipMask(const MaskTree* tree) : mTree(tree)
     for (auto i = tree->root().cbeginChildOn(); i; ++i) mUpperNodes.push_back(i.getCoord());
     for (auto i = tree->root().cbeginValueOn(); i; ++i) mUpperNodes.push_back(i.getCoord());
     std::sort(mUpperNodes.begin(), mUpperNodes.end());
+}
+
+ClipMask::Leaves ClipMask::leavesOf(const Coord& lowerNode) const
+{
+    Leaves leaves;
+    const LowerNode* const node = mTree ? mTree->probeConstNode<LowerNode>(lowerNode) : nullptr;
+    if (node) {
+        leaves = node->getChildMask();
+        leaves |= node->getValueMask();
+    } else {
+        leaves.set(everywhere() || mTree->isValueOn(lowerNode));
+    }
+    return leaves;
 }
 
 bool ClipMask::hasUpperNode(const Coord& origin) const

@@ -30,12 +30,14 @@ public:
     ///         order.
     const std::vector<openvdb::Coord>& upperNodes() const { return mUpperNodes; }
     bool hasUpperNode(const openvdb::Coord& origin) const;
-    /// @return whether the object has anything in the node at @a origin.
-    template <typename NodeType>
-    bool has(const openvdb::Coord& origin) const
+    /// @return whether the object has anything in the lower node at @a origin.
+    bool hasLowerNode(const openvdb::Coord& origin) const
     {
-        return !mTree || mTree->probeConstNode<NodeType>(origin) || mTree->isValueOn(origin);
+        return !mTree || mTree->probeConstNode<LowerNode>(origin) || mTree->isValueOn(origin);
     }
+    using Leaves = LowerNode::NodeMaskType; ///< a bit for each leaf of a lower node
+    /// @return the leaves, and tiles as large, where the object has anything.
+    Leaves leavesOf(const openvdb::Coord& lowerNode) const;
 
 private:
     const openvdb::MaskTree* mTree;

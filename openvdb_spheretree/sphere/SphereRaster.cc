@@ -50,8 +50,11 @@ public:
         if (mLarge.empty()) return;
         mGroups.build(balls, mLarge.data(), mLarge.data() + mLarge.size(), canvas.origin(),
             NodeCanvas::kLog2, NodeCanvas::kGroupLog2, {canvas.slab(), canvas.slab()});
-        for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group)
+        const int end = std::min(canvas.endGroup(), int(mGroups.endReached()));
+        for (int group = std::max(canvas.firstGroup(), int(mGroups.firstReached())); group < end;
+             ++group) {
             drawGroup(balls, group);
+        }
     }
 
     NodeCanvas canvas;
@@ -69,7 +72,10 @@ private:
         mCull.cull(balls, origin.data(), 1 << NodeCanvas::kGroupLog2, mOfGroup);
         mLeaves.build(balls, mOfGroup.data(), mOfGroup.data() + mOfGroup.size(), origin,
             NodeCanvas::kGroupLog2, NodeCanvas::kLeafLog2);
-        for (int leaf = 0; leaf < 64; ++leaf) drawLeaf(balls, group, leaf);
+        const int end = int(mLeaves.endReached());
+        for (int leaf = int(mLeaves.firstReached()); leaf < end; ++leaf) {
+            drawLeaf(balls, group, leaf);
+        }
     }
 
     void drawLeaf(const ClippedSphere* balls, int group, int leaf)
@@ -95,17 +101,18 @@ using DrawnNodes = std::vector<std::unique_ptr<LowerNode>>;
 
 /// Moves the slab on the canvas to its node. A full leaf is a tile. Slabs of a node have no word of
 /// its masks in common, so several threads may do this.
-void storeSlab(const NodeCanvas& canvas, const ClipMask& clipMask, LowerNode& node)
+void storeSlab(const NodeCanvas& canvas, const ClipMask::Leaves& clipLeaves, LowerNode& node)
 {
     for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) {
         for (int l = 0; l < 64; ++l) {
             const bool full = canvas.full(group) >> l & 1, drawn = canvas.drawn(group) >> l & 1;
             if (!full && !drawn) continue;
             const Coord origin = canvas.leafOrigin(group, l);
-            if (!clipMask.has<LeafNode>(origin)) continue;
+            const openvdb::Index offset = LowerNode::coordToOffset(origin);
+            if (!clipLeaves.isOn(offset)) continue;
             const LeafMask& mask = canvas.mask(group, l);
             if (full || mask.all()) {
-                node.addTile(LowerNode::coordToOffset(origin), true, true);
+                node.addTile(offset, true, true);
                 continue;
             }
             if (mask.none()) continue; // a sphere came near, but holds no voxel of it
@@ -121,15 +128,16 @@ void drawSlab(const NodeSpheres& spheres, int slab, const ClippedSphere* balls,
 {
     NodeCanvas& canvas = painter.canvas;
     canvas.begin(spheres.origin, slab);
-    const int first = clipMask.everywhere() ? canvas.endGroup() : canvas.firstGroup();
+    const ClipMask::Leaves clipLeaves = clipMask.leavesOf(spheres.origin);
+    const int first = clipLeaves.isOn() ? canvas.endGroup() : canvas.firstGroup();
     for (int group = first; group < canvas.endGroup(); ++group) {
         for (int leaf = 0; leaf < 64; ++leaf) { // nothing is drawn where the object has no leaf
-            const bool inside = clipMask.has<LeafNode>(canvas.leafOrigin(group, leaf));
-            if (!inside) canvas.fillLeaf(group, leaf);
+            const Coord origin = canvas.leafOrigin(group, leaf);
+            if (!clipLeaves.isOn(LowerNode::coordToOffset(origin))) canvas.fillLeaf(group, leaf);
         }
     }
     painter.draw(balls, spheres.balls);
-    storeSlab(canvas, clipMask, node);
+    storeSlab(canvas, clipLeaves, node);
     for (int group = canvas.firstGroup(); group < canvas.endGroup(); ++group) canvas.clean(group);
 }
 

@@ -60,9 +60,10 @@ void writeToFd(int fd, std::streambuf& data, const std::string& what)
     }
 }
 
-FdSink::FdSink(int fd, const std::string& what) : mFd(fd), mWhat(what), mBuffer(kBufferSize)
+FdSink::FdSink(int fd, const std::string& what)
+    : mFd(fd), mWhat(what), mBuffer(new char[kBufferSize])
 {
-    setp(mBuffer.data(), mBuffer.data() + mBuffer.size());
+    setp(mBuffer.get(), mBuffer.get() + kBufferSize);
 }
 
 FdSink::int_type FdSink::overflow(int_type c)
@@ -75,11 +76,11 @@ FdSink::int_type FdSink::overflow(int_type c)
 int FdSink::sync()
 {
     writeBytes(mFd, pbase(), size_t(pptr() - pbase()), mWhat);
-    setp(mBuffer.data(), mBuffer.data() + mBuffer.size());
+    setp(mBuffer.get(), mBuffer.get() + kBufferSize);
     return 0;
 }
 
-FdBuffer::FdBuffer(int fd) : mFd(fd), mBuffer(kBufferSize) {}
+FdBuffer::FdBuffer(int fd) : mFd(fd), mBuffer(new char[kBufferSize]) {}
 
 size_t FdBuffer::fill(char* to, size_t size)
 {
@@ -96,8 +97,8 @@ size_t FdBuffer::fill(char* to, size_t size)
 
 FdBuffer::int_type FdBuffer::underflow()
 {
-    const size_t count = fill(mBuffer.data(), mBuffer.size());
-    setg(mBuffer.data(), mBuffer.data(), mBuffer.data() + count);
+    const size_t count = fill(mBuffer.get(), kBufferSize);
+    setg(mBuffer.get(), mBuffer.get(), mBuffer.get() + count);
     return count ? traits_type::to_int_type(*gptr()) : traits_type::eof();
 }
 
@@ -111,7 +112,7 @@ std::streamsize FdBuffer::xsgetn(char* to, std::streamsize count)
             std::memcpy(to + done, gptr(), size_t(some));
             gbump(int(some));
             done += some;
-        } else if (size_t(wanted) >= mBuffer.size()) { // large blocks go straight to their place
+        } else if (size_t(wanted) >= kBufferSize) { // large blocks go straight to their place
             const size_t some = fill(to + done, size_t(wanted));
             if (some == 0) break;
             done += std::streamsize(some);

@@ -10,9 +10,9 @@
 #include "base/Errors.h"
 
 #include <istream>
+#include <memory>
 #include <streambuf>
 #include <string>
-#include <vector>
 
 namespace command {
 
@@ -43,7 +43,7 @@ protected:
 private:
     int mFd;
     std::string mWhat;
-    std::vector<char> mBuffer;
+    std::unique_ptr<char[]> mBuffer; // not zeros, which take as long as reading a small file
 };
 
 /// Reads from a file descriptor, which it does not own. It knows its position, but cannot seek.
@@ -61,8 +61,8 @@ private:
     size_t fill(char* to, size_t size);
 
     int mFd;
-    int64_t mPosition = 0; ///< of the end of the buffer, in bytes from the start
-    std::vector<char> mBuffer;
+    int64_t mPosition = 0;           ///< of the end of the buffer, in bytes from the start
+    std::unique_ptr<char[]> mBuffer; // not zeros, which take as long as reading a small file
 };
 
 } // namespace command

@@ -91,7 +91,7 @@ void replaceTag(std::iostream& stream, const std::string& random)
     stream.seekp(0, std::ios::end);
 }
 
-TagReader::TagReader(std::streambuf& source) : mSource(source), mBuffer(kBufferSize) {}
+TagReader::TagReader(std::streambuf& source) : mSource(source), mBuffer(new char[kBufferSize]) {}
 
 TagReader::int_type TagReader::underflow()
 {
@@ -99,9 +99,9 @@ TagReader::int_type TagReader::underflow()
     // What is at hand, and no more: a pipe may have nothing further for a while.
     const auto atHand = std::max<std::streamsize>(mSource.in_avail(), 1);
     const std::streamsize count =
-        mSource.sgetn(mBuffer.data(), std::min(atHand, std::streamsize(mBuffer.size())));
-    if (mWanted) digest(mBuffer.data(), size_t(count));
-    setg(mBuffer.data(), mBuffer.data(), mBuffer.data() + count);
+        mSource.sgetn(mBuffer.get(), std::min(atHand, std::streamsize(kBufferSize)));
+    if (mWanted) digest(mBuffer.get(), size_t(count));
+    setg(mBuffer.get(), mBuffer.get(), mBuffer.get() + count);
     return traits_type::to_int_type(*gptr());
 }
 

@@ -7,9 +7,9 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <streambuf>
 #include <string>
-#include <vector>
 
 namespace command {
 
@@ -55,7 +55,7 @@ private:
     void digest(char* bytes, size_t count);
 
     std::streambuf& mSource;
-    std::vector<char> mBuffer;
+    std::unique_ptr<char[]> mBuffer;
     std::string mHead; ///< up to the end of the identifier
     FileDigest mDigest;
     bool mWanted = true;
