@@ -17,7 +17,7 @@ namespace openvdb_spheretree::detail {
 
 /// The spheres that reach into each child of a cube. Reused, as building these lists is most of the
 /// work for small spheres. Cost: goes by the children from the first to the last that a ball
-/// reaches.
+/// reaches; the first build of a size makes the lists of all.
 class BallLists {
 public:
     /// Children along an axis, first and last.
@@ -49,7 +49,7 @@ public:
         mItems.resize(mEntries.size());
         for (const Entry& entry : mEntries) mItems[mLists[entry.child].end++] = entry.ball;
     }
-    /// Children before and after these are reached by no ball.
+    /// No ball reaches the children before and after these; if none reaches any, the end comes first.
     std::size_t firstReached() const { return mFirst; }
     std::size_t endReached() const { return mEnd; }
     bool full(std::size_t child) const { return mLists[child].full; }

@@ -24,6 +24,7 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>

@@ -127,11 +127,10 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     }
     const double voxel = voxelSize.value_or(tree.voxelSize());
     auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, halfWidth);
-    // The rasterizer takes small or large voxels that are turned for no cubes (UniformVoxels.h): its
-    // spheres are then those of index space.
-    const bool isRefused = !voxelSize && !tree.transform->hasUniformScale();
-    if (!voxelSize && !isRefused) grid->setTransform(tree.transform->copy());
-    const StoredSpheres spheres{tree, level, isRefused ? voxel : 0};
+    // With the tree's own voxels, its spheres are those of index space: the rasterizer takes small or
+    // large voxels that are turned for no cubes (UniformVoxels.h), and for others than they are where
+    // they are far away.
+    const StoredSpheres spheres{tree, level, voxelSize ? 0 : voxel};
     requireRoom(spheres, *grid, halfWidth);
     openvdb::util::NullInterrupter silent;
     openvdb::tools::ParticlesToLevelSet<openvdb::FloatGrid, void, openvdb::util::NullInterrupter>
@@ -141,7 +140,7 @@ openvdb::SharedPtr<openvdb::FloatGrid> levelSetOfSpheres(const SphereTree& tree,
     raster.rasterizeSpheres(spheres);
     if (openvdb::util::wasInterrupted(interrupter)) throw Interrupted();
     raster.finalize(/*prune=*/true);
-    if (isRefused) grid->setTransform(tree.transform->copy());
+    if (!voxelSize) grid->setTransform(tree.transform->copy());
     return grid;
 }
 

@@ -37,6 +37,8 @@ def bone():
 def run_program(*arguments, folder=None):
     """A program of this build. It has its own sanitizer, if any: not the one that Python loads first."""
     environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    if "ASAN_OPTIONS" in environment:  # leaks are looked for in programs, and not in Python
+        environment["ASAN_OPTIONS"] = environment["ASAN_OPTIONS"].replace("detect_leaks=0", "detect_leaks=1")
     subprocess.run(list(map(str, arguments)), check=True, cwd=folder, env=environment)
 
 

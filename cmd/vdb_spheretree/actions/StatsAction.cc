@@ -13,6 +13,7 @@
 #include <openvdb_spheretree/base/TextStream.h>
 #include <openvdb_spheretree/mesh/TriangleMesh.h>
 #include <openvdb_spheretree/voxel/BoxSides.h>
+#include <openvdb_spheretree/voxel/UniformVoxels.h>
 
 #include <iostream>
 #include <string>
@@ -47,9 +48,12 @@ std::string voxelText(const openvdb::Vec3d& size)
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
     const auto size = openvdb_spheretree::detail::sidesOf(grid.evalActiveVoxelBoundingBox());
+    const openvdb::Vec3d voxel = openvdb_spheretree::hasCubicVoxels(grid.transform())
+        ? openvdb::Vec3d(openvdb_spheretree::voxelSizeOf(grid.transform()))
+        : grid.voxelSize();
     out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
-        << voxelText(grid.voxelSize()) << ", box " << size[0] << " x " << size[1] << " x "
-        << size[2] << ", " << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
+        << voxelText(voxel) << ", box " << size[0] << " x " << size[1] << " x " << size[2] << ", "
+        << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
 }
 
 /// Its sides tell in which unit it is.

@@ -126,10 +126,14 @@ bool isFile(int fd)
     return fd > STDERR_FILENO && fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-template <typename Function>
-Function next(const char* name, Function)
+/// The function of this name in the library after this one, looked up at its first call. A static with a
+/// guard would not do: the shim is called before a sanitizer has started, whose guards they are.
+template <auto function>
+auto next(const char* name)
 {
-    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+    static std::atomic<void*> found{nullptr};
+    if (!found) found = dlsym(RTLD_NEXT, name);
+    return reinterpret_cast<decltype(function)>(found.load());
 }
 
 struct WriteCounts {
@@ -153,7 +157,7 @@ void* malloc(size_t size) { return fails(kMalloc) ? nullptr : __libc_malloc(size
 
 int open(const char* path, int flags, ...)
 {
-    static const auto real = next("open", &open);
+    const auto real = next<&open>("open");
     mode_t mode = 0;
     const bool isNameless = (flags & O_TMPFILE) == O_TMPFILE;
     if (isNameless || (flags & O_CREAT)) {
@@ -168,7 +172,7 @@ int open(const char* path, int flags, ...)
 
 ssize_t write(int fd, const void* data, size_t size)
 {
-    static const auto real = next("write", &write);
+    const auto real = next<&write>("write");
     if (!isFile(fd)) return real(fd, data, size);
     const Verdict verdict = countCall(kWrite);
     if (verdict == Verdict::Go) return real(fd, data, size);
@@ -178,52 +182,52 @@ ssize_t write(int fd, const void* data, size_t size)
 
 ssize_t writev(int fd, const iovec* blocks, int count)
 {
-    static const auto real = next("writev", &writev);
+    const auto real = next<&writev>("writev");
     if (isFile(fd) && fails(kWrite)) return -1;
     return real(fd, blocks, count);
 }
 
 ssize_t read(int fd, void* data, size_t size)
 {
-    static const auto real = next("read", &read);
+    const auto real = next<&read>("read");
     if (isFile(fd) && fails(kRead)) return -1;
     return real(fd, data, size);
 }
 
 int fsync(int fd)
 {
-    static const auto real = next("fsync", &fsync);
+    const auto real = next<&fsync>("fsync");
     return fails(kFsync) ? -1 : real(fd);
 }
 
 int linkat(int fromFolder, const char* from, int toFolder, const char* to, int flags)
 {
-    static const auto real = next("linkat", &linkat);
+    const auto real = next<&linkat>("linkat");
     return fails(kLink) ? -1 : real(fromFolder, from, toFolder, to, flags);
 }
 
 int unlink(const char* path)
 {
-    static const auto real = next("unlink", &unlink);
+    const auto real = next<&unlink>("unlink");
     return fails(kUnlink) ? -1 : real(path);
 }
 
 int rename(const char* from, const char* to)
 {
-    static const auto real = next("rename", &rename);
+    const auto real = next<&rename>("rename");
     return fails(kRename) ? -1 : real(from, to);
 }
 
 int pthread_create(
     pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*), void* argument)
 {
-    static const auto real = next("pthread_create", &pthread_create);
+    const auto real = next<&pthread_create>("pthread_create");
     return fails(kThread) ? errno : real(thread, attributes, body, argument);
 }
 
 long sysconf(int name)
 {
-    static const auto real = next("sysconf", &sysconf);
+    const auto real = next<&sysconf>("sysconf");
     const char* const mebibytes = std::getenv("SPHERETREE_FAULT_MEMORY");
     if (name != _SC_PHYS_PAGES || !mebibytes) return real(name);
     return std::atol(mebibytes) * (1L << 20) / real(_SC_PAGESIZE);

@@ -120,6 +120,24 @@ TEST(SphereLevelSet, OfTurnedVoxelsOfAnySizeIsThatOfOthers)
     }
 }
 
+/// There OpenVDB's voxel size is 0.6 % off, and places are rounded to a sixteenth of a voxel.
+TEST(SphereLevelSet, OfTurnedVoxelsFarAwayIsThatOfOthers)
+{
+    const SphereTree straight = treeOf(1);
+    const double voxel = straight.voxelSize();
+    const auto expected = levelSetOfSpheres(straight, straight.levels.front());
+    SphereTree far = straight;
+    far.transform = straight.transform->copy();
+    far.transform->postRotate(0.3, openvdb::math::Z_AXIS);
+    far.transform->postTranslate(openvdb::Vec3d(1e14, 2e14, 3e14) * voxel);
+    const auto found = levelSetOfSpheres(far, far.levels.front());
+    EXPECT_TRUE(found->transform() == *far.transform);
+    EXPECT_EQ(found->activeVoxelCount(), expected->activeVoxelCount());
+    for (auto value = expected->cbeginValueOn(); value; ++value) {
+        ASSERT_NEAR(found->tree().getValue(value.getCoord()), *value, 1e-6 * voxel);
+    }
+}
+
 TEST(SphereLevelSet, OfVoxelsThatAreNoCubesNeedsAVoxelSize)
 {
     SphereTree tree = treeOf(1);
